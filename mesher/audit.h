@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Audit of a region mesh and its quality figures: what no later tool would tell. See also tests/judges.
+#ifndef CUTWATER_MESHER_AUDIT_H
+#define CUTWATER_MESHER_AUDIT_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/region_file.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_QUALITY_BINS = 20 };
+
+typedef struct {
+  double volume;                 // m3, all cells
+  double least_volume;           // m3
+  int64_t cells;
+  // tetrahedra
+  double aspect_mean, aspect_max;       // longest / shortest edge
+  int64_t aspect_class[8];              // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
+  double dihedral_least, dihedral_greatest; // degrees
+  int64_t dihedral_bin[18];             // of the least angle of each tetrahedron, 10 degrees wide up to 180
+  // prisms
+  int64_t prism_count;
+  double prism_least_scaled_jacobian;
+  int64_t prism_jacobian_bin[CW_QUALITY_BINS]; // scaled Jacobian from 0 to 1
+} CwQuality;
+
+// Fails with CW_ERR_MESH, naming region, cell and place (mm), where a cell has no positive volume, a face belongs to
+// more than two cells, or an open face is neither listed as boundary exactly once nor has all its points shared (on a
+// dividing plane). Where it passes fills *quality.
+CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality);
+// Adds figures of one region to those of others (start from zeroed *sum with cw_quality_start).
+void cw_quality_start(CwQuality *sum);
+void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Fills a closed triangulated boundary with tetrahedra; the boundary is kept as it is. The one bridge to TetGen.
+#ifndef CUTWATER_MESHER_FILL_H
+#define CUTWATER_MESHER_FILL_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/patch_mesh.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t point_count;
+  const double (*x)[3];
+  int32_t triangle_count;
+  const int32_t (*triangle)[3]; // closed, normal out of the region
+  CwSizeAt size;
+  const void *size_context;
+  const char *name;             // for messages: "rotor region 3"
+} CwFillInput;
+
+typedef struct {
+  int32_t point_count;          // the given points first, in their order
+  double (*x)[3];
+  int32_t tetrahedron_count;
+  int32_t (*tetrahedron)[4];    // (x1 - x0) x (x2 - x0) points towards x3: positive volume
+} CwFill;
+
+// Fails with CW_ERR_MESH naming the region and a place (mm) where the boundary is open or crosses itself.
+// Deterministic. Not thread-safe: the size callback of TetGen carries no context.
+CwStatus cw_fill(const CwFillInput *input, CwFill *fill);
+void cw_fill_free(CwFill *fill);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Self-intersection of a triangulated surface, exact, through CGAL.
+#ifndef CUTWATER_MESHER_INTERSECT_H
+#define CUTWATER_MESHER_INTERSECT_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// All pairs of triangles that cross (sharing a vertex or an edge properly is no crossing). Pairs sorted, caller frees *pair.
+CwStatus cw_self_intersections(int32_t point_count, const double (*x)[3], int32_t triangle_count,
+                               const int32_t (*triangle)[3], int32_t *pair_count, int32_t (**pair)[2]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The planner: recursive bisection of a domain by planes, on its background triangulation (paper, section 2.1).
+// A binary tree; inner nodes hold planes, leaves are the regions. Balances predicted cells, keeps interfaces small,
+// keeps plane-to-wall angles away from sharp, keeps planes away from edges of the model and from one another's
+// crossings with them.
+#ifndef CUTWATER_MESHER_PLAN_H
+#define CUTWATER_MESHER_PLAN_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/background.h"
+#include "mesher/clip.h"
+#include "mesher/size.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  CwPlane plane;      // child[0] lies on the negative side
+  int32_t parent;     // -1 for the root
+  int32_t child[2];   // node, or -1 - region for a leaf
+} CwPlanNode;
+
+typedef struct {
+  int32_t node_count;      // region_count - 1
+  int32_t region_count;
+  CwPlanNode *node;        // node 0 is the root; parents before children
+  double *predicted_cells; // of each region
+  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over wall triangles crossed (1: normal to all walls)
+} CwPlan;
+
+typedef struct {
+  int32_t region_count;     // at least 1
+  double clearance;         // m: no plane nearer than this to a CAD vertex or nearly parallel to a CAD edge within it
+  double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3)
+  double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
+} CwPlanOptions;
+
+CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwSize *size,
+                      const CwPlanOptions *options, CwPlan *plan);
+void cw_plan_free(CwPlan *plan);
+
+// Region of a point (a point on a plane belongs to the negative side).
+int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
+
+// True where x lies in the closed cell of `node` (within `tolerance`, m, of all its ancestors' half-spaces), with the planes of
+// `skip[0..skip_count)` (nodes) left out.
+int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
+                    int skip_count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Dynamic distribution of tasks over MPI ranks: largest first, each rank takes the next when it is free; results go to
+// all ranks. With one rank the same code runs the tasks in the same order of results. A failing task ends the run
+// within seconds with one message.
+#ifndef CUTWATER_MESHER_SCHEDULE_H
+#define CUTWATER_MESHER_SCHEDULE_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Runs task `task`; may return a byte buffer (malloc'd) as its result through *bytes and *size, or leave them 0.
+typedef CwStatus (*CwTask)(void *context, int32_t task, void **bytes, int64_t *size);
+
+typedef struct {
+  const char *step;       // for progress: "surface patches"
+  const char *unit;       // "patches"
+  int32_t count;
+  const double *cost;     // predicted, any unit; largest is taken first, ties by index
+  CwTask run;
+  void *context;
+  int gather;             // 1: every rank gets every result in bytes[task], size[task]
+} CwSchedule;
+
+// Starts MPI (once per process); gives rank and number of ranks.
+CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks);
+void cw_mpi_end(void);
+// Ends all ranks at once after a failure of this one: prints the one error line and aborts. Does not return where there is more than one rank.
+int cw_mpi_fail(CwStatus status);
+
+// Runs all tasks. `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].
+// `seconds` (count, may be NULL) receives the time of each task on all ranks.
+CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The case file: one pump, its operating point, its walls and its mesh. Read and validated once by every stage,
+// against the one schema in case_schema.c. In memory all is SI (m, kg, s, rad, Pa) whatever the unit in the key.
+#ifndef CUTWATER_PIPELINE_CASE_H
+#define CUTWATER_PIPELINE_CASE_H
+
+#include <math.h>
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_NAME_SIZE = 33 }; // 32 characters: the limit of CGNS names
+
+typedef enum { CW_PRIORITY_WRAP, CW_PRIORITY_HEAD, CW_PRIORITY_BETA } CwPriority;
+typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
+typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
+
+// A value the case leaves out (an optional key) is NAN: the hydraulic design then computes it.
+static inline int cw_case_given(double value) {
+  return !isnan(value);
+}
+
+typedef struct {
+  double flow_rate;         // m3/s
+  double head;              // m
+  double speed;             // rad/s
+  double inlet_pressure;    // Pa, absolute
+  double time_step_angle;   // rad of rotation per time step of the transient run
+} CwOperatingPoint;
+
+typedef struct {
+  double density;             // kg/m3
+  double kinematic_viscosity; // m2/s
+} CwFluid;
+
+typedef struct {
+  CwPriority priority;       // which constraint of an over-determined table is the law
+  int blade_count;           // z, 3 to 9
+  double inlet_diameter;     // D1, m
+  double outlet_diameter;    // D2, m
+  double outlet_width;       // b2, m
+  double wrap_angle;         // rad
+  double hub_diameter;       // m, at the nut
+  double leading_edge_radius_hub;    // m
+  double leading_edge_radius_shroud; // m
+  double inlet_blade_angle;  // beta1 at mid-span, rad from tangential
+  double outlet_blade_angle; // beta2, rad from tangential
+  double leading_edge_thickness;  // m
+  double blade_thickness;         // m, the largest
+  double trailing_edge_thickness; // m
+  double trailing_edge_bevel;     // m, length of the bevel facet on each edge of the trailing edge
+  double suction_pipe_length;     // m, from the shroud's inlet
+} CwImpellerTable;
+
+typedef struct {
+  double base_diameter;      // D3, m
+  double inlet_width;        // b3, m
+  double side_wall_angle;    // rad, half angle of the trapezoid
+  double tongue_radius;      // m, nose
+  double tongue_gap;         // m, radial, from D3/2 to the tongue's tip
+  double throat_area;        // m2
+  double diffuser_length;    // m
+  double outlet_diameter;    // DN, m
+  double discharge_pipe_length; // m
+} CwVoluteTable;
+
+// Prism layers. The first height follows from y+ with the velocity and length scales of the wall.
+typedef struct {
+  int layer_count;
+  double growth_ratio;       // the largest
+  double total_thickness;    // m, the target of a column; NAN: from first height, count and growth
+  CwYPlusAt y_plus_at;
+  double y_plus_blade, y_plus_hub_shroud, y_plus_volute, y_plus_pipe;
+  CwWallTreatment treatment;
+  double roughness;          // m, equivalent sand grain
+} CwWalls;
+
+typedef struct {
+  int64_t cells;             // asked number of cells, rotor and stator together
+  int64_t cells_per_region;  // about this many; at least four regions a domain in any case
+  double gradation;          // growth of size with distance, d(size)/d(distance)
+  double curvature_angle;    // rad of turn of the surface normal across one edge, at relative size 1
+  double cells_across_gap;   // least number of cells across a narrow place
+  double size_blade, size_hub_shroud, size_volute, size_pipe, size_interface; // relative to the base size
+} CwMeshTable;
+
+typedef struct {
+  char name[CW_NAME_SIZE];
+  CwOperatingPoint operating_point;
+  CwFluid fluid;
+  CwImpellerTable impeller;
+  CwVoluteTable volute;
+  CwWalls walls;
+  CwMeshTable mesh;
+} CwCase;
+
+// Reads and validates `path`. On bad input fails with CW_ERR_INPUT and
+// "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; what is allowed".
+CwStatus cw_case_read(const char *path, CwCase *table);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

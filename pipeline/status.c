@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+// Per thread: a message belongs to the call chain that failed, and bridges may run worker threads.
+static _Thread_local char message[1001];
+static _Thread_local char trace[2000];
+
+const char *cw_status_text(CwStatus status) {
+  switch (status) {
+#define CW_STATUS_TEXT(name, value, text)                                                                    \
+  case name:                                                                                                 \
+    return text;
+    CW_STATUS_LIST(CW_STATUS_TEXT)
+#undef CW_STATUS_TEXT
+  }
+  return "unknown status";
+}
+
+CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format,
+                    ...) {
+  // Formatted aside first: an argument may be the old message itself.
+  char fresh[sizeof message];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(fresh, sizeof fresh, format, arguments);
+  va_end(arguments);
+  memcpy(message, fresh, sizeof message);
+  trace[0] = '\0';
+  cw_fail_passed(source_file, line, function);
+  return code;
+}
+
+const char *cw_fail_message(void) {
+  return message;
+}
+
+const char *cw_fail_trace(void) {
+  return trace;
+}
+
+void cw_fail_passed(const char *source_file, int line, const char *function) {
+  size_t used = strlen(trace);
+  snprintf(trace + used, sizeof trace - used, "%s%s:%d %s", used ? " < " : "", source_file, line, function);
+}
+
+void cw_fail_clear(void) {
+  message[0] = trace[0] = '\0';
+}
