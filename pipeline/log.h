@@ -28,8 +28,7 @@ void cw_log_debug(const char *format, ...) __attribute__((format(printf, 1, 2)))
 void cw_log_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // The warnings since cw_log_open (at most the first 1000, those of ranks that do not speak too), oldest
-// first;
-// "" past the last. They stand until cw_log_close. record.h writes them down.
+// first; "" past the last. They stand until cw_log_close. record.h writes them down.
 size_t cw_log_warning_count(void);
 const char *cw_log_warning(size_t index);
 
