@@ -127,22 +127,25 @@ static double hit(const CwLayerInput *in, int32_t f, const double x[3], const do
   double det = dot3(e1, p);
   if (det == 0) return INFINITY;
   sub3(x, corner[0], s);
+  // Rays often aim at vertices and edges of the other side: a hair of tolerance lets none slip between two triangles.
+  const double hair = 1e-9;
   double u = dot3(s, p) / det;
-  if (u < 0 || u > 1) return INFINITY;
+  if (u < -hair || u > 1 + hair) return INFINITY;
   cross3(s, e1, q);
   double w = dot3(g, q) / det;
-  if (w < 0 || u + w > 1) return INFINITY;
+  if (w < -hair || u + w > 1 + hair) return INFINITY;
   return dot3(e2, q) / det;
 }
 
 static int in_box(const Node *node, const double x[3], const double g[3], double far) {
   double enter = 0, leave = far;
   for (int k = 0; k < 3; k++) {
+    double hair = 1e-9 * (node->high[k] - node->low[k]) + 1e-15;
     if (g[k] == 0) {
-      if (x[k] < node->low[k] || x[k] > node->high[k]) return 0;
+      if (x[k] < node->low[k] - hair || x[k] > node->high[k] + hair) return 0;
       continue;
     }
-    double a = (node->low[k] - x[k]) / g[k], b = (node->high[k] - x[k]) / g[k];
+    double a = (node->low[k] - hair - x[k]) / g[k], b = (node->high[k] + hair - x[k]) / g[k];
     enter = fmax(enter, fmin(a, b));
     leave = fmin(leave, fmax(a, b));
   }

@@ -24,7 +24,7 @@ typedef struct {
   double (*normal)[3], *normal_cos;    // most normal direction without guides; its least cosine to the normals
   double (*base)[3], *base_cos;        // the same inside the guides
   uint8_t *crease;                     // CwCrease
-  double (*along)[3];                  // convex crease: direction of the edge, or zero at a corner
+  double (*along)[3];                  // crease: direction of the edge, or zero at a corner
   double (*column)[3];                 // unit-height displacement
   double *t;                           // height, m
   uint8_t *reason;                     // CwLayerReason

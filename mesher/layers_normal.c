@@ -115,7 +115,7 @@ void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
   if (in->snap && in->guide_count && in->guide_count[v] > 0) in->snap(in->snap_context, v, end);
 }
 
-// Direction of the edge of a convex crease: normal to its two most different faces, if the other faces share it.
+// Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
 static void edge_direction(int count, double (*normal)[3], double along[3]) {
   double largest = 0;
   for (int i = 0; i < count; i++)
@@ -154,7 +154,7 @@ CwStatus cw_layers_normals(CwLayerWork *work) {
         most = fmax(most, dot3(e, g) / length3(e));
       }
       work->crease[v] = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
-      if (work->crease[v] == CW_CREASE_CONVEX) edge_direction(count, normal, work->along[v]);
+      edge_direction(count, normal, work->along[v]);
     }
     if (guides == 0) {
       memcpy(work->base[v], g, 3 * sizeof *g);
