@@ -16,7 +16,8 @@
 extern "C" {
 #endif
 
-// Point and first derivatives of the surface at (u,v), m. xu and xv may be NULL.
+// Point and first derivatives of the surface at (u,v), m. xu and xv may be NULL. It may be asked a little outside of the
+// boundary, where the chords of a curved boundary cut corners.
 typedef void (*CwSurfaceAt)(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]);
 // Wanted edge length at x, m.
 typedef double (*CwSizeAt)(const void *context, const double x[3]);
@@ -39,8 +40,13 @@ typedef struct {
   int32_t point_count, triangle_count;
   double (*uv)[2], (*x)[3];     // the given points first, in their order
   int32_t (*triangle)[3];       // counter-clockwise in (u,v)
-  int32_t *component;           // of each triangle: pieces that the edges cut the patch into, numbered from 0
+  int32_t *component;           // of each triangle: pieces that the given edges cut the patch into, numbered from 0
+                                // by the smallest given points on them
   int32_t component_count;
+  // Triangles whose normal in space is against xu x xv: 0 unless the given points force them (a boundary much coarser
+  // than the curvature). `folded_at`: the middle of the first one. The caller judges whether it can live with them.
+  int32_t folded_count;
+  double folded_at[3];
 } CwPatchMesh;
 
 // Fails with CW_ERR_INPUT where edges cross or the boundary is open, naming the patch and the coordinates.
