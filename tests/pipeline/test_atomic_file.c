@@ -136,12 +136,9 @@ static void directories_are_made_with_parents(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(file_appears_at_the_commit),
-      cmocka_unit_test(abandoned_file_leaves_the_old_one),
-      cmocka_unit_test(library_writes_by_name),
-      cmocka_unit_test(full_disk_is_an_error),
-      cmocka_unit_test(bad_places_are_errors),
-      cmocka_unit_test(directories_are_made_with_parents),
+      cmocka_unit_test(file_appears_at_the_commit), cmocka_unit_test(abandoned_file_leaves_the_old_one),
+      cmocka_unit_test(library_writes_by_name),     cmocka_unit_test(full_disk_is_an_error),
+      cmocka_unit_test(bad_places_are_errors),      cmocka_unit_test(directories_are_made_with_parents),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
