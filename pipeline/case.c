@@ -82,8 +82,12 @@ static CwStatus next_event(Reader *reader, Event *event) {
     // An escape in quotes can make any character; behind a zero byte nothing may hide.
     for (size_t i = 0; i < length; ++i)
       if (!event->text[i]) event->text[i] = '?';
-    event->plain = !raw->scalar.value || fy_token_scalar_style(raw->scalar.value) == FYSS_PLAIN;
+    enum fy_scalar_style style = raw->scalar.value ? fy_token_scalar_style(raw->scalar.value) : FYSS_PLAIN;
+    event->plain = style == FYSS_PLAIN;
+    // The library's mark stands behind the opening quote, and behind the star of an alias.
+    if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED) --event->place.column;
   }
+  if (raw->type == FYET_ALIAS) --event->place.column;
 done:
   if (raw) fy_parser_event_free(reader->parser, raw);
   return status;
