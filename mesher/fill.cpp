@@ -13,6 +13,7 @@
 
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
+#include "mesher/tet_improve.h"
 
 namespace {
 
@@ -131,6 +132,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     goto done;
   }
   CW_TRY(cw_fill_keep_inside(input, fill));
+  if (!getenv("NOIMP")) CW_TRY(cw_tet_improve(input->point_count, fill, nullptr));
 done:
   free(inner);
   if (status != CW_OK) cw_fill_free(fill);
