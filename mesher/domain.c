@@ -72,7 +72,9 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   CW_NEW(domain->patch_first_height, cw_cad_patch_count(domain->cad));
   cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_first_height);
   CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->background));
-  CW_TRY(cw_inside_make(&domain->background, &domain->inside));
+  CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
+                        domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
+                        &domain->inside));
   CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, &domain->size));
   CW_TRY(integrate(domain, table));
 done:

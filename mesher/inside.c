@@ -5,77 +5,66 @@
 #include <stdlib.h>
 
 struct CwInside {
-  const CwBackground *background;
-  double low[2], cell; // corner and edge length of the columns, m
-  int32_t columns[2];
-  int32_t *start, *item; // triangles of each column
+  const double (*x)[3];
+  const int32_t (*triangle)[3];
+  double low[2], cell[2];
+  int32_t cells[2];
+  int64_t *start;  // of each bin in the plane z = 0; bins + 1
+  int32_t *member; // triangles whose box meets the bin
 };
 
-static int32_t column_of(const CwInside *inside, int axis, double value) {
-  double place = floor((value - inside->low[axis]) / inside->cell);
-  if (place < 0) return 0;
-  if (place > inside->columns[axis] - 1) return inside->columns[axis] - 1;
-  return (int32_t)place;
+static int32_t bin_of(const CwInside *inside, int axis, double value) {
+  double place = floor((value - inside->low[axis]) / inside->cell[axis]);
+  return place < 0.0 ? 0 : place >= inside->cells[axis] ? inside->cells[axis] - 1 : (int32_t)place;
 }
 
-// The columns under the bounding rectangle of triangle t.
-static void column_range(const CwInside *inside, int32_t t, int32_t low[2], int32_t high[2]) {
-  const CwBackground *background = inside->background;
-  for (int axis = 0; axis < 2; axis++) {
-    double least = INFINITY, greatest = -INFINITY;
-    for (int k = 0; k < 3; k++) {
-      double value = background->x[background->triangle[t][k]][axis];
-      least = fmin(least, value);
-      greatest = fmax(greatest, value);
-    }
-    low[axis] = column_of(inside, axis, least);
-    high[axis] = column_of(inside, axis, greatest);
+static void bins_of(const CwInside *inside, int32_t t, int32_t from[2], int32_t to[2]) {
+  const int32_t *p = inside->triangle[t];
+  for (int i = 0; i < 2; i++) {
+    double a = inside->x[p[0]][i], b = inside->x[p[1]][i], c = inside->x[p[2]][i];
+    from[i] = bin_of(inside, i, fmin(fmin(a, b), c));
+    to[i] = bin_of(inside, i, fmax(fmax(a, b), c));
   }
 }
 
-CwStatus cw_inside_make(const CwBackground *background, CwInside **result) {
+CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t triangle_count,
+                        const int32_t (*triangle)[3], CwInside **result) {
   CwStatus status = CW_OK;
-  CwInside *inside;
+  CwInside *inside = NULL;
   CW_NEW(inside, 1);
-  inside->background = background;
-  double high[2] = {-INFINITY, -INFINITY};
-  inside->low[0] = inside->low[1] = INFINITY;
-  for (int32_t i = 0; i < background->point_count; i++) {
-    for (int axis = 0; axis < 2; axis++) {
-      inside->low[axis] = fmin(inside->low[axis], background->x[i][axis]);
-      high[axis] = fmax(high[axis], background->x[i][axis]);
+  inside->x = x;
+  inside->triangle = triangle;
+  int32_t side = (int32_t)ceil(sqrt(0.5 * triangle_count)) + 1;
+  for (int i = 0; i < 2; i++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t p = 0; p < point_count; p++) {
+      low = fmin(low, x[p][i]);
+      high = fmax(high, x[p][i]);
     }
+    inside->low[i] = point_count ? low : 0.0;
+    inside->cells[i] = side;
+    inside->cell[i] = point_count && high > low ? (high - low) / side : 1.0;
   }
-  double widest = fmax(high[0] - inside->low[0], high[1] - inside->low[1]);
-  inside->cell = fmax(widest / 256, 1e-12);
-  for (int axis = 0; axis < 2; axis++) {
-    inside->columns[axis] = (int32_t)ceil((high[axis] - inside->low[axis]) / inside->cell) + 1;
-  }
-  size_t columns = (size_t)inside->columns[0] * (size_t)inside->columns[1];
-  CW_NEW(inside->start, columns + 1);
-  // Counting sort in two passes: sizes first, then places.
+  CW_NEW(inside->start, (int64_t)side * side + 1);
   for (int pass = 0; pass < 2; pass++) {
-    for (int32_t t = 0; t < background->triangle_count; t++) {
-      int32_t low[2], top[2];
-      column_range(inside, t, low, top);
-      for (int32_t j = low[1]; j <= top[1]; j++) {
-        for (int32_t i = low[0]; i <= top[0]; i++) {
-          size_t column = (size_t)j * (size_t)inside->columns[0] + (size_t)i;
-          if (pass == 0) {
-            inside->start[column + 1]++;
-          } else {
-            inside->item[inside->start[column]++] = t;
-          }
+    for (int32_t t = triangle_count - 1; t >= 0; t--) {
+      int32_t from[2], to[2];
+      bins_of(inside, t, from, to);
+      for (int32_t j = from[1]; j <= to[1]; j++) {
+        for (int32_t i = from[0]; i <= to[0]; i++) {
+          int64_t *at = &inside->start[(int64_t)j * side + i];
+          if (pass == 0) ++*at;
+          else inside->member[--*at] = t;
         }
       }
     }
-    if (pass == 0) {
-      for (size_t c = 0; c < columns; c++) inside->start[c + 1] += inside->start[c];
-      CW_NEW(inside->item, inside->start[columns]);
-    } else {
-      for (size_t c = columns; c > 0; c--) inside->start[c] = inside->start[c - 1];
-      inside->start[0] = 0;
+    if (pass == 1) break;
+    int64_t total = 0;
+    for (int64_t b = 0; b <= (int64_t)side * side; b++) { // ends of the bins, filled from behind
+      total += inside->start[b];
+      inside->start[b] = total;
     }
+    CW_NEW(inside->member, total);
   }
   *result = inside;
   inside = NULL;
@@ -87,39 +76,36 @@ done:
 void cw_inside_free(CwInside **inside) {
   if (!*inside) return;
   free((*inside)->start);
-  free((*inside)->item);
+  free((*inside)->member);
   free(*inside);
   *inside = NULL;
 }
 
-// Sign of the area of (a, b, p) seen from above, reckoned from the lower-numbered end of the edge, so that the two
-// triangles at an edge always agree on which side p lies; a point on the edge counts as left of a -> b for a < b.
-static int left_of(const CwBackground *background, int32_t a, int32_t b, const double p[3]) {
-  int swapped = a > b;
-  const double *first = background->x[swapped ? b : a], *second = background->x[swapped ? a : b];
-  double area = (second[0] - first[0]) * (p[1] - first[1]) - (second[1] - first[1]) * (p[0] - first[0]);
-  int left = area >= 0;
-  return swapped ? !left : left;
+// The edge from a to b crosses the line through p along y, at a y above p's: half-open in x, and always computed from the
+// left end, so that the two triangles at an edge agree to the bit.
+static int edge_above(const double a[3], const double b[3], const double p[3]) {
+  if ((a[0] <= p[0]) == (b[0] <= p[0])) return 0;
+  const double *left = a[0] <= p[0] ? a : b, *right = left == a ? b : a;
+  double y = left[1] + (right[1] - left[1]) * ((p[0] - left[0]) / (right[0] - left[0]));
+  return y > p[1];
 }
 
-int cw_inside(const CwInside *inside, const double x[3]) {
-  const CwBackground *background = inside->background;
-  int32_t i = column_of(inside, 0, x[0]), j = column_of(inside, 1, x[1]);
-  size_t column = (size_t)j * (size_t)inside->columns[0] + (size_t)i;
-  int crossings = 0;
-  for (int32_t k = inside->start[column]; k < inside->start[column + 1]; k++) {
-    const int32_t *corner = background->triangle[inside->item[k]];
-    int side = left_of(background, corner[0], corner[1], x);
-    if (left_of(background, corner[1], corner[2], x) != side || left_of(background, corner[2], corner[0], x) != side) {
-      continue;
-    }
-    const double *a = background->x[corner[0]], *b = background->x[corner[1]], *c = background->x[corner[2]];
-    double u[3], v[3], n[3];
-    for (int m = 0; m < 3; m++) u[m] = b[m] - a[m], v[m] = c[m] - a[m];
-    for (int m = 0; m < 3; m++) n[m] = u[(m + 1) % 3] * v[(m + 2) % 3] - u[(m + 2) % 3] * v[(m + 1) % 3];
-    if (n[2] == 0) continue;
-    double z = a[2] - (n[0] * (x[0] - a[0]) + n[1] * (x[1] - a[1])) / n[2];
-    crossings += z > x[2];
+int cw_inside_test(const CwInside *inside, const double p[3]) {
+  for (int i = 0; i < 2; i++) {
+    double place = p[i] - inside->low[i];
+    if (place < 0.0 || place > inside->cell[i] * inside->cells[i]) return 0;
   }
-  return crossings & 1;
+  int64_t bin = (int64_t)bin_of(inside, 1, p[1]) * inside->cells[0] + bin_of(inside, 0, p[0]);
+  int parity = 0;
+  for (int64_t k = inside->start[bin]; k < inside->start[bin + 1]; k++) {
+    const int32_t *t = inside->triangle[inside->member[k]];
+    const double *a = inside->x[t[0]], *b = inside->x[t[1]], *c = inside->x[t[2]];
+    if (!(edge_above(a, b, p) ^ edge_above(b, c, p) ^ edge_above(c, a, p))) continue;
+    // Over the triangle: z of its plane at p.
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    double nz = ux * vy - uy * vx, nx = uy * vz - uz * vy, ny = uz * vx - ux * vz;
+    double above = nx * (p[0] - a[0]) + ny * (p[1] - a[1]) + nz * (p[2] - a[2]); // > 0: p on the side of the normal
+    if (nz > 0.0 ? above < 0.0 : above > 0.0) parity ^= 1;
+  }
+  return parity;
 }

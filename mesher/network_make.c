@@ -75,7 +75,7 @@ static int triple_point(const CwNetwork *network, const CwInside *inside, const 
   for (int k = 0; k < 3; k++) {
     if (!cw_plan_in_cell(plan, node[k], x, 1e-9, node, 3)) return 0;
   }
-  return cw_inside(inside, x);
+  return cw_inside_test(inside, x);
 }
 
 static int has_planes(const CwCorner *corner, int32_t a, int32_t b) {
@@ -102,7 +102,7 @@ static CwStatus add_line(CwNetwork *network, const CwInside *inside, int32_t abo
     double middle[3];
     int32_t skip[1] = {above};
     cw_lerp(a, b, 0.5, middle);
-    if (!cw_inside(inside, middle) || !cw_plan_in_cell(network->plan, below, middle, 0, skip, 1)) continue;
+    if (!cw_inside_test(inside, middle) || !cw_plan_in_cell(network->plan, below, middle, 0, skip, 1)) continue;
     CwCurve curve = {.kind = CW_CURVE_LINE,
                      .corner = {place[p].corner, place[p + 1].corner},
                      .edge = -1,

@@ -247,7 +247,7 @@ static int shares_a_line(const CwPlanScorer *scorer, const CwPlan *plan, int32_t
         double x[3], s = reach * (2.0 * i / (LINE_SAMPLES - 1) - 1);
         for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
         if (fabs(cw_plane_distance(&plan->node[c].plane, x)) > scorer->options->clearance) continue;
-        near += cw_plan_in_cell(plan, node, x, 1e-9, NULL, 0) && cw_inside(scorer->inside, x);
+        near += cw_plan_in_cell(plan, node, x, 1e-9, NULL, 0) && cw_inside_test(scorer->inside, x);
       }
       // A plane that merely crosses the line is near it at a few samples only.
       if (near * 2 * reach / LINE_SAMPLES > 4 * scorer->options->clearance) return 1;
