@@ -130,6 +130,8 @@ static const BadCase bad_cases[] = {
     {1, "name: test\ncells: 5", "2:1: cells: unknown key here; allowed: the key cells in section mesh"},
     {20, "  <<: {cells: 5}",
      "20:3: mesh.<<: unknown key; allowed: the keys of docs/case-reference.md, the nearest is cells"},
+    {8, "  blade_count: 6\n  : 7",
+     "8:16: impeller.(nothing): the key is empty; allowed: the keys of docs/case-reference.md"},
     // Wrong types.
     {8, "  blade_count: six",
      "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 3 to 9"},
