@@ -4,7 +4,7 @@
 #include "mesher/intersect.h"
 #include "mesher/layers_inner.h"
 
-enum { ROUNDS = 40 };
+enum { ROUNDS = 40, TURNS = 4 };
 static const double GOOD = 0.02;         // least prism quality
 static const double THIN = 0.8;          // what a thinned column keeps
 static const double LEAST_COSINE = 0.25; // of a direction that the search may choose
@@ -223,9 +223,12 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     find_bad(&repair);
     if (repair.bad_count) {
-      for (int32_t v = 0; v < work->n; v++)
-        if (repair.mark[v]) turn(work, v, front);
-      find_bad(&repair);
+      for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
+        for (int32_t v = 0; v < work->n; v++)
+          if (repair.mark[v]) turn(work, v, front);
+        find_bad(&repair);
+      }
+      if (!repair.bad_count) continue;
     } else {
       CW_TRY(find_crossings(&repair, &crossing));
       if (crossing == 0) goto done;
