@@ -12,7 +12,7 @@ enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6 };
 static const double REACH = 8;         // the fan ends at this many heights from its crease
 static const double FADE = 6;          // the opening of the crease is forgotten at this many
 static const double LEAST_COSINE = 0.3;
-static const double POOR = 0.1;       // prism quality under which a fan is widened
+static const double POOR = 0.2;       // prism quality under which a fan is widened
 static const double WIDEST = 5;
 
 typedef struct {

@@ -202,6 +202,8 @@ static void trailing_edge(void **state) {
   const double outline[8][2] = {{0, -half + bevel}, {bevel, -half},        {length - bevel, -half}, {length, -half + bevel},
                                 {length, half - bevel}, {length - bevel, half}, {bevel, half},      {0, half - bevel}};
   const double lean[3] = {0, tan(30 * M_PI / 180), tan(45 * M_PI / 180)}, h[3] = {0.5 * MM, 0.3 * MM, 0.15 * MM};
+  // Layers 4 to 8 times as thick as the mesh is wide, in a wedge of 45 degrees, are beyond what a front can do in full.
+  const double least[3][3] = {{1, 1, 0.97}, {1, 0.99, 0.95}, {0.98, 0.95, 0.75}};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       Case c = {.target = 0.6 * MM};
@@ -221,10 +223,11 @@ static void trailing_edge(void **state) {
       char name[40];
       snprintf(name, sizeof name, "blade, lean %.0f, h %.2f", atan(lean[i]) * 180 / M_PI, h[j] / MM);
       case_run(&c, name);
+      double share = c.share;
       free(b.outline);
       free(b.around);
       case_free(&c);
-      //assert_true(c.share > 0.98);
+      assert_true(share >= least[i][j]);
     }
 }
 
@@ -266,7 +269,7 @@ static void bumpy_spheres(void **state) {
     char name[40];
     snprintf(name, sizeof name, "bumps of %.3f, %s", b.size, run % 2 ? "outside" : "inside");
     case_run(&c, name);
-    assert_true(c.share > 0.9);
+    assert_float_equal(c.share, 1, 0.001);
     case_free(&c);
   }
 }
