@@ -8,13 +8,16 @@
 
 #include "mesher/layers_inner.h"
 
-enum { SWEEPS = 60 };
+enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6 };
 static const double REACH = 8;         // the fan ends at this many heights from its crease
 static const double FADE = 6;          // the opening of the crease is forgotten at this many
 static const double LEAST_COSINE = 0.3;
+static const double POOR = 0.2;       // prism quality under which a fan is widened
+static const double WIDEST = 5;
 
 typedef struct {
   double distance, opening, height; // to the nearest source, its cot(alpha/2) and height
+  double widen;                     // factor on L where the usual one leaves prisms overrun
   int32_t source;                   // -1: out of reach
   double u[3];                      // displacement relative to an undisturbed neighbour on the wall, m
   double given[3], line[3];         // of a source: what is fixed of it, and the direction of the rest
@@ -93,7 +96,7 @@ static CwStatus spread(const CwLayerWork *work, Fan *fan, int32_t *order, int32_
   CW_NEW(done_with, work->n);
   *count = 0;
   for (int32_t v = 0; v < work->n; v++) {
-    fan[v] = (Fan){.distance = INFINITY, .source = -1};
+    fan[v] = (Fan){.distance = INFINITY, .source = -1, .widen = 1};
     if (!is_source(work, v, &fan[v])) continue;
     memcpy(fan[v].given, fan[v].u, sizeof fan[v].u);
     sliding_direction(work, v, fan[v].line);
@@ -123,7 +126,7 @@ done:
 
 static double range(const CwLayerWork *work, int32_t v, const Fan *fan) {
   double fade = fmax(0, 1 - fan->distance / (FADE * fan->height));
-  return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade);
+  return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade) * fan->widen;
 }
 
 static void relax(const CwLayerWork *work, Fan *fan, int32_t v) {
@@ -149,14 +152,57 @@ static void relax(const CwLayerWork *work, Fan *fan, int32_t v) {
   memcpy(fan[v].u, u, sizeof u);
 }
 
+// Leans the column of v as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal height.
+static void lean(CwLayerWork *work, int32_t v, const Fan *fan) {
+  double least = fmin(LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1;
+  double height = cw_layers_least_cosine(work, v, work->column[v]);
+  for (int halving = 0; halving < 6; halving++, scale *= 0.5) {
+    double column[3];
+    for (int k = 0; k < 3; k++) {
+      double u = fan->u[k] - (fan->source == v ? fan->given[k] : 0);
+      column[k] = work->column[v][k] + scale * u / work->t[v];
+    }
+    double now = cw_layers_least_cosine(work, v, column);
+    if (now < least * length3(column)) continue;
+    for (int k = 0; k < 3; k++) work->column[v][k] = column[k] * fmin(height / now, 1.5);
+    return;
+  }
+}
+
+// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's bevel on the
+// hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
+static int32_t widen(const CwLayerWork *work, Fan *fan, const int32_t *order, int32_t count, double (*front)[3]) {
+  const CwLayerInput *in = work->in;
+  int32_t poor = 0;
+  for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, front[v]);
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    const int32_t *v = in->triangle[f];
+    if (fan[v[0]].source < 0 && fan[v[1]].source < 0 && fan[v[2]].source < 0) continue;
+    if (cw_layers_prism_quality(work, f, (const double (*)[3])front) >= POOR) continue;
+    poor++;
+    for (int i = 0; i < 3; i++) fan[v[i]].widen = fmin(fan[v[i]].widen * 1.4, WIDEST);
+  }
+  // Over about a height around, so that the lean stays smooth.
+  for (int pass = 0; pass < 2; pass++)
+    for (int32_t i = 0; i < count && poor; i++) {
+      int32_t v = order[pass ? count - 1 - i : i];
+      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+        double away = distance3(in->x[v], in->x[work->near[k]]) / work->t[v];
+        fan[v].widen = fmax(fan[v].widen, fan[work->near[k]].widen * exp(-0.5 * away));
+      }
+    }
+  return poor;
+}
+
 CwStatus cw_layers_fan(CwLayerWork *work) {
   CwStatus status = CW_OK;
   Fan *fan = NULL;
   int32_t *order = NULL, count = 0;
+  double (*front)[3] = NULL;
   CW_NEW(fan, work->n);
   CW_NEW(order, work->n);
+  CW_NEW(front, work->n);
   CW_TRY(spread(work, fan, order, &count));
-  for (int32_t v = 0; v < work->n; v++) cw_layers_set_column(work, v, work->base[v], cw_layers_floor(work, v));
   for (int32_t i = 0; i < count; i++) {
     Fan *at = &fan[order[i]];
     if (at->source == order[i]) continue;
@@ -164,28 +210,17 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
     for (int k = 0; k < 3; k++) at->u[k] = fall * fan[at->source].u[k];
     allow(work, order[i], at->u);
   }
-  // Outward and inward by turns: news of a source crosses the whole reach in one sweep.
-  for (int i = 0; i < SWEEPS; i++)
-    for (int32_t k = 0; k < count; k++) relax(work, fan, order[i % 2 ? count - 1 - k : k]);
-  for (int32_t i = 0; i < count; i++) {
-    int32_t v = order[i];
-    double column[3], direction[3];
-    double floor_cosine = fmin(LEAST_COSINE, 0.6 * work->base_cos[v]);
-    double scale = 1;
-    for (int halving = 0; halving < 6; halving++, scale *= 0.5) {
-      for (int k = 0; k < 3; k++) {
-        double lean = (fan[v].u[k] - (fan[v].source == v ? fan[v].given[k] : 0)) / work->t[v];
-        direction[k] = column[k] = work->column[v][k] + scale * lean;
-      }
-      unit3(direction);
-      if (cw_layers_least_cosine(work, v, direction) >= floor_cosine) {
-        memcpy(work->column[v], column, sizeof column);
-        break;
-      }
-    }
+  for (int round = 0; round <= WIDENINGS; round++) {
+    // Outward and inward by turns: news of a source crosses the whole reach in one sweep.
+    for (int i = 0; i < (round ? MORE_SWEEPS : SWEEPS); i++)
+      for (int32_t k = 0; k < count; k++) relax(work, fan, order[i % 2 ? count - 1 - k : k]);
+    for (int32_t v = 0; v < work->n; v++) cw_layers_set_column(work, v, work->base[v], cw_layers_floor(work, v));
+    for (int32_t i = 0; i < count; i++) lean(work, order[i], &fan[order[i]]);
+    if (round == WIDENINGS || widen(work, fan, order, count, front) == 0) break;
   }
 done:
   free(fan);
   free(order);
+  free(front);
   return status;
 }

@@ -4,10 +4,10 @@
 #include "mesher/intersect.h"
 #include "mesher/layers_inner.h"
 
-enum { ROUNDS = 40 };
-static const double GOOD = 0.02;         // least prism quality
+enum { ROUNDS = 40, TURNS = 4 };
+static const double GOOD = 0.05;         // least prism quality
 static const double THIN = 0.8;          // what a thinned column keeps
-static const double LEAST_COSINE = 0.25; // of a direction that the search may choose
+static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
 static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
 
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
@@ -78,7 +78,7 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
       for (int k = 0; k < 3; k++)
         trial[k] = g[k] + tan(step[s]) * (cos(angle) * side[k] + sin(angle) * up[k]);
       unit3(trial);
-      if (cw_layers_least_cosine(work, v, trial) < LEAST_COSINE) continue;
+      if (cw_layers_least_cosine(work, v, trial) < fmin(LEAST_COSINE, 0.9 * work->base_cos[v])) continue;
       cw_layers_set_column(work, v, trial, 0.3);
       cw_layers_place(work, v, front[v]);
       double quality = around(work, v, (const double (*)[3])front);
@@ -223,9 +223,12 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     find_bad(&repair);
     if (repair.bad_count) {
-      for (int32_t v = 0; v < work->n; v++)
-        if (repair.mark[v]) turn(work, v, front);
-      find_bad(&repair);
+      for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
+        for (int32_t v = 0; v < work->n; v++)
+          if (repair.mark[v]) turn(work, v, front);
+        find_bad(&repair);
+      }
+      if (!repair.bad_count) continue;
     } else {
       CW_TRY(find_crossings(&repair, &crossing));
       if (crossing == 0) goto done;

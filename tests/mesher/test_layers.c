@@ -255,6 +255,38 @@ static void plane_through_box(void **state) {
     }
 }
 
+typedef struct {
+  double depth, tangent;
+} Slant;
+
+static int slanted_ends(const void *context, const double x[3], double normal[2][3]) {
+  const Slant *s = context;
+  double c = 1 / sqrt(1 + s->tangent * s->tangent), y = x[1] - s->tangent * x[2];
+  if (fabs(y) > 1e-9 && fabs(y - s->depth) > 1e-9) return 0;
+  normal[0][1] = c;
+  normal[0][2] = -c * s->tangent;
+  return 1;
+}
+
+// A square channel cut off obliquely by its caps: wedges of 90 - angle degrees between wall and cap.
+static void slanted_caps(void **state) {
+  const double p[4][2] = {{0, 0}, {0.012, 0}, {0.012, 0.012}, {0, 0.012}}, angle[3] = {15, 30, 45};
+  for (int i = 0; i < 6; i++) {
+    double h = i % 2 ? 0.3 * MM : 1 * MM;
+    Slant slant = {.depth = 0.02, .tangent = tan(angle[i / 2] * M_PI / 180)};
+    Case c = {.target = 0.6 * MM, .guide = slanted_ends, .guide_context = &slant};
+    surface_extrude(&c.wall, 4, p, 1, slant.depth, h, 1);
+    end_caps(&c.cap, -0.001, -0.001, 0.013, 0.013, slant.depth);
+    for (int32_t v = 0; v < c.wall.point_count; v++) c.wall.x[v][1] += slant.tangent * c.wall.x[v][2];
+    for (int32_t v = 0; v < c.cap.point_count; v++) c.cap.x[v][1] += slant.tangent * c.cap.x[v][2];
+    char name[40];
+    snprintf(name, sizeof name, "cap slanted by %g, h %.1f", angle[i / 2], h / MM);
+    case_run(&c, name);
+    assert_true(c.share > 0.99);
+    case_free(&c);
+  }
+}
+
 static void failures(void **state) {
   Case c = {.target = 0.6 * MM};
   const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01}, low2[3] = {0.0052, 0.0052, 0.0052};
@@ -309,7 +341,7 @@ int main(void) {
       cmocka_unit_test(box_in_box),          cmocka_unit_test(l_channel),         cmocka_unit_test(sharp_creases),
       cmocka_unit_test(thin_gap),            cmocka_unit_test(gap_to_cap),        cmocka_unit_test(gradation),
       cmocka_unit_test(pipe_between_caps),   cmocka_unit_test(plane_through_box), cmocka_unit_test(failures),
-      cmocka_unit_test(same_each_time),
+      cmocka_unit_test(same_each_time),      cmocka_unit_test(slanted_caps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
