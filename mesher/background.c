@@ -8,8 +8,8 @@
 
 typedef struct {
   int32_t low, high; // points of the edge
-  int32_t triangle;
-  int32_t forward;   // the triangle runs from low to high
+  int32_t forward;   // its triangle runs from low to high
+  int32_t triangle, side;
 } HalfEdge;
 
 static int by_points(const void *a, const void *b) {
@@ -20,44 +20,55 @@ static int by_points(const void *a, const void *b) {
   return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
 }
 
-// Each edge twice, in opposite directions: that is closed and consistently oriented.
-static CwStatus check_closed(const CwCad *cad, const CwBackground *background) {
+static int same_edge(const HalfEdge *a, const HalfEdge *b) {
+  return a->low == b->low && a->high == b->high;
+}
+
+CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background, int32_t (**neighbour)[3]) {
   CwStatus status = CW_OK;
   HalfEdge *half = NULL;
+  int32_t(*across)[3] = NULL;
   size_t count = 0;
   CW_NEW(half, 3 * (size_t)background->triangle_count);
+  CW_NEW(across, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t a = background->triangle[t][k], b = background->triangle[t][(k + 1) % 3];
-      half[count++] = (HalfEdge){a < b ? a : b, a < b ? b : a, t, a < b};
+      half[count++] = (HalfEdge){a < b ? a : b, a < b ? b : a, a < b, t, k};
     }
   }
   qsort(half, count, sizeof *half, by_points);
   for (size_t i = 0; i < count; i += 2) {
-    const double *x = background->x[half[i].low];
-    const char *name = cw_cad_face_name(cad, background->face[half[i].triangle]);
-    int pair = i + 1 < count && half[i + 1].low == half[i].low && half[i + 1].high == half[i].high;
-    int opposite = pair && half[i].forward != half[i + 1].forward;
-    int more = pair && i + 2 < count && half[i + 2].low == half[i].low && half[i + 2].high == half[i].high;
-    CW_REQUIRE(opposite && !more, CW_ERR_GEOMETRY,
-               "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm", name,
-               !pair ? "is open" : "folds or turns over", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+    const HalfEdge *h = &half[i];
+    const double *x = background->x[h->low];
+    int pair = i + 1 < count && same_edge(h, h + 1);
+    int whole = pair && h[0].forward != h[1].forward && !(i + 2 < count && same_edge(h, h + 2));
+    CW_REQUIRE(whole, CW_ERR_GEOMETRY, "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm",
+               cw_cad_face_name(cad, background->face[h->triangle]), pair ? "folds or turns over" : "is open",
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+    across[h[0].triangle][h[0].side] = h[1].triangle;
+    across[h[1].triangle][h[1].side] = h[0].triangle;
   }
+  *neighbour = across;
+  across = NULL;
 done:
   free(half);
+  free(across);
   return status;
 }
 
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background) {
   CwStatus status = CW_OK;
+  int32_t(*neighbour)[3] = NULL;
   memset(background, 0, sizeof *background);
   CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE, "deflection %g m and angle %g rad must be greater than zero",
              deflection, angle);
   CW_TRY(cw_background_tessellate(cad, deflection, angle, background));
-  CW_TRY(check_closed(cad, background));
+  CW_TRY(cw_background_neighbours(cad, background, &neighbour)); // closed, or it fails
   CW_REQUIRE(cw_background_volume(background) > 0, CW_ERR_GEOMETRY,
              "the tessellation encloses %g m3; it must be positive", cw_background_volume(background));
 done:
+  free(neighbour);
   if (status != CW_OK) cw_background_free(background);
   return status;
 }

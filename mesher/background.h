@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with (u,v) kept
-// for every corner. What the size field samples and the planner clips; no node of it goes into the mesh.
+// The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with (u,v)
+// kept for every corner. What the size field samples and the planner clips; no node of it goes into the mesh.
 #ifndef CUTWATER_MESHER_BACKGROUND_H
 #define CUTWATER_MESHER_BACKGROUND_H
 
@@ -26,6 +26,10 @@ typedef struct {
 // closed (the place is named). Deterministic.
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
 void cw_background_free(CwBackground *background);
+
+// The triangle across edge (k, k+1) of each triangle: (*neighbour)[t][k]; the caller frees it. Fails with
+// CW_ERR_GEOMETRY and the place where an edge is not shared by exactly two triangles that run opposite ways.
+CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background, int32_t (**neighbour)[3]);
 
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);

@@ -4,6 +4,7 @@
 #ifndef CUTWATER_TESTS_MESHER_SOLIDS_H
 #define CUTWATER_TESTS_MESHER_SOLIDS_H
 
+#include <cmath>
 #include <csetjmp>
 #include <cstdarg>
 #include <cstddef>
@@ -27,6 +28,13 @@
 extern "C" {
 #include <cmocka.h>
 }
+
+// cmocka's own comparison is in float.
+#define assert_near(value, wanted, tolerance)                                                                        \
+  do {                                                                                                       \
+    double value_ = (value), wanted_ = (wanted);                                                             \
+    if (!(std::fabs(value_ - wanted_) <= (tolerance))) fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);  \
+  } while (0)
 
 struct TemporaryFolder {
   char path[64] = "cutwater-test-XXXXXX";
