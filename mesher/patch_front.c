@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 // A triangle whose circle is smaller than this times the wanted length is done; equilateral: 0.577.
-static const double done_radius = 0.72;
+static const double done_radius = 0.76;
 // A new point keeps this share of the wanted length free around it.
 static const double least_room = 0.65;
 // Sizes grow at most this fast away from short given edges.
