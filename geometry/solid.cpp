@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/solid.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include <BRepTools.hxx>
+#include <Standard_Failure.hxx>
+
+#include "geometry/solid.hpp"
+
+void cw_solid_free(CwSolid **solid) {
+  delete *solid;
+  *solid = nullptr;
+}
+
+const char *cw_solid_domain(const CwSolid *solid) {
+  return solid->domain.c_str();
+}
+
+int cw_solid_face_count(const CwSolid *solid) {
+  return (int)solid->faces.size();
+}
+
+const char *cw_solid_face_patch(const CwSolid *solid, int face) {
+  return solid->faces[face].patch.c_str();
+}
+
+const char *cw_solid_face_kind(const CwSolid *solid, int face) {
+  return solid->faces[face].kind.c_str();
+}
+
+const char *cw_solid_face_name(const CwSolid *solid, int face) {
+  return solid->faces[face].name.c_str();
+}
+
+CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {
+  try {
+    const std::string temporary = std::string(path) + ".part";
+    {
+      std::ofstream stream(temporary, std::ios::binary);
+      BRepTools::Write(solid->solid, stream);
+      stream.close();
+      if (!stream) {
+        std::remove(temporary.c_str());
+        return CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, std::strerror(errno));
+      }
+    }
+    if (std::rename(temporary.c_str(), path) != 0)
+      return CW_FAIL(CW_ERR_IO, "%s: cannot be renamed: %s", path, std::strerror(errno));
+    return CW_OK;
+  } catch (const Standard_Failure &failure) {
+    return CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
+  } catch (const std::exception &failure) {
+    return CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
+  }
+}
