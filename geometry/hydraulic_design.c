@@ -77,8 +77,8 @@ static void main_dimensions(const CwCase *table, CwDesign *design) {
   SET(nut_length, 7.0 / 12 * design->hub_diameter, "7/12 hub diameter");
   SET(axial_length, (d2 - design->inlet_diameter) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
   const double d1 = design->inlet_diameter;
-  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, 0.555 * d1, "0.555 D1");
-  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, 0.622 * d1, "0.622 D1");
+  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, 0.568 * d1, "0.568 D1");
+  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, 0.635 * d1, "0.635 D1");
   SET(leading_edge_lean, 0, "unleaned");
   TAKE(blade_thickness, given->blade_thickness, 0.020 * d2, "Gulich: 0.016 to 0.022 D2");
   TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness,
@@ -88,26 +88,36 @@ static void main_dimensions(const CwCase *table, CwDesign *design) {
   TAKE(suction_pipe_length, given->suction_pipe_length, d1 / 3, "D1 / 3");
   TAKE(base_diameter, table->volute.base_diameter, 1.02 * d2, "1.02 D2");
   TAKE(inlet_width, table->volute.inlet_width, 1.5 * design->outlet_width, "1.5 b2");
+  TAKE(wrap_angle, given->wrap_angle, 1.2 * 2 * M_PI / design->blade_count, "overlap 1.2");
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
+}
+
+// The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan beta.
+static double spiral_angle(const CwMeridian *meridian, double wrap) {
+  const double beta[3] = {M_PI / 4, M_PI / 4, M_PI / 4};
+  return atan(cw_blade_wrap(meridian, 0.5, beta) / wrap);
 }
 
 static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDesign *design) {
   double x[2];
   cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
   const double r = x[0], u = design->angular_speed * r, z = design->blade_count;
-  const double cm = design->flow_rate / cw_meridian_area(meridian, 0);
+  const double cm = design->flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
   SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
   SET(inlet_meridional_speed, cm, "Q / area");
-  // The flow angle with blockage needs the blade angle and the default blade angle the flow angle: a few rounds.
-  double beta = cw_case_given(table->impeller.inlet_blade_angle) ? table->impeller.inlet_blade_angle : 25 * degree;
-  double tau = 1, flow = 0;
+  // A wrap that asks for steep blades is best met by a nearly even law; else the flow with a little incidence rules.
+  // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
+  const int wrapped = table->impeller.priority == CW_PRIORITY_WRAP;
+  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) - 4 * degree : 0;
+  double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
     tau = 1 / (1 - z * design->leading_edge_thickness / (2 * M_PI * r * sin(beta)));
     flow = atan2(cm * tau, u);
-    if (!cw_case_given(table->impeller.inlet_blade_angle))
-      beta = flow + 8 * degree;
+    if (!cw_case_given(given))
+      beta = fmax(flow + 4 * degree, spiral);
   }
-  TAKE(inlet_blade_angle, table->impeller.inlet_blade_angle, beta, "flow angle + 8 deg: a wide passage for the wrap");
+  TAKE(inlet_blade_angle, given, beta,
+       beta == spiral ? "4 deg under the logarithmic spiral of the wrap" : "flow angle + 4 deg");
   SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
   SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
   SET(incidence, beta - flow, "beta1 - flow angle");
@@ -170,7 +180,6 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, Cw
     SET(outlet_blade_angle, 0.5 * (low + high), "solved for the head");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else {
-    TAKE(wrap_angle, table_wrap, 1.2 * 2 * M_PI / design->blade_count, "overlap 1.2");
     for (int i = 0; i < 60; i++) {
       const double middle = 0.5 * (low + high);
       if (straight_wrap(meridian, beta1, middle) > design->wrap_angle)

@@ -43,7 +43,7 @@ int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double 
 
 void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward,
                           const char *patch, const char *kind, const std::string &name) {
-  const int samples = 32;
+  const int samples = 100;
   BRep_Builder builder;
   CwSolidFace made;
   double twice_area = 0;
@@ -92,7 +92,7 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
     Edge &edge = edges[i];
     if (edge.forward_uses != 1 || edge.reversed_uses != 1)
       throw Standard_Failure(("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
-    const double tolerance = std::max(least_tolerance, 1.2 * edge.deviation);
+    const double tolerance = std::max(least_tolerance, 2 * edge.deviation);
     builder.UpdateEdge(edge.edge, tolerance);
     builder.SameParameter(edge.edge, Standard_True);
     builder.SameRange(edge.edge, Standard_True);
