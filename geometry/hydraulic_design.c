@@ -3,6 +3,7 @@
 #include "geometry/hydraulic_design.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "geometry/blade.h"
 #include "geometry/meridian.h"
@@ -254,21 +255,26 @@ done:
 }
 
 // How each kind of quantity is printed.
-enum { NUMBER, LENGTH, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY };
+enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY };
 static const struct {
   double scale;
   const char *unit;
 } print_unit[] = {
-    [NUMBER] = {1, ""},           [LENGTH] = {1e3, "mm"},  [ANGLE] = {180 / M_PI, "deg"}, [SPEED] = {1, "m/s"},
+    [NUMBER] = {1, ""},           [LENGTH] = {1e3, "mm"},  [HEAD] = {1, "m"},          [ANGLE] = {180 / M_PI, "deg"}, [SPEED] = {1, "m/s"},
     [FLOW] = {3600, "m3/h"},      [ANGULAR_SPEED] = {30 / M_PI, "rpm"}, [AREA] = {1e6, "mm2"},
     [DIFFUSIVITY] = {1, "m2/s"},
 };
 
-void cw_hydraulic_design_print(const CwDesign *design, FILE *stream) {
-  fprintf(stream, "%-52s %10d       case\n", "blade number z", design->blade_count);
-#define PRINT(member, kind, text)                                                                            \
-  fprintf(stream, "%-52s %10.4g %-5s %s\n", text, design->member * print_unit[kind].scale, print_unit[kind].unit,   \
-          design->source[CW_DESIGN_##member]);
-  CW_DESIGN_LIST(PRINT)
-#undef PRINT
+void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size) {
+  switch (quantity) {
+#define ROW(member, kind, text)                                                                              \
+  case CW_DESIGN_##member:                                                                                   \
+    snprintf(line, size, "%-52s %10.5g %-5s %s", text, design->member * print_unit[kind].scale,              \
+             print_unit[kind].unit, design->source[quantity]);                                               \
+    break;
+    CW_DESIGN_LIST(ROW)
+#undef ROW
+  default:
+    snprintf(line, size, "?");
+  }
 }

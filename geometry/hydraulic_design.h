@@ -7,7 +7,7 @@
 #ifndef CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 #define CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 
-#include <stdio.h>
+#include <stddef.h>
 
 #include "pipeline/case.h"
 #include "pipeline/status.h"
@@ -20,7 +20,7 @@ extern "C" {
 // CwDesign.outlet_width in m, CW_DESIGN_outlet_width in the enum and "outlet_width_m" in design.json.
 #define CW_DESIGN_LIST(X)                                                                                    \
   X(flow_rate, FLOW, "flow rate Q")                                                                          \
-  X(head, LENGTH, "head H asked")                                                                            \
+  X(head, HEAD, "head H asked")                                                                              \
   X(angular_speed, ANGULAR_SPEED, "angular speed")                                                           \
   X(specific_speed_nq, NUMBER, "specific speed nq = n Q^0.5 / H^0.75")                                       \
   X(specific_speed_ns, NUMBER, "specific speed ns = 3.65 nq")                                                \
@@ -63,9 +63,9 @@ extern "C" {
   X(outlet_absolute_angle, ANGLE, "absolute flow angle alpha2")                                              \
   X(diffusion_ratio, NUMBER, "w2 / w1")                                                                      \
   X(hydraulic_efficiency, NUMBER, "hydraulic efficiency")                                                    \
-  X(theoretical_head, LENGTH, "theoretical head u2 c_u2 / g")                                                \
-  X(predicted_head, LENGTH, "predicted head")                                                                \
-  X(head_residual, LENGTH, "predicted minus asked head")                                                     \
+  X(theoretical_head, HEAD, "theoretical head u2 c_u2 / g")                                                  \
+  X(predicted_head, HEAD, "predicted head")                                                                  \
+  X(head_residual, HEAD, "predicted minus asked head")                                                       \
   X(base_diameter, LENGTH, "volute base circle D3")                                                          \
   X(inlet_width, LENGTH, "volute inlet width b3")                                                            \
   X(side_wall_angle, ANGLE, "volute side walls, half angle")                                                 \
@@ -100,8 +100,8 @@ typedef struct {
 // 12 to 60 degrees), with the value and the allowed range.
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design);
 
-// Prints every quantity with value, unit and source, one a line.
-void cw_hydraulic_design_print(const CwDesign *design, FILE *stream);
+// One line for a person: what the quantity is, its value with a unit, and where it comes from.
+void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size);
 
 #ifdef __cplusplus
 }

@@ -2,7 +2,6 @@
 #include "geometry/solid.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 
@@ -10,6 +9,7 @@
 #include <Standard_Failure.hxx>
 
 #include "geometry/solid.hpp"
+#include "pipeline/atomic_file.h"
 
 void cw_solid_free(CwSolid **solid) {
   delete *solid;
@@ -37,23 +37,21 @@ const char *cw_solid_face_name(const CwSolid *solid, int face) {
 }
 
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {
+  CwStatus status = CW_OK;
+  CwAtomicFile file = {};
   try {
-    const std::string temporary = std::string(path) + ".part";
-    {
-      std::ofstream stream(temporary, std::ios::binary);
-      BRepTools::Write(solid->solid, stream);
-      stream.close();
-      if (!stream) {
-        std::remove(temporary.c_str());
-        return CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, std::strerror(errno));
-      }
-    }
-    if (std::rename(temporary.c_str(), path) != 0)
-      return CW_FAIL(CW_ERR_IO, "%s: cannot be renamed: %s", path, std::strerror(errno));
-    return CW_OK;
+    CW_TRY(cw_atomic_file_name(path, &file));
+    std::ofstream stream(file.temporary_path, std::ios::binary);
+    BRepTools::Write(solid->solid, stream);
+    stream.close();
+    CW_REQUIRE(stream, CW_ERR_IO, "%s: cannot be written: %s", path, std::strerror(errno));
+    CW_TRY(cw_atomic_file_commit(&file));
   } catch (const Standard_Failure &failure) {
-    return CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
   } catch (const std::exception &failure) {
-    return CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
   }
+done:
+  cw_atomic_file_abandon(&file);
+  return status;
 }
