@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/log.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "pipeline/atomic_file.h"
+
+// Lines go to standard error: mpirun hands its ranks a pseudo terminal as standard output even when its own
+// output is a file, so only standard error tells truly whether a person is watching.
+enum { LINE_SIZE = 1200, WARNING_LIMIT = 1000 };
+
+static const double terminal_interval = 0.1; // s between rewritten lines
+static const double plain_interval = 5;      // s between plain lines
+
+static struct {
+  char stage[33];
+  FILE *copy;
+  int speaks;
+  int verbose;
+  int terminal;
+  char **warnings;
+  size_t warning_count;
+} logger = {.speaks = 1};
+
+static struct {
+  int active;
+  int line_shown; // a rewritten line stands on the terminal, without its newline
+  char step[81];
+  char unit[33];
+  int64_t total, done;
+  double started, terminal_time, plain_time;
+} progress;
+
+double cw_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int64_t cw_peak_memory_bytes(void) {
+  struct rusage usage;
+  if (getrusage(RUSAGE_SELF, &usage)) return 0;
+  return (int64_t)usage.ru_maxrss * 1024; // Linux counts in kibibytes
+}
+
+// An event is one line whatever a file name or a library's message holds.
+static void make_one_line(char *text) {
+  for (char *c = text; *c; ++c)
+    if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = ' ';
+}
+
+static void erase_progress_line(void) {
+  if (progress.line_shown) fputs("\r\033[K", stderr);
+  progress.line_shown = 0;
+}
+
+static void write_copy(const char *kind, const char *text) {
+  if (!logger.copy) return;
+  fprintf(logger.copy, "cutwater%s%s: %s%s\n", logger.stage[0] ? "-" : "", logger.stage, kind, text);
+  fflush(logger.copy);
+}
+
+// `kind` is "", "warning: " or "error: ".
+static void write_line(const char *kind, const char *text) {
+  erase_progress_line();
+  fprintf(stderr, "cutwater%s%s: %s%s\n", logger.stage[0] ? "-" : "", logger.stage, kind, text);
+  fflush(stderr);
+  write_copy(kind, text);
+}
+
+CwStatus cw_log_open(const char *stage, const char *log_path, int speaks, int verbose) {
+  CwStatus status = CW_OK;
+  char *folder = NULL;
+  cw_log_close();
+  snprintf(logger.stage, sizeof logger.stage, "%s", stage);
+  logger.speaks = speaks;
+  logger.verbose = verbose;
+  logger.terminal = isatty(STDERR_FILENO);
+  if (log_path && speaks) {
+    const char *slash = strrchr(log_path, '/');
+    if (slash && slash != log_path) {
+      folder = strndup(log_path, (size_t)(slash - log_path));
+      CW_REQUIRE(folder, CW_ERR_MEMORY, "out of memory: the name %s", log_path);
+      CW_TRY(cw_make_directory(folder));
+    }
+    logger.copy = fopen(log_path, "w");
+    CW_REQUIRE(logger.copy, CW_ERR_IO, "%s: cannot be written: %s", log_path, strerror(errno));
+  }
+done:
+  free(folder);
+  return status;
+}
+
+void cw_log_close(void) {
+  erase_progress_line();
+  memset(&progress, 0, sizeof progress);
+  if (logger.copy) fclose(logger.copy);
+  for (size_t i = 0; i < logger.warning_count; ++i) free(logger.warnings[i]);
+  free(logger.warnings);
+  memset(&logger, 0, sizeof logger);
+  logger.speaks = 1;
+}
+
+void cw_log(const char *format, ...) {
+  if (!logger.speaks) return;
+  char text[LINE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  make_one_line(text);
+  write_line("", text);
+}
+
+void cw_log_debug(const char *format, ...) {
+  if (!logger.speaks || !logger.verbose) return;
+  char text[LINE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  make_one_line(text);
+  write_line("", text);
+}
+
+static void keep_warning(const char *text) {
+  if (logger.warning_count == WARNING_LIMIT) return;
+  char **larger = realloc(logger.warnings, (logger.warning_count + 1) * sizeof *larger);
+  if (!larger) return; // the line was printed; a warning is no reason to stop
+  logger.warnings = larger;
+  char *kept = strdup(text);
+  if (kept) logger.warnings[logger.warning_count++] = kept;
+}
+
+void cw_log_warn(const char *format, ...) {
+  char text[LINE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  make_one_line(text);
+  keep_warning(text);
+  if (logger.speaks) write_line("warning: ", text);
+}
+
+size_t cw_log_warning_count(void) {
+  return logger.warning_count;
+}
+
+const char *cw_log_warning(size_t index) {
+  return index < logger.warning_count ? logger.warnings[index] : "";
+}
+
+int cw_log_error(CwStatus status) {
+  if (status == CW_OK) return 0;
+  char text[LINE_SIZE];
+  snprintf(text, sizeof text, "%s", cw_fail_message()[0] ? cw_fail_message() : cw_status_text(status));
+  make_one_line(text);
+  write_line("error: ", text);
+  if (logger.verbose && cw_fail_trace()[0]) {
+    char trace[2 * LINE_SIZE];
+    snprintf(trace, sizeof trace, "%s", cw_fail_trace());
+    write_line("passed: ", trace);
+  }
+  return status > 0 ? (int)status : 1;
+}
+
+static void format_duration(char *text, size_t size, double seconds) {
+  if (seconds < 9.95)
+    snprintf(text, size, "%.1f s", seconds);
+  else if (seconds < 59.5)
+    snprintf(text, size, "%.0f s", seconds);
+  else if (seconds < 3599.5)
+    snprintf(text, size, "%d min %02d s", (int)(seconds + 0.5) / 60, (int)(seconds + 0.5) % 60);
+  else
+    snprintf(text, size, "%.0f h %02d min", floor((seconds + 30) / 3600), (int)fmod((seconds + 30) / 60, 60));
+}
+
+// 12.3, 123, 12.3 k, 1.23 M: three digits are enough to see a rate.
+static void format_rate(char *text, size_t size, double rate) {
+  const char *suffix = "";
+  if (rate >= 999.5e3) {
+    rate /= 1e6;
+    suffix = " M";
+  } else if (rate >= 9999.5) {
+    rate /= 1e3;
+    suffix = " k";
+  }
+  snprintf(text, size, rate >= 99.95 ? "%.0f%s" : rate >= 9.995 ? "%.1f%s" : "%.2f%s", rate, suffix);
+}
+
+static void format_progress(char *text, size_t size, double now, int last) {
+  double elapsed = now - progress.started;
+  double rate = elapsed > 0 ? (double)progress.done / elapsed : 0;
+  char rate_text[32], spent[32], left[64] = "";
+  char of[48] = "";
+  format_rate(rate_text, sizeof rate_text, rate);
+  format_duration(spent, sizeof spent, elapsed);
+  if (progress.total > 0) {
+    double share = 100.0 * (double)progress.done / (double)progress.total;
+    snprintf(of, sizeof of, " of %lld", (long long)progress.total);
+    if (!last && progress.done > 0 && progress.done <= progress.total) {
+      char duration[32];
+      format_duration(duration, sizeof duration, (double)(progress.total - progress.done) / rate);
+      snprintf(left, sizeof left, ", %.0f %%, %s left", floor(share), duration);
+    }
+  }
+  snprintf(text, size, "%s: %lld%s %s in %s, %s %s/s%s", progress.step, (long long)progress.done, of,
+           progress.unit, spent, rate_text, progress.unit, left);
+}
+
+void cw_progress_start(const char *step, int64_t total, const char *unit) {
+  if (progress.active) cw_progress_end();
+  progress.active = 1;
+  snprintf(progress.step, sizeof progress.step, "%s", step);
+  snprintf(progress.unit, sizeof progress.unit, "%s", unit);
+  make_one_line(progress.step);
+  make_one_line(progress.unit);
+  progress.total = total;
+  progress.done = 0;
+  progress.started = progress.plain_time = cw_seconds();
+  progress.terminal_time = 0;
+}
+
+void cw_progress(int64_t done) {
+  if (!progress.active) return;
+  progress.done = done;
+  if (!logger.speaks) return;
+  double now = cw_seconds();
+  char text[LINE_SIZE];
+  if (logger.terminal && now - progress.terminal_time >= terminal_interval) {
+    format_progress(text, sizeof text, now, 0);
+    fprintf(stderr, "\r\033[Kcutwater%s%s: %s", logger.stage[0] ? "-" : "", logger.stage, text);
+    fflush(stderr);
+    progress.line_shown = 1;
+    progress.terminal_time = now;
+  }
+  if (now - progress.plain_time >= plain_interval) {
+    format_progress(text, sizeof text, now, 0);
+    if (logger.terminal)
+      write_copy("", text);
+    else
+      write_line("", text);
+    progress.plain_time = now;
+  }
+}
+
+void cw_progress_end(void) {
+  if (!progress.active) return;
+  if (logger.speaks) {
+    char text[LINE_SIZE];
+    format_progress(text, sizeof text, cw_seconds(), 1);
+    write_line("", text);
+  }
+  progress.active = 0;
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/record.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/atomic_file.h"
+#include "pipeline/log.h"
+
+struct CwRecord {
+  char stage[33];
+  double started;
+  int64_t peak_memory_bytes; // 0: ask the system
+  json_t *steps, *warnings, *results;
+};
+
+CwStatus cw_record_start(const char *stage, CwRecord **record) {
+  CwStatus status = CW_OK;
+  CwRecord *made = NULL;
+  *record = NULL;
+  CW_NEW(made, 1);
+  snprintf(made->stage, sizeof made->stage, "%s", stage);
+  made->started = cw_seconds();
+  made->steps = json_array();
+  made->warnings = json_array();
+  made->results = json_object();
+  CW_REQUIRE(made->steps && made->warnings && made->results, CW_ERR_MEMORY, "out of memory: the record");
+  *record = made;
+  made = NULL;
+done:
+  cw_record_free(made);
+  return status;
+}
+
+void cw_record_free(CwRecord *record) {
+  if (!record) return;
+  json_decref(record->steps);
+  json_decref(record->warnings);
+  json_decref(record->results);
+  free(record);
+}
+
+json_t *cw_json_number(double value) {
+  return isfinite(value) ? json_real(value) : json_null();
+}
+
+// A text that is not UTF-8 (a file name may be anything) is kept with its odd bytes replaced.
+static json_t *json_text(const char *text) {
+  json_t *value = json_string(text);
+  if (value) return value;
+  char *plain = strdup(text);
+  if (!plain) return NULL;
+  for (char *c = plain; *c; ++c)
+    if ((unsigned char)*c >= 0x80) *c = '?';
+  value = json_string(plain);
+  free(plain);
+  return value;
+}
+
+CwStatus cw_record_step(CwRecord *record, const char *name, double seconds, int64_t items, const char *unit) {
+  CwStatus status = CW_OK;
+  json_t *step = json_pack("{so so sI so}", "name", json_text(name), "seconds", cw_json_number(seconds),
+                           "items", (json_int_t)items, "unit", json_text(unit));
+  CW_REQUIRE(step && !json_array_append_new(record->steps, step), CW_ERR_MEMORY,
+             "out of memory: the record of step %s", name);
+done:
+  return status;
+}
+
+CwStatus cw_record_warning(CwRecord *record, const char *text) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(!json_array_append_new(record->warnings, json_text(text)), CW_ERR_MEMORY,
+             "out of memory: the record of a warning");
+done:
+  return status;
+}
+
+void cw_record_set_peak_memory(CwRecord *record, int64_t bytes) {
+  record->peak_memory_bytes = bytes;
+}
+
+CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(!json_object_set_new(record->results, key, value), CW_ERR_MEMORY,
+             "out of memory: the record of result %s", key);
+done:
+  return status;
+}
+
+CwStatus cw_record_number(CwRecord *record, const char *key, double value) {
+  return cw_record_json(record, key, cw_json_number(value));
+}
+
+CwStatus cw_record_integer(CwRecord *record, const char *key, int64_t value) {
+  return cw_record_json(record, key, json_integer(value));
+}
+
+CwStatus cw_record_text(CwRecord *record, const char *key, const char *value) {
+  return cw_record_json(record, key, json_text(value));
+}
+
+CwStatus cw_json_write(const json_t *value, const char *path) {
+  CwStatus status = CW_OK;
+  CwAtomicFile file = {0};
+  CW_TRY(cw_atomic_file_open(path, &file));
+  int broken = json_dumpf(value, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) ||
+               fputc('\n', file.stream) == EOF;
+  CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  CW_TRY(cw_atomic_file_commit(&file));
+done:
+  cw_atomic_file_abandon(&file);
+  return status;
+}
+
+CwStatus cw_record_write(const CwRecord *record, const char *path) {
+  CwStatus status = CW_OK;
+  json_t *root = NULL;
+  json_t *warnings = json_array();
+  CW_REQUIRE(warnings, CW_ERR_MEMORY, "out of memory: the record");
+  for (size_t i = 0; i < cw_log_warning_count(); ++i)
+    CW_REQUIRE(!json_array_append_new(warnings, json_text(cw_log_warning(i))), CW_ERR_MEMORY,
+               "out of memory: the record of a warning");
+  CW_REQUIRE(!json_array_extend(warnings, record->warnings), CW_ERR_MEMORY, "out of memory: the record");
+  int64_t peak = record->peak_memory_bytes ? record->peak_memory_bytes : cw_peak_memory_bytes();
+  root = json_pack("{so so sI sO sO sO}", "stage", json_text(record->stage), "seconds",
+                   cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak,
+                   "steps", record->steps, "warnings", warnings, "results", record->results);
+  CW_REQUIRE(root, CW_ERR_MEMORY, "out of memory: the record");
+  CW_TRY(cw_json_write(root, path));
+done:
+  json_decref(root);
+  json_decref(warnings);
+  return status;
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// record.json of a stage: what it did, how long it took, what it warned of, and its results for the report.
+// The format is in docs/file-formats.md.
+#ifndef CUTWATER_PIPELINE_RECORD_H
+#define CUTWATER_PIPELINE_RECORD_H
+
+#include <jansson.h>
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct CwRecord CwRecord;
+
+// Starts the record of `stage` and its clock. Free with cw_record_free.
+CwStatus cw_record_start(const char *stage, CwRecord **record);
+void cw_record_free(CwRecord *record);
+
+// Adds a step that is over: `items` of `unit` ("faces", "cells") in `seconds`. Steps stay in the order of the
+// calls.
+CwStatus cw_record_step(CwRecord *record, const char *name, double seconds, int64_t items, const char *unit);
+
+// Adds a warning that the log of this process does not hold, such as one gathered from another rank.
+CwStatus cw_record_warning(CwRecord *record, const char *text);
+
+// Sets the peak memory to write, such as the sum over the ranks; without it that of this process is written.
+void cw_record_set_peak_memory(CwRecord *record, int64_t bytes);
+
+// Set one result. A number that is not finite becomes null. Keys keep the order of their first setting.
+CwStatus cw_record_number(CwRecord *record, const char *key, double value);
+CwStatus cw_record_integer(CwRecord *record, const char *key, int64_t value);
+CwStatus cw_record_text(CwRecord *record, const char *key, const char *value);
+
+// Sets one result to any JSON value and takes over the reference, also on failure. NULL fails with
+// CW_ERR_MEMORY.
+CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value);
+
+// Writes the record whole: the seconds since cw_record_start and the warnings of the log first, then those
+// added.
+CwStatus cw_record_write(const CwRecord *record, const char *path);
+
+// A JSON number; null for NAN and infinities, which JSON does not know.
+json_t *cw_json_number(double value);
+
+// Writes any JSON value whole, two blanks a level, keys in the order they were set.
+CwStatus cw_json_write(const json_t *value, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
