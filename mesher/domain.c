@@ -84,9 +84,13 @@ done:
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
   CwStatus status = CW_OK;
   double regions = ceil(cells / (double)table->mesh.cells_per_region);
-  double thickness = domain->layer_volume / domain->wall_area;
+  double thickness = domain->layer_volume / domain->wall_area, thickest = 0;
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickest = fmax(thickest, cw_domain_thickness(domain, table, p));
+  }
   CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
                            .clearance = CLEARANCE_THICKNESSES * thickness,
+                           .line_clearance = CLEARANCE_THICKNESSES * thickest,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
   CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &domain->plan));

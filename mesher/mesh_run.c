@@ -292,7 +292,13 @@ static CwStatus plan_domains(CwMeshRun *run, double scale) {
                    run->tet_factor * domain->tet_integral / (scale * scale * scale);
     CW_TRY(cw_domain_plan(domain, run->table, cells, run->prism_factor, run->tet_factor));
     double worst = 1;
-    for (int32_t n = 0; n < domain->plan.node_count; n++) worst = fmin(worst, domain->plan.worst_angle[n]);
+    for (int32_t n = 0; n < domain->plan.node_count; n++) {
+      const CwPlane *plane = &domain->plan.node[n].plane;
+      worst = fmin(worst, domain->plan.worst_angle[n]);
+      cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+                   n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
+                   1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+    }
     cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
            domain->plan.region_count, cells, asin(worst) * 180 / M_PI);
     regions += domain->plan.region_count;

@@ -52,12 +52,12 @@ static CwStatus split(Planner *planner, Part *part, int32_t regions, int32_t par
         cw_plan_work(planner->scorer, &part->pieces, part->sample_count, part->sample);
     goto done;
   }
-  int32_t first = regions / 2, node = plan->node_count++;
+  int32_t first = 0, node = plan->node_count++;
   plan->node[node].parent = parent;
   if (parent >= 0) plan->node[parent].child[side] = node;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
   CW_TRY(cw_plan_best_plane(planner->scorer, plan, node, &part->pieces, part->sample_count, part->sample,
-                            (double)first / regions, &plan->node[node].plane, &plan->worst_angle[node]));
+                            regions, &plan->node[node].plane, &first, &plan->worst_angle[node]));
   for (int s = 0; s < 2; s++) CW_TRY(part_clip(planner->scorer, part, &plan->node[node].plane, s, &half[s]));
   part_free(part); // its pieces are no more needed below
   CW_TRY(split(planner, &half[0], first, node, 0, next_region));

@@ -5,13 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/vec.h"
+
 enum {
-  DIRECTIONS = 36,       // planes parallel to the axis, every 5 degrees
-  SHARES = 11,           // positions tried for each direction
+  DIRECTIONS = 60,       // planes parallel to the axis, every 3 degrees
+  SHARES = 13,           // positions tried for each direction, by share of the work
+  STATIONS = 24,         // positions of planes across the axis, by place
   EDGE_POINTS = 40,      // samples along each CAD edge
   LINE_SAMPLES = 200
 };
-static const double SHARE_STEP = 0.04;     // of the work, between positions
+static const double FIRST_SHARE = 0.2, LAST_SHARE = 0.8;
 static const double ALONG_EDGE = 0.35;     // sine of the least angle between a plane and a CAD edge that it crosses
 static const double SHARP_PLANE = 0.7;     // least plane-to-wall measure of a plane that is not penalised
 
@@ -256,6 +259,32 @@ static int shares_a_line(const CwPlanScorer *scorer, const CwPlan *plan, int32_t
   return 0;
 }
 
+// True where the line of the new plane and an ancestor leaves the domain nearer to a CAD edge than the layers there are
+// thick: the layers would fill the line.
+static int line_ends_at_an_edge(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
+                                double reach) {
+  for (int32_t a = plan->node[node].parent; a >= 0; a = plan->node[a].parent) {
+    double point[3], direction[3], before[3] = {0, 0, 0};
+    int was_inside = 0;
+    if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) continue;
+    for (int i = 0; i < LINE_SAMPLES; i++) {
+      double x[3], s = reach * (2.0 * i / (LINE_SAMPLES - 1) - 1);
+      for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
+      int inside = cw_inside_test(scorer->inside, x);
+      const double *exit = inside ? x : before; // the sample just inside of the surface
+      if (inside != was_inside && cw_plan_in_cell(plan, node, exit, 1e-9, NULL, 0)) {
+        double room = scorer->options->line_clearance;
+        for (int32_t e = 0; e < scorer->edge_point_count; e++) {
+          if (cw_distance(scorer->edge_x[e], exit) < room) return 1;
+        }
+      }
+      was_inside = inside;
+      cw_copy(x, before);
+    }
+  }
+  return 0;
+}
+
 // Area of the interface, from the samples in a slab about the plane, m2.
 static double interface_area(const CwPlanScorer *scorer, int32_t sample_count, const int32_t *sample,
                              const CwPlane *plane) {
@@ -266,9 +295,23 @@ static double interface_area(const CwPlanScorer *scorer, int32_t sample_count, c
   return volume / (2 * half);
 }
 
+// The planes to try along one direction: by shares of the work; through the axis; across the axis also by place.
+static int32_t positions(const Mark *mark, int32_t marks, double total, int across, double *offset) {
+  int32_t count = 0;
+  for (int s = 0; s < SHARES; s++) {
+    offset[count++] =
+        place_of_share(mark, marks, total, FIRST_SHARE + (LAST_SHARE - FIRST_SHARE) * s / (SHARES - 1));
+  }
+  if (!across) offset[count++] = 0; // holds the axis: normal to hub and shroud
+  for (int i = 1; across && i < STATIONS; i++) {
+    offset[count++] = mark[0].place + (mark[marks - 1].place - mark[0].place) * i / STATIONS;
+  }
+  return count;
+}
+
 CwStatus cw_plan_best_plane(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPieces *pieces,
-                            int32_t sample_count, const int32_t *sample, double share, CwPlane *best,
-                            double *worst_angle) {
+                            int32_t sample_count, const int32_t *sample, int32_t regions, CwPlane *best,
+                            int32_t *first, double *worst_angle) {
   CwStatus status = CW_OK;
   Mark *mark = NULL;
   int32_t marks = sample_count + pieces->count;
@@ -276,34 +319,37 @@ CwStatus cw_plan_best_plane(const CwPlanScorer *scorer, const CwPlan *plan, int3
   CW_NEW(mark, marks);
   for (int32_t i = 0; i < sample_count; i++) {
     volume += scorer->sample_volume[sample[i]];
-    const double *x = scorer->sample_x[sample[i]];
-    reach = fmax(reach, sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+    reach = fmax(reach, cw_norm(scorer->sample_x[sample[i]]));
   }
   double area_scale = pow(volume, 2.0 / 3);
   for (int d = 0; d <= DIRECTIONS; d++) {
-    // A small odd turn keeps the fan of planes off the sector edges and symmetry planes of the CAD.
-    double angle = M_PI * (d + 0.37) / DIRECTIONS, total;
+    // A small odd turn keeps the fan of planes off the symmetry planes of the CAD.
+    double angle = M_PI * (d + 0.37) / DIRECTIONS, total, offset[SHARES + STATIONS];
     double direction[3] = {cos(angle), sin(angle), 0};
     if (d == DIRECTIONS) direction[0] = direction[1] = 0, direction[2] = 1;
     mark_work(scorer, pieces, sample_count, sample, direction, mark, &total);
-    for (int s = 0; s <= SHARES; s++) {
-      // The last position of the planes parallel to the axis holds the axis: normal to hub and shroud.
-      CwPlane plane = {{direction[0], direction[1], direction[2]}, 0};
-      if (s == SHARES && d == DIRECTIONS) continue;
-      double wanted = share + SHARE_STEP * (s - SHARES / 2);
-      if (s < SHARES && (wanted <= 0.05 || wanted >= 0.95)) continue;
-      if (s < SHARES) plane.offset = place_of_share(mark, marks, total, wanted);
+    int32_t count = positions(mark, marks, total, d == DIRECTIONS, offset);
+    for (int32_t i = 0; i < count; i++) {
+      CwPlane plane = {{direction[0], direction[1], direction[2]}, offset[i]};
       double below = share_below(mark, marks, total, plane.offset);
-      if (below < 0.02 || below > 0.98) continue;
+      // Either side gets as many regions as its share of the work is worth.
+      int32_t below_regions = (int32_t)floor(below * regions + 0.5);
+      if (below_regions < 1 || below_regions >= regions) continue;
+      double balance = fmax(below * regions / below_regions, (1 - below) * regions / (regions - below_regions)) - 1;
+      double score = 2 * balance + 0.5 * fabs(2.0 * below_regions / regions - 1);
+      if (score >= least_score) continue;
       double worst = plane_to_wall(scorer, pieces, &plane);
-      double score = 4 * fabs(below - share) + 0.5 * interface_area(scorer, sample_count, sample, &plane) / area_scale +
-                     (1 - worst) + (worst < SHARP_PLANE ? 2 : 0);
+      score += 0.5 * interface_area(scorer, sample_count, sample, &plane) / area_scale + (1 - worst) +
+               (worst < SHARP_PLANE ? 2 : 0);
       if (score >= least_score) continue;
       int32_t grazed = grazed_edges(scorer, plan, node, &plane);
       score += grazed ? 3 + 0.02 * grazed : 0;
       if (score >= least_score || shares_a_line(scorer, plan, node, &plane, reach)) continue;
+      score += line_ends_at_an_edge(scorer, plan, node, &plane, reach) ? 4 : 0;
+      if (score >= least_score) continue;
       least_score = score;
       *best = plane;
+      *first = below_regions;
       *worst_angle = worst;
     }
   }

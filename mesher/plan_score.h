@@ -38,11 +38,11 @@ void cw_plan_scorer_free(CwPlanScorer *scorer);
 // Predicted cells (prisms and tetrahedra) of a part of the domain.
 double cw_plan_work(const CwPlanScorer *scorer, const CwPieces *pieces, int32_t sample_count, const int32_t *sample);
 
-// The best plane for `node` (its ancestors are in the plan) that puts the share `share` of the work on its negative
-// side. *worst_angle: least sqrt(1 - (n.m)^2) over the wall triangles it crosses. Fails with CW_ERR_MESH where no plane
-// at all divides the part.
+// The best plane for `node` (its ancestors are in the plan) to divide a part that is to become `regions` regions;
+// *first of them on its negative side. *worst_angle: least sqrt(1 - (n.m)^2) over the wall triangles it crosses. Fails
+// with CW_ERR_MESH where no plane at all divides the part.
 CwStatus cw_plan_best_plane(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPieces *pieces,
-                            int32_t sample_count, const int32_t *sample, double share, CwPlane *plane,
-                            double *worst_angle);
+                            int32_t sample_count, const int32_t *sample, int32_t regions, CwPlane *plane,
+                            int32_t *first, double *worst_angle);
 
 #endif
