@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -141,6 +142,13 @@ static void quiet_ranks_print_errors_only(void **state) {
   assert_int_equal(cw_log_warning_count(), 1);
   assert_int_not_equal(access(copy_path, F_OK), 0);
   assert_int_equal(cw_log_error(CW_OK), 0);
+  file = open_capture();
+  capture_start(file);
+  code = cw_log_error(CW_ERR_RANK);
+  capture_end();
+  read_capture(file, seen);
+  assert_string_equal(seen, ""); // the rank that failed has told
+  assert_int_equal(code, CW_ERR_RANK);
   cw_log_close();
 }
 
@@ -209,6 +217,8 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
   cw_progress(2); // too soon for another line
   cw_log("event");
   usleep(120 * 1000);
+  struct winsize window = {.ws_row = 24, .ws_col = 37};
+  ioctl(terminal, TIOCSWINSZ, &window);
   cw_progress(5);
   cw_progress_end();
   capture_end();
@@ -221,7 +231,8 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
   const char *begin = "\r\033[Kcutwater-mesh: fill: 1 of 10 regions in 0.0 s, ";
   assert_int_equal(strncmp(seen, begin, strlen(begin)), 0);
   assert_null(strstr(seen, "fill: 2 of 10"));
-  assert_non_null(strstr(seen, " left\r\033[Kcutwater-mesh: event\n\r\033[Kcutwater-mesh: fill: 5 of 10"));
+  assert_non_null(strstr(seen, " left\r\033[Kcutwater-mesh: event\n\r\033[Kcutwater-mesh: fill: 5 of 10 "
+                               "regions\r\033[Kcutwater-mesh: fill: 5 of 10"));
   assert_int_equal(count(seen, "\n"), 2); // the event and the last line
   assert_int_equal(seen[length - 1], '\n');
   read_copy(copy);
