@@ -293,6 +293,18 @@ static const BadCase bad_cases[] = {
      "14:30: impeller.leading_edge_thickness_mm: 3.5 contradicts impeller.blade_thickness_mm (this is the "
      "largest "
      "thickness of the blade); allowed: at most 3 mm"},
+    {12, "  wrap_angle_deg: 71\n  leading_edge_radius_hub_mm: 101",
+     "13:31: impeller.leading_edge_radius_hub_mm: 101 contradicts half of impeller.outlet_diameter_mm (the "
+     "leading edge lies inside D2/2); allowed: below 100 mm"},
+    {12, "  leading_edge_radius_shroud_mm: 15\n  wrap_angle_deg: 71\n  hub_diameter_mm: 30",
+     "12:34: impeller.leading_edge_radius_shroud_mm: 15 contradicts half of impeller.hub_diameter_mm (the "
+     "leading edge meets the shroud outside the hub); allowed: above 15 mm"},
+    {12, "  wrap_angle_deg: 71\n  blade_thickness_mm: 3\n  trailing_edge_thickness_mm: 3.1",
+     "14:31: impeller.trailing_edge_thickness_mm: 3.1 contradicts impeller.blade_thickness_mm (this is the "
+     "largest thickness of the blade); allowed: at most 3 mm"},
+    {12, "  wrap_angle_deg: 71\n  trailing_edge_thickness_mm: 2\n  trailing_edge_bevel_mm: 2.1",
+     "14:27: impeller.trailing_edge_bevel_mm: 2.1 contradicts impeller.trailing_edge_thickness_mm (two "
+     "bevels share the trailing edge); allowed: at most 2 mm"},
     {12, "  wrap_angle_deg: 71\n  blade_thickness_mm: 20",
      "13:23: impeller.blade_thickness_mm: 20 contradicts blade_count and inlet_diameter_mm (the blades fill "
      "the inlet); "
