@@ -128,8 +128,9 @@ void cw_rays_free(CwRays **rays) {
 static int meets_box(const Box *box, const double x[3], const double inverse[3], double from, double to) {
   for (int k = 0; k < 3; k++) {
     double a = (box->low[k] - x[k]) * inverse[k], b = (box->high[k] - x[k]) * inverse[k];
-    from = fmax(from, fmin(a, b));
-    to = fmin(to, fmax(a, b));
+    double enters = a < b ? a : b, leaves = a < b ? b : a;
+    from = enters > from ? enters : from;
+    to = leaves < to ? leaves : to;
   }
   return from <= to;
 }

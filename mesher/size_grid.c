@@ -118,7 +118,8 @@ static int64_t sweep_once(CwSizeGrid *grid, int sweep, double step) {
         float *node = line + i;
         double a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row),
                c = least_of(node, k, n[2], slab);
-        double lowest = fmin(a, fmin(b, c));
+        double lowest = a < b ? a : b;
+        lowest = lowest < c ? lowest : c;
         if (lowest + 0.57 * step >= *node)
           continue; // no root is under lowest + step / sqrt(3)
         double f = upwind(a, b, c, step);
