@@ -14,9 +14,12 @@ typedef struct {
 
 static int by_points(const void *a, const void *b) {
   const HalfEdge *p = a, *q = b;
-  if (p->low != q->low) return p->low < q->low ? -1 : 1;
-  if (p->high != q->high) return p->high < q->high ? -1 : 1;
-  if (p->forward != q->forward) return p->forward < q->forward ? -1 : 1;
+  if (p->low != q->low)
+    return p->low < q->low ? -1 : 1;
+  if (p->high != q->high)
+    return p->high < q->high ? -1 : 1;
+  if (p->forward != q->forward)
+    return p->forward < q->forward ? -1 : 1;
   return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
 }
 
@@ -24,7 +27,8 @@ static int same_edge(const HalfEdge *a, const HalfEdge *b) {
   return a->low == b->low && a->high == b->high;
 }
 
-CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background, int32_t (**neighbour)[3]) {
+CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background,
+                                  int32_t (**neighbour)[3]) {
   CwStatus status = CW_OK;
   HalfEdge *half = NULL;
   int32_t(*across)[3] = NULL;
@@ -61,15 +65,16 @@ CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackg
   CwStatus status = CW_OK;
   int32_t(*neighbour)[3] = NULL;
   memset(background, 0, sizeof *background);
-  CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE, "deflection %g m and angle %g rad must be greater than zero",
-             deflection, angle);
+  CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE,
+             "deflection %g m and angle %g rad must be greater than zero", deflection, angle);
   CW_TRY(cw_background_tessellate(cad, deflection, angle, background));
   CW_TRY(cw_background_neighbours(cad, background, &neighbour)); // closed, or it fails
   CW_REQUIRE(cw_background_volume(background) > 0, CW_ERR_GEOMETRY,
              "the tessellation encloses %g m3; it must be positive", cw_background_volume(background));
 done:
   free(neighbour);
-  if (status != CW_OK) cw_background_free(background);
+  if (status != CW_OK)
+    cw_background_free(background);
   return status;
 }
 

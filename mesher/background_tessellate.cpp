@@ -25,7 +25,8 @@ struct Weld {
   std::vector<std::array<int32_t, 3>> triangle;
   std::vector<int32_t> face;
   std::vector<std::array<double, 6>> uv;
-  std::vector<std::vector<int32_t>> node; // point of each node of each face's triangulation; -1: inside the face
+  // Point of each node of each face's triangulation; -1: not met yet.
+  std::vector<std::vector<int32_t>> node;
 };
 
 Handle(Poly_Triangulation) triangulation_of(const CwCad *cad, int face, TopLoc_Location &location) {
@@ -46,14 +47,17 @@ CwStatus weld_edge(const CwCad *cad, int e, Weld &weld) {
     int face = edge.face[side];
     TopLoc_Location location;
     Handle(Poly_Triangulation) triangulation = triangulation_of(cad, face, location);
-    Handle(Poly_PolygonOnTriangulation) polygon = BRep_Tool::PolygonOnTriangulation(shape, triangulation, location);
+    Handle(Poly_PolygonOnTriangulation) polygon =
+        BRep_Tool::PolygonOnTriangulation(shape, triangulation, location);
     double x[3];
     cw_cad_vertex_point(cad, edge.vertex[0], x);
-    if (polygon.IsNull() || !polygon->HasParameters() || (side == 1 && polygon->NbNodes() != (int)point.size())) {
-      return CW_FAIL(CW_ERR_GEOMETRY,
-                     "faces '%s' and '%s': the tessellations do not match along their edge at (%.3f, %.3f, %.3f) mm",
-                     cw_cad_face_name(cad, edge.face[0]), cw_cad_face_name(cad, edge.face[1]), x[0] * 1e3, x[1] * 1e3,
-                     x[2] * 1e3);
+    if (polygon.IsNull() || !polygon->HasParameters() ||
+        (side == 1 && polygon->NbNodes() != (int)point.size())) {
+      return CW_FAIL(
+          CW_ERR_GEOMETRY,
+          "faces '%s' and '%s': the tessellations do not match along their edge at (%.3f, %.3f, %.3f) mm",
+          cw_cad_face_name(cad, edge.face[0]), cw_cad_face_name(cad, edge.face[1]), x[0] * 1e3, x[1] * 1e3,
+          x[2] * 1e3);
     }
     int count = polygon->NbNodes();
     if (side == 0) {
@@ -64,7 +68,8 @@ CwStatus weld_edge(const CwCad *cad, int e, Weld &weld) {
       }
       point.push_back(edge.vertex[1]);
     }
-    for (int i = 1; i <= count; i++) weld.node[face][polygon->Node(i) - 1] = point[i - 1];
+    for (int i = 1; i <= count; i++)
+      weld.node[face][polygon->Node(i) - 1] = point[i - 1];
   }
   return CW_OK;
 }
@@ -76,7 +81,8 @@ void add_face(const CwCad *cad, int face, Weld &weld) {
   for (int t = 1; t <= triangulation->NbTriangles(); t++) {
     int n[3];
     triangulation->Triangle(t).Get(n[0], n[1], n[2]);
-    if (cw_cad_face_reversed(cad, face)) std::swap(n[1], n[2]);
+    if (cw_cad_face_reversed(cad, face))
+      std::swap(n[1], n[2]);
     std::array<int32_t, 3> corner;
     std::array<double, 6> uv;
     for (int k = 0; k < 3; k++) {
@@ -91,7 +97,8 @@ void add_face(const CwCad *cad, int face, Weld &weld) {
       corner[k] = node[n[k] - 1];
     }
     // The library closes slits with triangles between two nodes of one vertex; they fold away in the weld.
-    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
+      continue;
     weld.triangle.push_back(corner);
     weld.face.push_back(face);
     weld.uv.push_back(uv);
@@ -110,7 +117,8 @@ CwStatus hand_over(const Weld &weld, CwBackground *background) {
   CW_REQUIRE(background->x && background->triangle && background->face && background->uv, CW_ERR_MEMORY,
              "out of memory: %zu background triangles", triangles);
   for (size_t i = 0; i < points; i++) {
-    for (int k = 0; k < 3; k++) background->x[i][k] = weld.x[i][k];
+    for (int k = 0; k < 3; k++)
+      background->x[i][k] = weld.x[i][k];
   }
   for (size_t t = 0; t < triangles; t++) {
     background->face[t] = weld.face[t];
@@ -144,9 +152,11 @@ CwStatus tessellate(CwCad *cad, double deflection, double angle, CwBackground *b
   }
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     CwStatus status = weld_edge(cad, e, weld);
-    if (status != CW_OK) return status;
+    if (status != CW_OK)
+      return status;
   }
-  for (int f = 0; f < cw_cad_face_count(cad); f++) add_face(cad, f, weld);
+  for (int f = 0; f < cw_cad_face_count(cad); f++)
+    add_face(cad, f, weld);
   BRepTools::Clean(cad->solid); // the weld holds all of it now
   return hand_over(weld, background);
 }

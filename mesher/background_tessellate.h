@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-// Tessellates each face and welds the faces through the nodes of their common edges. Points: first those on CAD
-// vertices, then along each edge, then inside each face. Does not check that the result is closed.
+// Tessellates each face and welds the faces through the nodes of their common edges. Points: first those on
+// CAD vertices, then along each edge, then inside each face. Does not check that the result is closed.
 CwStatus cw_background_tessellate(CwCad *cad, double deflection, double angle, CwBackground *background);
 
 #ifdef __cplusplus

@@ -16,15 +16,15 @@
 #include "mesher/face_table.h"
 
 // Parameters at which a spline changes its polynomial. An adaptor keeps the polynomial of its last span; at a
-// parameter a rounding error off a knot the span, and with it the last bits, would follow from the call before.
-// So such parameters are put on the knot.
+// parameter a rounding error off a knot the span, and with it the last bits, would follow from the call
+// before. So such parameters are put on the knot.
 struct CwCadKnots {
   std::vector<double> knot; // ascending; empty for anything but splines
   double snap(double parameter) const;
 };
 
 struct CwCadFace {
-  GeomAdaptor_Surface surface;  // location applied
+  GeomAdaptor_Surface surface; // location applied
   CwCadKnots u_knots, v_knots;
   double u_range[2], v_range[2]; // of the surface; infinite where it is unbounded or periodic
   int reversed;

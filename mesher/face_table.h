@@ -16,18 +16,19 @@ typedef struct {
 } CwFacePatch;
 
 typedef struct {
-  int patch;                // index into CwFaceTable.patch; -1: the file has no row for this face
+  int patch; // index into CwFaceTable.patch; -1: the file has no row for this face
   char name[CW_NAME_SIZE];
 } CwFaceRow;
 
 typedef struct {
   int face_count, patch_count;
-  CwFaceRow *face;          // by 0-based face
-  CwFacePatch *patch;       // in the order of their first row
+  CwFaceRow *face;    // by 0-based face
+  CwFacePatch *patch; // in the order of their first row
 } CwFaceTable;
 
-// Reads the rows of `domain` from `path` (columns domain,face,patch,kind,name). Fails with CW_ERR_INPUT and FILE:LINE
-// on a wrong row, a face outside 1..face_count, a face that is named twice or not at all, a patch with two kinds.
+// Reads the rows of `domain` from `path` (columns domain,face,patch,kind,name). Fails with CW_ERR_INPUT and
+// FILE:LINE on a wrong row, a face outside 1..face_count, a face that is named twice or not at all, a patch
+// with two kinds.
 CwStatus cw_face_table_read(const char *path, const char *domain, int face_count, CwFaceTable *table);
 void cw_face_table_free(CwFaceTable *table);
 

@@ -18,8 +18,8 @@ typedef struct CwRays CwRays;
 CwStatus cw_rays_make(const CwBackground *background, CwRays **rays);
 void cw_rays_free(CwRays **rays);
 
-// First triangle through which x + s * direction (unit vector) leaves the domain, from < s < to; -1: none. Hits from
-// outside in are passed over: from a point on the wall they can only be rounding. *distance gets s.
+// First triangle through which x + s * direction (unit vector) leaves the domain, from < s < to; -1: none.
+// Hits from outside in are passed over: from a point on the wall they can only be rounding. *distance gets s.
 int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
                      double *distance);
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Twice the area of (a, b, p) in the plane of y and z, with the same rounding for both directions of an edge, so that
-// two triangles that share it agree on which of them p lies in.
+// Twice the area of (a, b, p) in the plane of y and z, with the same rounding for both directions of an edge,
+// so that two triangles that share it agree on which of them p lies in.
 static int left_of(const CwBackground *background, int32_t a, int32_t b, const double p[2], double *area) {
   int turned = a > b;
   const double *low = background->x[turned ? b : a], *high = background->x[turned ? a : b];
@@ -20,11 +20,14 @@ static int meets(const CwBackground *background, int32_t t, const double p[2], d
   const int32_t *n = background->triangle[t];
   double area[3];
   int left[3];
-  for (int k = 0; k < 3; k++) left[k] = left_of(background, n[(k + 1) % 3], n[(k + 2) % 3], p, &area[k]);
-  if (left[0] != left[1] || left[1] != left[2]) return 0;
+  for (int k = 0; k < 3; k++)
+    left[k] = left_of(background, n[(k + 1) % 3], n[(k + 2) % 3], p, &area[k]);
+  if (left[0] != left[1] || left[1] != left[2])
+    return 0;
   double sum = area[0] + area[1] + area[2];
   *x = 0;
-  for (int k = 0; k < 3; k++) *x += (sum != 0 ? area[k] / sum : 1.0 / 3) * background->x[n[k]][0];
+  for (int k = 0; k < 3; k++)
+    *x += (sum != 0 ? area[k] / sum : 1.0 / 3) * background->x[n[k]][0];
   return 1;
 }
 
@@ -57,7 +60,8 @@ static LineRange lines_over(const CwBackground *background, int32_t t, const CwS
   return range;
 }
 
-// Visits all crossings. Counts them in start[line + 1], or stores them from start[line] on, which moves along.
+// Visits all crossings. Counts them in start[line + 1], or stores them from start[line] on, which moves
+// along.
 static void visit(const CwBackground *background, CwScanlines *lines, int64_t *start, int store) {
   for (int32_t t = 0; t < background->triangle_count; t++) {
     LineRange range = lines_over(background, t, lines);
@@ -66,7 +70,8 @@ static void visit(const CwBackground *background, CwScanlines *lines, int64_t *s
         double p[2], x;
         cw_scanlines_place(lines, j, k, p);
         size_t line = (size_t)j + (size_t)lines->count[0] * (size_t)k;
-        if (!meets(background, t, p, &x)) continue;
+        if (!meets(background, t, p, &x))
+          continue;
         if (store) {
           lines->crossing[start[line]++] = x;
         } else {
@@ -96,7 +101,8 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
   size_t count = (size_t)lines->count[0] * (size_t)lines->count[1];
   CW_NEW(lines->start, count + 1);
   visit(background, lines, lines->start, 0);
-  for (size_t i = 0; i < count; i++) lines->start[i + 1] += lines->start[i];
+  for (size_t i = 0; i < count; i++)
+    lines->start[i + 1] += lines->start[i];
   CW_NEW(lines->crossing, lines->start[count]);
   CW_NEW(next, count);
   memcpy(next, lines->start, count * sizeof *next);
@@ -112,20 +118,22 @@ done:
   return status;
 }
 
-CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], const double high[2], double spacing,
-                           CwScanlines *lines) {
+CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], const double high[2],
+                           double spacing, CwScanlines *lines) {
   CwStatus status = CW_OK;
   int64_t odd = 1;
   memset(lines, 0, sizeof *lines);
-  // A line through a corner of the triangulation may be counted wrong by rounding: then other lines are tried.
+  // A line through a corner of the triangulation may be counted wrong by rounding: then other lines are
+  // tried.
   for (int32_t variant = 0; variant < 4 && odd > 0; variant++) {
     cw_scanlines_free(lines);
     CW_TRY(cut(background, low, high, spacing, variant, lines, &odd));
   }
-  CW_REQUIRE(odd == 0, CW_ERR_GEOMETRY, "%lld lines through the domain enter it and do not leave: it is not closed",
-             (long long)odd);
+  CW_REQUIRE(odd == 0, CW_ERR_GEOMETRY,
+             "%lld lines through the domain enter it and do not leave: it is not closed", (long long)odd);
 done:
-  if (status != CW_OK) cw_scanlines_free(lines);
+  if (status != CW_OK)
+    cw_scanlines_free(lines);
   return status;
 }
 

@@ -62,7 +62,8 @@ done:
 }
 
 void cw_size_free(CwSize **size) {
-  if (!*size) return;
+  if (!*size)
+    return;
   cw_size_grid_free(&(*size)->grid);
   cw_scanlines_free(&(*size)->lines);
   free(*size);
@@ -82,7 +83,8 @@ double cw_size_at(const void *size, const double x[3]) {
   return field->scale * cw_size_grid_at(&field->grid, x);
 }
 
-// Cuts the inside runs of all lines into lengths of about one spacing; stores them where x is not NULL. Returns how many.
+// Cuts the inside runs of all lines into lengths of about one spacing; stores them where x is not NULL.
+// Returns how many.
 static int64_t cut_runs(const CwScanlines *lines, double (*x)[3], double *volume) {
   int64_t count = 0;
   double area = lines->spacing * lines->spacing;
@@ -95,7 +97,8 @@ static int64_t cut_runs(const CwScanlines *lines, double (*x)[3], double *volume
         double begin = lines->crossing[c], length = lines->crossing[c + 1] - begin;
         int64_t parts = (int64_t)fmax(round(length / lines->spacing), 1);
         for (int64_t i = 0; i < parts; i++, count++) {
-          if (!x) continue;
+          if (!x)
+            continue;
           x[count][0] = begin + length * ((double)i + 0.5) / (double)parts;
           x[count][1] = place[0];
           x[count][2] = place[1];

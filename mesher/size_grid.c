@@ -22,12 +22,15 @@ CwStatus cw_size_grid_make(const double low[3], const double high[3], double spa
   CwStatus status = CW_OK;
   memset(grid, 0, sizeof *grid);
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  while (node_count(extent, spacing, grid->count) > (double)node_limit) spacing *= 1.02;
+  while (node_count(extent, spacing, grid->count) > (double)node_limit)
+    spacing *= 1.02;
   grid->spacing = spacing;
-  for (int k = 0; k < 3; k++) grid->low[k] = low[k] - spacing;
+  for (int k = 0; k < 3; k++)
+    grid->low[k] = low[k] - spacing;
   size_t nodes = (size_t)grid->count[0] * grid->count[1] * grid->count[2];
   CW_NEW(grid->value, nodes);
-  for (size_t i = 0; i < nodes; i++) grid->value[i] = unset;
+  for (size_t i = 0; i < nodes; i++)
+    grid->value[i] = unset;
 done:
   return status;
 }
@@ -56,7 +59,8 @@ void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value) {
   size_t row = (size_t)grid->count[0], slab = row * (size_t)grid->count[1];
   const size_t corner[8] = {0, 1, row, row + 1, slab, slab + 1, slab + row, slab + row + 1};
   for (int c = 0; c < 8; c++) {
-    if (value < node[corner[c]]) node[corner[c]] = (float)value;
+    if (value < node[corner[c]])
+      node[corner[c]] = (float)value;
   }
 }
 
@@ -77,13 +81,18 @@ double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]) {
 // The root of sum over the upwind directions (f - a)^2 = step^2, with as many of the three as lie under it.
 static double upwind(double a, double b, double c, double step) {
   double swap;
-  if (a > b) swap = a, a = b, b = swap;
-  if (b > c) swap = b, b = c, c = swap;
-  if (a > b) swap = a, a = b, b = swap;
+  if (a > b)
+    swap = a, a = b, b = swap;
+  if (b > c)
+    swap = b, b = c, c = swap;
+  if (a > b)
+    swap = a, a = b, b = swap;
   double f = a + step;
-  if (f <= b) return f;
+  if (f <= b)
+    return f;
   f = 0.5 * (a + b + sqrt(2 * step * step - (a - b) * (a - b)));
-  if (f <= c) return f;
+  if (f <= c)
+    return f;
   double sum = a + b + c;
   return (sum + sqrt(fmax(0.0, sum * sum - 3 * (a * a + b * b + c * c - step * step)))) / 3;
 }
@@ -107,9 +116,12 @@ static int64_t sweep_once(CwSizeGrid *grid, int sweep, double step) {
       for (int32_t ii = 0; ii < n[0]; ii++) {
         int32_t i = sweep & 1 ? n[0] - 1 - ii : ii;
         float *node = line + i;
-        double a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row), c = least_of(node, k, n[2], slab);
-        double lowest = fmin(a, fmin(b, c));
-        if (lowest + 0.57 * step >= *node) continue; // no root is under lowest + step / sqrt(3)
+        double a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row),
+               c = least_of(node, k, n[2], slab);
+        double lowest = a < b ? a : b;
+        lowest = lowest < c ? lowest : c;
+        if (lowest + 0.57 * step >= *node)
+          continue; // no root is under lowest + step / sqrt(3)
         double f = upwind(a, b, c, step);
         if (f < *node - least_change) {
           *node = (float)f;

@@ -34,9 +34,11 @@ static double dot(const double a[3], const double b[3]) {
 }
 
 static void unit_cross(const double a[3], const double b[3], double n[3]) {
-  for (int k = 0; k < 3; k++) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+  for (int k = 0; k < 3; k++)
+    n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
   double size = length(n);
-  for (int k = 0; k < 3; k++) n[k] = size > 0 ? n[k] / size : 0;
+  for (int k = 0; k < 3; k++)
+    n[k] = size > 0 ? n[k] / size : 0;
 }
 
 static void triangle_normal(const CwBackground *background, int32_t t, double n[3]) {
@@ -49,7 +51,8 @@ static void triangle_normal(const CwBackground *background, int32_t t, double n[
   unit_cross(e, f, n);
 }
 
-// Exact outward normal at the middle of edge (k, k+1) of a triangle: facets would show creases on every coarse curve.
+// Exact outward normal at the middle of edge (k, k+1) of a triangle: facets would show creases on every
+// coarse curve.
 static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3]) {
   const CwBackground *b = input->background;
   const double *p = b->uv[t][k], *q = b->uv[t][(k + 1) % 3];
@@ -58,7 +61,8 @@ static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3])
   cw_cad_face_point(input->cad, b->face[t], uv, x, xu, xv);
   unit_cross(xu, xv, n);
   if (cw_cad_face_reversed(input->cad, b->face[t])) {
-    for (int i = 0; i < 3; i++) n[i] = -n[i];
+    for (int i = 0; i < 3; i++)
+      n[i] = -n[i];
   }
 }
 
@@ -79,17 +83,22 @@ static CwStatus measure_creases(Surface *surface) {
   for (int32_t t = 0; t < b->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t other = neighbour[t][k];
-      if (other < t || b->face[other] == b->face[t]) continue;
+      if (other < t || b->face[other] == b->face[t])
+        continue;
       int side = 0;
-      while (neighbour[other][side] != t) side++;
+      while (neighbour[other][side] != t)
+        side++;
       double n[3], m[3], facet[3], away[3];
       edge_normal(surface->input, t, k, n);
       edge_normal(surface->input, other, side, m);
-      if (dot(n, m) > crease_angle_cosine) continue;
+      if (dot(n, m) > crease_angle_cosine)
+        continue;
       triangle_normal(b, t, facet);
       const double *from = b->x[b->triangle[t][k]], *apex = b->x[b->triangle[other][(side + 2) % 3]];
-      for (int i = 0; i < 3; i++) away[i] = apex[i] - from[i];
-      if (dot(facet, away) >= 0) continue; // the walls turn away from each other: no wedge of fluid
+      for (int i = 0; i < 3; i++)
+        away[i] = apex[i] - from[i];
+      if (dot(facet, away) >= 0)
+        continue; // the walls turn away from each other: no wedge of fluid
       seed_along(&surface->crease_distance, from, b->x[b->triangle[t][(k + 1) % 3]], 0);
     }
   }
@@ -107,8 +116,10 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   const double inward[3] = {-outward[0], -outward[1], -outward[2]};
   double cells = fmax(input->table->cells_across_gap, 1), distance;
   int32_t hit = cw_rays_exit(surface->rays, x, inward, 1e-3 * patch_size, cells * patch_size, &distance);
-  if (hit < 0) return INFINITY;
-  int patch = cw_cad_face_patch(input->cad, b->face[t]), hit_patch = cw_cad_face_patch(input->cad, b->face[hit]);
+  if (hit < 0)
+    return INFINITY;
+  int patch = cw_cad_face_patch(input->cad, b->face[t]),
+      hit_patch = cw_cad_face_patch(input->cad, b->face[hit]);
   // Before an open face there are no layers and no velocity profile: two cells do.
   if (cw_cad_patch_kind(input->cad, patch) != CW_PATCH_WALL ||
       cw_cad_patch_kind(input->cad, hit_patch) != CW_PATCH_WALL) {
@@ -117,22 +128,26 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   double met[3];
   triangle_normal(b, hit, met);
   double facing = dot(inward, met);
-  if (facing < least_facing) return INFINITY;
+  if (facing < least_facing)
+    return INFINITY;
   if (facing < parallel_facing) {
     // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
     double meeting = distance * facing / sqrt(1 - facing * facing);
     double crease = cw_size_grid_at(&surface->crease_distance, x);
-    if (crease < fmax(2 * patch_size, 1.2 * meeting)) return INFINITY;
+    if (crease < fmax(2 * patch_size, 1.2 * meeting))
+      return INFINITY;
   }
   return fmax(distance / cells, cw_size_least_share * input->base_size);
 }
 
 static void centre_of(const Piece *piece, double x[3], double *curvature) {
-  for (int k = 0; k < 3; k++) x[k] = (piece->x[0][k] + piece->x[1][k] + piece->x[2][k]) / 3;
+  for (int k = 0; k < 3; k++)
+    x[k] = (piece->x[0][k] + piece->x[1][k] + piece->x[2][k]) / 3;
   *curvature = (piece->curvature[0] + piece->curvature[1] + piece->curvature[2]) / 3;
 }
 
-// Halves the longest edge where it is longer than `limit`; the second half goes to *other. Returns whether it did.
+// Halves the longest edge where it is longer than `limit`; the second half goes to *other. Returns whether it
+// did.
 static int halve(Piece *piece, double limit, Piece *other) {
   int longest = 0;
   double most = -1;
@@ -144,7 +159,8 @@ static int halve(Piece *piece, double limit, Piece *other) {
       longest = k;
     }
   }
-  if (most <= limit) return 0;
+  if (most <= limit)
+    return 0;
   int next = (longest + 1) % 3;
   *other = *piece;
   for (int k = 0; k < 3; k++) {
@@ -206,11 +222,13 @@ CwStatus cw_size_seed_surface(const CwSizeInput *input, CwSizeGrid *grid) {
   CwStatus status = CW_OK;
   Surface surface = {.input = input, .grid = grid};
   double high[3];
-  for (int k = 0; k < 3; k++) high[k] = grid->low[k] + grid->spacing * (grid->count[k] - 1);
+  for (int k = 0; k < 3; k++)
+    high[k] = grid->low[k] + grid->spacing * (grid->count[k] - 1);
   CW_TRY(cw_rays_make(input->background, &surface.rays));
   CW_TRY(cw_size_grid_make(grid->low, high, 2 * grid->spacing, INT32_MAX, &surface.crease_distance));
   CW_TRY(measure_creases(&surface));
-  for (int32_t t = 0; t < input->background->triangle_count; t++) seed_triangle(&surface, t);
+  for (int32_t t = 0; t < input->background->triangle_count; t++)
+    seed_triangle(&surface, t);
 done:
   cw_rays_free(&surface.rays);
   cw_size_grid_free(&surface.crease_distance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Small exact solids for the tests of the mesher, written as the geometry stage writes its own: a B-rep in mm and
-// faces.csv, in a temporary folder under the current one.
+// Small exact solids for the tests of the mesher, written as the geometry stage writes its own: a B-rep in mm
+// and faces.csv, in a temporary folder under the current one.
 #ifndef CUTWATER_TESTS_MESHER_SOLIDS_H
 #define CUTWATER_TESTS_MESHER_SOLIDS_H
 
@@ -30,15 +30,18 @@ extern "C" {
 }
 
 // cmocka's own comparison is in float.
-#define assert_near(value, wanted, tolerance)                                                                        \
+#define assert_near(value, wanted, tolerance)                                                                \
   do {                                                                                                       \
     double value_ = (value), wanted_ = (wanted);                                                             \
-    if (!(std::fabs(value_ - wanted_) <= (tolerance))) fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);  \
+    if (!(std::fabs(value_ - wanted_) <= (tolerance)))                                                       \
+      fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);                                             \
   } while (0)
 
 struct TemporaryFolder {
   char path[64] = "cutwater-test-XXXXXX";
-  TemporaryFolder() { assert_non_null(mkdtemp(path)); }
+  TemporaryFolder() {
+    assert_non_null(mkdtemp(path));
+  }
   ~TemporaryFolder() {
     std::remove((std::string(path) + "/part.brep").c_str());
     std::remove((std::string(path) + "/faces.csv").c_str());
@@ -64,7 +67,8 @@ inline void write_text(const TemporaryFolder &folder, const char *text) {
   std::fclose(file);
 }
 
-inline void write_solid(const TemporaryFolder &folder, const TopoDS_Shape &solid, const PatchOfFace &patch_of) {
+inline void write_solid(const TemporaryFolder &folder, const TopoDS_Shape &solid,
+                        const PatchOfFace &patch_of) {
   assert_true(BRepTools::Write(solid, (std::string(folder.path) + "/part.brep").c_str()));
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid, TopAbs_FACE, faces);
@@ -80,7 +84,8 @@ inline CwCad *open_solid(const TopoDS_Shape &solid, const PatchOfFace &patch_of 
   TemporaryFolder folder;
   CwCad *cad = nullptr;
   write_solid(folder, solid, patch_of);
-  if (cw_cad_open(folder.path, "part", &cad) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_cad_open(folder.path, "part", &cad) != CW_OK)
+    fail_msg("%s", cw_fail_message());
   return cad;
 }
 

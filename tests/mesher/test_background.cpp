@@ -14,15 +14,18 @@ static const double radius = 0.005, height = 0.012;
 
 static CwBackground make(CwCad *cad, double deflection) {
   CwBackground background;
-  if (cw_background_make(cad, deflection, 0.2, &background) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_background_make(cad, deflection, 0.2, &background) != CW_OK)
+    fail_msg("%s", cw_fail_message());
   return background;
 }
 
-// Independent of the check inside: each directed edge once, its opposite once; Euler's number of a ball's surface.
+// Independent of the check inside: each directed edge once, its opposite once; Euler's number of a ball's
+// surface.
 static void check_closed(const CwBackground *b) {
   std::map<std::pair<int32_t, int32_t>, int> directed;
   for (int32_t t = 0; t < b->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) directed[{b->triangle[t][k], b->triangle[t][(k + 1) % 3]}]++;
+    for (int k = 0; k < 3; k++)
+      directed[{b->triangle[t][k], b->triangle[t][(k + 1) % 3]}]++;
   }
   for (const auto &item : directed) {
     assert_int_equal(item.second, 1);

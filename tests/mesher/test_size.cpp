@@ -108,7 +108,8 @@ static void gaps_get_their_cells(void **state) {
 
 static void walls_of_a_wedge_are_no_gap(void **state) {
   Model wedge(BRepPrimAPI_MakeCylinder(50, 50, M_PI / 6).Shape(), 2, 0.5, 4, {1});
-  for (double r = 2; r < 20; r += 1) assert_near(wedge.at(r, 0, 25), 2, 0.02);
+  for (double r = 2; r < 20; r += 1)
+    assert_near(wedge.at(r, 0, 25), 2, 0.02);
 }
 
 static void narrow_faces_get_their_width(void **state) {
@@ -133,7 +134,8 @@ static void growth_is_limited(void **state) {
     }
     double apart = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
     double change = std::fabs(block.at(p[0], p[1], p[2]) - block.at(q[0], q[1], q[2]));
-    // The first-order sweep is 6 % off far from small features; a fifth of the spacing is for the interpolation.
+    // The first-order sweep is 6 % off far from small features; a fifth of the spacing is for the
+    // interpolation.
     assert_true(change <= gradation * (apart * 1.06 + 0.2 * 1.8));
     // No more than the bevel allows.
     double off = std::hypot(30 - p[0], p[1]);
