@@ -263,7 +263,7 @@ static void boundary_turned_inside_out(void **state) {
 static void self_intersection_is_named_with_its_place(void **state) {
   Surface s = {0};
   surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){4, 4, 4}, 1);
-  surface_add_sphere(&s, (double[3]){0.04, 0.02, 0.02}, 0.01, 1, 1); // half out
+  surface_add_sphere(&s, (double[3]){0.0403, 0.0211, 0.0207}, 0.01, 1, 1); // half out
   fails_with(&s, &(Field){.size = 0.01}, "crosses itself");
   double at[3];
   const char *place = strchr(cw_fail_message(), '(');
