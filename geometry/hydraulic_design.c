@@ -106,19 +106,25 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   const double cm = design->flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
   SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
   SET(inlet_meridional_speed, cm, "Q / area");
-  // A wrap that asks for steep blades is best met by a nearly even law; else the flow with a little incidence rules.
+  // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
   // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
   const int wrapped = table->impeller.priority == CW_PRIORITY_WRAP;
-  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) - 4 * degree : 0;
+  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) : 0;
+  const char *source = "flow angle + 4 deg";
   double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
     tau = 1 / (1 - z * design->leading_edge_thickness / (2 * M_PI * r * sin(beta)));
     flow = atan2(cm * tau, u);
     if (!cw_case_given(given))
-      beta = fmax(flow + 4 * degree, spiral);
+      beta = flow + 4 * degree;
+    if (!cw_case_given(given) && wrapped)
+      beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
   }
-  TAKE(inlet_blade_angle, given, beta,
-       beta == spiral ? "4 deg under the logarithmic spiral of the wrap" : "flow angle + 4 deg");
+  if (wrapped && beta == spiral - 4 * degree)
+    source = "4 deg under the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral + 2 * degree)
+    source = "2 deg over the logarithmic spiral of the wrap";
+  TAKE(inlet_blade_angle, given, beta, source);
   SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
   SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
   SET(incidence, beta - flow, "beta1 - flow angle");
