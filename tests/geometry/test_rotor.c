@@ -156,7 +156,7 @@ static void every_face_has_a_patch(void **state) {
 static void sweep(void **state) {
   static const double wraps[] = {71, 110, 150}, widths[] = {5, 8, 16};
   for (int z = 3; z <= 9; z++)
-    for (int i = 0; i < 3; i++) {
+    for (int i = z % 3; i < 3; i += 2) {
       CwCase table = paper();
       table.impeller.blade_count = z;
       table.impeller.wrap_angle = wraps[i] * degree;
