@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
   const char *path; // as shown
   struct fy_parser *parser;
-  Place root;
+  Place root, last; // of the mapping that is the file, and of the newest event
   CwCase table;
   CwCasePlace *places;   // one a key
   CwCasePlace *sections; // one a key: the place of the section that begins with that key
@@ -70,7 +70,8 @@ static CwStatus next_event(Reader *reader, Event *event) {
   }
   event->type = raw->type;
   const struct fy_mark *mark = fy_event_start_mark(raw);
-  if (mark) event->place = (Place){mark->line + 1, mark->column + 1};
+  // An empty key or value has no mark: it lies behind what came before.
+  event->place = mark ? (Place){mark->line + 1, mark->column + 1} : reader->last;
   event->tagged = fy_event_get_tag_token(raw) != NULL;
   if (raw->type == FYET_SCALAR) {
     size_t length = 0;
@@ -82,8 +83,13 @@ static CwStatus next_event(Reader *reader, Event *event) {
     // An escape in quotes can make any character; behind a zero byte nothing may hide.
     for (size_t i = 0; i < length; ++i)
       if (!event->text[i]) event->text[i] = '?';
-    event->plain = !raw->scalar.value || fy_token_scalar_style(raw->scalar.value) == FYSS_PLAIN;
+    enum fy_scalar_style style = raw->scalar.value ? fy_token_scalar_style(raw->scalar.value) : FYSS_PLAIN;
+    event->plain = style == FYSS_PLAIN;
+    // The library's mark stands behind the opening quote, and behind the star of an alias.
+    if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED) --event->place.column;
   }
+  if (raw->type == FYET_ALIAS) --event->place.column;
+  reader->last = event->place;
 done:
   if (raw) fy_parser_event_free(reader->parser, raw);
   return status;
@@ -127,8 +133,6 @@ static CwStatus read_pair(Reader *reader, const char *section, const Event *key,
     CW_REQUIRE(0, CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, key->place.line, key->place.column, path,
                wrong);
   }
-  // An empty value has no place of its own.
-  if (!value->place.line) value->place = key->place;
   CW_TRY(require_once(reader, path, &reader->places[index], key->place, value->place));
   cw_case_key_allowed(&cw_case_keys[index], allowed);
   CW_REQUIRE(scalar, CW_ERR_INPUT, "%s:%d:%d: %s: it is %s, not one value; allowed: %s", reader->path,
@@ -186,7 +190,6 @@ static CwStatus read_top(Reader *reader) {
       continue;
     }
     CW_TRY(require_once(reader, key.text, section_place(reader, key.text), key.place, key.place));
-    if (!value.place.line) value.place = key.place;
     cw_show(value.text, shown);
     CW_REQUIRE(
         value.type == FYET_MAPPING_START, CW_ERR_INPUT,
@@ -296,7 +299,7 @@ CwStatus cw_case_read(const char *path, CwCase *table) {
   char *text = NULL, shown_path[PATH_SHOWN + 4];
   size_t length = 0;
   struct fy_diag *diag = NULL;
-  Reader reader = {.path = shown_path};
+  Reader reader = {.path = shown_path, .last = {1, 1}};
   // A path of thousands of characters would push the rest out of the message.
   size_t path_length = strlen(path);
   int cut = path_length > PATH_SHOWN;

@@ -160,6 +160,10 @@ void cw_case_key_unknown(const char *section, const char *name, const char *text
   const CwCaseKey *key = key_of_other_unit(section, name);
   const char *nearest = NULL;
   int least = -1;
+  if (!name[0]) {
+    snprintf(wrong, CW_WRONG_SIZE, "the key is empty; allowed: the keys of docs/case-reference.md");
+    return;
+  }
   if (key) {
     wrong_unit(key, name, text, wrong);
     return;
