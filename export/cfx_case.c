@@ -41,11 +41,10 @@ done:
   return status;
 }
 
-CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwMesh *mesh) {
+CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwMesh *mesh) {
   CwStatus status = CW_OK;
   CwValues values = {0};
   const CwOperatingPoint *point = &table->operating_point;
-  (void)design;
   CW_TRY(set_locations(mesh, is_turning_wall, "rotating_walls", &values));
   CW_TRY(set_locations(mesh, is_fixed_rotor_wall, "rotor_fixed_walls", &values));
   CW_TRY(set_locations(mesh, is_stator_wall, "stator_walls", &values));
@@ -54,6 +53,18 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwDesi
   CW_TRY(cw_values_set(&values, "mass_flow", "%.9g", point->flow_rate * table->fluid.density));
   CW_TRY(cw_values_set(&values, "inlet_pressure", "%.9g", point->inlet_pressure));
   CW_TRY(cw_values_set(&values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
+  CW_TRY(cw_values_set(&values, "rotor_interface", "%s",
+                       mesh->patches[cw_mesh_patch_of_kind(mesh, CW_EXPORT_ROTOR, CW_KIND_INTERFACE)].name));
+  CW_TRY(cw_values_set(&values, "stator_interface", "%s",
+                       mesh->patches[cw_mesh_patch_of_kind(mesh, CW_EXPORT_STATOR, CW_KIND_INTERFACE)].name));
+  // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of OpenFOAM.
+  if (table->walls.roughness > 0)
+    CW_TRY(cw_values_set(&values, "wall_roughness",
+                         "Option = Rough Wall\n          Sand Grain Roughness Height = %.9g [micron]",
+                         1e6 * table->walls.roughness));
+  else
+    CW_TRY(cw_values_set(&values, "wall_roughness", "Option = Smooth Wall"));
+  CW_TRY(cw_values_set(&values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
   CW_TRY(cw_values_set(&values, "density", "%.9g", table->fluid.density));
   CW_TRY(cw_values_set(&values, "dynamic_viscosity", "%.9g",
                        table->fluid.density * table->fluid.kinematic_viscosity));

@@ -205,7 +205,8 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   CW_TRY(cw_values_set(values, "head", "%.9g", point->head));
   CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", point->inlet_pressure));
   CW_TRY(cw_values_set(values, "time_step", "%.9g", point->time_step_angle / point->speed));
-  CW_TRY(cw_values_set(values, "turn_time", "%.9g", 2 * M_PI / point->speed));
+  CW_TRY(cw_values_set(values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
+  CW_TRY(cw_values_set(values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
   CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
   CW_TRY(cw_values_set(values, "viscosity", "%.9g", table->fluid.kinematic_viscosity));
   CW_TRY(cw_values_set(values, "turbulence_model", "%s", resolved ? "kOmegaSST" : "kEpsilon"));
