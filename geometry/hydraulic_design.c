@@ -24,32 +24,13 @@ static const double degree = M_PI / 180;
     design->source[CW_DESIGN_##member] = (text);                                                             \
   } while (0)
 
-// Flow Q = K integral b/r dr from r3 to ro through a trapezoid of width b3 at r3 and side walls at `angle`.
-static double trapezoid_flow_over_swirl(double r3, double b3, double angle, double ro) {
-  const double t = tan(angle);
-  return (b3 - 2 * r3 * t) * log(ro / r3) + 2 * t * (ro - r3);
-}
-
-static double throat_area_for_swirl(double r3, double b3, double angle, double flow_over_swirl) {
-  double low = r3, high = 20 * r3;
-  for (int i = 0; i < 100; i++) {
-    const double ro = 0.5 * (low + high);
-    if (trapezoid_flow_over_swirl(r3, b3, angle, ro) < flow_over_swirl)
-      low = ro;
-    else
-      high = ro;
-  }
-  const double h = low - r3;
-  return b3 * h + tan(angle) * h * h;
-}
-
-// Smallest of the standard bores whose mean speed stays under 4 m/s.
-static double standard_bore(double flow_rate) {
+// Smallest of the standard bores whose mean speed stays under 4 m/s and that is wider than `least`, m.
+static double standard_bore(double flow_rate, double least) {
   static const double bore[] = {0.015, 0.020, 0.025, 0.032, 0.040, 0.050, 0.065, 0.080, 0.100, 0.125,
                                 0.150, 0.200, 0.250, 0.300, 0.350, 0.400, 0.500, 0.600, 0.800, 1.000};
   const size_t count = sizeof bore / sizeof *bore;
   for (size_t i = 0; i < count; i++)
-    if (flow_rate / (M_PI / 4 * bore[i] * bore[i]) < 4)
+    if (flow_rate / (M_PI / 4 * bore[i] * bore[i]) < 4 && bore[i] > least)
       return bore[i];
   return bore[count - 1];
 }
@@ -106,19 +87,25 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   const double cm = design->flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
   SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
   SET(inlet_meridional_speed, cm, "Q / area");
-  // A wrap that asks for steep blades is best met by a nearly even law; else the flow with a little incidence rules.
+  // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
   // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
   const int wrapped = table->impeller.priority == CW_PRIORITY_WRAP;
-  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) - 4 * degree : 0;
+  const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) : 0;
+  const char *source = "flow angle + 4 deg";
   double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
     tau = 1 / (1 - z * design->leading_edge_thickness / (2 * M_PI * r * sin(beta)));
     flow = atan2(cm * tau, u);
     if (!cw_case_given(given))
-      beta = fmax(flow + 4 * degree, spiral);
+      beta = flow + 4 * degree;
+    if (!cw_case_given(given) && wrapped)
+      beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
   }
-  TAKE(inlet_blade_angle, given, beta,
-       beta == spiral ? "4 deg under the logarithmic spiral of the wrap" : "flow angle + 4 deg");
+  if (wrapped && beta == spiral - 4 * degree)
+    source = "4 deg under the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral + 2 * degree)
+    source = "2 deg over the logarithmic spiral of the wrap";
+  TAKE(inlet_blade_angle, given, beta, source);
   SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
   SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
   SET(incidence, beta - flow, "beta1 - flow angle");
@@ -202,31 +189,48 @@ done:
   return status;
 }
 
-static void volute(const CwVoluteTable *given, CwDesign *design) {
+static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
+  CwStatus status = CW_OK;
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   SET(swirl_constant, design->outlet_swirl_speed * r2, "c_u2 r2");
   TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
-  TAKE(throat_area, given->throat_area,
-       throat_area_for_swirl(r3, design->inlet_width, design->side_wall_angle,
-                             design->flow_rate / design->swirl_constant),
-       "constant angular momentum K through a trapezoid, 360 deg");
-  SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
-  TAKE(tongue_radius, given->tongue_radius, 0.0015, "1.5 mm: casting");
-  TAKE(discharge_diameter, given->outlet_diameter, standard_bore(design->flow_rate), "standard bore under 4 m/s");
-  const double throat_diameter = sqrt(4 * design->throat_area / M_PI);
-  const double rise = fmax(design->discharge_diameter - throat_diameter, 0.1 * design->discharge_diameter);
-  TAKE(diffuser_length, given->diffuser_length, rise / (2 * tan(4.5 * degree)), "cone of equal areas, full angle 9 deg");
-  SET(diffuser_angle,
-      2 * atan((design->discharge_diameter - throat_diameter) / (2 * design->diffuser_length)),
-      "cone of equal areas");
+  TAKE(tongue_radius, given->tongue_radius, 0.0075 * design->outlet_diameter, "0.0075 D2: casting");
+  // A plain trapezoid is near enough to see how wide the throat will be.
+  const double height = cw_volute_trapezoid_height(r3, design->inlet_width, design->side_wall_angle,
+                                                   design->flow_rate / design->swirl_constant);
+  const double area = height * (design->inlet_width + height * tan(design->side_wall_angle));
+  TAKE(discharge_diameter, given->outlet_diameter, standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
+       "standard bore under 4 m/s, wider than the throat");
   TAKE(discharge_pipe_length, given->discharge_pipe_length, 2 * design->discharge_diameter, "2 DN");
-  // Gulich's least distance of the tongue, d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
+  // Gulich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
   const double gap = r2 * (1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->head / 1000) - r3;
-  if (cw_case_given(given->tongue_gap))
-    SET(tongue_tip_radius, r3 + given->tongue_gap, "case: D3/2 + tongue gap");
-  else
-    SET(tongue_tip_radius, r3 + fmax(gap, 2 * design->tongue_radius),
-        "Gulich: r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
+  const CwVoluteInput input = {
+      .flow_rate = design->flow_rate,
+      .angular_momentum = design->swirl_constant,
+      .interface_radius = design->interface_radius,
+      .neck_width = design->outlet_width,
+      .base_diameter = design->base_diameter,
+      .inlet_width = design->inlet_width,
+      .side_wall_angle = design->side_wall_angle,
+      .throat_area = given->throat_area,
+      .tongue_radius = design->tongue_radius,
+      .tongue_gap = given->tongue_gap,
+      .least_tongue_gap = cw_case_given(given->tongue_gap) || gap < 0 ? NAN : gap,
+      .diffuser_length = given->diffuser_length,
+      .diffuser_angle = 9 * degree,
+      .outlet_diameter = design->discharge_diameter,
+      .discharge_pipe_length = design->discharge_pipe_length,
+  };
+  CW_TRY(cw_volute_design(&input, &design->volute));
+  TAKE(throat_area, given->throat_area, design->volute.throat_area, "constant angular momentum K");
+  SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
+  SET(tongue_tip_radius, design->volute.tip_radius,
+      cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
+                                       : "well shaped, at least Gulich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
+  TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length, "full angle 9 deg");
+  SET(diffuser_angle, design->volute.diffuser_angle, "cone of equal areas");
+done:
+  return status;
 }
 
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
@@ -243,7 +247,7 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,
        cw_blade_balanced_bevel(design->trailing_edge_thickness, design->outlet_blade_angle),
        "as long as the rest of the trailing edge");
-  volute(&table->volute, design);
+  CW_TRY(volute(&table->volute, design));
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   SET(relative_speed, 0.5 * (design->inlet_relative_speed + design->outlet_relative_speed), "(w1 + w2) / 2");
   SET(volute_speed, 0.5 * (design->outlet_swirl_speed * r2 / r3 + design->throat_speed),

@@ -9,6 +9,7 @@
 
 #include <stddef.h>
 
+#include "geometry/volute_design.h"
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
@@ -92,6 +93,7 @@ typedef struct {
   int blade_count;
   CwPriority priority;
   CW_DESIGN_LIST(CW_DESIGN_MEMBER)
+  CwVolute volute; // the casing, for cw_stator_build()
   const char *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
 } CwDesign;
 #undef CW_DESIGN_MEMBER

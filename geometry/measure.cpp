@@ -180,7 +180,7 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
   return guarded(solid, [&] {
     GProp_GProps properties;
     BRepGProp::VolumeProperties(solid->solid, properties);
-    measured->valid = BRepCheck_Analyzer(solid->solid).IsValid();
+    measured->valid = properties.Mass() > 0 && BRepCheck_Analyzer(solid->solid).IsValid();
     measured->closed = is_closed(solid);
     measured->face_count = (int)solid->faces.size();
     measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * metre;

@@ -17,7 +17,7 @@ typedef struct {
 } CwMeasuredAngle;
 
 typedef struct {
-  int valid;                // BRepCheck finds no fault
+  int valid;                // BRepCheck finds no fault, and the volume is positive: not inside out
   int closed;               // each edge lies on two faces in opposite senses; no seam, no degenerate edge
   int face_count;
   double largest_tolerance; // of any vertex, edge or face, m

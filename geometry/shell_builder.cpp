@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
-#include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -117,10 +115,6 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
       result->faces.push_back(*found);
       result->faces.back().face = TopoDS::Face(map(i));
     }
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(result->solid, properties);
-    if (properties.Mass() <= 0)
-      throw Standard_Failure("the solid is inside out");
   } catch (...) {
     delete result;
     throw;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "geometry/stator.hpp"
+#include "geometry/stator.h"
 
 #include <array>
 #include <cmath>
@@ -7,20 +7,24 @@
 #include <memory>
 #include <stdexcept>
 
+#include <BRepCheck_Analyzer.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAPI.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
+#include <gp_Pln.hxx>
+#include <gp_Trsf.hxx>
 
 #include "geometry/stator_builder.hpp"
 #include "geometry/stator_spline.hpp"
-
-struct CwStator {
-  BuiltSolid built;
-};
 
 namespace {
 
@@ -28,6 +32,7 @@ const double PI = 3.14159265358979323846;
 const int SECTORS = 5;           // round the axis; the last one holds the tongue and opens into the throat
 const double SECTOR = PI * 5 / 12; // angle of all but the last
 const int ALONG = 33, ACROSS = 49, SIDE = 25; // points of interpolation: along the flow, over the outer arc, other
+const double LARGEST_TOLERANCE = 1e-3; // mm
 const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
 
@@ -37,7 +42,7 @@ class StatorMaker {
 public:
   explicit StatorMaker(const CwVolute &volute) : v_(volute) {}
 
-  BuiltSolid make() {
+  CwSolid *make() {
     for (int j = 0; j <= SECTORS; j++) angle_[j] = v_.start_angle + SECTOR * j;
     angle_[SECTORS] = v_.start_angle + 2 * PI;
     make_inner_rings();
@@ -47,7 +52,9 @@ public:
     make_side_walls();
     make_diffuser();
     make_pipe();
-    return b_.build();
+    gp_Trsf turn; // the discharge pipe into +y
+    turn.SetRotation(gp::OZ(), -v_.discharge_lean);
+    return b_.build("stator", turn, false); // the interface's cylinders have their axis outside the fluid
   }
 
 private:
@@ -86,7 +93,7 @@ private:
     for (int j = 0; j < SECTORS; j++) lines[j] = b_.line(a.vertex[j], b.vertex[j]);
     return lines;
   }
-  static std::vector<EdgeUse> between(const Ring &a, const Ring &b, const std::array<int, SECTORS> &joint, int j) {
+  static std::vector<LoopEdge> between(const Ring &a, const Ring &b, const std::array<int, SECTORS> &joint, int j) {
     return {a.arc[j], joint[(j + 1) % SECTORS], b.arc[j], joint[j]};
   }
 
@@ -135,8 +142,8 @@ private:
     for (int j = 0; j < SECTORS; j++) {
       for (int side : {BOTTOM, TOP})
         kink_[j][side] = b_.edge(surface[j]->VIso(side), 0, 1, kink_vertex_[j][side], kink_vertex_[j + 1][side]);
-      b_.face(surface[j], {EdgeUse(section_[j], 0, 0, 0, 1), EdgeUse(kink_[j][TOP], 0, 1, 1, 1),
-                           EdgeUse(section_[j + 1], 1, 0, 1, 1), EdgeUse(kink_[j][BOTTOM], 0, 0, 1, 0)}, "volute");
+      b_.face(surface[j], {LoopEdge(section_[j], 0, 0, 0, 1), LoopEdge(kink_[j][TOP], 0, 1, 1, 1),
+                           LoopEdge(section_[j + 1], 1, 0, 1, 1), LoopEdge(kink_[j][BOTTOM], 0, 0, 1, 0)}, "volute");
     }
   }
 
@@ -165,24 +172,26 @@ private:
       nose_side_[side] = b_.edge(surface->VIso(side), 0, 1, kink_vertex_[0][side], flank_vertex_[side]);
     }
     nose_flank_ = b_.edge(surface->UIso(1), 0, 1, flank_vertex_[BOTTOM], flank_vertex_[TOP]);
-    b_.face(surface, {EdgeUse(section_[0], 0, 0, 0, 1), EdgeUse(nose_side_[TOP], 0, 1, 1, 1),
-                      EdgeUse(nose_flank_, 1, 0, 1, 1), EdgeUse(nose_side_[BOTTOM], 0, 0, 1, 0)}, "tongue");
+    b_.face(surface, {LoopEdge(section_[0], 0, 0, 0, 1), LoopEdge(nose_side_[TOP], 0, 1, 1, 1),
+                      LoopEdge(nose_flank_, 1, 0, 1, 1), LoopEdge(nose_side_[BOTTOM], 0, 0, 1, 0)}, "tongue");
   }
   static double u_share(double u) { return u > 0 ? 1 : 0; } // u = 0 lies on the outer wall's border exactly
 
   // The plane x = x_i from the nose to the throat.
   void make_flank() {
     double x = 1e3 * v_.inner_wall_x, y = 1e3 * v_.throat_y;
+    gp_Pln plane(gp_Ax3(gp_Pnt(x, 0, 0), gp::DX(), gp::DY())); // its parameters are y and z
     for (int side : {BOTTOM, TOP}) {
       double from = b_.point(flank_vertex_[side]).Y();
       throat_vertex_[side] = b_.vertex(gp_Pnt(x, y, sign(side) * half_width(std::hypot(x, y))));
-      flank_side_[side] = b_.edge(spline_curve(SIDE, 0, 1, [&](double t) {
+      Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(SIDE, 0, 1, [&](double t) {
         double at = from + t * (y - from);
-        return gp_Pnt(x, at, sign(side) * half_width(std::hypot(x, at)));
-      }), 0, 1, flank_vertex_[side], throat_vertex_[side]);
+        return gp_Pnt2d(at, sign(side) * half_width(std::hypot(x, at)));
+      });
+      flank_side_[side] = b_.edge(GeomAPI::To3d(curve, plane), 0, 1, flank_vertex_[side], throat_vertex_[side]);
     }
     throat_inner_ = b_.line(throat_vertex_[BOTTOM], throat_vertex_[TOP]);
-    b_.face(new Geom_Plane(gp_Ax3(gp_Pnt(x, y, 0), gp::DX(), gp::DY())),
+    b_.face(new Geom_Plane(plane),
             {nose_flank_, flank_side_[TOP], throat_inner_, flank_side_[BOTTOM]}, "tongue");
   }
 
@@ -197,10 +206,14 @@ private:
     for (int side : {BOTTOM, TOP}) {
       std::array<int, SECTORS> ray;
       for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
-      throat_side_[side] = b_.edge(spline_curve(SIDE, 0, 1, [&](double t) { return throat_side(t, side); }), 0, 1,
-                                   throat_vertex_[side], kink_vertex_[SECTORS][side]);
+      gp_Pln throat(gp_Ax3(gp_Pnt(0, 1e3 * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
+      Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(SIDE, 0, 1, [&](double t) {
+        return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z());
+      });
+      throat_side_[side] =
+        b_.edge(GeomAPI::To3d(curve, throat), 0, 1, throat_vertex_[side], kink_vertex_[SECTORS][side]);
       for (int j = 0; j < SECTORS; j++) {
-        std::vector<EdgeUse> loop = {step_[side].arc[j], ray[j], kink_[j][side]};
+        std::vector<LoopEdge> loop = {step_[side].arc[j], ray[j], kink_[j][side]};
         if (j < SECTORS - 1)
           loop.push_back(ray[j + 1]);
         else
@@ -212,7 +225,7 @@ private:
   }
 
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave in the
-  // tangent planes of the walls before the throat and arrive along the pipe; every cut of constant y is plane.
+  // tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
     double length = 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
@@ -243,16 +256,16 @@ private:
     double side_length = contour_length([&](double t) { return throat_side(t, TOP); });
     double whole = inner_length + outer_length + 2 * side_length;
     double a = PI * outer_length / whole, b = PI * (1 - inner_length / whole);
-    // Corners counter-clockwise about -y from the outer wall's lower one; the fourth arc ends where the first begins.
+    // Corners counter-clockwise about minus the flow from the outer wall's lower one; the fourth arc ends where the first begins.
     double corner[5] = {-a, a, b, 2 * PI - b, 2 * PI - a};
 
-    double radius = 500 * v_.input.outlet_diameter, y = 1e3 * v_.throat_y + length;
+    double radius = 500 * v_.input.outlet_diameter;
     for (int i = 0; i < 5; i++) corner_[i] = corner[i];
-    circle_end_ = make_circle(y);
+    circle_end_ = make_circle(outlet_centre(0));
     auto on_circle = [&](double angle) {
-      return gp_Pnt(1e3 * v_.outlet_x + radius * std::cos(angle), y, radius * std::sin(angle));
+      return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
     };
-    auto straight = [&](double) { return gp_Pnt(0, length, 0); };
+    auto straight = [&](double) { return gp_Pnt(length * downstream().XYZ()); };
     auto turn = [&](double from, double to) {
       return [=](double t) { return on_circle(from + t * (to - from)); };
     };
@@ -272,50 +285,57 @@ private:
       outer_edge[side] = b_.edge(outer->UIso(side), 0, 1, kink_vertex_[SECTORS][side], end[side == TOP ? 1 : 0]);
       inner_edge[side] = b_.edge(inner_surface->UIso(side), 0, 1, throat_vertex_[side], end[side == TOP ? 2 : 3]);
     }
-    b_.face(outer, {EdgeUse(section_[SECTORS], 0, 0, 1, 0), EdgeUse(outer_edge[TOP], 1, 0, 1, 1),
-                    EdgeUse(arc[0], 0, 1, 1, 1), EdgeUse(outer_edge[BOTTOM], 0, 0, 0, 1)}, "diffuser");
-    b_.face(inner_surface, {EdgeUse(throat_inner_, 0, 0, 1, 0), EdgeUse(inner_edge[TOP], 1, 0, 1, 1),
-                            EdgeUse(arc[2], 1, 1, 0, 1), EdgeUse(inner_edge[BOTTOM], 0, 0, 0, 1)}, "diffuser");
+    b_.face(outer, {LoopEdge(section_[SECTORS], 0, 0, 1, 0), LoopEdge(outer_edge[TOP], 1, 0, 1, 1),
+                    LoopEdge(arc[0], 0, 1, 1, 1), LoopEdge(outer_edge[BOTTOM], 0, 0, 0, 1)}, "diffuser");
+    b_.face(inner_surface, {LoopEdge(throat_inner_, 0, 0, 1, 0), LoopEdge(inner_edge[TOP], 1, 0, 1, 1),
+                            LoopEdge(arc[2], 1, 1, 0, 1), LoopEdge(inner_edge[BOTTOM], 0, 0, 0, 1)}, "diffuser");
     for (int side : {BOTTOM, TOP}) {
-      EdgeUse circle = side == TOP ? EdgeUse(arc[1], 1, 1, 0, 1) : EdgeUse(arc[3], 0, 1, 1, 1);
-      b_.face(sides[side], {EdgeUse(throat_side_[side], 0, 0, 1, 0), EdgeUse(outer_edge[side], 1, 0, 1, 1), circle,
-                            EdgeUse(inner_edge[side], 0, 0, 0, 1)}, "diffuser");
+      LoopEdge circle = side == TOP ? LoopEdge(arc[1], 1, 1, 0, 1) : LoopEdge(arc[3], 0, 1, 1, 1);
+      b_.face(sides[side], {LoopEdge(throat_side_[side], 0, 0, 1, 0), LoopEdge(outer_edge[side], 1, 0, 1, 1), circle,
+                            LoopEdge(inner_edge[side], 0, 0, 0, 1)}, "diffuser");
     }
+  }
+
+  gp_Dir downstream() const { return gp_Dir(-std::sin(v_.discharge_lean), std::cos(v_.discharge_lean), 0); }
+  // Direction from the pipe's axis, by its angle about minus the flow.
+  gp_Dir in_outlet_plane(double angle) const {
+    double c = std::cos(angle);
+    return gp_Dir(c * std::cos(v_.discharge_lean), c * std::sin(v_.discharge_lean), std::sin(angle));
+  }
+  gp_Pnt outlet_centre(double behind) const {
+    return gp_Pnt(1e3 * v_.outlet_x, 1e3 * v_.outlet_y, 0).Translated(gp_Vec(downstream()) * behind);
   }
 
   struct Circle {
     std::array<int, 4> vertex, arc;
   };
-  Circle make_circle(double y) {
+  Circle make_circle(const gp_Pnt &centre) {
     Circle circle;
-    gp_Pnt centre(1e3 * v_.outlet_x, y, 0);
     double radius = 500 * v_.input.outlet_diameter;
-    auto direction = [](double angle) { return gp_Dir(std::cos(angle), 0, std::sin(angle)); };
     for (int i = 0; i < 4; i++)
-      circle.vertex[i] = b_.vertex(centre.XYZ() + radius * direction(corner_[i]).XYZ());
+      circle.vertex[i] = b_.vertex(centre.XYZ() + radius * in_outlet_plane(corner_[i]).XYZ());
     for (int i = 0; i < 4; i++)
-      circle.arc[i] = b_.edge(new Geom_Circle(gp_Ax2(centre, -gp::DY(), direction(corner_[i])), radius), 0,
+      circle.arc[i] = b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
                               corner_[i + 1] - corner_[i], circle.vertex[i], circle.vertex[(i + 1) % 4]);
     return circle;
   }
 
   void make_pipe() {
-    double y = 1e3 * (v_.throat_y + v_.diffuser_length), length = 1e3 * v_.input.discharge_pipe_length;
-    Circle outlet = make_circle(y + length);
+    gp_Pnt centre = outlet_centre(1e3 * v_.input.discharge_pipe_length);
+    Circle outlet = make_circle(centre);
     int line[4];
     for (int i = 0; i < 4; i++) line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
     for (int i = 0; i < 4; i++) {
-      double x = corner_[i] - U_MARGIN;
-      gp_Ax3 at(gp_Pnt(1e3 * v_.outlet_x, y, 0), -gp::DY(), gp_Dir(std::cos(x), 0, std::sin(x)));
+      gp_Ax3 at(outlet_centre(0), -downstream(), in_outlet_plane(corner_[i] - U_MARGIN));
       b_.face(new Geom_CylindricalSurface(at, 500 * v_.input.outlet_diameter),
               {circle_end_.arc[i], line[(i + 1) % 4], outlet.arc[i], line[i]}, "discharge");
     }
-    b_.face(new Geom_Plane(gp_Ax3(gp_Pnt(1e3 * v_.outlet_x, y + length, 0), gp::DY(), gp::DX())),
+    b_.face(new Geom_Plane(gp_Ax3(centre, downstream())),
             {outlet.arc[0], outlet.arc[1], outlet.arc[2], outlet.arc[3]}, "outlet", "outlet");
   }
 
   const CwVolute &v_;
-  SolidBuilder b_;
+  LoopBuilder b_;
   double angle_[SECTORS + 1];
   Ring step_[2];
   int kink_vertex_[SECTORS + 1][2], kink_[SECTORS][2], section_[SECTORS + 1];
@@ -324,13 +344,33 @@ private:
   Circle circle_end_;
 };
 
+// BRepCheck alone passes gaps that inflated tolerances cover.
+void check(const CwSolid &stator) {
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(stator.solid, TopAbs_VERTEX, vertices);
+  for (int i = 1; i <= vertices.Extent(); i++) {
+    const TopoDS_Vertex &vertex = TopoDS::Vertex(vertices(i));
+    double tolerance = BRep_Tool::Tolerance(vertex);
+    if (tolerance < LARGEST_TOLERANCE) continue;
+    gp_Pnt p = BRep_Tool::Pnt(vertex);
+    char text[200];
+    snprintf(text, sizeof text, "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm",
+             tolerance, p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
+    throw std::runtime_error(text);
+  }
+  for (const CwSolidFace &face : stator.faces)
+    if (!BRepCheck_Analyzer(face.face).IsValid())
+      throw std::runtime_error("face " + face.name + " crosses itself or its edges do not fit");
+  if (!BRepCheck_Analyzer(stator.solid).IsValid()) throw std::runtime_error("the solid is not valid");
+}
+
 } // namespace
 
-CwStatus cw_stator_build(const CwVolute *volute, CwStator **stator) {
+CwStatus cw_stator_build(const CwVolute *volute, CwSolid **stator) {
   *stator = nullptr;
   try {
-    std::unique_ptr<CwStator> fresh(new CwStator);
-    fresh->built = StatorMaker(*volute).make();
+    std::unique_ptr<CwSolid> fresh(StatorMaker(*volute).make());
+    check(*fresh);
     *stator = fresh.release();
     return CW_OK;
   } catch (const Standard_Failure &failure) {
@@ -340,37 +380,4 @@ CwStatus cw_stator_build(const CwVolute *volute, CwStator **stator) {
   } catch (const std::exception &failure) {
     return CW_FAIL(CW_ERR_GEOMETRY, "stator: %s", failure.what());
   }
-}
-
-void cw_stator_free(CwStator **stator) {
-  delete *stator;
-  *stator = nullptr;
-}
-
-int cw_stator_face_count(const CwStator *stator) {
-  return int(stator->built.faces.size());
-}
-
-const char *cw_stator_face_patch(const CwStator *stator, int face) {
-  return stator->built.faces[face].patch.c_str();
-}
-
-const char *cw_stator_face_kind(const CwStator *stator, int face) {
-  return stator->built.faces[face].kind.c_str();
-}
-
-const char *cw_stator_face_name(const CwStator *stator, int face) {
-  return stator->built.faces[face].name.c_str();
-}
-
-double cw_stator_volume(const CwStator *stator) {
-  return stator->built.volume * 1e-9;
-}
-
-double cw_stator_largest_tolerance(const CwStator *stator) {
-  return stator->built.largest_tolerance * 1e-3;
-}
-
-const TopoDS_Solid &cw_stator_solid(const CwStator *stator) {
-  return stator->built.solid;
 }

@@ -237,20 +237,27 @@ static void place_tongue(CwVolute *volute, double start) {
   volute->throat_y = centre[1] + THROAT_SETBACK * volute->input.tongue_radius;
 }
 
-static double gap_excess(double start, const void *context) {
-  CwVolute trial = *((const Context *)context)->volute;
+static double gap_at(double start, const CwVolute *volute) {
+  CwVolute trial = *volute;
   place_tongue(&trial, start);
-  return trial.tip_radius - base_radius(&trial) - trial.input.tongue_gap;
+  return trial.tip_radius - base_radius(&trial);
+}
+
+static double gap_excess(double start, const void *context) {
+  const Context *c = context;
+  return gap_at(start, c->volute) - c->value;
 }
 
 // Throat area of a spiral that ends with the integral `end`, less the asked one.
 static double close_spiral(CwVolute *volute, double end) {
   volute->integral_end = end;
+  Context context = {.volute = volute, .value = volute->input.tongue_gap};
   double start = DEFAULT_START_ANGLE;
-  if (!isnan(volute->input.tongue_gap)) {
-    Context context = {.volute = volute};
+  if (isnan(context.value) && gap_at(start, volute) < volute->input.least_tongue_gap)
+    context.value = volute->input.least_tongue_gap;
+  if (!isnan(context.value)) {
     start = find_root(gap_excess, &context, LEAST_START_ANGLE, LARGEST_START_ANGLE);
-    if (isnan(start)) // answered for the nearest tongue; cw_volute_design() then says what is allowed
+    if (isnan(start)) // answered for the nearest tongue; check_tongue() then says what is allowed
       start = gap_excess(LEAST_START_ANGLE, &context) > 0 ? LEAST_START_ANGLE : LARGEST_START_ANGLE;
   }
   place_tongue(volute, start);
@@ -281,6 +288,7 @@ static CwStatus check_input(const CwVoluteInput *in) {
     {"throat_area", in->throat_area, 1e-6, 10, 1e6, "mm2", 1},
     {"tongue_radius", in->tongue_radius, 0.2e-3, 0.02, 1e3, "mm", 0},
     {"tongue_gap", in->tongue_gap, 0, 1, 1e3, "mm", 1},
+    {"least gap of the tongue", in->least_tongue_gap, 0, 1, 1e3, "mm", 1},
     {"diffuser_length", in->diffuser_length, 5e-3, 10, 1e3, "mm", 1},
     {"diffuser angle", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
     {"outlet_diameter", in->outlet_diameter, 5e-3, 5, 1e3, "mm", 0},
@@ -335,16 +343,14 @@ done:
 static CwStatus check_tongue(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
-  if (!isnan(in->tongue_gap)) {
-    double gap = volute->tip_radius - base_radius(volute);
-    CwVolute least = *volute, largest = *volute;
-    place_tongue(&least, LEAST_START_ANGLE);
-    place_tongue(&largest, LARGEST_START_ANGLE);
-    CW_REQUIRE(fabs(gap - in->tongue_gap) < 1e-7, CW_ERR_DESIGN,
-               "volute: tongue_gap is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
-               in->tongue_gap * 1e3, 1e3 * (least.tip_radius - base_radius(volute)),
-               1e3 * (largest.tip_radius - base_radius(volute)));
-  }
+  double gap = volute->tip_radius - base_radius(volute);
+  double least = gap_at(LEAST_START_ANGLE, volute), largest = gap_at(LARGEST_START_ANGLE, volute);
+  CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap - in->tongue_gap) < 1e-7, CW_ERR_DESIGN,
+             "volute: tongue_gap is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
+             in->tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
+  CW_REQUIRE(!(gap < in->least_tongue_gap - 1e-7), CW_ERR_DESIGN,
+             "volute: the tongue needs a gap of %g mm to D3/2, but this spiral allows %.2f to %.2f mm; lower b3 or "
+             "give tongue_gap", in->least_tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
   CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && volute->throat_width > 4 * in->tongue_radius,
              CW_ERR_DESIGN, "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius or raise "
              "throat_area", in->tongue_radius * 1e3);
@@ -368,9 +374,11 @@ static CwStatus solve_diffuser(CwVolute *volute) {
              "volute: diffuser_length %g mm opens the diffuser by %.1f deg; allowed: at most 30 deg (at least %.1f mm)",
              volute->diffuser_length * 1e3, volute->diffuser_angle * 180 / PI,
              1e3 * (radius - throat_radius) / tan(PI / 12));
-  // The outlet's axis: midway between the walls, drawn half the way that they lean at the throat.
+  // Midway between the walls at the throat, along the mean of their directions there.
   cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, x, x_phi, NULL);
-  volute->outlet_x = 0.5 * (volute->inner_wall_x + x[0]) + 0.25 * volute->diffuser_length * x_phi[0] / x_phi[1];
+  volute->discharge_lean = 0.5 * atan2(-x_phi[0], x_phi[1]);
+  volute->outlet_x = 0.5 * (volute->inner_wall_x + x[0]) - volute->diffuser_length * sin(volute->discharge_lean);
+  volute->outlet_y = volute->throat_y + volute->diffuser_length * cos(volute->discharge_lean);
 done:
   return status;
 }

@@ -13,9 +13,10 @@
 // The spiral follows the law of constant angular momentum c_u r = K: the integral I of b dr / r over a section grows
 // linearly with phi, I = I0 + (I1 - I0) phi / 2 pi, so that each degree takes up the same share of the flow.
 //
-// Plan view: the discharge runs in +y, its inner wall is the plane x = x_i. At each level z = w the tongue is a circle
+// Plan view: the tongue's flank, the inner wall of the discharge, is the plane x = x_i, the flow there runs in +y. At each level z = w the tongue is a circle
 // of the nose's radius that touches the level line of the spiral's outer wall (at the contact angle) and x = x_i.
-// The throat is the cut at y = y_t, just behind the nose; from it the diffuser leads to the outlet circle.
+// The throat is the cut at y = y_t, just behind the nose; from it the diffuser leads to the outlet circle. All of this
+// is in the tongue's own frame; the solid is turned about z by minus the discharge's lean, so that its pipe runs in +y.
 #ifndef CUTWATER_GEOMETRY_VOLUTE_DESIGN_H
 #define CUTWATER_GEOMETRY_VOLUTE_DESIGN_H
 
@@ -36,6 +37,7 @@ typedef struct {
   double throat_area;         // m2; NAN: what the law of constant angular momentum gives for Q and K
   double tongue_radius;       // of the nose, m
   double tongue_gap;          // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
+  double least_tongue_gap;    // m, for the chosen one; NAN: none
   double diffuser_length;     // m; NAN: from the diffuser's angle
   double diffuser_angle;      // rad, full angle of the cone of equal areas; used where the length is NAN
   double outlet_diameter;     // DN, m
@@ -60,7 +62,8 @@ typedef struct {
   double side_centre_slope;   // its derivative with respect to |z|
   double diffuser_length;     // m
   double diffuser_angle;      // rad, full angle of the cone of equal areas
-  double outlet_x;            // m: x of the outlet's centre; its z is 0
+  double discharge_lean;      // rad: the discharge runs along (-sin, cos) of it, midway between the throat's walls
+  double outlet_x, outlet_y;  // m: centre of the diffuser's end; its z is 0
 } CwVolute;
 
 // One section at the angle phi.

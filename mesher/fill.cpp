@@ -2,8 +2,14 @@
 #include "mesher/fill.h"
 
 #include <fcntl.h>
-#include <tetgen.h>
 #include <unistd.h>
+
+// TetGen's own terminatetetgen frees its mesh and then throws, and the mesh frees itself again on the way up: any failure
+// ends in a crash. It is an exported function of the library, so the one below takes its place there; the header's is
+// put out of the way.
+#define terminatetetgen tetgen_terminate_that_frees_twice
+#include <tetgen.h>
+#undef terminatetetgen
 
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +20,13 @@
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/tet_improve.h"
+#include "pipeline/log.h"
+
+void terminatetetgen(tetgenmesh *mesh, int code);
+
+void terminatetetgen(tetgenmesh *, int code) {
+  throw code;
+}
 
 namespace {
 
@@ -122,6 +135,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   double(*inner)[3] = nullptr;
   int32_t inner_count = 0;
+  CwTetImproved improved;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_fill_check_closed(input));
   CW_TRY(cw_fill_points(input, &inner_count, &inner));
@@ -132,7 +146,10 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     goto done;
   }
   CW_TRY(cw_fill_keep_inside(input, fill));
-  if (!getenv("NOIMP")) CW_TRY(cw_tet_improve(input->point_count, fill, nullptr));
+  CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
+  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+               input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
+               improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
 done:
   free(inner);
   if (status != CW_OK) cw_fill_free(fill);

@@ -19,10 +19,36 @@ static int compare_edges(const void *left, const void *right) {
   return a->sign - b->sign;
 }
 
+static int compare_places(const void *left, const void *right) {
+  const double *a = *(const double *const *)left, *b = *(const double *const *)right;
+  for (int i = 0; i < 3; i++) {
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
+  }
+  return 0;
+}
+
+static CwStatus check_points(const CwFillInput *input) {
+  CwStatus status = CW_OK;
+  const double **place = NULL;
+  CW_NEW(place, input->point_count);
+  for (int32_t p = 0; p < input->point_count; p++) place[p] = input->x[p];
+  qsort(place, (size_t)input->point_count, sizeof *place, compare_places);
+  for (int32_t p = 1; p < input->point_count; p++) {
+    const double *x = place[p];
+    CW_REQUIRE(compare_places(&place[p - 1], &place[p]), CW_ERR_MESH,
+               "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, 1e3 * x[0],
+               1e3 * x[1], 1e3 * x[2]);
+  }
+done:
+  free(place);
+  return status;
+}
+
 CwStatus cw_fill_check_closed(const CwFillInput *input) {
   CwStatus status = CW_OK;
   Directed *edge = NULL;
   int64_t count = 3 * (int64_t)input->triangle_count;
+  CW_TRY(check_points(input));
   CW_NEW(edge, count);
   CW_REQUIRE(input->triangle_count >= 4, CW_ERR_MESH, "%s: the boundary has %d triangles; at least 4 are needed",
              input->name, input->triangle_count);

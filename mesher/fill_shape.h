@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-// Fails with CW_ERR_MESH, place in mm, where an edge does not have as many triangles in one direction as in the other.
+// Fails with CW_ERR_MESH, place in mm, where an edge does not have as many triangles in one direction as in the other, or where
+// two points coincide.
 CwStatus cw_fill_check_closed(const CwFillInput *input);
 
 // Keeps the tetrahedra inside the boundary, by its orientation (so shells may lie in voids of others), and drops the

@@ -150,20 +150,13 @@ done:
   return status;
 }
 
-// Whether obstacle triangle `other` is the cap in which a column of front triangle f runs: they touch, as they should.
-static int is_own_cap(const Repair *repair, int32_t f, int32_t other) {
+// Whether a column of front triangle f runs in a guide: there it touches its cap, as it should, and the two
+// triangulations of a curved cap differ by their chords.
+static int is_guided(const Repair *repair, int32_t f) {
   const CwLayerInput *in = repair->work->in;
-  const int32_t *corner = repair->triangle[other];
-  double e1[3], e2[3], normal[3];
   if (!in->guide_count) return 0;
-  sub3(repair->x[corner[1]], repair->x[corner[0]], e1);
-  sub3(repair->x[corner[2]], repair->x[corner[0]], e2);
-  cross3(e1, e2, normal);
-  unit3(normal);
   for (int i = 0; i < 3; i++) {
-    int32_t v = in->triangle[f][i];
-    for (int k = 0; k < in->guide_count[v]; k++)
-      if (fabs(dot3(normal, in->guide_normal[v][k])) > 0.8) return 1;
+    if (in->guide_count[in->triangle[f][i]]) return 1;
   }
   return 0;
 }
@@ -188,7 +181,7 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
                  g - walls);
       continue; // caps are not ours to judge
     }
-    if (g >= 2 * walls && is_own_cap(repair, f, g)) continue;
+    if (g >= 2 * walls && is_guided(repair, f)) continue;
     (*crossing)++;
     double share = 0;
     for (int k = 0; k < 3; k++) {

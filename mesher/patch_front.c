@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 // A triangle whose circle is smaller than this times the wanted length is done; equilateral: 0.577.
-static const double done_radius = 0.76;
+static const double done_radius = 0.74;
 // A new point keeps this share of the wanted length free around it.
 static const double least_room = 0.65;
 // Sizes grow at most this fast away from short given edges.
@@ -173,8 +173,9 @@ static int place_point(const CwPatchWork *work, int32_t t, int i, double uv[2]) 
   // Rebay's height grows when the edge shrinks, which amplifies rounding errors 1.7 times a row until the rows break up;
   // a height that does not depend on the length of the edge damps them.
   double height = fmax(0.5 * sqrt(3) * size, half);
-  // Not past the centre of the circle: the new circle on the edge must lie in the old one.
-  height = fmin(height, fmax(q, half * half / q));
+  // Not far past the centre of the circle, which is where the room is. In a row of equilateral triangles the height
+  // is the centre's: a limit without slack would let errors in again.
+  height = fmin(height, 1.2 * fmax(q, half * half / q));
   double middle[2], x[3], foot[3];
   for (int k = 0; k < 2; k++) {
     middle[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);

@@ -8,6 +8,8 @@
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
 
+static const double DIRECTION_LENGTH = 1e-5; // m
+
 // Outward or inward unit normal of a cap at the point nearest to x.
 static void cap_normal(const CwCad *cad, int32_t face, const double x[3], double uv[2], double normal[3]) {
   double p[3], xu[3], xv[3];
@@ -44,12 +46,15 @@ static void across(const double direction[3], double a[3], double b[3]) {
   cw_cross(direction, a, b);
 }
 
-// Direction of a free curve where it leaves the wall vertex at x.
+// Direction of a free curve where it leaves the wall vertex at x. Points of a trace can lie as close as rounding: the
+// first one at a distance that means something counts.
 static void curve_direction(const CwCurve *curve, const double x[3], double direction[3]) {
   int32_t last = curve->fine_count - 1;
   int at_end = cw_distance(curve->fine_x[last], x) < cw_distance(curve->fine_x[0], x);
-  cw_sub(curve->fine_x[at_end ? last - 1 : 1], curve->fine_x[at_end ? last : 0], direction);
-  cw_unit(direction);
+  for (int32_t i = 1; i <= last; i++) {
+    cw_sub(curve->fine_x[at_end ? last - i : i], curve->fine_x[at_end ? last : 0], direction);
+    if (cw_unit(direction) > DIRECTION_LENGTH) break;
+  }
 }
 
 typedef struct {

@@ -85,12 +85,9 @@ static CwStatus remove_face(CwTetMesh *mesh, int32_t t, int i, int *done_it) {
   double least = fmin(mesh->quality[old[0]], mesh->quality[old[1]]);
   for (int k = 0; k < 3; k++) {
     // The face turns counter-clockwise seen from `above`.
-    const int32_t one[4] = {mesh->corner[t][tet_face[i][k]], mesh->corner[t][tet_face[i][(k + 1) % 3]], above, below};
+    const int32_t one[4] = {mesh->corner[t][tet_face[i][k]], mesh->corner[t][tet_face[i][(k + 1) % 3]], below, above};
     quality[k] = quality_of(mesh, one[0], one[1], one[2], one[3]);
-    if (quality[k] <= least + gain) {
-      // The turn of tet_face is outward of t, so the three stand the right way round or the flip is not valid.
-      goto done;
-    }
+    if (quality[k] <= least + gain) goto done;
     memcpy(tet[k], one, sizeof one);
   }
   CW_TRY(cw_tet_mesh_replace(mesh, 2, old, 3, (const int32_t(*)[4])tet, quality));
@@ -205,7 +202,7 @@ static CwStatus split_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_i
   for (int k = 0; k < n; k++) {
     least = fmin(least, mesh->quality[old[k]]);
     // (a, b, r, s) is positive; so are (a, p, r, s) and (p, b, r, s) for p between a and b.
-    const int32_t r = ring[k], s = ring[(k + 1) % n], one[3] = {a, s, r}, two[3] = {b, r, s};
+    const int32_t r = ring[k], s = ring[(k + 1) % n], one[3] = {a, r, s}, two[3] = {b, s, r};
     memcpy(hollow.face[2 * k], one, sizeof one);
     memcpy(hollow.face[2 * k + 1], two, sizeof two);
   }

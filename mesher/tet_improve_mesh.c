@@ -163,7 +163,7 @@ done:
 int cw_tet_mesh_ring(const CwTetMesh *mesh, int32_t t, int i, int j, int most, int32_t *tet, int32_t *ring) {
   // The other two corners in the order that makes (i, j, first, second) an even permutation.
   static const int8_t first_of[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
-  int32_t a = mesh->corner[t][i], b = mesh->corner[t][j], start = t;
+  int32_t start = t;
   int first = first_of[i][j], second = 6 - i - j - first, count = 0;
   int32_t from = mesh->corner[t][first], to = mesh->corner[t][second];
   do {
@@ -179,8 +179,6 @@ int cw_tet_mesh_ring(const CwTetMesh *mesh, int32_t t, int i, int j, int most, i
     from = to;
     to = mesh->corner[t][next % 4];
   } while (t != start);
-  (void)a;
-  (void)b;
   return count;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Meshes the unit square and prints: title, triangles, triangles per second, least, 1 % and mean least angle in degrees.
-// Use: patch_mesh EDGE_LENGTH GRADED (0: uniform; 1: from a tenth of the edge length at the middle, growing by 0.25)
+// Use: patch_mesh EDGE_LENGTH GRADED (0: uniform; 1: that length on a circle, growing by 0.2 to at most 0.05)
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +23,9 @@ static void plane_at(const void *context, const double uv[2], double x[3], doubl
 
 static double length_at(const void *context, const double x[3]) {
   const Field *field = context;
-  return field->graded ? fmin(field->length, 0.1 * field->length + 0.25 * hypot(x[0] - 0.5, x[1] - 0.5)) : field->length;
+  if (!field->graded)
+    return field->length;
+  return fmin(0.05, field->length + 0.2 * fabs(hypot(x[0] - 0.5, x[1] - 0.5) - 0.3));
 }
 
 static double now(void) {
@@ -40,7 +42,7 @@ int main(int argc, char **argv) {
   if (argc != 3)
     return fprintf(stderr, "use: patch_mesh EDGE_LENGTH GRADED\n"), 2;
   Field field = {atof(argv[1]), atoi(argv[2])};
-  int side = (int)round(1 / field.length), count = 4 * side;
+  int side = field.graded ? 20 : (int)round(1 / field.length), count = 4 * side;
   double(*uv)[2] = calloc((size_t)count, sizeof *uv), (*x)[3] = calloc((size_t)count, sizeof *x);
   int32_t(*edge)[2] = calloc((size_t)count, sizeof *edge);
   uint8_t *boundary = calloc((size_t)count, 1);

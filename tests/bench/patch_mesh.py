@@ -40,10 +40,10 @@ def gmsh_angles(mesh_file):
 
 
 def run_gmsh(folder, title, algorithm, length, graded):
-    side = round(1 / length)
+    side = 20 if graded else round(1 / length)
     # The lesser of two lengths, for gmsh's MathEval has no minimum.
-    near = f"(0.1*{length} + 0.25*Sqrt((x-0.5)^2 + (y-0.5)^2))"
-    field = f"({length} + {near} - Abs({length} - {near}))/2"
+    near = f"({length} + 0.2*Abs(Sqrt((x-0.5)^2 + (y-0.5)^2) - 0.3))"
+    field = f"(0.05 + {near} - Abs(0.05 - {near}))/2"
     geo = folder / "square.geo"
     geo.write_text("Point(1)={0,0,0};Point(2)={1,0,0};Point(3)={1,1,0};Point(4)={0,1,0};\n"
                    "Line(1)={1,2};Line(2)={2,3};Line(3)={3,4};Line(4)={4,1};\n"
@@ -62,7 +62,7 @@ def run_gmsh(folder, title, algorithm, length, graded):
 
 def main():
     build = Path(sys.argv[1] if len(sys.argv) > 1 else SOURCE / "build")
-    lengths = [float(word) for word in sys.argv[2:]] or [0.01, 0.004]
+    lengths = [float(word) for word in sys.argv[2:]] or [0.01, 0.003]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         program = folder / "patch_mesh"
