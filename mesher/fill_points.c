@@ -39,6 +39,7 @@ typedef struct {
   Reach *reach;
   double origin[3], unit; // finest cell, m
   double fit;             // factor on the wanted spacing
+  double clearance;       // factor on the distances to the boundary
   Leaf *leaf;
   int64_t leaf_count, leaf_space;
   int32_t *list;
@@ -58,7 +59,7 @@ static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static void reach_of(const CwFillInput *input, int32_t t, Reach *reach) {
+static void reach_of(const CwFillInput *input, double clearance, int32_t t, Reach *reach) {
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
   double u[3], v[3], mean[3];
@@ -79,8 +80,8 @@ static void reach_of(const CwFillInput *input, int32_t t, Reach *reach) {
   }
   // The sphere of a needle would reach far: it is no use to keep points out of all of it.
   double longest = sqrt(fmax(fmax(uu, vv), uu + vv - 2.0 * uv));
-  reach->radius = sphere_factor * fmin(sqrt(square), longest);
-  double margin = 1.3 * distance_factor * fmax(size_at(input, mean), size_at(input, a));
+  reach->radius = clearance * sphere_factor * fmin(sqrt(square), longest);
+  double margin = 1.3 * clearance * distance_factor * fmax(size_at(input, mean), size_at(input, a));
   for (int i = 0; i < 3; i++) {
     reach->low[i] = fmin(reach->centre[i] - reach->radius, fmin(fmin(a[i], b[i]), c[i]) - margin);
     reach->high[i] = fmax(reach->centre[i] + reach->radius, fmax(fmax(a[i], b[i]), c[i]) + margin);
@@ -115,7 +116,7 @@ static double distance_square(const double x[3], const double a[3], const double
 
 static int is_forbidden(const Tree *tree, const Leaf *leaf, const double x[3]) {
   const CwFillInput *input = tree->input;
-  double nearest = distance_factor * size_at(input, x);
+  double nearest = tree->clearance * distance_factor * size_at(input, x);
   for (int32_t k = 0; k < leaf->list_count; k++) {
     int32_t t = tree->list[leaf->list + k];
     const Reach *reach = &tree->reach[t];
@@ -268,9 +269,9 @@ done:
   return status;
 }
 
-CwStatus cw_fill_points(const CwFillInput *input, int32_t *count, double (**x)[3]) {
+CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3]) {
   CwStatus status = CW_OK;
-  Tree tree = {.input = input, .fit = 1.0};
+  Tree tree = {.input = input, .fit = 1.0, .clearance = clearance};
   CwInside *inside = NULL;
   int32_t *all = NULL;
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -283,7 +284,7 @@ CwStatus cw_fill_points(const CwFillInput *input, int32_t *count, double (**x)[3
   double area = 0.0, weight = 0.0;
   for (int32_t t = 0; t < input->triangle_count; t++) {
     all[t] = t;
-    reach_of(input, t, &tree.reach[t]);
+    reach_of(input, clearance, t, &tree.reach[t]);
     const double *corner[3];
     double mean[3] = {0, 0, 0};
     for (int k = 0; k < 3; k++) {

@@ -18,8 +18,8 @@ extern "C" {
 // Points inside the closed boundary that keep a distance from it: none nearer than about 0.6 h, none in the smallest
 // sphere through the corners of a boundary triangle, so that the Delaunay tetrahedra of all points hold the boundary.
 // The octree's spacing is fitted so that there are as many points as the size field asks for, whatever powers of two
-// are near it. Deterministic. Caller frees *x.
-CwStatus cw_fill_points(const CwFillInput *input, int32_t *count, double (**x)[3]);
+// are near it. `clearance` (1 as a rule) multiplies the distances. Deterministic. Caller frees *x.
+CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3]);
 
 #ifdef __cplusplus
 }

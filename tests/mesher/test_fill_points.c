@@ -19,7 +19,7 @@ static int32_t points_in(const double low[3], const double high[3], const int n[
                        .triangle_count = s->triangle_count, .triangle = (const int32_t(*)[3])s->triangle,
                        .size = size_at, .size_context = field, .name = "box"};
   int32_t count;
-  assert_int_equal(cw_fill_points(&input, &count, x), CW_OK);
+  assert_int_equal(cw_fill_points(&input, 1.0, &count, x), CW_OK);
   return count;
 }
 
