@@ -43,7 +43,7 @@ static double smooth_step(double x) {
 CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span, CwBladeSection *section) {
   CwStatus status = CW_OK;
   double x[2], dx[2], middle[2];
-  const double wrap = design->wrap_angle + design->leading_edge_lean * (span - 0.5);
+  const double wrap = design->wrap_angle;
   cw_meridian_blade_point(meridian, 0.5, 0, middle, NULL);
   cw_meridian_blade_point(meridian, span, 0, x, dx);
   // The inlet triangle with uniform c_m: tan beta1 falls as 1/r from hub to shroud.

@@ -36,7 +36,7 @@ typedef struct {
 // Wrap of a blade angle law on a section of the meridian: integral of dm / (r tan beta) from q = 0 to 1, rad.
 double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[3]);
 
-// Solves the free ordinate of the law for the section's wrap (wrap_angle plus lean). Fails with CW_ERR_DESIGN where
+// Solves the free ordinate of the law for the design's wrap angle, the same for all sections. Fails with CW_ERR_DESIGN where
 // beta would leave 12 to 60 degrees.
 CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span, CwBladeSection *section);
 

@@ -61,7 +61,6 @@ static void main_dimensions(const CwCase *table, CwDesign *design) {
   const double d1 = design->inlet_diameter;
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, 0.568 * d1, "0.568 D1");
   TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, 0.635 * d1, "0.635 D1");
-  SET(leading_edge_lean, 0, "unleaned");
   TAKE(blade_thickness, given->blade_thickness, 0.020 * d2, "Gulich: 0.016 to 0.022 D2");
   TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness,
        "0.70 of the largest");

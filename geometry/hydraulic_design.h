@@ -35,7 +35,6 @@ extern "C" {
   X(axial_length, LENGTH, "shroud, axial length from eye to outlet")                                         \
   X(leading_edge_radius_hub, LENGTH, "leading edge at the hub, radius")                                      \
   X(leading_edge_radius_shroud, LENGTH, "leading edge at the shroud, radius")                                \
-  X(leading_edge_lean, ANGLE, "leading edge: angle at the shroud minus angle at the hub")                    \
   X(inlet_blade_angle, ANGLE, "blade angle beta1 at mid-span")                                               \
   X(outlet_blade_angle, ANGLE, "blade angle beta2")                                                          \
   X(wrap_angle, ANGLE, "wrap angle at mid-span")                                                             \

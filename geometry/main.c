@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-geometry: from the case file to the pump's solids. Writes RUN/geometry.
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "geometry/design_check.h"
@@ -184,9 +185,10 @@ int main(int argc, char **argv) {
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
   if (args.finished)
     goto done;
+  CW_TRY(in_folder(&args, "record.json", &record_path));
+  remove(record_path); // of an earlier run: it must not vouch for files that this run is about to replace
   CW_TRY(cw_record_start("geometry", &record));
   CW_TRY(make_geometry(&args, &table, record));
-  CW_TRY(in_folder(&args, "record.json", &record_path));
   CW_TRY(cw_record_write(record, record_path));
 done:;
   const int code = cw_log_error(status);
