@@ -14,8 +14,8 @@ static char folder[] = "geometry-program-XXXXXX";
 
 static int run(const char *case_file, const char *name) {
   char command[600];
-  snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages", CUTWATER_BIN_DIR,
-           case_file, folder, name, folder);
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages",
+           CUTWATER_BIN_DIR, case_file, folder, name, folder);
   const int code = system(command);
   return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
 }
@@ -44,16 +44,19 @@ static int messages_have(const char *words) {
 
 // Two runs give the same bytes, and nothing is left under a temporary name.
 static void files_are_written_and_the_same_each_time(void **state) {
-  static const char *const names[] = {"rotor.brep",  "stator.brep",         "faces.csv",
-                                      "pump.step",   "design.json",         "meridional_section.svg",
-                                      "blade_to_blade.svg", "velocity_triangles.svg", "blade_angle.svg"};
+  static const char *const names[] = {"rotor.brep",         "stator.brep",
+                                      "faces.csv",          "pump.step",
+                                      "design.json",        "meridional_section.svg",
+                                      "blade_to_blade.svg", "velocity_triangles.svg",
+                                      "blade_angle.svg"};
   char command[300];
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "a"), 0);
   assert_true(messages_have("measured: wrap 71.0000 deg, D1 74.0000, D2 200.0000, b2 8.0000 mm"));
   assert_true(messages_have("predicted head"));
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "b"), 0);
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", folder, names[i], folder, names[i]);
+    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", folder, names[i], folder,
+             names[i]);
     assert_int_equal(system(command), 0);
   }
   snprintf(command, sizeof command, "test $(ls -A %s/a/geometry | wc -l) = 10", folder);
@@ -64,7 +67,8 @@ static void files_are_written_and_the_same_each_time(void **state) {
 static void failure_leaves_no_record(void **state) {
   char command[500];
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "c"), 0);
-  snprintf(command, sizeof command, "sed 's/wrap_angle_deg: 71/wrap_angle_deg: 21/' %s/cases/paper/case.yaml > %s/case.yaml",
+  snprintf(command, sizeof command,
+           "sed 's/wrap_angle_deg: 71/wrap_angle_deg: 21/' %s/cases/paper/case.yaml > %s/case.yaml",
            CUTWATER_SOURCE_DIR, folder);
   assert_int_equal(system(command), 0);
   char path[64];
