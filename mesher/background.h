@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with (u,v) kept
-// for every corner. What the size field samples and the planner clips; no node of it goes into the mesh.
+// The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with
+// (u,v) kept for every corner. What the size field samples and the planner clips; no node of it goes into the
+// mesh.
 #ifndef CUTWATER_MESHER_BACKGROUND_H
 #define CUTWATER_MESHER_BACKGROUND_H
 
@@ -16,16 +17,20 @@ extern "C" {
 
 typedef struct {
   int32_t point_count, triangle_count;
-  double (*x)[3];           // m
-  int32_t (*triangle)[3];   // normal out of the domain
-  int32_t *face;            // CAD face of each triangle
-  double (*uv)[3][2];       // of each corner on that face
+  double (*x)[3];         // m
+  int32_t (*triangle)[3]; // normal out of the domain
+  int32_t *face;          // CAD face of each triangle
+  double (*uv)[3][2];     // of each corner on that face
 } CwBackground;
 
-// Tessellates with the given chord deflection (m) and angle (rad). Fails with CW_ERR_GEOMETRY where the result is not
-// closed (the place is named). Deterministic.
+// Tessellates with the given chord deflection (m) and angle (rad). Fails with CW_ERR_GEOMETRY where the
+// result is not closed (the place is named). Deterministic.
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
 void cw_background_free(CwBackground *background);
+
+// The triangle across edge (k, k+1) of each triangle: (*neighbour)[t][k]; the caller frees it. Fails with
+// CW_ERR_GEOMETRY and the place where an edge is not shared by exactly two triangles that run opposite ways.
+CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background, int32_t (**neighbour)[3]);
 
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);

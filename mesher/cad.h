@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The exact geometry of one domain (rotor or stator), read from the geometry stage. The one bridge of the mesher to
-// OpenCASCADE. All lengths are metres here; the B-rep itself is in millimetres. Indices are 0-based.
+// The exact geometry of one domain (rotor or stator), read from the geometry stage. The one bridge of the
+// mesher to OpenCASCADE. All lengths are metres here; the B-rep itself is in millimetres. Indices are
+// 0-based.
 #ifndef CUTWATER_MESHER_CAD_H
 #define CUTWATER_MESHER_CAD_H
 
@@ -16,8 +17,8 @@ typedef enum { CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET, CW_PATCH_INTERFAC
 
 typedef struct CwCad CwCad;
 
-// Opens GEOMETRY_DIR/DOMAIN.brep and its rows of GEOMETRY_DIR/faces.csv. Fails with CW_ERR_IO or CW_ERR_INPUT (a face
-// with a seam or a degenerate edge, a face without a row).
+// Opens GEOMETRY_DIR/DOMAIN.brep and its rows of GEOMETRY_DIR/faces.csv. Fails with CW_ERR_IO or CW_ERR_INPUT
+// (a face with a seam or a degenerate edge, a face without a row).
 CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
 void cw_cad_close(CwCad **cad);
 
@@ -32,17 +33,19 @@ int cw_cad_face_count(const CwCad *cad);
 int cw_cad_face_patch(const CwCad *cad, int face);
 const char *cw_cad_face_name(const CwCad *cad, int face);
 
-// True where xu x xv points into the fluid, so that triangles that are counter-clockwise in (u,v) must be turned
-// to have their normal out of the domain.
+// True where xu x xv points into the fluid, so that triangles that are counter-clockwise in (u,v) must be
+// turned to have their normal out of the domain.
 int cw_cad_face_reversed(const CwCad *cad, int face);
 
 // Point of a face at (u,v); with the first derivatives where xu and xv are not NULL.
-void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]);
+void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
+                       double xv[3]);
 
 // Greatest absolute principal curvature, 1/m.
 double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]);
 
-// Nearest point of the face's surface to x by Newton from the given (u,v), which it updates. Returns the distance, m.
+// Nearest point of the face's surface to x by Newton from the given (u,v), which it updates. Returns the
+// distance, m.
 double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]);
 
 int cw_cad_edge_count(const CwCad *cad);

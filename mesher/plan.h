@@ -12,6 +12,7 @@
 
 #include "mesher/background.h"
 #include "mesher/clip.h"
+#include "mesher/inside.h"
 #include "mesher/size.h"
 
 #ifdef __cplusplus
@@ -34,20 +35,27 @@ typedef struct {
 
 typedef struct {
   int32_t region_count;     // at least 1
-  double clearance;         // m: no plane nearer than this to a CAD vertex or nearly parallel to a CAD edge within it
+  double clearance;         // m: no plane nearer than this to a CAD vertex, or along a CAD edge within it
+  double line_clearance;    // m: where two planes meet, their line ends no nearer than this to a CAD edge
   double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3)
   double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 
-CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwSize *size,
+// True where `ancestor` lies on the way from `node` to the root (a node is not its own ancestor).
+int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
+
+// The part of the line plane(a) . x, plane(b) . x as point and unit direction; 0 where the planes are nearly parallel.
+int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]);
+
+CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
                       const CwPlanOptions *options, CwPlan *plan);
 void cw_plan_free(CwPlan *plan);
 
 // Region of a point (a point on a plane belongs to the negative side).
 int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
 
-// True where x lies in the closed cell of `node` (within `tolerance`, m, of all its ancestors' half-spaces), with the planes of
-// `skip[0..skip_count)` (nodes) left out.
+// True where x lies in the closed cell of `node`: within `tolerance` (m) of the half-spaces of all its ancestors but
+// those in `skip[0..skip_count)` (nodes).
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count);
 

@@ -26,14 +26,24 @@ typedef struct {
   int gather;             // 1: every rank gets every result in bytes[task], size[task]
 } CwSchedule;
 
-// Starts MPI (once per process); gives rank and number of ranks.
+// How to start the ranks (Open MPI), so that nothing but the one error line is seen and any number of ranks may run as root:
+//   OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -q --oversubscribe -n RANKS cutwater-mesh ...
+// Without -q the same happens, with Open MPI's own paragraphs below the line. The exit status of mpirun is that of the
+// failure (cw_log_error); 137 where a rank was killed by signal 9, and the others end within two seconds.
+
+// Starts MPI (once per process); gives rank and number of ranks. Collective.
 CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks);
+// Ends MPI. Collective: after a failure on one rank only, call cw_mpi_fail instead.
 void cw_mpi_end(void);
-// Ends all ranks at once after a failure of this one: prints the one error line and aborts. Does not return where there is more than one rank.
+// Ends all ranks at once after a failure of this one: prints the one error line and aborts. Where several ranks fail,
+// one of them prints. Does not return where there is more than one rank; else returns the exit status for main().
 int cw_mpi_fail(CwStatus status);
 
-// Runs all tasks. `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].
+// Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start there is one rank.
+// `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].
 // `seconds` (count, may be NULL) receives the time of each task on all ranks.
+// Without `gather` a result stays on the rank that ran the task. A rank that waits sleeps, so that more ranks than cores
+// cost nothing. A failing task: with one rank the failure is returned; else all ranks end (cw_mpi_fail).
 CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds);
 
 #ifdef __cplusplus

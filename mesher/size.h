@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The size field: edge length of the mesh as a function of place, h(x) = scale * min over the surface of
-// (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps. Kept on a Cartesian grid that
-// also knows which of its nodes lie inside the domain, so that cell counts can be predicted by integration.
+// (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps. Kept on a Cartesian grid
+// that also knows which of its nodes lie inside the domain, so that cell counts can be predicted by
+// integration.
 #ifndef CUTWATER_MESHER_SIZE_H
 #define CUTWATER_MESHER_SIZE_H
 
@@ -18,8 +19,8 @@ extern "C" {
 
 typedef struct CwSize CwSize;
 
-// `patch_size` gives the relative size of each patch of the CAD (from the mesh table of the case). Sizes are relative to `base_size`
-// (m), the edge length at relative size 1 before scaling.
+// `patch_size` gives the relative size of each patch of the CAD (from the mesh table of the case). Sizes are
+// relative to `base_size` (m), the edge length at relative size 1 before scaling.
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                       const double *patch_size, double base_size, CwSize **size);
 void cw_size_free(CwSize **size);
@@ -28,11 +29,13 @@ void cw_size_free(CwSize **size);
 void cw_size_set_scale(CwSize *size, double scale);
 double cw_size_scale(const CwSize *size);
 
-// Edge length at x, m. Fast (trilinear); any x. Signature fits CwSizeAt of patch_mesh.h and fill.h, with the field as context.
+// Edge length at x, m. Fast (trilinear); any x. Signature fits CwSizeAt of patch_mesh.h and fill.h, with the
+// field as context.
 double cw_size_at(const void *size, const double x[3]);
 
-// Sample points inside the domain: *count points with the volume each stands for (m3); sum of volumes = volume of the
-// domain to about 1 %. For predicting cells per region: cells = c * sum(volume / h^3). Caller frees both.
+// Sample points inside the domain: *count points with the volume each stands for (m3); sum of volumes =
+// volume of the domain to about 1 %. For predicting cells per region: cells = c * sum(volume / h^3). Caller
+// frees both.
 CwStatus cw_size_samples(const CwSize *size, int32_t *count, double (**x)[3], double **volume);
 
 #ifdef __cplusplus

@@ -104,8 +104,8 @@ typedef struct {
 void cw_case_defaults(CwCase *table);
 
 // Reads and validates `path`, a YAML file of at most 1 MiB. A file that cannot be read fails with CW_ERR_IO,
-// bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then *table
-// stays as it was.
+// bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then
+// *table stays as it was.
 CwStatus cw_case_read(const char *path, CwCase *table);
 
 #ifdef __cplusplus

@@ -49,8 +49,8 @@ typedef struct {
   int64_t cells; // 0: not given, the case file's number holds
   int verbose;
   int finished; // --help or --version was asked and answered: nothing is left to do
-  const char
-      *options[CW_STAGE_OPTION_LIMIT]; // value of each option of the stage; "" of a switch; NULL: not given
+  // The value of each option of the stage, "" of a switch; NULL: not given.
+  const char *options[CW_STAGE_OPTION_LIMIT];
 } CwStageArgs;
 
 // Reads `--case FILE --run DIR [--cells N] [--verbose] [--version] [--help]` and the stage's own options.

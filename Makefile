@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# The front door.
+#
+#   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
+#   make check                               the quick tests, with everything they need
+#   make check-long                          the long ones
+#   make -C cases NAME                       another case; `make -C cases` lists them
+#   make clean                               removes build/ (runs/ stays)
+#
+# CELLS: asked number of cells (default: of the case file); NP: ranks; OUT: folder of the run (default runs/paper).
+ROOT := $(CURDIR)
+include pipeline/build.mk
+include pipeline/run.mk
+
+.DEFAULT_GOAL := help
+.PHONY: help check check-long clean
+
+help:
+	@sed -n '/^#   make/s/^#  //p; /^# CELLS/s/^# //p' Makefile
+
+OUT ?= runs/paper
+$(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(abspath $(OUT)),$(CELLS)))
+
+check check-long: everything
+check: LABEL := quick
+check-long: LABEL := long
+check check-long:
+	@cd $(BUILD) && { ctest -L '^$(LABEL)$$' -j $(JOBS) --no-tests=error --no-label-summary --output-on-failure \
+	  --output-junit $(BUILD)/$@.xml; python3 $(ROOT)/tests/tally.py $@ $(BUILD)/$@.xml; }
+
+clean:
+	@rm -rf $(BUILD)

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// design.json: every derived dimension with its unit in its key, where it comes from, and what was measured.
+#ifndef CUTWATER_GEOMETRY_DESIGN_FILE_H
+#define CUTWATER_GEOMETRY_DESIGN_FILE_H
+
+#include <jansson.h>
+
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// What was measured on the solids as built.
+typedef struct {
+  CwMeasuredSolid rotor, stator;
+  CwMeasuredRotor rotor_dimensions;
+  CwMeasuredStator stator_dimensions;
+} CwMeasuredPump;
+
+// The measured values as a JSON object: lengths in m, angles in degrees. NULL where memory is out.
+json_t *cw_measured_json(const CwMeasuredPump *measured);
+
+// Writes the design and the measured values, whole or not at all.
+CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The hydraulic design: from the case's table to every dimension of the pump. What the table leaves open (NAN) is
+// computed by a named correlation; what it gives is taken as it is. SI units: m, rad, s, kg.
+//
+// Table 3 of the paper is over-determined: wrap angle, outlet blade angle and head do not fit one another. The case's
+// priority says which is the law; the others are predicted, and their residuals reported.
+#ifndef CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
+#define CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
+
+#include <stddef.h>
+
+#include "geometry/volute_design.h"
+#include "pipeline/case.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Every quantity of the design, once: X(member, unit kind, text). A member `outlet_width` of kind LENGTH is
+// CwDesign.outlet_width in m, CW_DESIGN_outlet_width in the enum and "outlet_width_m" in design.json.
+#define CW_DESIGN_LIST(X)                                                                                    \
+  X(flow_rate, FLOW, "flow rate Q")                                                                          \
+  X(head, HEAD, "head H asked")                                                                              \
+  X(angular_speed, ANGULAR_SPEED, "angular speed")                                                           \
+  X(specific_speed_nq, NUMBER, "specific speed nq = n Q^0.5 / H^0.75")                                       \
+  X(specific_speed_ns, NUMBER, "specific speed ns = 3.65 nq")                                                \
+  X(head_coefficient, NUMBER, "head coefficient psi = 2 g H / u2^2")                                         \
+  X(inlet_diameter, LENGTH, "impeller inlet D1")                                                             \
+  X(outlet_diameter, LENGTH, "impeller outlet D2")                                                           \
+  X(outlet_width, LENGTH, "impeller outlet width b2")                                                        \
+  X(hub_diameter, LENGTH, "hub at the nut")                                                                  \
+  X(nut_disk_radius, LENGTH, "flat end of the hub nut, radius")                                              \
+  X(nut_length, LENGTH, "hub nut, length")                                                                   \
+  X(axial_length, LENGTH, "shroud, axial length from eye to outlet")                                         \
+  X(leading_edge_radius_hub, LENGTH, "leading edge at the hub, radius")                                      \
+  X(leading_edge_radius_shroud, LENGTH, "leading edge at the shroud, radius")                                \
+  X(leading_edge_lean, ANGLE, "leading edge: angle at the shroud minus angle at the hub")                    \
+  X(inlet_blade_angle, ANGLE, "blade angle beta1 at mid-span")                                               \
+  X(outlet_blade_angle, ANGLE, "blade angle beta2")                                                          \
+  X(wrap_angle, ANGLE, "wrap angle at mid-span")                                                             \
+  X(wrap_residual, ANGLE, "wrap angle minus the table's")                                                    \
+  X(overlap, NUMBER, "overlap z wrap / 360 deg")                                                             \
+  X(leading_edge_thickness, LENGTH, "blade thickness at the leading edge")                                   \
+  X(blade_thickness, LENGTH, "blade thickness, largest")                                                     \
+  X(trailing_edge_thickness, LENGTH, "blade thickness at the trailing edge")                                 \
+  X(trailing_edge_bevel, LENGTH, "bevel of the trailing edge, facet length")                                 \
+  X(suction_pipe_length, LENGTH, "suction pipe, length")                                                     \
+  X(interface_radius, LENGTH, "rotor/stator interface, radius (D2 + D3) / 4")                                \
+  X(impeller_tip_speed, SPEED, "u2")                                                                         \
+  X(inlet_blade_speed, SPEED, "u1 at the mid-span leading edge")                                             \
+  X(inlet_meridional_speed, SPEED, "c_m1 before the blades")                                                 \
+  X(inlet_blockage, NUMBER, "blade blockage tau1 at the inlet")                                              \
+  X(inlet_relative_speed, SPEED, "w1 with blockage")                                                         \
+  X(inlet_flow_angle, ANGLE, "relative flow angle at the inlet with blockage")                               \
+  X(incidence, ANGLE, "incidence: beta1 minus flow angle")                                                   \
+  X(outlet_meridional_speed, SPEED, "c_m2 after the blades")                                                 \
+  X(outlet_blockage, NUMBER, "blade blockage tau2 at the outlet")                                            \
+  X(slip_factor, NUMBER, "slip factor gamma (Wiesner)")                                                      \
+  X(outlet_swirl_speed, SPEED, "c_u2")                                                                       \
+  X(outlet_absolute_speed, SPEED, "c_2")                                                                     \
+  X(outlet_relative_speed, SPEED, "w_2")                                                                     \
+  X(outlet_flow_angle, ANGLE, "relative flow angle at the outlet")                                           \
+  X(outlet_absolute_angle, ANGLE, "absolute flow angle alpha2")                                              \
+  X(diffusion_ratio, NUMBER, "w2 / w1")                                                                      \
+  X(hydraulic_efficiency, NUMBER, "hydraulic efficiency")                                                    \
+  X(theoretical_head, HEAD, "theoretical head u2 c_u2 / g")                                                  \
+  X(predicted_head, HEAD, "predicted head")                                                                  \
+  X(head_residual, HEAD, "predicted minus asked head")                                                       \
+  X(base_diameter, LENGTH, "volute base circle D3")                                                          \
+  X(inlet_width, LENGTH, "volute inlet width b3")                                                            \
+  X(side_wall_angle, ANGLE, "volute side walls, half angle")                                                 \
+  X(swirl_constant, DIFFUSIVITY, "volute swirl K = c_u2 r2")                                                 \
+  X(throat_area, AREA, "volute throat area")                                                                 \
+  X(throat_speed, SPEED, "speed in the throat")                                                              \
+  X(tongue_radius, LENGTH, "tongue nose radius")                                                             \
+  X(tongue_tip_radius, LENGTH, "tongue tip, radius from the axis")                                           \
+  X(diffuser_length, LENGTH, "diffuser length")                                                              \
+  X(diffuser_angle, ANGLE, "diffuser, full angle of the cone of equal areas")                                \
+  X(discharge_diameter, LENGTH, "discharge DN")                                                              \
+  X(discharge_pipe_length, LENGTH, "discharge pipe, length")                                                 \
+  X(relative_speed, SPEED, "mean relative speed along the blade")                                            \
+  X(volute_speed, SPEED, "volute speed scale")                                                               \
+  X(suction_speed, SPEED, "suction pipe speed")                                                              \
+  X(discharge_speed, SPEED, "discharge pipe speed")
+
+#define CW_DESIGN_ENUM(member, kind, text) CW_DESIGN_##member,
+typedef enum { CW_DESIGN_LIST(CW_DESIGN_ENUM) CW_DESIGN_COUNT } CwDesignQuantity;
+#undef CW_DESIGN_ENUM
+
+#define CW_DESIGN_MEMBER(member, kind, text) double member;
+typedef struct {
+  int blade_count;
+  CwPriority priority;
+  CW_DESIGN_LIST(CW_DESIGN_MEMBER)
+  CwVolute volute; // the casing, for cw_stator_build()
+  const char *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
+} CwDesign;
+#undef CW_DESIGN_MEMBER
+
+// Computes the design of a case. Fails with CW_ERR_DESIGN where it has no solution (for instance blade angles outside
+// 12 to 60 degrees), with the value and the allowed range.
+CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design);
+
+// One line for a person: what the quantity is, its value with a unit, and where it comes from.
+void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// cutwater-geometry: from the case file to the pump's solids. Writes RUN/geometry.
+#include <math.h>
+#include <stdlib.h>
+
+#include "geometry/design_check.h"
+#include "geometry/design_file.h"
+#include "geometry/faces_table.h"
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/picture.h"
+#include "geometry/rotor.h"
+#include "geometry/stator.h"
+#include "geometry/step_file.h"
+#include "pipeline/atomic_file.h"
+#include "pipeline/log.h"
+#include "pipeline/record.h"
+#include "pipeline/stage_args.h"
+
+static const CwStageUsage usage = {
+    .stage = "geometry",
+    .summary = "Designs the pump of the case file and writes its solids, with named faces, to DIR/geometry:\n"
+               "rotor.brep, stator.brep, faces.csv, pump.step, design.json, record.json and pictures.\n",
+};
+
+static const double degree = M_PI / 180;
+
+static void show_design(const CwDesign *design) {
+  char line[200];
+  cw_log("%-52s %10d       case", "blade number z", design->blade_count);
+  for (int i = 0; i < CW_DESIGN_COUNT; i++) {
+    cw_hydraulic_design_row(design, i, line, sizeof line);
+    cw_log("%s", line);
+  }
+  CwDesignRemarks remarks;
+  cw_design_check(design, &remarks);
+  for (int i = 0; i < remarks.count; i++)
+    cw_log_warn("%s", remarks.text[i]);
+}
+
+static CwStatus check_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(measured->valid && measured->closed && measured->largest_tolerance < 1e-6, CW_ERR_GEOMETRY,
+             "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
+             "0.001 mm",
+             cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
+             measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3);
+  cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed", cw_solid_domain(solid),
+         measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3);
+done:
+  return status;
+}
+
+// Creases sharper than this leave prism layers with more than the skewness that solvers accept.
+static void show_rotor(const CwMeasuredRotor *rotor) {
+  const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
+  cw_log("measured: wrap %.4f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
+         rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
+  cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least; sharpest wedge of the trailing edge "
+         "%.1f deg",
+         rotor->hub_crease.angle / degree, rotor->shroud_crease.angle / degree,
+         360 - rotor->trailing_edge.angle / degree);
+  if (least < 66)
+    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
+                "leading edge outward",
+                least);
+  if (360 - rotor->trailing_edge.angle / degree < 75)
+    cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: lengthen "
+                "the bevel",
+                360 - rotor->trailing_edge.angle / degree);
+}
+
+// Both sides of the interface must be the same cylinder, so that every weight of the coupling is 1.
+static CwStatus check_interface(const CwMeasuredRotor *rotor, const CwMeasuredStator *stator) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(fabs(rotor->interface_radius - stator->interface_radius) < 1e-8 &&
+                 fabs(rotor->interface_area / stator->interface_area - 1) < 1e-6,
+             CW_ERR_GEOMETRY, "the interface is r = %.6f mm, %.4f mm2 on the rotor and r = %.6f mm, %.4f mm2 on the stator",
+             rotor->interface_radius * 1e3, rotor->interface_area * 1e6, stator->interface_radius * 1e3,
+             stator->interface_area * 1e6);
+  cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides", stator->base_diameter * 1e3,
+         stator->inlet_width * 1e3, rotor->interface_radius * 1e3, rotor->interface_area * 1e6);
+done:
+  return status;
+}
+
+static CwStatus build(const CwDesign *design, CwRecord *record, CwSolid *solid[2], CwMeasuredPump *measured) {
+  CwStatus status = CW_OK;
+  double begin = cw_seconds();
+  CW_TRY(cw_rotor_build(design, &solid[0]));
+  CW_TRY(cw_record_step(record, "rotor", cw_seconds() - begin, cw_solid_face_count(solid[0]), "faces"));
+  begin = cw_seconds();
+  CW_TRY(cw_stator_build(&design->volute, &solid[1]));
+  CW_TRY(cw_record_step(record, "stator", cw_seconds() - begin, cw_solid_face_count(solid[1]), "faces"));
+  begin = cw_seconds();
+  CW_TRY(cw_measure_solid(solid[0], &measured->rotor));
+  CW_TRY(check_solid(solid[0], &measured->rotor));
+  CW_TRY(cw_measure_solid(solid[1], &measured->stator));
+  CW_TRY(check_solid(solid[1], &measured->stator));
+  CW_TRY(cw_measure_rotor(solid[0], &measured->rotor_dimensions));
+  CW_TRY(cw_measure_stator(solid[1], &measured->stator_dimensions));
+  show_rotor(&measured->rotor_dimensions);
+  CW_TRY(check_interface(&measured->rotor_dimensions, &measured->stator_dimensions));
+  CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin,
+                        measured->rotor.face_count + measured->stator.face_count, "faces"));
+done:
+  return status;
+}
+
+// Files of the stage. Each appears whole; record.json, written last by main(), says that all are there.
+static CwStatus write_file(const CwSolid *const solid[2], const CwDesign *design, const CwMeasuredPump *measured,
+                           const char *path, int file) {
+  switch (file) {
+  case 0:
+    return cw_solid_write_brep(solid[0], path);
+  case 1:
+    return cw_solid_write_brep(solid[1], path);
+  case 2:
+    return cw_faces_table_write(solid, 2, path);
+  case 3:
+    return cw_step_write(solid, 2, path);
+  case 4:
+    return cw_design_file_write(design, measured, path);
+  case 5:
+    return cw_picture_meridional(design, path);
+  case 6:
+    return cw_picture_blade_to_blade(design, path);
+  case 7:
+    return cw_picture_velocity_triangles(design, path);
+  default:
+    return cw_picture_blade_angle(design, path);
+  }
+}
+
+static CwStatus in_folder(const CwStageArgs *args, const char *name, char **path) {
+  char inside[64];
+  snprintf(inside, sizeof inside, "geometry/%s", name);
+  return cw_stage_path(args, inside, path);
+}
+
+static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
+  static const char *const names[] = {"rotor.brep",         "stator.brep",
+                                      "faces.csv",          "pump.step",
+                                      "design.json",        "meridional_section.svg",
+                                      "blade_to_blade.svg", "velocity_triangles.svg",
+                                      "blade_angle.svg"};
+  enum { FILES = sizeof names / sizeof *names };
+  CwStatus status = CW_OK;
+  CwDesign design;
+  CwMeasuredPump measured = {0};
+  CwSolid *solid[2] = {NULL, NULL};
+  char *folder = NULL, *path = NULL;
+  CW_TRY(cw_hydraulic_design(table, &design));
+  show_design(&design);
+  CW_TRY(build(&design, record, solid, &measured));
+  const double begin = cw_seconds();
+  CW_TRY(cw_stage_path(args, "geometry", &folder));
+  CW_TRY(cw_make_directory(folder));
+  for (int i = 0; i < FILES; i++) {
+    CW_TRY(in_folder(args, names[i], &path));
+    CW_TRY(write_file((const CwSolid *const *)solid, &design, &measured, path, i));
+    free(path);
+    path = NULL;
+  }
+  CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES, "files"));
+  CW_TRY(cw_record_json(record, "measured", cw_measured_json(&measured)));
+  CW_TRY(cw_record_number(record, "predicted_head_m", design.predicted_head));
+  CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
+  CW_TRY(cw_record_number(record, "specific_speed_ns", design.specific_speed_ns));
+done:
+  free(folder);
+  free(path);
+  cw_solid_free(&solid[0]);
+  cw_solid_free(&solid[1]);
+  return status;
+}
+
+int main(int argc, char **argv) {
+  CwStatus status = CW_OK;
+  CwStageArgs args;
+  CwCase table;
+  CwRecord *record = NULL;
+  char *record_path = NULL;
+  CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
+  if (args.finished)
+    goto done;
+  CW_TRY(cw_record_start("geometry", &record));
+  CW_TRY(make_geometry(&args, &table, record));
+  CW_TRY(in_folder(&args, "record.json", &record_path));
+  CW_TRY(cw_record_write(record, record_path));
+done:;
+  const int code = cw_log_error(status);
+  free(record_path);
+  cw_record_free(record);
+  cw_log_close();
+  return code;
+}

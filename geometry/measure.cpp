@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <ShapeAnalysis_ShapeTolerance.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <gp_Vec.hxx>
+
+#include "geometry/solid.hpp"
+
+namespace {
+
+const double metre = 1e-3; // mm in m
+
+CwStatus guarded(const CwSolid *solid, const std::function<void()> &work) {
+  try {
+    work();
+    return CW_OK;
+  } catch (const Standard_Failure &failure) {
+    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.GetMessageString());
+  } catch (const std::exception &failure) {
+    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.what());
+  }
+}
+
+const CwSolidFace &face_named(const CwSolid *solid, const std::string &name) {
+  for (const CwSolidFace &face : solid->faces)
+    if (face.name == name)
+      return face;
+  throw Standard_Failure(("no face named " + name).c_str());
+}
+
+// Normal out of the solid and the tangent of the edge with the face on its left, seen from outside.
+struct Side {
+  gp_Vec normal, tangent;
+};
+
+Side side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) {
+  double first, last;
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  gp_Pnt2d uv;
+  gp_Vec2d duv;
+  gp_Pnt x;
+  gp_Vec xu, xv;
+  curve->D1(t, uv, duv);
+  surface->D1(uv.X(), uv.Y(), x, xu, xv);
+  Side side;
+  side.normal = xu.Crossed(xv).Normalized();
+  side.tangent = (xu * duv.X() + xv * duv.Y()).Normalized();
+  // The edge's orientation in the explored face already includes that of the face.
+  if (face.Orientation() == TopAbs_REVERSED)
+    side.normal.Reverse();
+  if (edge.Orientation() == TopAbs_REVERSED)
+    side.tangent.Reverse();
+  return side;
+}
+
+double fluid_angle(const Side &a, const Side &b) {
+  const gp_Vec into_a = a.normal.Crossed(a.tangent), into_b = b.normal.Crossed(b.tangent);
+  const double angle = into_a.Angle(into_b);
+  return into_b.Dot(a.normal) < 0 ? angle : 2 * M_PI - angle;
+}
+
+bool is_blade(const CwSolidFace &face) {
+  return face.patch.compare(0, 6, "blade_") == 0;
+}
+
+// Calls `use` for samples of all edges whose faces satisfy `wanted` (in either order).
+void each_angle(const CwSolid *solid, const std::function<bool(const CwSolidFace &, const CwSolidFace &)> &wanted,
+                const std::function<void(const CwMeasuredAngle &)> &use) {
+  const int samples = 40;
+  for (size_t i = 0; i < solid->faces.size(); i++)
+    for (size_t j = 0; j < solid->faces.size(); j++) {
+      if (i == j || !wanted(solid->faces[i], solid->faces[j]))
+        continue;
+      for (TopExp_Explorer a(solid->faces[i].face, TopAbs_EDGE); a.More(); a.Next())
+        for (TopExp_Explorer b(solid->faces[j].face, TopAbs_EDGE); b.More(); b.Next()) {
+          if (!a.Current().IsSame(b.Current()))
+            continue;
+          const TopoDS_Edge edge = TopoDS::Edge(a.Current()), other = TopoDS::Edge(b.Current());
+          double first, last;
+          const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+          for (int k = 0; k <= samples; k++) {
+            const double t = first + (last - first) * k / samples;
+            const gp_Pnt point = curve->Value(t);
+            CwMeasuredAngle measured = {fluid_angle(side_at(edge, solid->faces[i].face, t),
+                                                    side_at(other, solid->faces[j].face, t)),
+                                        {point.X() * metre, point.Y() * metre, point.Z() * metre}};
+            use(measured);
+          }
+        }
+    }
+}
+
+// Point of a face of blade 1 at mid-span: v = 0.5 at the given u of its parameter plane.
+gp_Pnt mid_span(const CwSolid *rotor, const char *name, double u) {
+  return BRep_Tool::Surface(face_named(rotor, name).face)->Value(u, 0.5);
+}
+
+double polar(const gp_Pnt &point) {
+  return std::atan2(point.Y(), point.X());
+}
+
+double angle_between(double from, double to) {
+  double angle = to - from;
+  while (angle < 0)
+    angle += 2 * M_PI;
+  return angle;
+}
+
+struct Extent {
+  double least_r = HUGE_VAL, largest_r = 0, least_z = HUGE_VAL, largest_z = -HUGE_VAL, area = 0;
+};
+
+// Over the vertices and the middles of the edges of a patch.
+Extent extent(const CwSolid *solid, const std::string &patch) {
+  Extent extent;
+  for (const CwSolidFace &face : solid->faces) {
+    if (face.patch != patch)
+      continue;
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face.face, properties);
+    extent.area += properties.Mass() * metre * metre;
+    for (TopExp_Explorer explorer(face.face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
+      double first, last;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(explorer.Current()), first, last);
+      for (int i = 0; i <= 4; i++) {
+        const gp_Pnt point = curve->Value(first + (last - first) * i / 4);
+        const double r = std::hypot(point.X(), point.Y()) * metre, z = point.Z() * metre;
+        extent.least_r = std::min(extent.least_r, r);
+        extent.largest_r = std::max(extent.largest_r, r);
+        extent.least_z = std::min(extent.least_z, z);
+        extent.largest_z = std::max(extent.largest_z, z);
+      }
+    }
+  }
+  if (extent.largest_r == 0)
+    throw Standard_Failure(("no patch " + patch).c_str());
+  return extent;
+}
+
+bool is_closed(const CwSolid *solid) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(solid->solid, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  for (int i = 1; i <= faces_of.Extent(); i++) {
+    const TopoDS_Edge edge = TopoDS::Edge(faces_of.FindKey(i));
+    if (BRep_Tool::Degenerated(edge) || faces_of(i).Extent() != 2 ||
+        faces_of(i).First().IsSame(faces_of(i).Last()))
+      return false;
+    int sense = 0;
+    for (const TopoDS_Shape &face : faces_of(i))
+      for (TopExp_Explorer explorer(face, TopAbs_EDGE); explorer.More(); explorer.Next())
+        if (explorer.Current().IsSame(edge))
+          sense += explorer.Current().Orientation() == TopAbs_FORWARD ? 1 : -1;
+    if (sense != 0)
+      return false;
+  }
+  return true;
+}
+
+} // namespace
+
+CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
+  return guarded(solid, [&] {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(solid->solid, properties);
+    measured->valid = properties.Mass() > 0 && BRepCheck_Analyzer(solid->solid).IsValid();
+    measured->closed = is_closed(solid);
+    measured->face_count = (int)solid->faces.size();
+    measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * metre;
+    measured->volume = properties.Mass() * metre * metre * metre;
+  });
+}
+
+CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
+  return guarded(rotor, [&] {
+    const Extent inlet = extent(rotor, "inlet"), interface = extent(rotor, "rotor_interface");
+    measured->inlet_diameter = 2 * inlet.largest_r;
+    measured->interface_radius = interface.largest_r;
+    measured->interface_area = interface.area;
+    measured->outlet_width = interface.largest_z - interface.least_z;
+    // The suction side's surface goes on to D2 under the bevel: the mean line ends half-way between both corners.
+    const gp_Pnt nose = mid_span(rotor, "blade_leading_edge_1", 0.5);
+    const gp_Pnt pressure = mid_span(rotor, "blade_pressure_1", 1), suction = mid_span(rotor, "blade_suction_1", 1);
+    measured->outlet_diameter = 2 * std::hypot(pressure.X(), pressure.Y()) * metre;
+    const double thickness = angle_between(polar(suction), polar(pressure));
+    measured->wrap_angle = angle_between(polar(suction) + thickness / 2, polar(nose));
+    measured->hub_crease.angle = measured->shroud_crease.angle = HUGE_VAL;
+    measured->trailing_edge.angle = 0;
+    for (const char *wall : {"hub", "shroud"}) {
+      CwMeasuredAngle &least = wall[0] == 'h' ? measured->hub_crease : measured->shroud_crease;
+      each_angle(
+          rotor,
+          [&](const CwSolidFace &a, const CwSolidFace &b) { return is_blade(a) && b.patch == wall; },
+          [&](const CwMeasuredAngle &found) {
+            if (found.angle < least.angle)
+              least = found;
+          });
+    }
+    each_angle(
+        rotor,
+        [&](const CwSolidFace &a, const CwSolidFace &b) {
+          return a.patch == "blade_trailing_edge" && is_blade(b);
+        },
+        [&](const CwMeasuredAngle &found) {
+          if (found.angle > measured->trailing_edge.angle)
+            measured->trailing_edge = found;
+        });
+  });
+}
+
+CwStatus cw_measure_stator(const CwSolid *stator, CwMeasuredStator *measured) {
+  return guarded(stator, [&] {
+    const Extent interface = extent(stator, "stator_interface"), step = extent(stator, "step");
+    measured->interface_radius = interface.largest_r;
+    measured->interface_area = interface.area;
+    measured->base_diameter = 2 * step.least_r;
+    measured->inlet_width = step.largest_z - step.least_z;
+  });
+}

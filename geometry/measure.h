@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Measures the solids as built: what the design asked for is read back from the B-rep itself.
+#ifndef CUTWATER_GEOMETRY_MEASURE_H
+#define CUTWATER_GEOMETRY_MEASURE_H
+
+#include "geometry/solid.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// An angle along an edge of the solid, measured through the fluid, rad, and where it is found, m.
+typedef struct {
+  double angle;
+  double at[3];
+} CwMeasuredAngle;
+
+typedef struct {
+  int valid;                // BRepCheck finds no fault, and the volume is positive: not inside out
+  int closed;               // each edge lies on two faces in opposite senses; no seam, no degenerate edge
+  int face_count;
+  double largest_tolerance; // of any vertex, edge or face, m
+  double volume;            // m3
+} CwMeasuredSolid;
+
+typedef struct {
+  double wrap_angle;        // mean line at mid-span, leading edge to trailing edge, blade 1, rad
+  double inlet_diameter;    // of the inlet disk, m
+  double outlet_diameter;   // of the blade's cut, m
+  double outlet_width;      // axial extent of the interface, m
+  double interface_radius;  // m
+  double interface_area;    // m2
+  CwMeasuredAngle hub_crease, shroud_crease; // least angle of blade to hub, blade to shroud
+  CwMeasuredAngle trailing_edge;             // greatest angle round an edge of the trailing edge: the sharpest wedge
+} CwMeasuredRotor;
+
+typedef struct {
+  double base_diameter;     // of the step from b2 to b3, m
+  double inlet_width;       // axial extent of the step, m
+  double interface_radius;  // m
+  double interface_area;    // m2
+} CwMeasuredStator;
+
+CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured);
+CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured);
+CwStatus cw_measure_stator(const CwSolid *stator, CwMeasuredStator *measured);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/meridian.h"
+
+#include <math.h>
+
+static const double gauss_x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                                  0.9061798459386640};
+static const double gauss_w[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                  0.4786286704993665, 0.2369268850561891};
+
+void cw_meridian_point(const CwMeridianCurve *curve, double t, double x[2], double dx[2]) {
+  const double u = 1 - t;
+  for (int i = 0; i < 2; i++) {
+    const double p0 = curve->pole[0][i], p1 = curve->pole[1][i], p2 = curve->pole[2][i], p3 = curve->pole[3][i];
+    x[i] = u * u * u * p0 + 3 * u * u * t * p1 + 3 * u * t * t * p2 + t * t * t * p3;
+    if (dx)
+      dx[i] = 3 * (u * u * (p1 - p0) + 2 * u * t * (p2 - p1) + t * t * (p3 - p2));
+  }
+}
+
+static double curve_speed(const CwMeridianCurve *curve, double t) {
+  double x[2], dx[2];
+  cw_meridian_point(curve, t, x, dx);
+  return hypot(dx[0], dx[1]);
+}
+
+static double curve_piece(const CwMeridianCurve *curve, double a, double b) {
+  double sum = 0;
+  for (int i = 0; i < 5; i++)
+    sum += gauss_w[i] * curve_speed(curve, 0.5 * (a + b) + 0.5 * (b - a) * gauss_x[i]);
+  return 0.5 * (b - a) * sum;
+}
+
+static void curve_measure(CwMeridianCurve *curve) {
+  curve->length[0] = 0;
+  for (int i = 0; i < CW_MERIDIAN_STEPS; i++)
+    curve->length[i + 1] = curve->length[i] + curve_piece(curve, (double)i / CW_MERIDIAN_STEPS,
+                                                          (double)(i + 1) / CW_MERIDIAN_STEPS);
+}
+
+double cw_meridian_length(const CwMeridianCurve *curve, double t) {
+  int i = (int)(t * CW_MERIDIAN_STEPS);
+  i = i < 0 ? 0 : i > CW_MERIDIAN_STEPS ? CW_MERIDIAN_STEPS : i;
+  return curve->length[i] + curve_piece(curve, (double)i / CW_MERIDIAN_STEPS, t);
+}
+
+double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
+  int low = 0, high = CW_MERIDIAN_STEPS;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    if (curve->length[middle] <= length)
+      low = middle;
+    else
+      high = middle;
+  }
+  double t = (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
+  for (int i = 0; i < 4; i++)
+    t -= (curve->length[low] + curve_piece(curve, (double)low / CW_MERIDIAN_STEPS, t) - length) /
+         curve_speed(curve, t);
+  return t;
+}
+
+// Arc length where the curve passes a radius, going downstream; the radius grows along the curve there.
+static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, const char *what, double *length) {
+  CwStatus status = CW_OK;
+  double low = 0, high = 1, x[2];
+  CW_REQUIRE(radius > curve->pole[0][0] && radius < curve->pole[3][0], CW_ERR_DESIGN,
+             "%s at radius %.3f mm does not lie between %.3f and %.3f mm", what, radius * 1e3,
+             curve->pole[0][0] * 1e3, curve->pole[3][0] * 1e3);
+  for (int i = 0; i < 60; i++) {
+    const double middle = 0.5 * (low + high);
+    cw_meridian_point(curve, middle, x, NULL);
+    if (x[0] < radius)
+      low = middle;
+    else
+      high = middle;
+  }
+  *length = cw_meridian_length(curve, 0.5 * (low + high));
+done:
+  return status;
+}
+
+CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
+  CwStatus status = CW_OK;
+  const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2, ri = design->interface_radius;
+  const double rn = design->hub_diameter / 2, half = design->outlet_width / 2, axial = design->axial_length;
+  // Both turn early, so that they are flat where the blades begin: blades then meet them at more than 70 degrees, and
+  // the area hardly rises above that of the eye before it grows to the outlet. Factors by trial on the paper's pump.
+  const double hub[4][2] = {{rn, half - 0.4375 * axial}, {rn, half - 0.125 * axial},
+                            {rn + 0.64 * (r1 - rn), half}, {ri, half}};
+  const double shroud[4][2] = {{r1, -half - axial}, {r1, -half - 0.2 * axial},
+                               {r1 + 0.25 * (r2 - r1), -half}, {ri, -half}};
+  CW_REQUIRE(rn < r1 && r1 < r2 && r2 < ri, CW_ERR_DESIGN,
+             "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order", rn * 1e3,
+             r1 * 1e3, r2 * 1e3, ri * 1e3);
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 2; j++) {
+      meridian->hub.pole[i][j] = hub[i][j];
+      meridian->shroud.pole[i][j] = shroud[i][j];
+    }
+  curve_measure(&meridian->hub);
+  curve_measure(&meridian->shroud);
+  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub, "leading edge at the hub",
+                         &meridian->hub_leading));
+  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud, "leading edge at the shroud",
+                         &meridian->shroud_leading));
+  CW_TRY(curve_at_radius(&meridian->hub, r2, "trailing edge at the hub", &meridian->hub_trailing));
+  CW_TRY(curve_at_radius(&meridian->shroud, r2, "trailing edge at the shroud", &meridian->shroud_trailing));
+  meridian->nut_disk_radius = design->nut_disk_radius;
+  meridian->nut_end_z = hub[0][1] - design->nut_length;
+  meridian->inlet_z = shroud[0][1] - design->suction_pipe_length;
+  CW_REQUIRE(meridian->inlet_z < meridian->nut_end_z, CW_ERR_DESIGN,
+             "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: a longer suction pipe is needed",
+             meridian->inlet_z * 1e3, meridian->nut_end_z * 1e3);
+done:
+  return status;
+}
+
+void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, double x[2], double dx[2]) {
+  const double hub_length = meridian->hub_trailing - meridian->hub_leading;
+  const double shroud_length = meridian->shroud_trailing - meridian->shroud_leading;
+  double h[2], dh[2], c[2], dc[2];
+  cw_meridian_point(&meridian->hub, cw_meridian_parameter(&meridian->hub, meridian->hub_leading + q * hub_length),
+                    h, dh);
+  cw_meridian_point(&meridian->shroud,
+                    cw_meridian_parameter(&meridian->shroud, meridian->shroud_leading + q * shroud_length), c, dc);
+  const double sh = hub_length / hypot(dh[0], dh[1]), ss = shroud_length / hypot(dc[0], dc[1]);
+  for (int i = 0; i < 2; i++) {
+    x[i] = (1 - s) * h[i] + s * c[i];
+    if (dx)
+      dx[i] = (1 - s) * dh[i] * sh + s * dc[i] * ss;
+  }
+}
+
+double cw_meridian_area(const CwMeridian *meridian, double q) {
+  double h[2], c[2];
+  cw_meridian_blade_point(meridian, 0, q, h, NULL);
+  cw_meridian_blade_point(meridian, 1, q, c, NULL);
+  return M_PI * (h[0] + c[0]) * hypot(h[0] - c[0], h[1] - c[1]);
+}
+
+// Integral of pi r^2 dz along a curve from t = 0 to t = 1 (exact: a polynomial of degree 8).
+static double curve_swept_volume(const CwMeridianCurve *curve) {
+  double sum = 0;
+  for (int i = 0; i < 5; i++) {
+    double x[2], dx[2];
+    cw_meridian_point(curve, 0.5 + 0.5 * gauss_x[i], x, dx);
+    sum += gauss_w[i] * x[0] * x[0] * dx[1];
+  }
+  return 0.5 * M_PI * sum;
+}
+
+double cw_meridian_volume(const CwMeridian *meridian) {
+  const double ri = meridian->hub.pole[3][0], r1 = meridian->shroud.pole[0][0], rn = meridian->hub.pole[0][0];
+  const double d = meridian->nut_disk_radius, a = rn - d, l = meridian->hub.pole[0][1] - meridian->nut_end_z;
+  // Quarter ellipse r = d + a sin x, z = -l cos x: pi (d^2 l + 2 d a l pi/4 + a^2 l 2/3).
+  const double nut = M_PI * l * (d * d + d * a * M_PI / 2 + a * a * 2 / 3);
+  return M_PI * r1 * r1 * (meridian->shroud.pole[0][1] - meridian->inlet_z) + curve_swept_volume(&meridian->shroud) +
+         M_PI * ri * ri * (meridian->hub.pole[3][1] - meridian->shroud.pole[3][1]) -
+         curve_swept_volume(&meridian->hub) - nut;
+}

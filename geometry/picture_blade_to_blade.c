@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+
+#include "geometry/blade.h"
+#include "geometry/meridian.h"
+#include "geometry/picture.h"
+
+enum { SIDE = 120, NOSE = 24, OUTLINE = 2 * SIDE + NOSE + 3 };
+
+// The outline at mid-span from the bevel along the suction side round the nose to the pressure side; (r, theta).
+static void outline(const CwMeridian *meridian, const CwBladeSection *section, double bevel, double (*x)[2]) {
+  const double begin = cw_blade_bevel_begin(section, bevel);
+  for (int i = 0; i < OUTLINE; i++) {
+    CwBladePoint point;
+    if (i <= SIDE)
+      point = cw_blade_side(section, CW_BLADE_SUCTION, begin + (section->nose - begin) * i / SIDE);
+    else if (i <= SIDE + NOSE)
+      point = cw_blade_leading_edge(section, M_PI * ((double)(i - SIDE) / NOSE - 0.5));
+    else if (i <= 2 * SIDE + NOSE + 1)
+      point = cw_blade_side(section, CW_BLADE_PRESSURE,
+                            section->nose + (1 - section->nose) * (i - SIDE - NOSE - 1) / SIDE);
+    else
+      point = (CwBladePoint){1, cw_blade_bevel_theta(section, begin)};
+    double rz[2];
+    cw_meridian_blade_point(meridian, section->span, point.q, rz, NULL);
+    x[i][0] = rz[0];
+    x[i][1] = point.theta;
+  }
+}
+
+CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
+  CwStatus status = CW_OK;
+  CwPicture picture = {0};
+  CwMeridian m;
+  CwBladeSection section;
+  double polar[OUTLINE][2], x[OUTLINE][2];
+  const double scale = 320 / design->interface_radius, centre = 360;
+  CW_TRY(cw_meridian_make(design, &m));
+  CW_TRY(cw_blade_section(design, &m, 0.5, &section));
+  outline(&m, &section, design->trailing_edge_bevel, polar);
+  CW_TRY(cw_picture_begin(&picture, path, 2 * centre, 2 * centre + 40));
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Blades at mid-span, seen from the hub side (against +z)");
+  cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->interface_radius);
+  cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->inlet_diameter / 2);
+  for (int k = 0; k < design->blade_count; k++) {
+    for (int i = 0; i < OUTLINE; i++) {
+      const double theta = polar[i][1] + 2 * M_PI * k / design->blade_count;
+      x[i][0] = centre + scale * polar[i][0] * cos(theta);
+      x[i][1] = centre + 20 - scale * polar[i][0] * sin(theta);
+    }
+    cw_picture_line(&picture, CW_STROKE_BLADE, (const double(*)[2])x, OUTLINE, 1);
+  }
+  // The wrap of blade 1, between the rays to the ends of its mean line, and the sense of rotation.
+  const double r0 = scale * 0.16 * design->outlet_diameter / 2;
+  double arc[41][2];
+  for (int i = 0; i <= 40; i++) {
+    const double theta = section.theta[0] * i / 40;
+    arc[i][0] = centre + r0 * cos(theta);
+    arc[i][1] = centre + 20 - r0 * sin(theta);
+  }
+  cw_picture_line(&picture, CW_STROKE_THIN, (const double(*)[2])arc, 41, 0);
+  cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20,
+                     centre + scale * design->outlet_diameter / 2, centre + 20);
+  cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20,
+                     centre + scale * m.hub.pole[3][0] * 0.5 * cos(section.theta[0]),
+                     centre + 20 - scale * m.hub.pole[3][0] * 0.5 * sin(section.theta[0]));
+  cw_picture_text(&picture, CW_TEXT_LEFT, centre + r0 * 0.9, centre + 20 - r0 * 0.6, "wrap %.1f deg",
+                  design->wrap_angle * 180 / M_PI);
+  const double ra = scale * 0.25 * design->outlet_diameter / 2;
+  for (int i = 0; i <= 40; i++) {
+    const double theta = M_PI * (0.75 + 0.5 * i / 40);
+    arc[i][0] = centre + ra * cos(theta);
+    arc[i][1] = centre + 20 - ra * sin(theta);
+  }
+  cw_picture_line(&picture, CW_STROKE_FLOW, (const double(*)[2])arc, 40, 0);
+  cw_picture_arrow(&picture, CW_STROKE_FLOW, arc[38][0], arc[38][1], arc[40][0] + 4, arc[40][1] + 4);
+  cw_picture_text(&picture, CW_TEXT_RIGHT, arc[20][0] - 4, arc[20][1] + 4, "n");
+  CW_TRY(cw_picture_end(&picture));
+done:
+  cw_picture_abandon(&picture);
+  return status;
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Builds a closed solid from explicit vertices, shared edges and faces with their parameter curves: no booleans, no
+// sewing. Tolerances are measured, not asked for.
+#ifndef CUTWATER_GEOMETRY_SHELL_BUILDER_HPP
+#define CUTWATER_GEOMETRY_SHELL_BUILDER_HPP
+
+#include <string>
+#include <vector>
+
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <gp_Pnt.hxx>
+
+#include "geometry/solid.hpp"
+
+// One edge in the loop of a face. `forward`: along the edge's own direction. The parameter curve has the parameter of
+// the edge's curve.
+struct CwEdgeUse {
+  int edge;
+  bool forward;
+  Handle(Geom2d_Curve) curve;
+};
+
+class CwShellBuilder {
+public:
+  int vertex(const gp_Pnt &point);
+  // An edge of `curve` from parameter `first` at vertex `begin` to `last` at `end`.
+  int edge(const Handle(Geom_Curve) & curve, double first, double last, int begin, int end);
+  // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv) points out
+  // of the solid. Each face needs a surface of its own.
+  void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward, const char *patch,
+            const char *kind, const std::string &name);
+  // Makes the solid, or throws Standard_Failure with the reason.
+  CwSolid *finish(const char *domain);
+
+private:
+  struct Edge {
+    TopoDS_Edge edge;
+    Handle(Geom_Curve) curve;
+    double first, last;
+    int begin, end;
+    double deviation = 0;
+    int forward_uses = 0, reversed_uses = 0;
+  };
+  std::vector<TopoDS_Vertex> vertices;
+  std::vector<gp_Pnt> points;
+  std::vector<Edge> edges;
+  std::vector<CwSolidFace> faces;
+};
+
+#endif

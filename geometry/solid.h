@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One closed solid in mm with a patch for each face. Faces are counted from 0 in the order of
+// TopExp::MapShapes(solid, TopAbs_FACE).
+#ifndef CUTWATER_GEOMETRY_SOLID_H
+#define CUTWATER_GEOMETRY_SOLID_H
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct CwSolid CwSolid; // solid.hpp shows its members to the C++ bridges
+
+void cw_solid_free(CwSolid **solid);
+const char *cw_solid_domain(const CwSolid *solid); // "rotor" or "stator"
+int cw_solid_face_count(const CwSolid *solid);
+const char *cw_solid_face_patch(const CwSolid *solid, int face);
+const char *cw_solid_face_kind(const CwSolid *solid, int face); // "wall", "inlet", "outlet" or "interface"
+const char *cw_solid_face_name(const CwSolid *solid, int face);
+
+// Writes the solid in OpenCASCADE's text format under a temporary name, then renames it. The same bits each time.
+CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/step_file.h"
+
+#include <memory>
+
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_StepModelType.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include "geometry/solid.hpp"
+#include "pipeline/atomic_file.h"
+
+#ifdef __SANITIZE_ADDRESS__
+// OpenCASCADE 7.6's translators leak a few hundred bytes of their own for each session.
+extern "C" const char *__lsan_default_suppressions() {
+  return "leak:libTKXSBase\nleak:libTKSTEP\nleak:libTKXDESTEP\n";
+}
+#endif
+
+namespace {
+
+// An XCAF document that is closed when it goes.
+class Document {
+public:
+  Document() {
+    Message::DefaultMessenger()->ChangePrinters().Clear(); // else the translator chats on standard output
+    XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", handle);
+  }
+  ~Document() {
+    try {
+      XCAFApp_Application::GetApplication()->Close(handle);
+    } catch (const Standard_Failure &) { // nothing is left to do about it
+    }
+  }
+  Handle(XCAFDoc_ShapeTool) shapes() const {
+    return XCAFDoc_DocumentTool::ShapeTool(handle->Main());
+  }
+  Handle(TDocStd_Document) handle;
+};
+
+std::string label_name(const TDF_Label &label) {
+  Handle(TDataStd_Name) name;
+  if (!label.FindAttribute(TDataStd_Name::GetID(), name))
+    return "";
+  const TCollection_AsciiString text(name->Get());
+  return text.ToCString();
+}
+
+void set_name(const TDF_Label &label, const std::string &name) {
+  TDataStd_Name::Set(label, TCollection_ExtendedString(name.c_str()));
+}
+
+CwStatus write(const CwSolid *const *solids, int count, const char *temporary_path) {
+  Document document;
+  const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
+  for (int i = 0; i < count; i++) {
+    const TDF_Label label = shapes->AddShape(solids[i]->solid, Standard_False);
+    set_name(label, solids[i]->domain);
+    for (const CwSolidFace &face : solids[i]->faces) {
+      const TDF_Label part = shapes->AddSubShape(label, face.face);
+      if (part.IsNull())
+        throw Standard_Failure(("no label for face " + face.name).c_str());
+      set_name(part, face.patch);
+    }
+  }
+  STEPCAFControl_Writer writer;
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  writer.SetNameMode(Standard_True);
+  if (!writer.Transfer(document.handle, STEPControl_AsIs))
+    throw Standard_Failure("the shapes cannot be translated");
+  APIHeaderSection_MakeHeader header(writer.ChangeWriter().Model());
+  header.SetName(new TCollection_HAsciiString("pump"));
+  header.SetTimeStamp(new TCollection_HAsciiString("2000-01-01T00:00:00"));
+  header.SetOriginatingSystem(new TCollection_HAsciiString("Cutwater"));
+  if (writer.Write(temporary_path) != IFSelect_RetDone)
+    return CW_FAIL(CW_ERR_IO, "%s: cannot be written", temporary_path);
+  return CW_OK;
+}
+
+CwSolid *read(const char *path, const char *domain, CwStatus *status) {
+  Document document;
+  STEPCAFControl_Reader reader;
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+  reader.SetNameMode(Standard_True);
+  if (reader.ReadFile(path) != IFSelect_RetDone || !reader.Transfer(document.handle)) {
+    *status = CW_FAIL(CW_ERR_IO, "%s: cannot be read as STEP", path);
+    return nullptr;
+  }
+  const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
+  TDF_LabelSequence labels;
+  shapes->GetFreeShapes(labels);
+  for (int i = 1; i <= labels.Length(); i++) {
+    if (label_name(labels(i)) != domain)
+      continue;
+    TopExp_Explorer explorer(shapes->GetShape(labels(i)), TopAbs_SOLID);
+    if (!explorer.More())
+      continue;
+    std::unique_ptr<CwSolid> solid(new CwSolid);
+    solid->domain = domain;
+    solid->solid = TopoDS::Solid(explorer.Current());
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(solid->solid, TopAbs_FACE, faces);
+    for (int j = 1; j <= faces.Extent(); j++) {
+      CwSolidFace face;
+      face.face = TopoDS::Face(faces(j));
+      TDF_Label part;
+      if (shapes->FindSubShape(labels(i), faces(j), part))
+        face.patch = label_name(part);
+      solid->faces.push_back(face);
+    }
+    return solid.release();
+  }
+  *status = CW_FAIL(CW_ERR_INPUT, "%s: no solid called %s", path, domain);
+  return nullptr;
+}
+
+} // namespace
+
+CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path) {
+  CwStatus status = CW_OK;
+  CwAtomicFile file = {};
+  try {
+    CW_TRY(cw_atomic_file_name(path, &file));
+    CW_TRY(write(solids, count, file.temporary_path));
+    CW_TRY(cw_atomic_file_commit(&file));
+  } catch (const Standard_Failure &failure) {
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
+  } catch (const std::exception &failure) {
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
+  }
+done:
+  cw_atomic_file_abandon(&file);
+  return status;
+}
+
+CwStatus cw_step_read(const char *path, const char *domain, CwSolid **solid) {
+  CwStatus status = CW_OK;
+  *solid = nullptr;
+  try {
+    *solid = read(path, domain, &status);
+  } catch (const Standard_Failure &failure) {
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
+  } catch (const std::exception &failure) {
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
+  }
+  return status;
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// STEP AP214 in mm: one product a solid, named by its domain; each face named by its patch.
+#ifndef CUTWATER_GEOMETRY_STEP_FILE_H
+#define CUTWATER_GEOMETRY_STEP_FILE_H
+
+#include "geometry/solid.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Writes `count` solids, whole or not at all. The same bits each time: the header's time stamp is fixed.
+CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path);
+
+// Reads the solid of the product called `domain` back: patches from the names of the faces; kind and name stay empty.
+// Fails with CW_ERR_IO where the file cannot be read and CW_ERR_INPUT where it has no such solid.
+CwStatus cw_step_read(const char *path, const char *domain, CwSolid **solid);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/domain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/layer_heights.h"
+#include "mesher/region_number.h"
+#include "mesher/vec.h"
+
+enum { LEAST_REGIONS = 4 };
+static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
+static const double DEFLECTION = 4e-5;      // m, of the background triangulation
+static const double DEFLECTION_ANGLE = 0.2; // rad
+// The columns of a dividing plane and those of an edge beside it want room for two layers and a cell between them.
+static const double CLEARANCE_THICKNESSES = 2;
+
+double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch) {
+  if (cw_case_given(table->walls.total_thickness)) return table->walls.total_thickness;
+  return cw_layer_thickness(domain->patch_first_height[patch], table->walls.layer_count, table->walls.growth_ratio);
+}
+
+static double triangle_area(const CwBackground *background, int32_t t, double centre[3]) {
+  const double *a = background->x[background->triangle[t][0]], *b = background->x[background->triangle[t][1]],
+               *c = background->x[background->triangle[t][2]];
+  double u[3], v[3], n[3];
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_cross(u, v, n);
+  for (int k = 0; k < 3; k++) centre[k] = (a[k] + b[k] + c[k]) / 3;
+  return cw_norm(n) / 2;
+}
+
+// What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
+static CwStatus integrate(CwDomain *domain, const CwCase *table) {
+  CwStatus status = CW_OK;
+  double(*x)[3] = NULL, *volume = NULL;
+  int32_t count = 0;
+  for (int32_t t = 0; t < domain->background.triangle_count; t++) {
+    int32_t face = domain->background.face[t];
+    if (!cw_face_is_wall(domain->cad, face)) continue;
+    double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
+    double thickness = cw_domain_thickness(domain, table, cw_cad_face_patch(domain->cad, face));
+    domain->wall_area += area;
+    domain->layer_volume += area * thickness;
+    domain->prism_integral += area / (h * h);
+    domain->tet_integral -= area * thickness / (h * h * h);
+  }
+  CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
+  double whole = 0;
+  for (int32_t i = 0; i < count; i++) {
+    double h = cw_size_at(domain->size, x[i]);
+    whole += volume[i] / (h * h * h);
+  }
+  // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
+  domain->tet_integral = fmax(whole + domain->tet_integral, 0.1 * whole);
+done:
+  free(x);
+  free(volume);
+  return status;
+}
+
+CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
+                        const CwFlowScales *scales) {
+  CwStatus status = CW_OK;
+  memset(domain, 0, sizeof *domain);
+  domain->name = name;
+  CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
+  CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
+  CW_NEW(domain->patch_first_height, cw_cad_patch_count(domain->cad));
+  cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_first_height);
+  CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->background));
+  CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
+                        domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
+                        &domain->inside));
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, &domain->size));
+  CW_TRY(integrate(domain, table));
+done:
+  return status;
+}
+
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
+  CwStatus status = CW_OK;
+  double regions = ceil(cells / (double)table->mesh.cells_per_region);
+  double thickness = domain->layer_volume / domain->wall_area, thickest = 0;
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickest = fmax(thickest, cw_domain_thickness(domain, table, p));
+  }
+  CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
+                           .clearance = CLEARANCE_THICKNESSES * thickness,
+                           .line_clearance = CLEARANCE_THICKNESSES * thickest,
+                           .tet_factor = tet_factor,
+                           .prism_factor = prism_factor};
+  CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &domain->plan));
+done:
+  return status;
+}
+
+CwStatus cw_domain_start(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  CwSkeleton *skeleton = &domain->skeleton;
+  cw_domain_clear(domain);
+  skeleton->cad = domain->cad;
+  skeleton->plan = &domain->plan;
+  skeleton->size_at = cw_size_at;
+  skeleton->size = domain->size;
+  CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
+  CW_TRY(cw_skeleton_wall_curves(skeleton));
+done:
+  return status;
+}
+
+CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  CW_NEW(domain->first_height, skeleton->wall_count);
+  CW_NEW(domain->target, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) domain->first_height[v] = domain->target[v] = INFINITY;
+  // Where patches meet, the finer one holds.
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    int patch = cw_cad_face_patch(domain->cad, skeleton->wall_face[t]);
+    double thickness = cw_domain_thickness(domain, table, patch);
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      domain->first_height[v] = fmin(domain->first_height[v], domain->patch_first_height[patch]);
+      domain->target[v] = fmin(domain->target[v], thickness);
+    }
+  }
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    const double *x = skeleton->wall_x[v];
+    CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
+               "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
+               1e3 * x[1], 1e3 * x[2]);
+  }
+done:
+  return status;
+}
+
+CwStatus cw_domain_number(CwDomain *domain, const CwCase *table) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_skeleton_adjacency(&domain->skeleton, &domain->pair_count, &domain->pair));
+  CW_NEW(domain->number, domain->plan.region_count);
+  CW_TRY(cw_region_numbers(domain->plan.region_count, domain->pair_count, (const int32_t(*)[2])domain->pair,
+                           domain->number, NULL, &domain->colours));
+  domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
+                                      .domain = domain->name,
+                                      .layer_count = table->walls.layer_count,
+                                      .growth_max = table->walls.growth_ratio,
+                                      .first_height = domain->first_height};
+  CW_TRY(cw_region_context_make(&domain->context));
+done:
+  return status;
+}
+
+void cw_domain_clear(CwDomain *domain) {
+  cw_region_context_free(&domain->context);
+  cw_skeleton_free(&domain->skeleton);
+  free(domain->first_height);
+  free(domain->target);
+  free(domain->number);
+  free(domain->pair);
+  domain->first_height = domain->target = NULL;
+  domain->number = NULL;
+  domain->pair = NULL;
+}
+
+void cw_domain_close(CwDomain *domain) {
+  cw_domain_clear(domain);
+  cw_plan_free(&domain->plan);
+  cw_size_free(&domain->size);
+  cw_inside_free(&domain->inside);
+  cw_background_free(&domain->background);
+  cw_cad_close(&domain->cad);
+  free(domain->relative_size);
+  free(domain->patch_first_height);
+}

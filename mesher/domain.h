@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One domain (rotor or stator) on its way from exact geometry to regions: everything a rank holds of it.
+#ifndef CUTWATER_MESHER_DOMAIN_H
+#define CUTWATER_MESHER_DOMAIN_H
+
+#include "mesher/background.h"
+#include "mesher/region_build.h"
+#include "mesher/size.h"
+#include "mesher/wall_targets.h"
+
+typedef struct {
+  const char *name;
+  CwCad *cad;
+  CwBackground background;
+  CwInside *inside;
+  CwSize *size;
+  double *relative_size, *patch_first_height; // of each patch; m
+  double wall_area;                           // m2
+  double layer_volume;                        // m3, target thickness times area
+  double prism_integral;                      // sum over walls of area / h^2, at scale 1
+  double tet_integral;                        // integral of h^-3 over the domain less its layers, at scale 1
+  CwPlan plan;
+  CwSkeleton skeleton;
+  double *first_height, *target;              // of each wall vertex, m
+  CwRegionContext context;
+  int32_t *number, colours;                   // region numbers
+  int32_t pair_count, (*pair)[2];             // adjacent regions
+} CwDomain;
+
+// Opens geometry and makes background triangulation and size field.
+CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
+                        const CwFlowScales *scales);
+
+// Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.
+double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
+
+// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain.
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor);
+
+// Starts the skeleton anew at the present scale of the size field: curve network and wall curves.
+CwStatus cw_domain_start(CwDomain *domain);
+
+// First heights and targets of all wall vertices, once the walls are merged.
+CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table);
+
+// Region numbers and what the regions share, once the inner surfaces are merged.
+CwStatus cw_domain_number(CwDomain *domain, const CwCase *table);
+
+void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
+void cw_domain_close(CwDomain *domain);
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+// TetGen's own terminatetetgen frees its mesh and then throws, and the mesh frees itself again on the way up: any failure
+// ends in a crash. It is an exported function of the library, so the one below takes its place there; the header's is
+// put out of the way.
+#define terminatetetgen tetgen_terminate_that_frees_twice
+#include <tetgen.h>
+#undef terminatetetgen
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include "mesher/fill_points.h"
+#include "mesher/fill_shape.h"
+#include "mesher/tet_improve.h"
+#include "pipeline/log.h"
+
+void terminatetetgen(tetgenmesh *mesh, int code);
+
+void terminatetetgen(tetgenmesh *, int code) {
+  throw code;
+}
+
+namespace {
+
+// TetGen prints to standard output even when told to be quiet.
+class Silence {
+public:
+  Silence() {
+    fflush(stdout);
+    kept = dup(STDOUT_FILENO);
+    int nowhere = open("/dev/null", O_WRONLY);
+    if (kept >= 0 && nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~Silence() {
+    fflush(stdout);
+    if (kept >= 0) {
+      dup2(kept, STDOUT_FILENO);
+      close(kept);
+    }
+  }
+
+private:
+  int kept;
+};
+
+void give_points(const CwFillInput *input, int32_t inner_count, const double (*inner)[3], tetgenio &io) {
+  io.numberofpoints = input->point_count + inner_count;
+  io.pointlist = new REAL[3 * (size_t)io.numberofpoints];
+  memcpy(io.pointlist, input->x, (size_t)input->point_count * sizeof *input->x);
+  if (inner_count) memcpy(io.pointlist + 3 * (size_t)input->point_count, inner, (size_t)inner_count * sizeof *inner);
+}
+
+void give_triangles(const CwFillInput *input, tetgenio &io) {
+  io.facetlist = new tetgenio::facet[input->triangle_count];
+  io.numberoffacets = input->triangle_count;
+  for (int32_t t = 0; t < input->triangle_count; t++) tetgenio::init(&io.facetlist[t]);
+  for (int32_t t = 0; t < input->triangle_count; t++) {
+    tetgenio::facet *facet = &io.facetlist[t];
+    facet->polygonlist = new tetgenio::polygon[1];
+    facet->numberofpolygons = 1;
+    tetgenio::init(facet->polygonlist);
+    facet->polygonlist->vertexlist = new int[3];
+    facet->polygonlist->numberofvertices = 3;
+    for (int k = 0; k < 3; k++) facet->polygonlist->vertexlist[k] = input->triangle[t][k];
+  }
+}
+
+// Runs TetGen; 0, or the number it throws (1 memory, 3 self-intersection, 4 and 5 very close features, others inner).
+int run(const char *switches, tetgenio &in, tetgenio &out) {
+  char text[64];
+  snprintf(text, sizeof text, "%s", switches);
+  Silence silence;
+  try {
+    tetrahedralize(text, &in, &out);
+  } catch (int code) {
+    return code ? code : 2;
+  } catch (const std::bad_alloc &) {
+    return 1;
+  }
+  return 0;
+}
+
+// Names the place of a self-intersection: TetGen's diagnosis gives the triangles that take part.
+CwStatus fail_crossing(const CwFillInput *input, int code) {
+  tetgenio in, out;
+  give_points(input, 0, nullptr, in);
+  give_triangles(input, in);
+  int again = run("pdQ", in, out);
+  if (again == 0 && out.numberoftrifaces > 0) {
+    double mean[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+      for (int i = 0; i < 3; i++) mean[i] += 1e3 / 3.0 * out.pointlist[3 * out.trifacelist[k] + i];
+    }
+    return CW_FAIL(CW_ERR_MESH,
+                   "%s: the boundary crosses itself: %d triangles, the first at (%.6g, %.6g, %.6g) mm; "
+                   "triangles may meet only in common edges and corners",
+                   input->name, out.numberoftrifaces, mean[0], mean[1], mean[2]);
+  }
+  return CW_FAIL(code == 1 ? CW_ERR_MEMORY : CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)",
+                 input->name, code);
+}
+
+CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3], CwFill *fill) {
+  tetgenio in, out;
+  give_points(input, inner_count, inner, in);
+  give_triangles(input, in);
+  // p: keep the boundary; Y: without points on it; O0: the optimisation is ours.
+  int code = run("pYQO0", in, out);
+  if (code) return fail_crossing(input, code);
+  if (out.numberofpoints < in.numberofpoints)
+    return CW_FAIL(CW_ERR_MESH, "%s: points of the boundary coincide", input->name);
+  fill->x = static_cast<double(*)[3]>(malloc((size_t)out.numberofpoints * sizeof *fill->x));
+  fill->tetrahedron = static_cast<int32_t(*)[4]>(malloc((size_t)out.numberoftetrahedra * sizeof *fill->tetrahedron));
+  if (!fill->x || !fill->tetrahedron) return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory", input->name);
+  fill->point_count = out.numberofpoints;
+  fill->tetrahedron_count = out.numberoftetrahedra;
+  memcpy(fill->x, out.pointlist, (size_t)out.numberofpoints * sizeof *fill->x);
+  memcpy(fill->x, input->x, (size_t)input->point_count * sizeof *fill->x);
+  memcpy(fill->tetrahedron, out.tetrahedronlist, (size_t)out.numberoftetrahedra * sizeof *fill->tetrahedron);
+  return CW_OK;
+}
+
+} // namespace
+
+CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
+  CwStatus status = CW_OK;
+  double(*inner)[3] = nullptr;
+  int32_t inner_count = 0;
+  CwTetImproved improved;
+  memset(fill, 0, sizeof *fill);
+  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(cw_fill_points(input, &inner_count, &inner));
+  try {
+    CW_TRY(tetrahedralise(input, inner_count, inner, fill));
+  } catch (const std::bad_alloc &) {
+    status = CW_FAIL(CW_ERR_MEMORY, "%s: out of memory", input->name);
+    goto done;
+  }
+  CW_TRY(cw_fill_keep_inside(input, fill));
+  CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
+  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+               input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
+               improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+done:
+  free(inner);
+  if (status != CW_OK) cw_fill_free(fill);
+  return status;
+}
+
+void cw_fill_free(CwFill *fill) {
+  free(fill->x);
+  free(fill->tetrahedron);
+  memset(fill, 0, sizeof *fill);
+}

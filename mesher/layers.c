@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/layers.h"
+
+#include <stdlib.h>
+
+#include "mesher/layers_inner.h"
+
+CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  CwLayerWork work = {0};
+  CwGapTree *tree = NULL;
+  memset(layers, 0, sizeof *layers);
+  CW_TRY(cw_layers_topology(input, &work));
+  CW_NEW(layers->front, work.n);
+  CW_NEW(layers->height, work.n);
+  CW_NEW(layers->reason, work.n);
+  CW_TRY(cw_layers_normals(&work));
+  CW_TRY(cw_gap_tree_make(&work, &tree));
+  memcpy(work.t, input->target, work.n * sizeof *work.t);
+  // The fan needs heights and the gap needs directions: twice is enough for both to settle.
+  for (int pass = 0; pass < 2; pass++) {
+    CW_TRY(cw_layers_fan(&work));
+    cw_layers_limit_by_gap(&work, tree);
+    CW_TRY(cw_layers_grade(&work));
+  }
+  CW_TRY(cw_layers_repair(&work, layers->front, &layers->repair_rounds));
+  for (int32_t v = 0; v < work.n; v++) {
+    double d[3];
+    sub3(layers->front[v], input->x[v], d);
+    layers->height[v] = cw_layers_least_cosine(&work, v, d);
+    layers->reason[v] = work.reason[v];
+    if (layers->height[v] >= 0.99 * input->target[v]) continue;
+    layers->thinned_count++;
+    // Neither gap nor neighbours: the wall is so sharp there that the offset stops at its floor.
+    if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_REPAIR;
+  }
+done:
+  cw_gap_tree_free(tree);
+  cw_layers_work_free(&work);
+  if (status != CW_OK) cw_layers_free(layers);
+  return status;
+}
+
+void cw_layers_free(CwLayers *layers) {
+  free(layers->front);
+  free(layers->height);
+  free(layers->reason);
+  memset(layers, 0, sizeof *layers);
+}

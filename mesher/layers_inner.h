@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the parts of the layer module share; nobody else includes this.
+#ifndef CUTWATER_MESHER_LAYERS_INNER_H
+#define CUTWATER_MESHER_LAYERS_INNER_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "mesher/layers.h"
+
+typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
+
+// All normals point into the fluid. A column is t[v] * column[v]: `column` is the displacement for a unit normal height.
+typedef struct {
+  const CwLayerInput *in;
+  int32_t n;                           // vertices
+  double (*face_normal)[3];            // unit
+  int32_t *face_start, *face;          // triangles around each vertex, ascending
+  int32_t *near_start, *near;          // neighbours of each vertex, ascending
+  double *weight;                      // cotangent weight of each entry of `near`, clamped
+  double *area;                        // a third of the incident triangles, m2
+  double *edge_min;                    // shortest incident edge, m
+  double (*normal)[3], *normal_cos;    // most normal direction without guides; its least cosine to the normals
+  double (*base)[3], *base_cos;        // the same inside the guides
+  uint8_t *crease;                     // CwCrease
+  double (*along)[3];                  // crease: direction of the edge, or zero at a corner
+  double (*column)[3];                 // unit-height displacement
+  double *t;                           // height, m
+  uint8_t *reason;                     // CwLayerReason
+} CwLayerWork;
+
+static inline double dot3(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+static inline void cross3(const double a[3], const double b[3], double c[3]) {
+  double r[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  memcpy(c, r, sizeof r);
+}
+static inline void sub3(const double a[3], const double b[3], double c[3]) {
+  for (int k = 0; k < 3; k++) c[k] = a[k] - b[k];
+}
+static inline double length3(const double a[3]) { return sqrt(dot3(a, a)); }
+static inline double distance3(const double a[3], const double b[3]) {
+  double d[3];
+  sub3(a, b, d);
+  return length3(d);
+}
+// Makes `a` a unit vector; returns its length, and leaves it alone where that is zero.
+static inline double unit3(double a[3]) {
+  double length = length3(a);
+  if (length > 0)
+    for (int k = 0; k < 3; k++) a[k] /= length;
+  return length;
+}
+// Takes out of `a` its part along the unit vector `n`.
+static inline void flatten3(double a[3], const double n[3]) {
+  double h = dot3(a, n);
+  for (int k = 0; k < 3; k++) a[k] -= h * n[k];
+}
+
+// layers_topology.c: neighbourhoods, weights, face normals. `work` is zeroed before; freed with the other.
+CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
+void cw_layers_work_free(CwLayerWork *work);
+
+// layers_normal.c
+// Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the best of the single
+// normals, the bisectors of pairs and the circumcentres of triples. With one guide g is held in the plane normal to it, with
+// two on the line of both. Returns the least cosine; negative where no direction sees all faces.
+double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
+                             double g[3]);
+// Directions and creases of all vertices. Fails where a wall triangle is invisible from a vertex's guides.
+CwStatus cw_layers_normals(CwLayerWork *work);
+// Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
+enum { CW_LAYER_NORMALS = 48 };
+int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]);
+double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]);
+// Sets column[v] to the offset g / max(n.g, floor); floor 0.3 on concave creases, 0.55 elsewhere.
+void cw_layers_set_column(CwLayerWork *work, int32_t v, const double direction[3], double floor_cosine);
+double cw_layers_floor(const CwLayerWork *work, int32_t v);
+// Outer end of the column of v at height t[v], put back on its guides.
+void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
+
+// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. Sets every column.
+CwStatus cw_layers_fan(CwLayerWork *work);
+
+// layers_gap.c: a tree of triangles, and the free way along a ray.
+typedef struct CwGapTree CwGapTree;
+CwStatus cw_gap_tree_make(const CwLayerWork *work, CwGapTree **tree);
+void cw_gap_tree_free(CwGapTree *tree);
+// t = min(target, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand.
+void cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree);
+// Lowers heights until |dt| <= 0.3 length along every edge.
+CwStatus cw_layers_grade(CwLayerWork *work);
+
+// layers_heap.c: vertices by key, smallest first, ties by number.
+typedef struct {
+  double key;
+  int32_t v;
+} CwHeapItem;
+typedef struct {
+  CwHeapItem *item;
+  size_t count, capacity;
+} CwHeap;
+CwStatus cw_heap_push(CwHeap *heap, double key, int32_t v);
+CwHeapItem cw_heap_pop(CwHeap *heap);
+void cw_heap_free(CwHeap *heap);
+
+// layers_repair.c: makes prisms and front valid; fills `front`.
+// Quality of the prism over triangle f with column ends `front`: the least corner Jacobian at any layer between wall and front,
+// scaled to 1 for a right prism over the same wall triangle.
+double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
+CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds);
+
+#endif

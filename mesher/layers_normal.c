@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/layers_inner.h"
+
+// What keeps the best candidate direction.
+typedef struct {
+  int count;
+  const double (*normal)[3];
+  double best, g[3];
+} Search;
+
+static void offer(Search *search, const double candidate[3]) {
+  double g[3] = {candidate[0], candidate[1], candidate[2]};
+  if (unit3(g) < 1e-12) return;
+  double least = INFINITY;
+  for (int i = 0; i < search->count; i++) {
+    double c = dot3(search->normal[i], g);
+    if (c <= search->best) return;
+    if (c < least) least = c;
+  }
+  search->best = least;
+  memcpy(search->g, g, sizeof g);
+}
+
+static void offer_both(Search *search, const double candidate[3]) {
+  const double other[3] = {-candidate[0], -candidate[1], -candidate[2]};
+  offer(search, candidate);
+  offer(search, other);
+}
+
+static void search_free(Search *search) {
+  const double (*n)[3] = search->normal;
+  for (int i = 0; i < search->count; i++) offer(search, n[i]);
+  for (int i = 0; i < search->count; i++)
+    for (int j = i + 1; j < search->count; j++) {
+      double g[3] = {n[i][0] + n[j][0], n[i][1] + n[j][1], n[i][2] + n[j][2]};
+      offer(search, g);
+    }
+  for (int i = 0; i < search->count; i++)
+    for (int j = i + 1; j < search->count; j++)
+      for (int k = j + 1; k < search->count; k++) {
+        double a[3], b[3], g[3];
+        sub3(n[j], n[i], a);
+        sub3(n[k], n[i], b);
+        cross3(a, b, g);
+        offer_both(search, g);
+      }
+}
+
+// In the plane normal to m the cosine to n[i] is a cosine wave of the angle: the best is a crest or a crossing of two.
+static void search_plane(Search *search, const double m[3]) {
+  const double (*n)[3] = search->normal;
+  for (int i = 0; i < search->count; i++) {
+    double g[3] = {n[i][0], n[i][1], n[i][2]};
+    flatten3(g, m);
+    offer(search, g);
+    for (int j = i + 1; j < search->count; j++) {
+      sub3(n[i], n[j], g);
+      cross3(m, g, g);
+      offer_both(search, g);
+    }
+  }
+}
+
+double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
+                             double g[3]) {
+  Search search = {.count = count, .normal = normal, .best = -2};
+  double line[3] = {0};
+  if (guide_count == 2) cross3(guide[0], guide[1], line);
+  if (guide_count == 0)
+    search_free(&search);
+  else if (guide_count == 2 && length3(line) > 1e-3)
+    offer_both(&search, line);
+  else
+    search_plane(&search, guide[0]);
+  memcpy(g, search.g, sizeof search.g);
+  return search.best;
+}
+
+int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]) {
+  // Vertices with very many faces lie on smooth fans; a coarser distinction is enough there.
+  for (double same = 1e-9;; same *= 30) {
+    int count = 0;
+    int32_t k = work->face_start[v];
+    for (; k < work->face_start[v + 1]; k++) {
+      const double *n = work->face_normal[work->face[k]];
+      int known = 0;
+      for (int i = 0; i < count && !known; i++) known = dot3(n, normal[i]) > 1 - same;
+      if (known) continue;
+      if (count == CW_LAYER_NORMALS) break;
+      memcpy(normal[count++], n, sizeof normal[0]);
+    }
+    if (k == work->face_start[v + 1]) return count;
+  }
+}
+
+double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]) {
+  double least = INFINITY;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
+    least = fmin(least, dot3(work->face_normal[work->face[k]], direction));
+  return least;
+}
+
+double cw_layers_floor(const CwLayerWork *work, int32_t v) {
+  return work->crease[v] == CW_CREASE_CONCAVE ? 0.3 : 0.55;
+}
+
+void cw_layers_set_column(CwLayerWork *work, int32_t v, const double direction[3], double floor_cosine) {
+  double c = fmax(cw_layers_least_cosine(work, v, direction), floor_cosine);
+  for (int k = 0; k < 3; k++) work->column[v][k] = direction[k] / c;
+}
+
+void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
+  const CwLayerInput *in = work->in;
+  for (int k = 0; k < 3; k++) end[k] = in->x[v][k] + work->t[v] * work->column[v][k];
+  if (in->snap && in->guide_count && in->guide_count[v] > 0) in->snap(in->snap_context, v, end);
+}
+
+// Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
+static void edge_direction(int count, double (*normal)[3], double along[3]) {
+  double largest = 0;
+  for (int i = 0; i < count; i++)
+    for (int j = i + 1; j < count; j++) {
+      double c[3];
+      cross3(normal[i], normal[j], c);
+      if (length3(c) > largest) {
+        largest = length3(c);
+        memcpy(along, c, sizeof c);
+      }
+    }
+  unit3(along);
+  for (int i = 0; i < count; i++)
+    if (fabs(dot3(normal[i], along)) > 0.3) memset(along, 0, 3 * sizeof *along);
+}
+
+CwStatus cw_layers_normals(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  const double none[2][3] = {{0}};
+  for (int32_t v = 0; v < work->n; v++) {
+    const double *x = in->x[v];
+    double normal[CW_LAYER_NORMALS][3], *g = work->normal[v];
+    int count = cw_layers_distinct_normals(work, v, normal), guides = in->guide_count ? in->guide_count[v] : 0;
+    double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
+    CW_REQUIRE(c > 0.05, CW_ERR_MESH,
+               "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
+               "least 0.05 needed): the wall is folded or has an edge too sharp there",
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
+    work->normal_cos[v] = c;
+    if (c < 0.92) {
+      double most = -1;
+      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+        double e[3];
+        sub3(in->x[work->near[k]], x, e);
+        most = fmax(most, dot3(e, g) / length3(e));
+      }
+      work->crease[v] = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
+      edge_direction(count, normal, work->along[v]);
+    }
+    if (guides == 0) {
+      memcpy(work->base[v], g, 3 * sizeof *g);
+      work->base_cos[v] = c;
+    } else {
+      c = cw_layers_most_normal(count, (const double (*)[3])normal, guides, in->guide_normal[v], work->base[v]);
+      CW_REQUIRE(c > 0.05, CW_ERR_MESH,
+                 "layers: no column inside the cap or dividing plane at (%.4f, %.4f, %.4f) mm leaves the wall (best "
+                 "cosine %.3f, at least 0.05 needed): it is nearly tangent to the wall there",
+                 x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
+      work->base_cos[v] = c;
+    }
+    cw_layers_set_column(work, v, work->base[v], cw_layers_floor(work, v));
+  }
+done:
+  return status;
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <stdlib.h>
+
+#include "mesher/layers_inner.h"
+
+static int by_number(const void *a, const void *b) {
+  int32_t i = *(const int32_t *)a, j = *(const int32_t *)b;
+  return (i > j) - (i < j);
+}
+
+static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
+  int32_t low = work->near_start[v], high = work->near_start[v + 1];
+  while (high - low > 1) {
+    int32_t middle = (low + high) / 2;
+    if (work->near[middle] <= w)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static CwStatus check_input(const CwLayerInput *in) {
+  CwStatus status = CW_OK;
+  for (int32_t v = 0; v < in->point_count; v++) {
+    const double *x = in->x[v];
+    CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
+               "layers: wall vertex %d has a coordinate that is not a number", v);
+    CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
+               "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", in->target[v] * 1e3,
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+    int guides = in->guide_count ? in->guide_count[v] : 0;
+    CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT,
+               "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2", guides, x[0] * 1e3, x[1] * 1e3,
+               x[2] * 1e3);
+    for (int i = 0; i < guides; i++)
+      CW_REQUIRE(fabs(length3(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
+                 "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", x[0] * 1e3, x[1] * 1e3,
+                 x[2] * 1e3);
+  }
+  for (int32_t f = 0; f < in->triangle_count; f++)
+    for (int i = 0; i < 3; i++)
+      CW_REQUIRE(in->triangle[f][i] >= 0 && in->triangle[f][i] < in->point_count, CW_ERR_INPUT,
+                 "layers: wall triangle %d names point %d of %d", f, in->triangle[f][i], in->point_count);
+  for (int32_t f = 0; f < in->obstacle_triangle_count; f++)
+    for (int i = 0; i < 3; i++)
+      CW_REQUIRE(in->obstacle_triangle[f][i] >= 0 && in->obstacle_triangle[f][i] < in->obstacle_point_count,
+                 CW_ERR_INPUT, "layers: obstacle triangle %d names point %d of %d", f, in->obstacle_triangle[f][i],
+                 in->obstacle_point_count);
+done:
+  return status;
+}
+
+static CwStatus lists(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  int32_t *fill = NULL;
+  CW_NEW(fill, work->n);
+  CW_NEW(work->face_start, work->n + 1);
+  CW_NEW(work->face, 3 * (size_t)in->triangle_count);
+  CW_NEW(work->near_start, work->n + 1);
+  CW_NEW(work->near, 6 * (size_t)in->triangle_count);
+  for (int32_t f = 0; f < in->triangle_count; f++)
+    for (int i = 0; i < 3; i++) work->face_start[in->triangle[f][i] + 1]++;
+  for (int32_t v = 0; v < work->n; v++) {
+    CW_REQUIRE(work->face_start[v + 1] > 0, CW_ERR_INPUT,
+               "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
+               in->x[v][1] * 1e3, in->x[v][2] * 1e3);
+    work->face_start[v + 1] += work->face_start[v];
+  }
+  for (int32_t f = 0; f < in->triangle_count; f++)
+    for (int i = 0; i < 3; i++) {
+      int32_t v = in->triangle[f][i];
+      work->face[work->face_start[v] + fill[v]++] = f;
+    }
+  int32_t count = 0;
+  for (int32_t v = 0; v < work->n; v++) {
+    int32_t start = count;
+    work->near_start[v] = start;
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
+      for (int i = 0; i < 3; i++)
+        if (in->triangle[work->face[k]][i] != v) work->near[count++] = in->triangle[work->face[k]][i];
+    qsort(work->near + start, count - start, sizeof *work->near, by_number);
+    int32_t kept = start;
+    for (int32_t k = start; k < count; k++)
+      if (k == start || work->near[k] != work->near[kept - 1]) work->near[kept++] = work->near[k];
+    count = kept;
+  }
+  work->near_start[work->n] = count;
+done:
+  free(fill);
+  return status;
+}
+
+static CwStatus measures(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  CW_NEW(work->face_normal, in->triangle_count);
+  CW_NEW(work->weight, work->near_start[work->n]);
+  CW_NEW(work->area, work->n);
+  CW_NEW(work->edge_min, work->n);
+  for (int32_t v = 0; v < work->n; v++) work->edge_min[v] = INFINITY;
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    const int32_t *corner = in->triangle[f];
+    double e1[3], e2[3], *normal = work->face_normal[f];
+    sub3(in->x[corner[1]], in->x[corner[0]], e1);
+    sub3(in->x[corner[2]], in->x[corner[0]], e2);
+    cross3(e2, e1, normal); // the input's normal points out of the domain
+    double twice = unit3(normal);
+    CW_REQUIRE(twice > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
+               "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
+               in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
+    for (int i = 0; i < 3; i++) {
+      int32_t v = corner[i], a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
+      sub3(in->x[a], in->x[v], e1);
+      sub3(in->x[b], in->x[v], e2);
+      // Half the cotangent of the angle at v belongs to the opposite edge; clamped so that obtuse corners keep the
+      // system monotone.
+      double cotangent = fmin(fmax(dot3(e1, e2) / twice, 0.05), 5.0);
+      work->weight[find_near(work, a, b)] += 0.5 * cotangent;
+      work->weight[find_near(work, b, a)] += 0.5 * cotangent;
+      work->area[v] += twice / 6;
+      work->edge_min[v] = fmin(work->edge_min[v], fmin(length3(e1), length3(e2)));
+    }
+  }
+done:
+  return status;
+}
+
+CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  work->in = input;
+  work->n = input->point_count;
+  CW_TRY(check_input(input));
+  CW_TRY(lists(work));
+  CW_TRY(measures(work));
+  CW_NEW(work->normal, work->n);
+  CW_NEW(work->normal_cos, work->n);
+  CW_NEW(work->base, work->n);
+  CW_NEW(work->base_cos, work->n);
+  CW_NEW(work->crease, work->n);
+  CW_NEW(work->along, work->n);
+  CW_NEW(work->column, work->n);
+  CW_NEW(work->t, work->n);
+  CW_NEW(work->reason, work->n);
+done:
+  return status;
+}
+
+void cw_layers_work_free(CwLayerWork *work) {
+  free(work->face_normal);
+  free(work->face_start);
+  free(work->face);
+  free(work->near_start);
+  free(work->near);
+  free(work->weight);
+  free(work->area);
+  free(work->edge_min);
+  free(work->normal);
+  free(work->normal_cos);
+  free(work->base);
+  free(work->base_cos);
+  free(work->crease);
+  free(work->along);
+  free(work->column);
+  free(work->t);
+  free(work->reason);
+  memset(work, 0, sizeof *work);
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// cutwater-mesh: exact geometry in, region files out. Run it under mpirun.
+#include <mpi.h>
+#include <stdlib.h>
+
+#include "mesher/mesh_run.h"
+#include "mesher/schedule.h"
+#include "pipeline/log.h"
+#include "pipeline/stage_args.h"
+
+static const CwStageUsage USAGE = {
+    .stage = "mesh",
+    .summary = "Meshes RUN/geometry into region files and a manifest in RUN/mesh. Regions that an earlier run left whole\n"
+               "are kept. Start it under mpirun for more than one rank; the mesh is the same for any number.\n",
+};
+
+int main(int argc, char **argv) {
+  CwStatus status = CW_OK;
+  CwStageArgs args = {0};
+  CwCase table;
+  CwMeshRun run = {0};
+  char *record_path = NULL;
+  CW_TRY(cw_mpi_start(&argc, &argv, &run.rank, &run.ranks));
+  CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
+  if (args.finished) goto done;
+  run.table = &table;
+  run.run_path = args.run_path;
+  CW_TRY(cw_record_start("mesh", &run.record));
+  CW_TRY(cw_mesh_run(&run));
+  long long mine = cw_peak_memory_bytes(), all = 0;
+  MPI_Reduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
+  if (run.rank == 0) {
+    CW_TRY(cw_stage_path(&args, "mesh/record.json", &record_path));
+    cw_record_set_peak_memory(run.record, all);
+    CW_TRY(cw_record_write(run.record, record_path));
+  }
+done:
+  if (status != CW_OK) return cw_mpi_fail(status);
+  cw_mesh_run_free(&run);
+  cw_record_free(run.record);
+  free(record_path);
+  cw_log_close();
+  cw_mpi_end();
+  return 0;
+}

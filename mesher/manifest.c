@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the mesher tells of its work: the manifest for the exporter, the record for the report.
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "mesher/layer_heights.h"
+#include "mesher/mesh_run.h"
+#include "mesher/vec.h"
+
+enum { LAYERS_MAX = 200 };
+static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
+static const double FIRST_HEIGHT_TOLERANCE = 0.1;
+
+static json_t *patches_json(const CwDomain *domain) {
+  json_t *patches = json_array();
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    json_array_append_new(patches, json_pack("{s:s, s:s}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                                             KIND_NAMES[cw_cad_patch_kind(domain->cad, p)]));
+  }
+  return patches;
+}
+
+static json_t *regions_json(const CwMeshRun *run, int d) {
+  json_t *regions = json_array();
+  for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
+    const CwRegionSummary *made = &run->summary[d][r];
+    char file[64];
+    snprintf(file, sizeof file, "%s-%04d.h5", run->domain[d].name, r + 1);
+    json_array_append_new(regions,
+                          json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", file, "region", r + 1,
+                                    "number", run->domain[d].number[r], "points", made->points, "own_points",
+                                    made->own_points, "tetrahedra", made->tetrahedra, "pyramids", made->pyramids,
+                                    "prisms", made->prisms, "triangles", made->triangles, "quads", made->quads));
+  }
+  return regions;
+}
+
+static json_t *manifest_json(const CwMeshRun *run) {
+  json_t *domains = json_array();
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwDomain *domain = &run->domain[d];
+    json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
+                                             (json_int_t)domain->context.shared_count, "solid_volume_m3",
+                                             cw_json_number(cw_cad_volume(domain->cad)), "patches",
+                                             patches_json(domain), "regions", regions_json(run, d)));
+  }
+  return json_pack("{s:i, s:s, s:o}", "format", 1, "case", run->table->name, "domains", domains);
+}
+
+// Layers on one patch: how many faces carry them, how many have their first height, and why not the others.
+static json_t *coverage_json(const CwMeshRun *run, const CwDomain *domain, int patch) {
+  const CwSkeleton *skeleton = &domain->skeleton;
+  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0};
+  double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
+    int is_full = 1, met = 1, worst = 0;
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      double height = skeleton->height[v];
+      double first = cw_layer_fractions(height, domain->first_height[v], run->table->walls.layer_count,
+                                        run->table->walls.growth_ratio, fraction);
+      is_full &= height >= 0.99 * domain->target[v];
+      met &= fabs(first / domain->patch_first_height[patch] - 1) <= FIRST_HEIGHT_TOLERANCE;
+      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
+      thickness += height / 3;
+      least = fmin(least, height);
+    }
+    faces++;
+    full += is_full;
+    first_met += met;
+    reason[is_full ? 0 : worst]++;
+  }
+  return json_pack("{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch",
+                   cw_cad_patch_name(domain->cad, patch), "wall_faces", (json_int_t)faces, "full_thickness_faces",
+                   (json_int_t)full, "first_height_met_faces", (json_int_t)first_met, "first_height_target_m",
+                   cw_json_number(domain->patch_first_height[patch]), "mean_thickness_m",
+                   cw_json_number(faces ? thickness / (double)faces : 0), "least_thickness_m",
+                   cw_json_number(faces ? least : 0), "thinned_by_gap_faces", (json_int_t)reason[1],
+                   "thinned_by_gradation_faces", (json_int_t)reason[2], "thinned_by_repair_faces",
+                   (json_int_t)reason[3]);
+}
+
+static json_t *counts_json(const int64_t *count, int size) {
+  json_t *array = json_array();
+  for (int i = 0; i < size; i++) json_array_append_new(array, json_integer((json_int_t)count[i]));
+  return array;
+}
+
+static json_t *domain_json(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  CwQuality quality;
+  int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
+  double area[CW_PATCH_LIMIT] = {0}, most = 0, sum = 0, error = 0, predicted_sum = 0;
+  int32_t regions = domain->plan.region_count;
+  cw_quality_start(&quality);
+  json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
+  for (int32_t r = 0; r < regions; r++) predicted_sum += domain->plan.predicted_cells[r];
+  for (int32_t r = 0; r < regions; r++) {
+    const CwRegionSummary *made = &run->summary[d][r];
+    double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
+    cw_quality_add(&quality, &made->quality, made->tetrahedra);
+    points += made->own_points;
+    tets += made->tetrahedra;
+    prisms += made->prisms;
+    sum += cells;
+    if (cells > most) most = cells;
+    for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
+    json_array_append_new(region_list,
+                          json_pack("{s:i, s:i, s:I, s:I, s:o, s:o}", "region", r + 1, "number", domain->number[r],
+                                    "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
+                                    "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
+                                    "seconds", cw_json_number(run->region_seconds[d][r])));
+  }
+  for (int32_t r = 0; r < regions; r++) {
+    const CwRegionSummary *made = &run->summary[d][r];
+    double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
+    error = fmax(error, fabs(domain->plan.predicted_cells[r] / predicted_sum * sum / cells - 1));
+  }
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    json_array_append_new(patch_list, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                                                KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2",
+                                                cw_json_number(area[p])));
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, domain, p));
+  }
+  double solid = cw_cad_volume(domain->cad);
+  json_t *result = json_pack(
+      "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
+      "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", regions, "interfaces",
+      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
+      "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
+      "least_cell_volume_m3", cw_json_number(quality.least_volume));
+  json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
+  json_object_set_new(result, "region_prediction_error", cw_json_number(error));
+  json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
+  json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));
+  json_object_set_new(result, "tetrahedron_aspect_class", counts_json(quality.aspect_class, 8));
+  json_object_set_new(result, "least_dihedral_deg", cw_json_number(quality.dihedral_least));
+  json_object_set_new(result, "greatest_dihedral_deg", cw_json_number(quality.dihedral_greatest));
+  json_object_set_new(result, "least_dihedral_bins", counts_json(quality.dihedral_bin, 18));
+  json_object_set_new(result, "prism_least_scaled_jacobian", cw_json_number(quality.prism_least_scaled_jacobian));
+  json_object_set_new(result, "prism_scaled_jacobian_bins", counts_json(quality.prism_jacobian_bin, CW_QUALITY_BINS));
+  json_object_set_new(result, "patches", patch_list);
+  json_object_set_new(result, "layer_coverage", coverage);
+  json_object_set_new(result, "region_list", region_list);
+  return result;
+}
+
+CwStatus cw_mesh_manifest(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  json_t *manifest = manifest_json(run), *domains = json_array();
+  CW_REQUIRE(manifest && domains, CW_ERR_MEMORY, "out of memory: manifest");
+  snprintf(path, sizeof path, "%s/mesh/manifest.json", run->run_path);
+  CW_TRY(cw_json_write(manifest, path));
+  for (int d = 0; d < CW_DOMAINS; d++) json_array_append_new(domains, domain_json(run, d));
+  CW_TRY(cw_record_integer(run->record, "ranks", run->ranks));
+  CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
+  CW_TRY(cw_record_integer(run->record, "cells", run->cells));
+  CW_TRY(cw_record_integer(run->record, "passes", run->passes));
+  CW_TRY(cw_record_number(run->record, "size_scale", cw_size_scale(run->domain[0].size)));
+  CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
+  json_t *given = domains;
+  domains = NULL;
+  CW_TRY(cw_record_json(run->record, "domains", given));
+done:
+  json_decref(manifest);
+  json_decref(domains);
+  return status;
+}

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/mesh_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/schedule.h"
+#include "pipeline/atomic_file.h"
+#include "pipeline/log.h"
+
+enum { PASSES_MOST = 4, WALL_PASSES = 3 };
+static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
+static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
+// Cells per unit of the integrals of the size field: triangles of a good surface mesh cover 2 / sqrt(3) per h^2. The
+// factor of the tetrahedra is where the first pass starts; the passes correct it.
+static const double PRISMS_PER_LAYER = 2.5;
+static const double TETS_PER_VOLUME = 9;
+
+static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};
+
+typedef struct {
+  CwMeshRun *run;
+  const CwMeshTask *task;
+  CwMeshStep step;
+} StepContext;
+
+static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *size) {
+  StepContext *step = context;
+  return step->step(step->run, step->task[index], bytes, size);
+}
+
+// Runs a step over tasks of both domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
+// pointers); seconds[d][i] likewise where seconds is given.
+static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
+                         const CwMeshTask *task, void ***bytes, double **seconds) {
+  CwStatus status = CW_OK;
+  void **result = NULL;
+  int64_t *size = NULL;
+  double *cost = NULL, *time = NULL, started = cw_seconds();
+  StepContext context = {run, task, body};
+  CW_NEW(result, count);
+  CW_NEW(size, count);
+  CW_NEW(cost, count);
+  CW_NEW(time, count);
+  for (int32_t i = 0; i < count; i++) cost[i] = task[i].cost;
+  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .run = run_one, .context = &context,
+                         .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, result, size, time));
+  for (int32_t i = 0; i < count; i++) {
+    bytes[task[i].domain][task[i].index] = result[i];
+    result[i] = NULL;
+    if (seconds) seconds[task[i].domain][task[i].index] = time[i];
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+done:
+  if (result) {
+    for (int32_t i = 0; i < count; i++) free(result[i]);
+  }
+  free(result);
+  free(size);
+  free(cost);
+  free(time);
+  return status;
+}
+
+// Arrays of results of both domains, freed with their contents.
+typedef struct {
+  int32_t count[CW_DOMAINS];
+  void **bytes[CW_DOMAINS];
+} Results;
+
+static CwStatus results_make(Results *results, int32_t rotor, int32_t stator) {
+  CwStatus status = CW_OK;
+  results->count[0] = rotor;
+  results->count[1] = stator;
+  for (int d = 0; d < CW_DOMAINS; d++) CW_NEW(results->bytes[d], results->count[d]);
+done:
+  return status;
+}
+
+static void results_free(Results *results) {
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int32_t i = 0; results->bytes[d] && i < results->count[d]; i++) free(results->bytes[d][i]);
+    free(results->bytes[d]);
+    results->bytes[d] = NULL;
+  }
+}
+
+static double predicted_cells(const CwMeshRun *run, double scale) {
+  double prisms = 0, tets = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    prisms += run->domain[d].prism_integral;
+    tets += run->domain[d].tet_integral;
+  }
+  return run->prism_factor * prisms / (scale * scale) + run->tet_factor * tets / (scale * scale * scale);
+}
+
+// The scale of the size field at which the predicted count is the asked one; the count falls with the scale.
+static double solve_scale(const CwMeshRun *run) {
+  double low = 1e-3, high = 1e3;
+  for (int step = 0; step < 200; step++) {
+    double middle = sqrt(low * high);
+    if (predicted_cells(run, middle) > (double)run->table->mesh.cells) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return sqrt(low * high);
+}
+
+static void set_scale(CwMeshRun *run, double scale) {
+  for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, scale);
+}
+
+// Costs of faces: predicted triangles.
+static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTask **tasks) {
+  CwStatus status = CW_OK;
+  *count = 0;
+  CW_NEW(*tasks, cw_cad_face_count(run->domain[0].cad) + cw_cad_face_count(run->domain[1].cad));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
+      if (cw_face_is_wall(domain->cad, f) != walls) continue;
+      double cost = 0; // background triangles stand for area and curvature well enough
+      for (int32_t t = 0; t < domain->background.triangle_count; t++) cost += domain->background.face[t] == f;
+      (*tasks)[(*count)++] = (CwMeshTask){d, f, cost};
+    }
+  }
+done:
+  return status;
+}
+
+// Walls of both domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
+// is asked.
+static CwStatus mesh_walls(CwMeshRun *run, double *scale) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count;
+  CW_TRY(face_tasks(run, 1, &count, &task));
+  for (int pass = 0;; pass++) {
+    int64_t triangles = 0;
+    double integral = 0;
+    set_scale(run, *scale);
+    for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_start(&run->domain[d]));
+    CW_TRY(results_make(&results, cw_cad_face_count(run->domain[0].cad), cw_cad_face_count(run->domain[1].cad)));
+    CW_TRY(run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
+    for (int d = 0; d < CW_DOMAINS; d++) {
+      CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+      triangles += run->domain[d].skeleton.wall_triangle_count;
+      integral += run->domain[d].prism_integral;
+    }
+    results_free(&results);
+    run->prism_factor = (double)triangles * run->table->walls.layer_count * *scale * *scale / integral;
+    double off = predicted_cells(run, *scale) / (double)run->table->mesh.cells - 1;
+    cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
+           *scale, 100 * off);
+    if (fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
+    *scale = solve_scale(run);
+  }
+  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_targets(&run->domain[d], run->table));
+done:
+  results_free(&results);
+  free(task);
+  return status;
+}
+
+static CwStatus grow_layers(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask task[CW_DOMAINS];
+  CW_TRY(results_make(&results, 1, 1));
+  for (int d = 0; d < CW_DOMAINS; d++) task[d] = (CwMeshTask){d, 0, run->domain[d].skeleton.wall_count};
+  CW_TRY(run_step(run, "layers", "domains", cw_step_layers, CW_DOMAINS, task, results.bytes, NULL));
+  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
+done:
+  results_free(&results);
+  return status;
+}
+
+static CwStatus mesh_inner(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results caps = {0}, interfaces = {0};
+  CwMeshTask *task = NULL;
+  int32_t count, made = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
+  CW_TRY(results_make(&caps, cw_cad_face_count(run->domain[0].cad), cw_cad_face_count(run->domain[1].cad)));
+  CW_TRY(face_tasks(run, 0, &count, &task));
+  CW_TRY(run_step(run, "caps", "faces", cw_step_cap, count, task, caps.bytes, NULL));
+  free(task);
+  task = NULL;
+  int32_t outlines[CW_DOMAINS];
+  for (int d = 0; d < CW_DOMAINS; d++) outlines[d] = run->domain[d].skeleton.outline_count;
+  CW_TRY(results_make(&interfaces, outlines[0], outlines[1]));
+  CW_NEW(task, outlines[0] + outlines[1]);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int32_t i = 0; i < outlines[d]; i++) {
+      task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
+    }
+  }
+  CW_TRY(run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
+    CW_TRY(cw_domain_number(&run->domain[d], run->table));
+  }
+done:
+  results_free(&caps);
+  results_free(&interfaces);
+  free(task);
+  return status;
+}
+
+static CwStatus mesh_regions(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask *task = NULL;
+  int32_t regions[CW_DOMAINS], count = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    regions[d] = run->domain[d].plan.region_count;
+    free(run->summary[d]);
+    free(run->region_seconds[d]);
+    run->summary[d] = NULL;
+    run->region_seconds[d] = NULL;
+    CW_NEW(run->summary[d], regions[d]);
+    CW_NEW(run->region_seconds[d], regions[d]);
+  }
+  CW_NEW(task, regions[0] + regions[1]);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int32_t r = 0; r < regions[d]; r++) {
+      task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
+    }
+  }
+  CW_TRY(results_make(&results, regions[0], regions[1]));
+  CW_TRY(run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
+  run->cells = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int32_t r = 0; r < regions[d]; r++) {
+      memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
+      const CwRegionSummary *made = &run->summary[d][r];
+      run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+    }
+  }
+done:
+  results_free(&results);
+  free(task);
+  return status;
+}
+
+// Sets the factor of the tetrahedra to what the last pass made of them.
+static void learn_tets(CwMeshRun *run, double scale) {
+  double made = 0, integral = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
+    integral += run->domain[d].tet_integral;
+  }
+  run->tet_factor = made * scale * scale * scale / integral;
+}
+
+static CwStatus open_domains(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwFlowScales scales;
+  char path[4096];
+  double started = cw_seconds();
+  snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
+  CW_TRY(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry", run->run_path);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CW_TRY(cw_domain_open(&run->domain[d], DOMAIN_NAMES[d], path, run->table, &scales));
+    CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
+               "%s: %s has %d patches; at most %d are allowed", path, DOMAIN_NAMES[d],
+               cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
+    cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
+           run->domain[d].background.triangle_count);
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry and size field", cw_seconds() - started, 2, "domains"));
+done:
+  return status;
+}
+
+// Regions for each domain by its share of the predicted cells.
+static CwStatus plan_domains(CwMeshRun *run, double scale) {
+  CwStatus status = CW_OK;
+  double started = cw_seconds();
+  int32_t regions = 0;
+  set_scale(run, scale);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    double cells = run->prism_factor * domain->prism_integral / (scale * scale) +
+                   run->tet_factor * domain->tet_integral / (scale * scale * scale);
+    CW_TRY(cw_domain_plan(domain, run->table, cells, run->prism_factor, run->tet_factor));
+    double worst = 1;
+    for (int32_t n = 0; n < domain->plan.node_count; n++) {
+      const CwPlane *plane = &domain->plan.node[n].plane;
+      worst = fmin(worst, domain->plan.worst_angle[n]);
+      cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+                   n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
+                   1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+    }
+    cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
+           domain->plan.region_count, cells, asin(worst) * 180 / M_PI);
+    regions += domain->plan.region_count;
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, regions, "regions"));
+done:
+  return status;
+}
+
+CwStatus cw_mesh_run(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  snprintf(path, sizeof path, "%s/mesh", run->run_path);
+  CW_TRY(cw_make_directory(path));
+  CW_TRY(open_domains(run));
+  run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
+  run->tet_factor = TETS_PER_VOLUME;
+  double scale = solve_scale(run), asked = (double)run->table->mesh.cells;
+  CW_TRY(plan_domains(run, scale));
+  for (run->passes = 1;; run->passes++) {
+    CW_TRY(mesh_walls(run, &scale));
+    CW_TRY(grow_layers(run));
+    CW_TRY(mesh_inner(run));
+    CW_TRY(mesh_regions(run));
+    double off = (double)run->cells / asked - 1;
+    cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
+    if (fabs(off) <= COUNT_TOLERANCE) break;
+    if (run->passes == PASSES_MOST) {
+      cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off, asked,
+                  run->passes);
+      break;
+    }
+    learn_tets(run, scale);
+    scale = solve_scale(run);
+  }
+  if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
+done:
+  return status;
+}
+
+void cw_mesh_run_free(CwMeshRun *run) {
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    cw_domain_close(&run->domain[d]);
+    free(run->summary[d]);
+    free(run->region_seconds[d]);
+  }
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The whole work of the mesher on a case: both domains, in step, over all ranks.
+#ifndef CUTWATER_MESHER_MESH_RUN_H
+#define CUTWATER_MESHER_MESH_RUN_H
+
+#include "mesher/audit.h"
+#include "mesher/domain.h"
+#include "pipeline/record.h"
+
+enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
+
+// What is known of a finished region; travels between ranks as bytes.
+typedef struct {
+  int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
+  double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
+  CwQuality quality;
+} CwRegionSummary;
+
+typedef struct {
+  const CwCase *table;
+  const char *run_path;
+  int rank, ranks;
+  CwRecord *record;
+  CwDomain domain[CW_DOMAINS];
+  CwRegionSummary *summary[CW_DOMAINS];
+  double *region_seconds[CW_DOMAINS];
+  double prism_factor, tet_factor; // cells per unit of the integrals
+  int passes;
+  int64_t cells;                   // made
+} CwMeshRun;
+
+// Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all ranks.
+CwStatus cw_mesh_run(CwMeshRun *run);
+void cw_mesh_run_free(CwMeshRun *run);
+
+// A task of one domain.
+typedef struct {
+  int32_t domain, index;
+  double cost;
+} CwMeshTask;
+
+// The steps that run as tasks; each a CwTask body over run->domain[task.domain].
+typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+
+// Writes RUN/mesh/manifest.json and adds the results to the record. Rank 0 only.
+CwStatus cw_mesh_manifest(CwMeshRun *run);
+
+#endif

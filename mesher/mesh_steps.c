@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The bodies of the mesher's tasks.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/mesh_run.h"
+#include "mesher/vec.h"
+#include "pipeline/log.h"
+
+CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  const CwDomain *domain = &run->domain[task.domain];
+  return cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target, bytes, size);
+}
+
+CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_skeleton_mesh_cap(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_skeleton_mesh_interface(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
+  double sum[3] = {0, 0, 0};
+  for (int i = 2; i < corners; i++) {
+    double u[3], v[3], n[3];
+    cw_sub(mesh->x[corner[i - 1]], mesh->x[corner[0]], u);
+    cw_sub(mesh->x[corner[i]], mesh->x[corner[0]], v);
+    cw_cross(u, v, n);
+    for (int k = 0; k < 3; k++) sum[k] += n[k] / 2;
+  }
+  return cw_norm(sum);
+}
+
+static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
+  summary->points = mesh->point_count;
+  summary->own_points = mesh->point_count - mesh->shared_count;
+  summary->tetrahedra = mesh->tetrahedron_count;
+  summary->pyramids = mesh->pyramid_count;
+  summary->prisms = mesh->prism_count;
+  summary->triangles = mesh->triangle_count;
+  summary->quads = mesh->quad_count;
+  for (int32_t i = 0; i < mesh->triangle_count; i++) {
+    summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
+  }
+  for (int32_t i = 0; i < mesh->quad_count; i++) {
+    summary->patch_area[mesh->quad_patch[i]] += face_area(mesh, mesh->quad[i], 4);
+  }
+}
+
+// Makes the region, or takes it up from its file where an earlier run left it whole.
+CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const CwDomain *domain = &run->domain[task.domain];
+  CwRegionMesh mesh = {0};
+  CwRegionSummary *summary = NULL;
+  char path[4096], fingerprint[33];
+  CW_REQUIRE(snprintf(path, sizeof path, "%s/mesh/%s-%04d.h5", run->run_path, domain->name, task.index + 1) <
+                 (int)sizeof path,
+             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+  CW_NEW(summary, 1);
+  cw_region_fingerprint(&domain->context, task.index, fingerprint);
+  int current = cw_region_is_current(path, fingerprint);
+  if (current) {
+    CW_TRY(cw_region_read(path, &mesh));
+  } else {
+    CW_TRY(cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh));
+  }
+  CW_TRY(cw_audit_region(&mesh, &summary->quality));
+  if (!current) CW_TRY(cw_region_write(path, &mesh));
+  summarise(&mesh, summary);
+  *bytes = summary;
+  *size = sizeof *summary;
+  summary = NULL;
+done:
+  cw_region_free(&mesh);
+  free(summary);
+  return status;
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/schedule.h"
+
+#include <limits.h>
+#include <mpi.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "pipeline/log.h"
+
+enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
+enum { CHUNK = 1 << 26 }; // bytes of one broadcast: counts of MPI are int
+
+// As MPI itself, once per process. The counters stand on rank 0; all ranks add to them without its help.
+static struct {
+  int rank, ranks;
+  MPI_Win window;
+  int64_t *slot;
+} world = {.rank = 0, .ranks = 1};
+
+static int64_t counter_add(int slot, int64_t amount) {
+  int64_t before = 0;
+  MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, 0, slot, MPI_SUM, world.window);
+  MPI_Win_flush(0, world.window);
+  return before;
+}
+
+static void sleep_seconds(double seconds) {
+  struct timespec pause = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};
+  nanosleep(&pause, NULL);
+}
+
+// A barrier that sleeps: the blocking one keeps its core busy, which another rank may need.
+static void quiet_barrier(int progress) {
+  MPI_Request request;
+  int done = 0;
+  double pause = 2e-5;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
+    sleep_seconds(pause);
+    if (pause < 2e-3) pause *= 1.5;
+    if (progress) cw_progress(counter_add(SLOT_DONE, 0));
+  }
+}
+
+CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
+  CwStatus status = CW_OK;
+  int given;
+  CW_REQUIRE(MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &given) == MPI_SUCCESS, CW_ERR_LIBRARY,
+             "MPI cannot be started");
+  MPI_Comm_rank(MPI_COMM_WORLD, &world.rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &world.ranks);
+  if (world.ranks > 1) {
+    MPI_Aint bytes = world.rank == 0 ? SLOT_COUNT * (MPI_Aint)sizeof(int64_t) : 0;
+    CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot, &world.window) ==
+                 MPI_SUCCESS,
+               CW_ERR_LIBRARY, "MPI gives no shared counter");
+    if (world.rank == 0) memset(world.slot, 0, (size_t)bytes);
+    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Win_lock_all(MPI_MODE_NOCHECK, world.window);
+  }
+done:
+  *rank = world.rank;
+  *ranks = world.ranks;
+  return status;
+}
+
+void cw_mpi_end(void) {
+  int started = 0;
+  MPI_Initialized(&started);
+  if (!started) return;
+  if (world.ranks > 1) {
+    quiet_barrier(0);
+    MPI_Win_unlock_all(world.window);
+    MPI_Win_free(&world.window);
+  }
+  MPI_Finalize();
+  world.rank = 0;
+  world.ranks = 1;
+}
+
+int cw_mpi_fail(CwStatus status) {
+  if (world.ranks == 1) return cw_log_error(status);
+  // The second to fail leaves the line to the first, and time to print it.
+  if (counter_add(SLOT_FAILED, 1) > 0) sleep_seconds(5.0);
+  int code = cw_log_error(status);
+  MPI_Abort(MPI_COMM_WORLD, code);
+  _exit(code);
+}
+
+typedef struct {
+  double cost;
+  int32_t task;
+} Ordered;
+
+static int compare_cost(const void *left, const void *right) {
+  const Ordered *a = left, *b = right;
+  if (a->cost != b->cost) return a->cost > b->cost ? -1 : 1;
+  return a->task < b->task ? -1 : 1;
+}
+
+static void broadcast(void *bytes, int64_t size, int owner) {
+  for (int64_t at = 0; at < size; at += CHUNK) {
+    int64_t left = size - at;
+    MPI_Bcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, owner, MPI_COMM_WORLD);
+  }
+}
+
+// Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few broadcasts.
+static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  char *pack = NULL;
+  MPI_Allreduce(MPI_IN_PLACE, size, count, MPI_INT64_T, MPI_MAX, MPI_COMM_WORLD);
+  for (int rank = 0; rank < world.ranks; rank++) {
+    int64_t total = 0, at = 0;
+    for (int32_t task = 0; task < count; task++) {
+      if (owner[task] == rank) total += size[task];
+    }
+    if (total == 0) continue;
+    pack = malloc((size_t)total);
+    CW_REQUIRE(pack, CW_ERR_MEMORY, "out of memory: %lld bytes of results", (long long)total);
+    for (int32_t task = 0; rank == world.rank && task < count; task++) {
+      if (owner[task] != rank || size[task] == 0) continue;
+      memcpy(pack + at, bytes[task], (size_t)size[task]);
+      at += size[task];
+    }
+    broadcast(pack, total, rank);
+    at = 0;
+    for (int32_t task = 0; rank != world.rank && task < count; task++) {
+      if (owner[task] != rank || size[task] == 0) continue;
+      bytes[task] = malloc((size_t)size[task]);
+      CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %lld bytes", (long long)size[task]);
+      memcpy(bytes[task], pack + at, (size_t)size[task]);
+      at += size[task];
+    }
+    free(pack);
+    pack = NULL;
+  }
+done:
+  free(pack);
+  return status;
+}
+
+CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
+  CwStatus status = CW_OK;
+  Ordered *order = NULL;
+  int32_t *owner = NULL;
+  double *time = NULL;
+  int64_t finished = 0;
+  CW_NEW(order, schedule->count);
+  CW_NEW(owner, schedule->count);
+  CW_NEW(time, schedule->count);
+  for (int32_t task = 0; task < schedule->count; task++) {
+    order[task] = (Ordered){schedule->cost ? schedule->cost[task] : 0.0, task};
+    owner[task] = -1;
+  }
+  qsort(order, (size_t)schedule->count, sizeof *order, compare_cost);
+  if (world.ranks > 1) {
+    // All have left the last run before the counters start again, and none starts before they have.
+    quiet_barrier(0);
+    if (world.rank == 0) {
+      counter_add(SLOT_NEXT, -counter_add(SLOT_NEXT, 0));
+      counter_add(SLOT_DONE, -counter_add(SLOT_DONE, 0));
+    }
+    quiet_barrier(0);
+  }
+  cw_progress_start(schedule->step, schedule->count, schedule->unit);
+  for (;;) {
+    int64_t place = world.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
+    if (place >= schedule->count) break;
+    int32_t task = order[place].task;
+    void *result = NULL;
+    int64_t result_size = 0;
+    double start = cw_seconds();
+    CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
+    time[task] = cw_seconds() - start;
+    owner[task] = world.rank;
+    if (bytes) bytes[task] = result;
+    else free(result);
+    if (size) size[task] = result_size;
+    finished = world.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
+    cw_progress(finished);
+  }
+  if (world.ranks > 1) {
+    quiet_barrier(world.rank == 0);
+    MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    if (schedule->gather) CW_TRY(gather_results(schedule->count, owner, bytes, size));
+  }
+  if (seconds) memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
+  cw_progress_end();
+done:
+  free(time);
+  free(owner);
+  free(order);
+  if (status != CW_OK && world.ranks > 1) cw_mpi_fail(status);
+  return status;
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/size.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "mesher/scanlines.h"
+#include "mesher/size_grid.h"
+#include "mesher/size_sources.h"
+
+static const double spacing_share = 0.6; // of the base size
+static const int64_t node_limit = 6000000;
+
+struct CwSize {
+  double scale;
+  CwSizeGrid grid;
+  CwScanlines lines;
+};
+
+static CwStatus check_input(const CwSizeInput *input) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(input->base_size > 0 && isfinite(input->base_size), CW_ERR_USAGE,
+             "base size %g m must be greater than zero", input->base_size);
+  CW_REQUIRE(input->table->gradation > 0 && input->table->curvature_angle > 0, CW_ERR_USAGE,
+             "gradation %g and curvature angle %g rad must be greater than zero", input->table->gradation,
+             input->table->curvature_angle);
+  for (int p = 0; p < cw_cad_patch_count(input->cad); p++) {
+    CW_REQUIRE(input->patch_size[p] > 0 && isfinite(input->patch_size[p]), CW_ERR_USAGE,
+               "relative size %g of patch '%s' must be greater than zero", input->patch_size[p],
+               cw_cad_patch_name(input->cad, p));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
+                      const double *patch_size, double base_size, CwSize **size) {
+  CwStatus status = CW_OK;
+  const CwSizeInput input = {cad, background, table, patch_size, base_size};
+  CwSize *made = NULL;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  *size = NULL;
+  CW_TRY(check_input(&input));
+  for (int32_t i = 0; i < background->point_count; i++) {
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], background->x[i][k]);
+      high[k] = fmax(high[k], background->x[i][k]);
+    }
+  }
+  CW_NEW(made, 1);
+  made->scale = 1;
+  CW_TRY(cw_size_grid_make(low, high, spacing_share * base_size, node_limit, &made->grid));
+  CW_TRY(cw_size_seed_surface(&input, &made->grid));
+  CW_TRY(cw_size_seed_edges(&input, &made->grid));
+  cw_size_grid_spread(&made->grid, table->gradation);
+  CW_TRY(cw_scanlines_make(background, &low[1], &high[1], made->grid.spacing, &made->lines));
+  *size = made;
+  made = NULL;
+done:
+  cw_size_free(&made);
+  return status;
+}
+
+void cw_size_free(CwSize **size) {
+  if (!*size)
+    return;
+  cw_size_grid_free(&(*size)->grid);
+  cw_scanlines_free(&(*size)->lines);
+  free(*size);
+  *size = NULL;
+}
+
+void cw_size_set_scale(CwSize *size, double scale) {
+  size->scale = scale;
+}
+
+double cw_size_scale(const CwSize *size) {
+  return size->scale;
+}
+
+double cw_size_at(const void *size, const double x[3]) {
+  const CwSize *field = size;
+  return field->scale * cw_size_grid_at(&field->grid, x);
+}
+
+// Cuts the inside runs of all lines into lengths of about one spacing; stores them where x is not NULL.
+// Returns how many.
+static int64_t cut_runs(const CwScanlines *lines, double (*x)[3], double *volume) {
+  int64_t count = 0;
+  double area = lines->spacing * lines->spacing;
+  for (int32_t k = 0; k < lines->count[1]; k++) {
+    for (int32_t j = 0; j < lines->count[0]; j++) {
+      size_t line = (size_t)j + (size_t)lines->count[0] * (size_t)k;
+      double place[2];
+      cw_scanlines_place(lines, j, k, place);
+      for (int64_t c = lines->start[line]; c + 1 < lines->start[line + 1]; c += 2) {
+        double begin = lines->crossing[c], length = lines->crossing[c + 1] - begin;
+        int64_t parts = (int64_t)fmax(round(length / lines->spacing), 1);
+        for (int64_t i = 0; i < parts; i++, count++) {
+          if (!x)
+            continue;
+          x[count][0] = begin + length * ((double)i + 0.5) / (double)parts;
+          x[count][1] = place[0];
+          x[count][2] = place[1];
+          volume[count] = area * length / (double)parts;
+        }
+      }
+    }
+  }
+  return count;
+}
+
+CwStatus cw_size_samples(const CwSize *size, int32_t *count, double (**x)[3], double **volume) {
+  CwStatus status = CW_OK;
+  int64_t samples = cut_runs(&size->lines, NULL, NULL);
+  *x = NULL;
+  *volume = NULL;
+  CW_NEW(*x, samples);
+  CW_NEW(*volume, samples);
+  cut_runs(&size->lines, *x, *volume);
+  *count = (int32_t)samples;
+done:
+  if (status != CW_OK) {
+    free(*x);
+    free(*volume);
+    *x = NULL;
+    *volume = NULL;
+  }
+  return status;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A scalar field on a Cartesian grid that spreads from seeds with a limited slope: f(x) = min (f_p + slope |x
+// - p|).
+#ifndef CUTWATER_MESHER_SIZE_GRID_H
+#define CUTWATER_MESHER_SIZE_GRID_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  double low[3]; // node (0, 0, 0)
+  double spacing;
+  int32_t count[3]; // nodes along x, y, z
+  float *value;     // x fastest
+} CwSizeGrid;
+
+// Covers the box low..high and one spacing around it. Where that takes more than `node_limit` nodes, the
+// spacing becomes as coarse as needed. All values begin at 1e30.
+CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
+                           CwSizeGrid *grid);
+void cw_size_grid_free(CwSizeGrid *grid);
+
+// Lowers the eight nodes around x to `value`, so that the field at x is at most that.
+void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value);
+
+// Lowers every node to the greatest field of gradient `slope` under the seeds: |grad f| = slope by fast
+// sweeping (H. Zhao, Math. Comp. 74, 2005), to convergence.
+void cw_size_grid_spread(CwSizeGrid *grid, double slope);
+
+// Trilinear; outside of the grid the value of its nearest point.
+double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

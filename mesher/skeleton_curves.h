@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the files of the skeleton share: division of curves into mesh edges, outlines of caps.
+#ifndef CUTWATER_MESHER_SKELETON_CURVES_H
+#define CUTWATER_MESHER_SKELETON_CURVES_H
+
+#include "mesher/patch_task.h"
+#include "mesher/skeleton.h"
+
+// Places (arc lengths) that divide a curve between two lengths so that each edge is as long as the size field asks,
+// as evenly as whole numbers allow; *count includes both ends. Caller frees *place. At least `least` edges.
+CwStatus cw_curve_divide(const CwSkeleton *skeleton, const CwCurve *curve, double from, double to, int32_t least,
+                         int32_t *count, double **place);
+
+// The outline of a cap: the marched rim, and free curves on it.
+CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline);
+
+#endif

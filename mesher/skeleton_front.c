@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The front of the skeleton: guides of the columns, the envelope of the layers.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/layers.h"
+#include "mesher/skeleton.h"
+#include "mesher/vec.h"
+
+static const double DIRECTION_LENGTH = 1e-5; // m
+
+// Outward or inward unit normal of a cap at the point nearest to x.
+static void cap_normal(const CwCad *cad, int32_t face, const double x[3], double uv[2], double normal[3]) {
+  double p[3], xu[3], xv[3];
+  cw_cad_face_project(cad, face, x, uv);
+  cw_cad_face_point(cad, face, uv, p, xu, xv);
+  cw_cross(xu, xv, normal);
+  cw_unit(normal);
+}
+
+// Some (u,v) on a cap near x: that of the nearest background corner.
+static void cap_start(const CwBackground *background, int32_t face, const double x[3], double uv[2]) {
+  double best = INFINITY;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (background->face[t] != face) continue;
+    for (int k = 0; k < 3; k++) {
+      double distance = cw_distance(background->x[background->triangle[t][k]], x);
+      if (distance < best) {
+        best = distance;
+        memcpy(uv, background->uv[t][k], sizeof(double[2]));
+      }
+    }
+  }
+}
+
+// Two unit normals across a unit direction.
+static void across(const double direction[3], double a[3], double b[3]) {
+  int least = 0;
+  for (int k = 1; k < 3; k++) {
+    if (fabs(direction[k]) < fabs(direction[least])) least = k;
+  }
+  double axis[3] = {least == 0, least == 1, least == 2};
+  cw_cross(direction, axis, a);
+  cw_unit(a);
+  cw_cross(direction, a, b);
+}
+
+// Direction of a free curve where it leaves the wall vertex at x. Points of a trace can lie as close as rounding: the
+// first one at a distance that means something counts.
+static void curve_direction(const CwCurve *curve, const double x[3], double direction[3]) {
+  int32_t last = curve->fine_count - 1;
+  int at_end = cw_distance(curve->fine_x[last], x) < cw_distance(curve->fine_x[0], x);
+  for (int32_t i = 1; i <= last; i++) {
+    cw_sub(curve->fine_x[at_end ? last - i : i], curve->fine_x[at_end ? last : 0], direction);
+    if (cw_unit(direction) > DIRECTION_LENGTH) break;
+  }
+}
+
+typedef struct {
+  const CwSkeleton *skeleton;
+  double (*uv)[2]; // of each wall vertex that a cap guides
+} Snap;
+
+static void snap(const void *context, int32_t vertex, double x[3]) {
+  const Snap *snap = context;
+  const CwSkeleton *skeleton = snap->skeleton;
+  CwGuide guide = skeleton->guide[vertex];
+  if (guide.kind == CW_GUIDE_PLANE) {
+    const CwPlane *plane = &skeleton->plan->node[guide.index].plane;
+    double distance = cw_plane_distance(plane, x);
+    for (int k = 0; k < 3; k++) x[k] -= distance * plane->normal[k];
+  } else if (guide.kind == CW_GUIDE_CAP) {
+    double uv[2] = {snap->uv[vertex][0], snap->uv[vertex][1]}, from[3];
+    cw_copy(x, from);
+    cw_cad_face_project(skeleton->cad, guide.index, from, uv);
+    cw_cad_face_point(skeleton->cad, guide.index, uv, x, NULL, NULL);
+  } else if (guide.kind == CW_GUIDE_CURVE) {
+    const CwCurve *curve = &skeleton->network.curve[guide.index];
+    double parameter[2];
+    cw_curve_point(&skeleton->network, curve, cw_curve_nearest(curve, x), x, parameter);
+  }
+}
+
+// The packed front: x, y, z, height of every wall vertex, then the reasons.
+CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *background, const double *target,
+                          void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  int32_t n = skeleton->wall_count, caps = 0;
+  int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
+  double(*guide_normal)[2][3] = NULL;
+  Snap snapping = {skeleton, NULL};
+  CwLayers layers = {0};
+  char *block = NULL;
+  CW_NEW(guide_count, n);
+  CW_NEW(guide_normal, n);
+  CW_NEW(snapping.uv, n);
+  for (int32_t v = 0; v < n; v++) {
+    CwGuide guide = skeleton->guide[v];
+    const double *x = skeleton->wall_x[v];
+    if (guide.kind == CW_GUIDE_PLANE) {
+      guide_count[v] = 1;
+      cw_copy(skeleton->plan->node[guide.index].plane.normal, guide_normal[v][0]);
+    } else if (guide.kind == CW_GUIDE_CAP) {
+      guide_count[v] = 1;
+      cap_start(background, guide.index, x, snapping.uv[v]);
+      cap_normal(skeleton->cad, guide.index, x, snapping.uv[v], guide_normal[v][0]);
+    } else if (guide.kind == CW_GUIDE_CURVE) {
+      double direction[3];
+      guide_count[v] = 2;
+      curve_direction(&skeleton->network.curve[guide.index], x, direction);
+      across(direction, guide_normal[v][0], guide_normal[v][1]);
+    }
+  }
+  CW_NEW(cap_triangle, background->triangle_count);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (cw_face_is_wall(skeleton->cad, background->face[t])) continue;
+    memcpy(cap_triangle[caps++], background->triangle[t], sizeof cap_triangle[0]);
+  }
+  CwLayerInput input = {.point_count = n,
+                        .x = (const double(*)[3])skeleton->wall_x,
+                        .triangle_count = skeleton->wall_triangle_count,
+                        .triangle = (const int32_t(*)[3])skeleton->wall_triangle,
+                        .target = target,
+                        .guide_count = guide_count,
+                        .guide_normal = (const double(*)[2][3])guide_normal,
+                        .snap = snap,
+                        .snap_context = &snapping,
+                        .obstacle_point_count = background->point_count,
+                        .obstacle_x = (const double(*)[3])background->x,
+                        .obstacle_triangle_count = caps,
+                        .obstacle_triangle = (const int32_t(*)[3])cap_triangle};
+  CW_TRY(cw_layers_make(&input, &layers));
+  CW_NEW(block, (size_t)n * 33);
+  memcpy(block, layers.front, (size_t)n * 24);
+  memcpy(block + (size_t)n * 24, layers.height, (size_t)n * 8);
+  memcpy(block + (size_t)n * 32, layers.reason, (size_t)n);
+  *bytes = block;
+  *size = (int64_t)n * 33;
+done:
+  cw_layers_free(&layers);
+  free(guide_count);
+  free(guide_normal);
+  free(snapping.uv);
+  free(cap_triangle);
+  return status;
+}
+
+CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes) {
+  CwStatus status = CW_OK;
+  size_t n = (size_t)skeleton->wall_count;
+  CW_NEW(skeleton->front, n);
+  CW_NEW(skeleton->height, n);
+  CW_NEW(skeleton->reason, n);
+  memcpy(skeleton->front, bytes, n * 24);
+  memcpy(skeleton->height, (const char *)bytes + n * 24, n * 8);
+  memcpy(skeleton->reason, (const char *)bytes + n * 32, n);
+done:
+  return status;
+}

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The wall of the skeleton: its curves, its vertices with their guides, its faces.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/patch_task.h"
+#include "mesher/skeleton_curves.h"
+#include "mesher/vec.h"
+
+enum { SIZE_STEPS = 400 };
+
+int cw_face_is_wall(const CwCad *cad, int32_t face) {
+  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
+}
+
+CwStatus cw_curve_divide(const CwSkeleton *skeleton, const CwCurve *curve, double from, double to, int32_t least,
+                         int32_t *count, double **place) {
+  CwStatus status = CW_OK;
+  // Number of edges up to each of many small steps: integral of ds / h by the midpoint rule.
+  double edges[SIZE_STEPS + 1] = {0};
+  for (int i = 0; i < SIZE_STEPS; i++) {
+    double x[3], parameter[2];
+    cw_curve_point(&skeleton->network, curve, from + (to - from) * (i + 0.5) / SIZE_STEPS, x, parameter);
+    edges[i + 1] = edges[i] + fabs(to - from) / SIZE_STEPS / skeleton->size_at(skeleton->size, x);
+  }
+  int32_t whole = (int32_t)floor(edges[SIZE_STEPS] + 0.5);
+  if (whole < least) whole = least;
+  *count = whole + 1;
+  CW_NEW(*place, whole + 1);
+  (*place)[0] = from;
+  (*place)[whole] = to;
+  int step = 0;
+  for (int32_t k = 1; k < whole; k++) {
+    double wanted = edges[SIZE_STEPS] * k / whole;
+    while (step < SIZE_STEPS - 1 && edges[step + 1] < wanted) step++;
+    double s = (wanted - edges[step]) / (edges[step + 1] - edges[step]);
+    (*place)[k] = from + (to - from) * (step + s) / SIZE_STEPS;
+  }
+done:
+  return status;
+}
+
+static CwStatus add_wall_vertex(CwSkeleton *skeleton, const double x[3], CwGuide guide, int32_t *vertex) {
+  CwStatus status = CW_OK;
+  if (skeleton->wall_count == skeleton->wall_capacity) {
+    int32_t capacity = skeleton->wall_capacity ? 2 * skeleton->wall_capacity : 4096;
+    void *xs = realloc(skeleton->wall_x, (size_t)capacity * sizeof *skeleton->wall_x);
+    if (xs) skeleton->wall_x = xs;
+    void *guides = realloc(skeleton->guide, (size_t)capacity * sizeof *skeleton->guide);
+    if (guides) skeleton->guide = guides;
+    CW_REQUIRE(xs && guides, CW_ERR_MEMORY, "out of memory: %d wall vertices", capacity);
+    skeleton->wall_capacity = capacity;
+  }
+  cw_copy(x, skeleton->wall_x[skeleton->wall_count]);
+  skeleton->guide[skeleton->wall_count] = guide;
+  *vertex = skeleton->wall_count++;
+done:
+  return status;
+}
+
+// What holds the columns along a wall curve: the dividing plane of a cut, the cap at a rim, nothing else.
+static CwGuide curve_guide(const CwSkeleton *skeleton, const CwCurve *curve) {
+  if (curve->kind == CW_CURVE_CUT) return (CwGuide){CW_GUIDE_PLANE, curve->plane[0]};
+  for (int k = 0; k < 2; k++) {
+    if (!cw_face_is_wall(skeleton->cad, curve->face[k])) return (CwGuide){CW_GUIDE_CAP, curve->face[k]};
+  }
+  return (CwGuide){CW_GUIDE_NONE, -1};
+}
+
+// What holds the column at a wall corner: the free curve that starts there; else the one cap or plane of its curves.
+static CwStatus corner_guide(const CwSkeleton *skeleton, int32_t corner, CwGuide *guide) {
+  CwStatus status = CW_OK;
+  *guide = (CwGuide){CW_GUIDE_NONE, -1};
+  int free_curves = 0;
+  const double *x = skeleton->network.corner[corner].x;
+  for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
+    const CwCurve *curve = &skeleton->network.curve[i];
+    if (curve->corner[0] != corner && curve->corner[1] != corner) continue;
+    if (!curve->wall) {
+      *guide = (CwGuide){CW_GUIDE_CURVE, i};
+      free_curves++;
+    } else if (!free_curves) {
+      CwGuide along = curve_guide(skeleton, curve);
+      if (along.kind != CW_GUIDE_NONE) *guide = along;
+    }
+  }
+  CW_REQUIRE(free_curves <= 1, CW_ERR_MESH,
+             "%d dividing planes or caps meet in one point of the wall at (%.3f, %.3f, %.3f) mm; at most two can",
+             free_curves + 1, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+done:
+  return status;
+}
+
+CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  CwNetwork *network = &skeleton->network;
+  double *place = NULL;
+  CW_NEW(skeleton->corner_vertex, network->corner_count);
+  for (int32_t i = 0; i < network->corner_count; i++) {
+    skeleton->corner_vertex[i] = -1;
+    if (!network->corner[i].on_wall) continue;
+    CwGuide guide;
+    CW_TRY(corner_guide(skeleton, i, &guide));
+    CW_TRY(add_wall_vertex(skeleton, network->corner[i].x, guide, &skeleton->corner_vertex[i]));
+  }
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    CwCurve *curve = &network->curve[i];
+    if (!curve->wall) continue;
+    int32_t count, closed = curve->corner[0] == curve->corner[1];
+    CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], closed ? 3 : 1, &count,
+                           &place));
+    CW_NEW(curve->node, count);
+    CW_NEW(curve->parameter, count);
+    curve->point_count = count;
+    CwGuide guide = curve_guide(skeleton, curve);
+    for (int32_t k = 0; k < count; k++) {
+      double x[3];
+      cw_curve_point(network, curve, place[k], x, curve->parameter[k]);
+      if (k == 0 || k == count - 1) {
+        curve->node[k] = skeleton->corner_vertex[curve->corner[k > 0]];
+      } else {
+        CW_TRY(add_wall_vertex(skeleton, x, guide, &curve->node[k]));
+      }
+    }
+    free(place);
+    place = NULL;
+  }
+done:
+  free(place);
+  return status;
+}
+
+// (u,v) on `face` of point k of a curve that runs along it.
+static void curve_uv(const CwSkeleton *skeleton, const CwCurve *curve, int32_t k, int32_t face, double uv[2]) {
+  if (curve->kind == CW_CURVE_EDGE) {
+    cw_cad_edge_uv(skeleton->cad, curve->edge, face, curve->parameter[k][0], uv);
+  } else {
+    memcpy(uv, curve->parameter[k], sizeof(double[2]));
+  }
+}
+
+// The outline of a wall face: CAD edges first, so that their ends get the (u,v) of the edges, then the cuts.
+static CwStatus wall_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_outline_start(outline, skeleton->wall_count));
+  for (int pass = 0; pass < 2; pass++) {
+    CwCurveKind kind = pass == 0 ? CW_CURVE_EDGE : CW_CURVE_CUT;
+    for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
+      const CwCurve *curve = &skeleton->network.curve[i];
+      if (curve->kind != kind || !curve->wall || (curve->face[0] != face && curve->face[1] != face)) continue;
+      int32_t previous = -1;
+      for (int32_t k = 0; k < curve->point_count; k++) {
+        double uv[2];
+        int32_t local;
+        curve_uv(skeleton, curve, k, face, uv);
+        CW_TRY(cw_outline_point(outline, curve->node[k], uv, skeleton->wall_x[curve->node[k]], &local));
+        if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, kind == CW_CURVE_EDGE));
+        previous = local;
+      }
+    }
+  }
+done:
+  return status;
+}
+
+typedef struct {
+  const CwCad *cad;
+  int32_t face;
+} FaceMap;
+
+static void face_map(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
+  const FaceMap *map = context;
+  cw_cad_face_point(map->cad, map->face, uv, x, xu, xv);
+}
+
+static int32_t region_at(const void *plan, const double x[3]) {
+  return cw_plan_locate(plan, x);
+}
+
+// Meshes a CAD face inside an outline; the label of each triangle is its region.
+static CwStatus mesh_face(const CwSkeleton *skeleton, int32_t face, const CwPatchOutline *outline, void **bytes,
+                          int64_t *size) {
+  FaceMap map = {skeleton->cad, face};
+  return cw_patch_task(outline, face_map, &map, skeleton->size_at, skeleton->size,
+                       cw_cad_face_reversed(skeleton->cad, face), region_at, skeleton->plan,
+                       cw_cad_face_name(skeleton->cad, face), bytes, size);
+}
+
+CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  CW_TRY(wall_outline(skeleton, face, &outline));
+  CW_TRY(mesh_face(skeleton, face, &outline, bytes, size));
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
+CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  int32_t faces = cw_cad_face_count(skeleton->cad), total = 0;
+  CwPatchBlock block;
+  for (int32_t f = 0; f < faces; f++) {
+    if (!bytes[f]) continue;
+    cw_patch_block(bytes[f], &block);
+    total += block.triangle_count;
+  }
+  CW_NEW(skeleton->wall_triangle, total);
+  CW_NEW(skeleton->wall_face, total);
+  CW_NEW(skeleton->wall_region, total);
+  for (int32_t f = 0; f < faces; f++) {
+    if (!bytes[f]) continue;
+    cw_patch_block(bytes[f], &block);
+    CW_TRY(wall_outline(skeleton, f, &outline));
+    int32_t first = skeleton->wall_count;
+    for (int32_t i = 0; i < block.point_count; i++) {
+      int32_t vertex;
+      CW_TRY(add_wall_vertex(skeleton, block.x[i], (CwGuide){CW_GUIDE_NONE, -1}, &vertex));
+    }
+    for (int32_t t = 0; t < block.triangle_count; t++) {
+      int32_t *corner = skeleton->wall_triangle[skeleton->wall_triangle_count];
+      for (int k = 0; k < 3; k++) {
+        int32_t local = block.triangle[t][k];
+        corner[k] = local < block.outline_points ? outline.node[local] : first + local - block.outline_points;
+      }
+      skeleton->wall_face[skeleton->wall_triangle_count] = f;
+      skeleton->wall_region[skeleton->wall_triangle_count++] = block.label[t];
+    }
+    cw_outline_free(&outline);
+  }
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
+// Front node and its (u,v) on a cap: the (u,v) of the wall curve is the start of the search.
+static CwStatus add_cap_point(const CwSkeleton *skeleton, const CwCurve *curve, int32_t k, int32_t face,
+                              CwPatchOutline *outline, int32_t *local) {
+  double uv[2];
+  curve_uv(skeleton, curve, k, face, uv);
+  const double *x = skeleton->node_x[curve->node[k]];
+  cw_cad_face_project(skeleton->cad, face, x, uv);
+  return cw_outline_point(outline, curve->node[k], uv, x, local);
+}
+
+CwStatus cw_skeleton_mesh_cap(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  CW_TRY(cw_skeleton_cap_outline(skeleton, face, &outline));
+  CW_TRY(mesh_face(skeleton, face, &outline, bytes, size));
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
+CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_outline_start(outline, skeleton->node_count));
+  for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
+    const CwCurve *curve = &skeleton->network.curve[i];
+    if (curve->kind == CW_CURVE_LINE || (curve->face[0] != face && curve->face[1] != face)) continue;
+    int32_t previous = -1, local;
+    for (int32_t k = 0; k < curve->point_count; k++) {
+      CW_TRY(add_cap_point(skeleton, curve, k, face, outline, &local));
+      if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, curve->kind == CW_CURVE_EDGE));
+      previous = local;
+    }
+  }
+done:
+  return status;
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/wall_targets.h"
+
+#include <jansson.h>
+#include <string.h>
+
+#include "mesher/layer_heights.h"
+
+CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
+  CwStatus status = CW_OK;
+  json_error_t error;
+  json_t *design = json_load_file(design_path, 0, &error);
+  CW_REQUIRE(design, CW_ERR_IO, "%s: %s at line %d; made by cutwater-geometry", design_path, error.text, error.line);
+  double outlet_radius = 0;
+  const struct {
+    const char *key;
+    double *value;
+  } wanted[] = {{"relative_speed_m_per_s", &scales->relative_speed},
+                {"volute_speed_m_per_s", &scales->volute_speed},
+                {"suction_speed_m_per_s", &scales->suction_speed},
+                {"discharge_speed_m_per_s", &scales->discharge_speed},
+                {"interface_radius_m", &outlet_radius}};
+  for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+    const json_t *value = json_object_get(design, wanted[i].key);
+    CW_REQUIRE(json_is_number(value) && json_number_value(value) > 0, CW_ERR_INPUT,
+               "%s: %s is missing or not a number above 0", design_path, wanted[i].key);
+    *wanted[i].value = json_number_value(value);
+  }
+  // Lengths along which the boundary layers grow: a blade is a little longer than the outlet radius, the spiral runs
+  // about three of them, the pipes some diameters.
+  scales->blade_length = 1.2 * outlet_radius;
+  scales->volute_length = 3 * outlet_radius;
+  scales->pipe_length = 3 * outlet_radius;
+done:
+  json_decref(design);
+  return status;
+}
+
+static int starts_with(const char *text, const char *start) {
+  return strncmp(text, start, strlen(start)) == 0;
+}
+
+void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *scales, double *relative_size,
+                     double *first_height) {
+  const CwWalls *walls = &table->walls;
+  const CwMeshTable *mesh = &table->mesh;
+  for (int p = 0; p < cw_cad_patch_count(cad); p++) {
+    const char *name = cw_cad_patch_name(cad, p);
+    CwPatchKind kind = cw_cad_patch_kind(cad, p);
+    double y_plus = walls->y_plus_volute, speed = scales->volute_speed, length = scales->volute_length;
+    relative_size[p] = mesh->size_volute;
+    if (starts_with(name, "blade")) {
+      relative_size[p] = mesh->size_blade;
+      y_plus = walls->y_plus_blade, speed = scales->relative_speed, length = scales->blade_length;
+    } else if (starts_with(name, "hub") || starts_with(name, "shroud")) {
+      relative_size[p] = mesh->size_hub_shroud;
+      y_plus = walls->y_plus_hub_shroud, speed = scales->relative_speed, length = scales->blade_length;
+    } else if (kind == CW_PATCH_INTERFACE || !strcmp(name, "neck") || !strcmp(name, "step")) {
+      relative_size[p] = mesh->size_interface;
+    } else if (!strcmp(name, "suction_pipe") || kind == CW_PATCH_INLET) {
+      relative_size[p] = mesh->size_pipe;
+      y_plus = walls->y_plus_pipe, speed = scales->suction_speed, length = scales->pipe_length;
+    } else if (!strcmp(name, "discharge") || !strcmp(name, "diffuser") || kind == CW_PATCH_OUTLET) {
+      relative_size[p] = mesh->size_pipe;
+      y_plus = walls->y_plus_pipe, speed = scales->discharge_speed, length = scales->pipe_length;
+    }
+    first_height[p] = kind == CW_PATCH_WALL
+                          ? cw_first_height(y_plus, speed, length, table->fluid.kinematic_viscosity,
+                                            walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE)
+                          : 0;
+  }
+}

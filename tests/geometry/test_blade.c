@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "geometry/blade.h"
+#include "geometry/hydraulic_design.h"
+#include "pipeline/case.h"
+
+static const double degree = M_PI / 180;
+static CwDesign design;
+static CwMeridian meridian;
+static CwBladeSection section;
+
+static int setup(void **state) {
+  CwCase table;
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
+         cw_meridian_make(&design, &meridian) || cw_blade_section(&design, &meridian, 0.5, &section);
+}
+
+static void near_to(double value, double expected, double tolerance) {
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+}
+
+// A logarithmic spiral wraps by the integral of dm/r over tan beta: the integral by chords.
+static void spiral(void **state) {
+  const double angle = 33 * degree, beta[3] = {angle, angle, angle};
+  double sum = 0, last[2], x[2];
+  cw_meridian_blade_point(&meridian, 0.5, 0, last, NULL);
+  for (int i = 1; i <= 20000; i++) {
+    cw_meridian_blade_point(&meridian, 0.5, i / 20000.0, x, NULL);
+    sum += hypot(x[0] - last[0], x[1] - last[1]) / (0.5 * (x[0] + last[0]));
+    last[0] = x[0];
+    last[1] = x[1];
+  }
+  near_to(cw_blade_wrap(&meridian, 0.5, beta), sum / tan(angle), 1e-7);
+}
+
+static void wrap_closes(void **state) {
+  near_to(cw_blade_theta(&section, 0), 71 * degree, 1e-8);
+  near_to(cw_blade_theta(&section, 1), 0, 1e-12);
+  near_to(cw_blade_beta(&section, 1), design.outlet_blade_angle, 1e-12);
+  // theta falls with the slope of the law: d theta / dq = -|M'| / (r tan beta).
+  double x[2], dx[2];
+  cw_meridian_blade_point(&meridian, 0.5, 0.37, x, dx);
+  const double slope = (cw_blade_theta(&section, 0.371) - cw_blade_theta(&section, 0.369)) / 0.002;
+  near_to(slope, -hypot(dx[0], dx[1]) / (x[0] * tan(cw_blade_beta(&section, 0.37))), 1e-5);
+}
+
+// Thickness across the blade, measured between the sides: r d theta sin beta where the offset is tangential.
+static void thickness(void **state) {
+  for (double q = 0.4; q <= 1; q += 0.1) {
+    double x[2];
+    cw_meridian_blade_point(&meridian, 0.5, q, x, NULL);
+    const CwBladePoint p = cw_blade_side(&section, CW_BLADE_PRESSURE, q), s = cw_blade_side(&section, CW_BLADE_SUCTION, q);
+    near_to(p.q, q, 1e-12);
+    near_to((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)), 2 * cw_blade_half_thickness(&section, q), 1e-12);
+  }
+  near_to(cw_blade_half_thickness(&section, section.nose), design.leading_edge_thickness / 2, 1e-12);
+  near_to(cw_blade_half_thickness(&section, 0.45), design.blade_thickness / 2, 1e-12);
+  near_to(cw_blade_half_thickness(&section, 1), design.trailing_edge_thickness / 2, 1e-12);
+}
+
+// The ellipse meets the sides in points and begins at the mean line's end.
+static void nose(void **state) {
+  const CwBladePoint tip = cw_blade_leading_edge(&section, 0);
+  near_to(tip.q, 0, 1e-15);
+  near_to(tip.theta, 71 * degree, 1e-8);
+  for (int side = 0; side < 2; side++) {
+    const CwBladePoint a = cw_blade_leading_edge(&section, side ? -M_PI / 2 : M_PI / 2);
+    const CwBladePoint b = cw_blade_side(&section, side ? CW_BLADE_SUCTION : CW_BLADE_PRESSURE, section.nose);
+    near_to(a.q, b.q, 1e-12);
+    near_to(a.theta, b.theta, 1e-12);
+  }
+}
+
+// In the plane that touches the D2 cylinder: the facet has the asked length, and legs of equal length.
+static void bevel(void **state) {
+  const double facet = design.trailing_edge_bevel, q = cw_blade_bevel_begin(&section, facet);
+  const double end = cw_blade_bevel_theta(&section, q);
+  const CwBladePoint begin = cw_blade_side(&section, CW_BLADE_SUCTION, q), corner = cw_blade_side(&section, CW_BLADE_SUCTION, 1);
+  double x[2], dx[2];
+  cw_meridian_blade_point(&meridian, 0.5, 1, x, dx);
+  const double dm = (1 - q) * hypot(dx[0], dx[1]);
+  near_to(hypot(dm, (begin.theta - corner.theta) * x[0]), (end - corner.theta) * x[0], 1e-12);
+  // Curvature of the side and of the cylinder makes a little difference to the flat triangle.
+  near_to(hypot(dm, (end - begin.theta) * x[0]), facet, 0.05 * facet);
+  // The balanced facet is as long as what is left of the cut.
+  const double balanced = cw_blade_balanced_bevel(2e-3, 36 * degree), leg = balanced / (2 * sin(18 * degree));
+  near_to(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(spiral), cmocka_unit_test(wrap_closes), cmocka_unit_test(thickness),
+      cmocka_unit_test(nose),   cmocka_unit_test(bevel),
+  };
+  return cmocka_run_group_tests(tests, setup, NULL);
+}

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "geometry/blade.h"
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/meridian.h"
+#include "geometry/rotor.h"
+#include "pipeline/case.h"
+
+static const double degree = M_PI / 180;
+
+static CwCase paper(void) {
+  CwCase table;
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  return table;
+}
+
+static void near_to(double value, double expected, double tolerance) {
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+}
+
+static CwDesign design_of(const CwCase *table) {
+  CwDesign design;
+  if (cw_hydraulic_design(table, &design) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  return design;
+}
+
+static void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured) {
+  CwSolid *rotor = NULL;
+  if (cw_rotor_build(design, &rotor) != CW_OK || cw_measure_solid(rotor, solid) != CW_OK ||
+      cw_measure_rotor(rotor, measured) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  cw_solid_free(&rotor);
+}
+
+// Integral of r |M_q x M_s| dq from 0 on, by Simpson: the blade's volume is the integral over its outline of this
+// times d theta (Green), and over the span. Independent of the B-rep.
+static double swept(const CwMeridian *meridian, double s, double q) {
+  enum { STEPS = 10 };
+  double sum = 0;
+  for (int i = 0; i <= STEPS; i++) {
+    const double at = q * i / STEPS;
+    double h[2], c[2], x[2], dx[2];
+    cw_meridian_blade_point(meridian, 0, at, h, NULL);
+    cw_meridian_blade_point(meridian, 1, at, c, NULL);
+    cw_meridian_blade_point(meridian, s, at, x, dx);
+    const double rate = x[0] * fabs(dx[0] * (c[1] - h[1]) - dx[1] * (c[0] - h[0]));
+    sum += rate * (i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2);
+  }
+  return sum * q / STEPS / 3;
+}
+
+static double blade_volume(const CwDesign *design, const CwMeridian *meridian) {
+  enum { SPANS = 8, POINTS = 200 }; // Simpson over the span, chords along the outline
+  double volume = 0;
+  CwBladeSection middle;
+  assert_int_equal(cw_blade_section(design, meridian, 0.5, &middle), CW_OK);
+  const double q_bevel = cw_blade_bevel_begin(&middle, design->trailing_edge_bevel);
+  const double theta_bevel = cw_blade_bevel_theta(&middle, q_bevel);
+  for (int j = 0; j <= SPANS; j++) {
+    CwBladeSection section;
+    const double s = (double)j / SPANS;
+    assert_int_equal(cw_blade_section(design, meridian, s, &section), CW_OK);
+    double sum = 0, first = 0, last_f = 0, last_theta = 0, first_f = 0;
+    for (int i = 0; i < 3 * POINTS + 2; i++) {
+      CwBladePoint point;
+      if (i < POINTS) // suction side from the bevel to the nose
+        point = cw_blade_side(&section, CW_BLADE_SUCTION, q_bevel + (section.nose - q_bevel) * i / POINTS);
+      else if (i < 2 * POINTS)
+        point = cw_blade_leading_edge(&section, M_PI * ((double)(i - POINTS) / POINTS - 0.5));
+      else if (i <= 3 * POINTS)
+        point = cw_blade_side(&section, CW_BLADE_PRESSURE,
+                              section.nose + (1 - section.nose) * (i - 2 * POINTS) / POINTS);
+      else
+        point = (CwBladePoint){1, theta_bevel};
+      const double f = swept(meridian, s, point.q);
+      if (i > 0)
+        sum += 0.5 * (f + last_f) * (point.theta - last_theta);
+      else {
+        first = point.theta;
+        first_f = f;
+      }
+      last_f = f;
+      last_theta = point.theta;
+    }
+    sum += 0.5 * (first_f + last_f) * (first - last_theta);
+    volume += fabs(sum) * (j == 0 || j == SPANS ? 1 : j % 2 ? 4 : 2) / (3.0 * SPANS);
+  }
+  return volume;
+}
+
+static void paper_rotor(void **state) {
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
+  CwMeasuredSolid solid;
+  CwMeasuredRotor rotor;
+  CwMeridian meridian;
+  measure(&design, &solid, &rotor);
+  assert_true(solid.valid);
+  assert_true(solid.closed);
+  assert_true(solid.largest_tolerance < 1e-6);
+  assert_int_equal(solid.face_count, 6 * 10 + 2);
+  near_to(rotor.wrap_angle, 71 * degree, 0.01 * degree);
+  near_to(rotor.inlet_diameter, 0.074, 1e-6);
+  near_to(rotor.outlet_diameter, 0.200, 1e-6);
+  near_to(rotor.outlet_width, 0.008, 1e-6);
+  near_to(rotor.interface_radius, 0.101, 1e-6);
+  near_to(rotor.interface_area, 2 * M_PI * 0.101 * 0.008, 1e-9);
+  assert_true(rotor.hub_crease.angle > 72 * degree);
+  assert_true(rotor.shroud_crease.angle > 72 * degree);
+  assert_true(2 * M_PI - rotor.trailing_edge.angle > 75 * degree);
+  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+  const double expected = cw_meridian_volume(&meridian) - 6 * blade_volume(&design, &meridian);
+  near_to(solid.volume / expected, 1, 2e-5);
+}
+
+// The wheel turns by the right hand about +z and the blades sweep backward: the pressure side looks towards greater
+// theta, and the wall of the blade there has its normal out of the fluid towards smaller theta.
+static void every_face_has_a_patch(void **state) {
+  static const char *const patches[] = {"inlet",          "suction_pipe",       "hub",
+                                        "hub_nut",        "shroud",             "blade_pressure",
+                                        "blade_suction",  "blade_leading_edge", "blade_trailing_edge",
+                                        "rotor_interface"};
+  static const int counts[] = {1, 6, 6, 7, 6, 6, 6, 6, 12, 6};
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
+  CwSolid *rotor = NULL;
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+  for (size_t i = 0; i < sizeof patches / sizeof *patches; i++) {
+    int found = 0;
+    for (int face = 0; face < cw_solid_face_count(rotor); face++)
+      found += strcmp(cw_solid_face_patch(rotor, face), patches[i]) == 0;
+    assert_int_equal(found, counts[i]);
+  }
+  for (int face = 0; face < cw_solid_face_count(rotor); face++) {
+    const char *patch = cw_solid_face_patch(rotor, face), *kind = cw_solid_face_kind(rotor, face);
+    assert_string_equal(kind, strcmp(patch, "inlet") == 0             ? "inlet"
+                              : strcmp(patch, "rotor_interface") == 0 ? "interface"
+                                                                      : "wall");
+  }
+  cw_solid_free(&rotor);
+  assert_null(rotor);
+}
+
+// Blade numbers, widths and wraps far from the paper's.
+static void sweep(void **state) {
+  static const double wraps[] = {71, 110, 150}, widths[] = {5, 8, 16};
+  for (int z = 3; z <= 9; z++)
+    for (int i = z % 3; i < 3; i += 2) {
+      CwCase table = paper();
+      table.impeller.blade_count = z;
+      table.impeller.wrap_angle = wraps[i] * degree;
+      table.impeller.outlet_width = widths[(i + z) % 3] * 1e-3;
+      table.volute.inlet_width = table.impeller.outlet_width + 4e-3;
+      const CwDesign design = design_of(&table);
+      CwMeasuredSolid solid;
+      CwMeasuredRotor rotor;
+      CwMeridian meridian;
+      measure(&design, &solid, &rotor);
+      if (!solid.valid || !solid.closed || solid.largest_tolerance > 1e-6)
+        fail_msg("z %d, wrap %.0f deg, b2 %.0f mm: valid %d, closed %d, tolerance %.3g m", z, wraps[i],
+                 design.outlet_width * 1e3, solid.valid, solid.closed, solid.largest_tolerance);
+      near_to(rotor.wrap_angle, wraps[i] * degree, 0.01 * degree);
+      near_to(rotor.outlet_width, design.outlet_width, 1e-6);
+      assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+      const double expected = cw_meridian_volume(&meridian) - z * blade_volume(&design, &meridian);
+      near_to(solid.volume / expected, 1, 1e-3);
+    }
+}
+
+static void other_priorities(void **state) {
+  for (int priority = CW_PRIORITY_WRAP; priority <= CW_PRIORITY_BETA; priority++) {
+    CwCase table = paper();
+    table.impeller.priority = (CwPriority)priority;
+    const CwDesign design = design_of(&table);
+    CwMeasuredSolid solid;
+    CwMeasuredRotor rotor;
+    measure(&design, &solid, &rotor);
+    assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
+    near_to(rotor.wrap_angle, design.wrap_angle, 0.01 * degree);
+  }
+}
+
+static void too_long_a_bevel_is_refused(void **state) {
+  CwCase table = paper();
+  table.impeller.trailing_edge_bevel = 5e-3;
+  const CwDesign design = design_of(&table);
+  CwSolid *rotor = NULL;
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_ERR_GEOMETRY);
+  assert_null(rotor);
+  assert_non_null(strstr(cw_fail_message(), "bevel"));
+  cw_fail_clear();
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(paper_rotor), cmocka_unit_test(every_face_has_a_patch), cmocka_unit_test(sweep),
+      cmocka_unit_test(other_priorities), cmocka_unit_test(too_long_a_bevel_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "geometry/faces_table.h"
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/rotor.h"
+#include "geometry/step_file.h"
+#include "pipeline/case.h"
+
+static CwSolid *rotor;
+static char folder[] = "step-file-test-XXXXXX";
+
+static int setup(void **state) {
+  CwCase table;
+  CwDesign design;
+  return !mkdtemp(folder) || cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
+         cw_hydraulic_design(&table, &design) || cw_rotor_build(&design, &rotor);
+}
+
+static int teardown(void **state) {
+  cw_solid_free(&rotor);
+  return rmdir(folder); // fails where a test leaves a file, a temporary one too
+}
+
+static char *slurp(const char *path, size_t *size) {
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  fseek(file, 0, SEEK_END);
+  *size = (size_t)ftell(file);
+  rewind(file);
+  char *text = malloc(*size + 1);
+  assert_non_null(text);
+  assert_int_equal(fread(text, 1, *size, file), *size);
+  text[*size] = 0;
+  fclose(file);
+  return text;
+}
+
+static void assert_same_files(const char *a, const char *b) {
+  size_t na, nb;
+  char *ta = slurp(a, &na), *tb = slurp(b, &nb);
+  assert_int_equal(na, nb);
+  assert_memory_equal(ta, tb, na);
+  free(ta);
+  free(tb);
+}
+
+static int count_patch(const CwSolid *solid, const char *patch) {
+  int count = 0;
+  for (int i = 0; i < cw_solid_face_count(solid); i++)
+    count += strcmp(cw_solid_face_patch(solid, i), patch) == 0;
+  return count;
+}
+
+static void names_and_volume_survive(void **state) {
+  const CwSolid *const solids[] = {rotor};
+  CwSolid *again = NULL;
+  CwMeasuredSolid before, after;
+  char path[64];
+  snprintf(path, sizeof path, "%s/pump.step", folder);
+  assert_int_equal(cw_step_write(solids, 1, path), CW_OK);
+  if (cw_step_read(path, "rotor", &again) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  assert_int_equal(cw_measure_solid(rotor, &before), CW_OK);
+  assert_int_equal(cw_measure_solid(again, &after), CW_OK);
+  assert_true(after.valid);
+  assert_int_equal(after.face_count, before.face_count);
+  assert_true(fabs(after.volume / before.volume - 1) < 1e-9);
+  for (int i = 0; i < cw_solid_face_count(rotor); i++) {
+    const char *patch = cw_solid_face_patch(rotor, i);
+    assert_int_equal(count_patch(again, patch), count_patch(rotor, patch));
+  }
+  cw_solid_free(&again);
+  assert_int_equal(cw_step_read(path, "stator", &again), CW_ERR_INPUT);
+  cw_fail_clear();
+  unlink(path);
+  assert_int_equal(cw_step_read(path, "rotor", &again), CW_ERR_IO);
+  cw_fail_clear();
+}
+
+static void files_are_the_same_each_time(void **state) {
+  const CwSolid *const solids[] = {rotor};
+  char a[64], b[64];
+  snprintf(a, sizeof a, "%s/a", folder);
+  snprintf(b, sizeof b, "%s/b", folder);
+  assert_int_equal(cw_step_write(solids, 1, a), CW_OK);
+  assert_int_equal(cw_step_write(solids, 1, b), CW_OK);
+  assert_same_files(a, b);
+  assert_int_equal(cw_solid_write_brep(rotor, a), CW_OK);
+  assert_int_equal(cw_solid_write_brep(rotor, b), CW_OK);
+  assert_same_files(a, b);
+  unlink(a);
+  unlink(b);
+}
+
+static void faces_table(void **state) {
+  const CwSolid *const solids[] = {rotor};
+  char path[64];
+  snprintf(path, sizeof path, "%s/faces.csv", folder);
+  assert_int_equal(cw_faces_table_write(solids, 1, path), CW_OK);
+  size_t size;
+  char *text = slurp(path, &size);
+  int lines = 0;
+  for (size_t i = 0; i < size; i++)
+    lines += text[i] == '\n';
+  assert_int_equal(lines, 63);
+  assert_int_equal(strncmp(text, "domain,face,patch,kind,name\nrotor,1,hub,wall,hub_1\n", 51), 0);
+  assert_non_null(strstr(text, ",rotor_interface,interface,rotor_interface_6\n"));
+  free(text);
+  unlink(path);
+}
+
+static void unwritable_place_is_refused(void **state) {
+  const CwSolid *const solids[] = {rotor};
+  assert_int_equal(cw_step_write(solids, 1, "no-such-folder/pump.step"), CW_ERR_IO);
+  assert_int_equal(cw_solid_write_brep(rotor, "no-such-folder/rotor.brep"), CW_ERR_IO);
+  cw_fail_clear();
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(names_and_volume_survive),
+      cmocka_unit_test(files_are_the_same_each_time),
+      cmocka_unit_test(faces_table),
+      cmocka_unit_test(unwritable_place_is_refused),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A wall with its layers, and what must hold for every one: told apart from the module's own judgement by other formulas.
+#ifndef CUTWATER_TESTS_MESHER_LAYERS_CASE_H
+#define CUTWATER_TESTS_MESHER_LAYERS_CASE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include "mesher/intersect.h"
+#include "mesher/layers.h"
+#include "surfaces.h"
+
+// Unit normals of the caps and planes that hold a column at x; returns their count.
+typedef int (*CaseGuide)(const void *context, const double x[3], double normal[2][3]);
+
+typedef struct {
+  Surface wall, cap;
+  double target;
+  CaseGuide guide;
+  const void *guide_context;
+  void (*snap)(const void *context, int32_t v, double x[3]);
+  CwLayerInput in;
+  CwLayers out;
+  double share; // of columns at the asked height
+} Case;
+
+static inline CwStatus case_make(Case *c) {
+  surface_weld(&c->wall);
+  surface_weld(&c->cap);
+  int32_t n = c->wall.point_count, *guide_count = calloc(n, sizeof *guide_count);
+  double *target = malloc(n * sizeof *target);
+  double (*guide_normal)[2][3] = calloc(n, sizeof *guide_normal);
+  for (int32_t v = 0; v < n; v++) {
+    target[v] = c->target;
+    if (c->guide) guide_count[v] = c->guide(c->guide_context, c->wall.x[v], guide_normal[v]);
+  }
+  c->in = (CwLayerInput){.point_count = n,
+                         .x = (const double (*)[3])c->wall.x,
+                         .triangle_count = c->wall.triangle_count,
+                         .triangle = (const int32_t (*)[3])c->wall.triangle,
+                         .target = target,
+                         .guide_count = guide_count,
+                         .guide_normal = (const double (*)[2][3])guide_normal,
+                         .snap = c->snap,
+                         .snap_context = c,
+                         .obstacle_point_count = c->cap.point_count,
+                         .obstacle_x = (const double (*)[3])c->cap.x,
+                         .obstacle_triangle_count = c->cap.triangle_count,
+                         .obstacle_triangle = (const int32_t (*)[3])c->cap.triangle};
+  return cw_layers_make(&c->in, &c->out);
+}
+
+static inline void case_free(Case *c) {
+  free((void *)c->in.target);
+  free((void *)c->in.guide_count);
+  free((void *)c->in.guide_normal);
+  surface_free(&c->wall);
+  surface_free(&c->cap);
+  cw_layers_free(&c->out);
+}
+
+static inline double case_det(const double o[3], const double a[3], const double b[3], const double c[3]) {
+  double m[3][3];
+  for (int k = 0; k < 3; k++) m[0][k] = a[k] - o[k], m[1][k] = b[k] - o[k], m[2][k] = c[k] - o[k];
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+static inline void case_at(const Case *c, int32_t v, double fraction, double x[3]) {
+  for (int k = 0; k < 3; k++) x[k] = c->wall.x[v][k] + fraction * (c->out.front[v][k] - c->wall.x[v][k]);
+}
+
+// Ten sub-layers: every corner tetrahedron of each sub-prism has a positive volume.
+static inline void case_check_prisms(const Case *c) {
+  for (int32_t f = 0; f < c->wall.triangle_count; f++) {
+    const int32_t corner[3] = {c->wall.triangle[f][0], c->wall.triangle[f][2], c->wall.triangle[f][1]};
+    for (int layer = 0; layer < 10; layer++) {
+      double p[6][3];
+      for (int i = 0; i < 3; i++) {
+        case_at(c, corner[i], layer / 10.0, p[i]);
+        case_at(c, corner[i], (layer + 1) / 10.0, p[3 + i]);
+      }
+      for (int i = 0; i < 3; i++) {
+        assert_true(case_det(p[i], p[(i + 1) % 3], p[(i + 2) % 3], p[3 + i]) > 0);
+        assert_true(case_det(p[3 + i], p[3 + (i + 2) % 3], p[3 + (i + 1) % 3], p[i]) > 0);
+      }
+    }
+  }
+}
+
+// Wall and front together cross nowhere, nor does the front cross a cap except with the columns that run inside one.
+static inline void case_check_front(const Case *c) {
+  int32_t n = c->wall.point_count, m = c->wall.triangle_count, caps = c->cap.triangle_count, count, (*pair)[2];
+  int32_t points = 2 * n + c->cap.point_count;
+  double (*x)[3] = malloc(points * sizeof *x);
+  int32_t (*t)[3] = malloc((2 * (size_t)m + caps) * sizeof *t);
+  memcpy(x, c->out.front, n * sizeof *x);
+  memcpy(x + n, c->wall.x, n * sizeof *x);
+  if (caps) memcpy(x + 2 * n, c->cap.x, c->cap.point_count * sizeof *x);
+  for (int32_t f = 0; f < m; f++)
+    for (int i = 0; i < 3; i++) t[f][i] = c->wall.triangle[f][i], t[m + f][i] = n + c->wall.triangle[f][i];
+  for (int32_t f = 0; f < caps; f++)
+    for (int i = 0; i < 3; i++) t[2 * m + f][i] = 2 * n + c->cap.triangle[f][i];
+  assert_int_equal(cw_self_intersections(points, (const double (*)[3])x, 2 * m + caps, (const int32_t (*)[3])t, &count,
+                                         &pair), CW_OK);
+  for (int32_t i = 0; i < count; i++) {
+    assert_true(pair[i][1] >= 2 * m);
+    if (pair[i][0] >= m) continue;
+    int held = 0;
+    for (int k = 0; k < 3; k++) held += c->in.guide_count[c->wall.triangle[pair[i][0]][k]];
+    assert_true(held > 0);
+  }
+  free(pair);
+  free(x);
+  free(t);
+}
+
+// Makes the layers, checks what must always hold, prints the shares.
+static inline void case_run(Case *c, const char *name) {
+  CwStatus status = case_make(c);
+  if (status != CW_OK) print_error("%s: %s\n", name, cw_fail_message());
+  assert_int_equal(status, CW_OK);
+  int32_t n = c->wall.point_count, full = 0, reason[4] = {0};
+  double least = INFINITY;
+  for (int32_t v = 0; v < n; v++) {
+    assert_true(c->out.height[v] > 0);
+    if (c->out.height[v] >= 0.99 * c->target) full++;
+    if (c->out.height[v] < least) least = c->out.height[v];
+    reason[c->out.reason[v]]++;
+  }
+  assert_int_equal(n - full, c->out.thinned_count);
+  c->share = (double)full / n;
+  print_message("  %-26s %7d triangles: %6.2f %% at %.2f mm, least %.3f mm; gap %d, gradation %d, repair %d; rounds %d\n",
+                name, c->wall.triangle_count, 100 * c->share, c->target / MM, least / MM, reason[CW_LAYER_GAP],
+                reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
+  case_check_prisms(c);
+  case_check_front(c);
+  // Guided columns stay in the surfaces that hold them, to first order where those are curved and not put back.
+  for (int32_t v = 0; v < n && !c->snap; v++)
+    for (int i = 0; i < c->in.guide_count[v]; i++) {
+      double away = 0;
+      for (int k = 0; k < 3; k++)
+        away += (c->out.front[v][k] - c->wall.x[v][k]) * c->in.guide_normal[v][i][k];
+      assert_true(fabs(away) < 1e-12);
+    }
+}
+
+#endif

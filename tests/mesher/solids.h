@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Small exact solids for the tests of the mesher, written as the geometry stage writes its own: a B-rep in mm
+// and faces.csv, in a temporary folder under the current one.
+#ifndef CUTWATER_TESTS_MESHER_SOLIDS_H
+#define CUTWATER_TESTS_MESHER_SOLIDS_H
+
+#include <cmath>
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include "mesher/cad.h"
+
+// Last: its macro named fail breaks the C++ headers. So this header comes last in a test as well.
+extern "C" {
+#include <cmocka.h>
+}
+
+// cmocka's own comparison is in float.
+#define assert_near(value, wanted, tolerance)                                                                \
+  do {                                                                                                       \
+    double value_ = (value), wanted_ = (wanted);                                                             \
+    if (!(std::fabs(value_ - wanted_) <= (tolerance)))                                                       \
+      fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);                                             \
+  } while (0)
+
+struct TemporaryFolder {
+  char path[64] = "cutwater-test-XXXXXX";
+  TemporaryFolder() {
+    assert_non_null(mkdtemp(path));
+  }
+  ~TemporaryFolder() {
+    std::remove((std::string(path) + "/part.brep").c_str());
+    std::remove((std::string(path) + "/faces.csv").c_str());
+    std::remove(path);
+  }
+};
+
+// Columns "patch,kind" of a face.
+using PatchOfFace = std::function<std::string(const TopoDS_Face &)>;
+
+inline std::string all_wall(const TopoDS_Face &) {
+  return "wall,wall";
+}
+
+inline std::string by_shape(const TopoDS_Face &face) {
+  return BRepAdaptor_Surface(face).GetType() == GeomAbs_Plane ? "flat,wall" : "curved,wall";
+}
+
+inline void write_text(const TemporaryFolder &folder, const char *text) {
+  FILE *file = std::fopen((std::string(folder.path) + "/faces.csv").c_str(), "w");
+  assert_non_null(file);
+  std::fputs(text, file);
+  std::fclose(file);
+}
+
+inline void write_solid(const TemporaryFolder &folder, const TopoDS_Shape &solid,
+                        const PatchOfFace &patch_of) {
+  assert_true(BRepTools::Write(solid, (std::string(folder.path) + "/part.brep").c_str()));
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(solid, TopAbs_FACE, faces);
+  std::string text = "domain,face,patch,kind,name\nother,1,elsewhere,inlet,elsewhere\n";
+  for (int f = 1; f <= faces.Extent(); f++) {
+    std::string number = std::to_string(f);
+    text += "part," + number + "," + patch_of(TopoDS::Face(faces(f))) + ",face_" + number + "\n";
+  }
+  write_text(folder, text.c_str());
+}
+
+inline CwCad *open_solid(const TopoDS_Shape &solid, const PatchOfFace &patch_of = all_wall) {
+  TemporaryFolder folder;
+  CwCad *cad = nullptr;
+  write_solid(folder, solid, patch_of);
+  if (cw_cad_open(folder.path, "part", &cad) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  return cad;
+}
+
+#endif

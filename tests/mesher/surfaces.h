@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Small generators of test surfaces: structured grids, welded where they meet.
+#ifndef CUTWATER_TESTS_MESHER_SURFACES_H
+#define CUTWATER_TESTS_MESHER_SURFACES_H
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MM 1e-3
+
+typedef struct {
+  int32_t point_count, triangle_count, point_capacity, triangle_capacity;
+  double (*x)[3];
+  int32_t (*triangle)[3];
+} Surface;
+
+typedef void (*SurfaceMap)(const void *context, double u, double v, double x[3]);
+
+static inline int32_t surface_point(Surface *s, const double x[3]) {
+  if (s->point_count == s->point_capacity) {
+    s->point_capacity = s->point_capacity ? 2 * s->point_capacity : 1024;
+    s->x = realloc(s->x, s->point_capacity * sizeof *s->x);
+  }
+  memcpy(s->x[s->point_count], x, sizeof *s->x);
+  return s->point_count++;
+}
+
+static inline void surface_triangle(Surface *s, int32_t a, int32_t b, int32_t c) {
+  if (s->triangle_count == s->triangle_capacity) {
+    s->triangle_capacity = s->triangle_capacity ? 2 * s->triangle_capacity : 1024;
+    s->triangle = realloc(s->triangle, s->triangle_capacity * sizeof *s->triangle);
+  }
+  int32_t *t = s->triangle[s->triangle_count++];
+  t[0] = a, t[1] = b, t[2] = c;
+}
+
+// Grid over the unit square; the normal is xu x xv, or the other way with `flip`. Diagonals alternate.
+static inline void surface_grid(Surface *s, SurfaceMap map, const void *context, int nu, int nv, int flip) {
+  int32_t first = s->point_count;
+  for (int i = 0; i <= nu; i++)
+    for (int j = 0; j <= nv; j++) {
+      double x[3];
+      map(context, (double)i / nu, (double)j / nv, x);
+      surface_point(s, x);
+    }
+  for (int i = 0; i < nu; i++)
+    for (int j = 0; j < nv; j++) {
+      int32_t a = first + i * (nv + 1) + j, b = a + nv + 1, c = b + 1, d = a + 1;
+      int32_t t[2][3] = {{a, b, c}, {a, c, d}};
+      if ((i + j) % 2) {
+        int32_t o[2][3] = {{a, b, d}, {b, c, d}};
+        memcpy(t, o, sizeof t);
+      }
+      for (int k = 0; k < 2; k++) surface_triangle(s, t[k][0], t[k][flip ? 2 : 1], t[k][flip ? 1 : 2]);
+    }
+}
+
+static inline void surface_bilinear(const void *context, double u, double v, double x[3]) {
+  const double (*p)[3] = context;
+  for (int k = 0; k < 3; k++)
+    x[k] = (1 - u) * (1 - v) * p[0][k] + u * (1 - v) * p[1][k] + u * v * p[2][k] + (1 - u) * v * p[3][k];
+}
+
+// Four corners in order; the normal follows the right hand.
+static inline void surface_quad(Surface *s, const double p[4][3], int nu, int nv) {
+  surface_grid(s, surface_bilinear, p, nu, nv, 0);
+}
+
+// Box from `low` to `high`, normals outward, or inward with `flip`; sides: bits 0..5 = x-, x+, y-, y+, z-, z+.
+static inline void surface_box(Surface *s, const double low[3], const double high[3], double h, int sides, int flip) {
+  for (int side = 0; side < 6; side++) {
+    if (!(sides >> side & 1)) continue;
+    int axis = side / 2, a = (axis + 1) % 3, b = (axis + 2) % 3, upper = side % 2;
+    double p[4][3];
+    for (int i = 0; i < 4; i++) {
+      p[i][axis] = upper ? high[axis] : low[axis];
+      p[i][a] = i == 1 || i == 2 ? high[a] : low[a];
+      p[i][b] = i >= 2 ? high[b] : low[b];
+    }
+    surface_grid(s, surface_bilinear, p, (int)lround((high[a] - low[a]) / h), (int)lround((high[b] - low[b]) / h),
+                 upper ? flip : !flip);
+  }
+}
+
+// Wall over a polygon of the (x,z) plane, extruded along y from 0 to `depth`; fluid to the left of the polygon's edges
+// when looking along +y from... see `flip`: without it the outward normal is edge x y.
+static inline void surface_extrude(Surface *s, int count, const double (*p)[2], int closed, double depth, double h,
+                                   int flip) {
+  for (int i = 0; i < count - !closed; i++) {
+    const double *a = p[i], *b = p[(i + 1) % count];
+    double length = hypot(b[0] - a[0], b[1] - a[1]);
+    double q[4][3] = {{a[0], 0, a[1]}, {b[0], 0, b[1]}, {b[0], depth, b[1]}, {a[0], depth, a[1]}};
+    int n = (int)ceil(length / h - 1e-9), m = (int)ceil(depth / h - 1e-9);
+    surface_grid(s, surface_bilinear, q, n, m, flip);
+  }
+}
+
+typedef struct {
+  int64_t key[3];
+  int32_t v;
+} SurfaceKey;
+
+static inline int surface_key_order(const void *a, const void *b) {
+  const SurfaceKey *p = a, *q = b;
+  for (int k = 0; k < 3; k++)
+    if (p->key[k] != q->key[k]) return p->key[k] < q->key[k] ? -1 : 1;
+  return (p->v > q->v) - (p->v < q->v);
+}
+
+// Makes one point of all within 1e-8 m; drops triangles that lose their area by it.
+static inline void surface_weld(Surface *s) {
+  SurfaceKey *key = malloc((s->point_count + 1) * sizeof *key);
+  int32_t *to = malloc((s->point_count + 1) * sizeof *to);
+  for (int32_t v = 0; v < s->point_count; v++) {
+    for (int k = 0; k < 3; k++) key[v].key[k] = llround(s->x[v][k] / 1e-8 + 0.3171);
+    key[v].v = v;
+  }
+  qsort(key, s->point_count, sizeof *key, surface_key_order);
+  for (int32_t i = 0; i < s->point_count; i++) {
+    int same = i > 0 && !memcmp(key[i].key, key[i - 1].key, sizeof key[i].key);
+    to[key[i].v] = same ? to[key[i - 1].v] : key[i].v;
+  }
+  int32_t count = 0;
+  for (int32_t v = 0; v < s->point_count; v++)
+    if (to[v] == v) {
+      memmove(s->x[count], s->x[v], sizeof *s->x);
+      to[v] = count++;
+    } else {
+      to[v] = to[to[v]]; // an earlier point, renumbered already
+    }
+  s->point_count = count;
+  int32_t kept = 0;
+  for (int32_t f = 0; f < s->triangle_count; f++) {
+    int32_t a = to[s->triangle[f][0]], b = to[s->triangle[f][1]], c = to[s->triangle[f][2]];
+    if (a == b || b == c || c == a) continue;
+    s->triangle[kept][0] = a, s->triangle[kept][1] = b, s->triangle[kept][2] = c;
+    kept++;
+  }
+  s->triangle_count = kept;
+  free(key);
+  free(to);
+}
+
+static inline void surface_free(Surface *s) {
+  free(s->x);
+  free(s->triangle);
+  memset(s, 0, sizeof *s);
+}
+
+#endif

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "mesher/audit.h"
+
+#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
+
+// A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
+static double x[8][3];
+static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4], quad_patch[4],
+  quad_cell[4];
+
+static CwRegionMesh prism_and_tet(void) {
+  static const double points[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                      {1, 0, 1}, {0, 1, 1}, {0, 0, 2}, {5, 5, 5}};
+  static const int32_t triangles[4][3] = {{0, 2, 1}, {3, 4, 6}, {4, 5, 6}, {5, 3, 6}};
+  static const int32_t cells[4] = {1, 0, 0, 0};
+  static const int32_t quads[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  memcpy(x, points, sizeof points);
+  memcpy(tet[0], (int32_t[4]){3, 4, 5, 6}, sizeof tet[0]);
+  memcpy(prism[0], (int32_t[6]){0, 1, 2, 3, 4, 5}, sizeof prism[0]);
+  memcpy(triangle, triangles, sizeof triangles);
+  memcpy(triangle_cell, cells, sizeof cells);
+  memcpy(quad, quads, sizeof quads);
+  for (int k = 0; k < 3; k++) quad_cell[k] = 1;
+  CwRegionMesh r = {.domain = "rotor", .region = 3, .number = 1};
+  r.point_count = 7, r.x = x;
+  r.tetrahedron_count = 1, r.tetrahedron = tet;
+  r.prism_count = 1, r.prism = prism;
+  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch, r.triangle_cell = triangle_cell;
+  r.quad_count = 3, r.quad = quad, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
+  return r;
+}
+
+static void fails_with(const CwRegionMesh *r, const char *part) {
+  CwQuality q;
+  cw_fail_clear();
+  assert_int_equal(cw_audit_region(r, &q), CW_ERR_MESH);
+  assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
+  if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
+}
+
+static void good_region_passes_with_its_figures(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
+  NEAR(q.least_volume, 1.0 / 6.0, 1e-15);
+  assert_int_equal(q.cells, 2);
+  NEAR(q.aspect_mean, sqrt(2.0), 1e-15);
+  assert_int_equal(q.aspect_class[0], 1);
+  NEAR(q.dihedral_least, 54.735610317245, 1e-9);
+  assert_int_equal(q.dihedral_bin[5], 1);
+  assert_int_equal(q.prism_count, 1);
+  NEAR(q.prism_least_scaled_jacobian, sqrt(0.5) * 2.0 / sqrt(3.0), 1e-14); // corners of 45 degrees
+  assert_int_equal(q.prism_jacobian_bin[16], 1);
+}
+
+static void single_tetrahedron(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  static const int32_t corner[4] = {0, 1, 2, 3}, faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  memcpy(tet[0], corner, sizeof corner);
+  memcpy(triangle, faces, sizeof faces);
+  memset(triangle_cell, 0, sizeof triangle_cell);
+  r.point_count = 4, r.prism_count = 0, r.quad_count = 0;
+  CwQuality q;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  NEAR(q.volume, 1.0 / 6.0, 1e-16);
+  assert_int_equal(q.prism_count, 0);
+}
+
+static void inverted_cells_are_named_with_their_place(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  tet[0][0] = 4, tet[0][1] = 3;
+  fails_with(&r, "tetrahedron of cell 0 at (250, 250, 1250) mm has no positive volume");
+  r = prism_and_tet();
+  memcpy(prism[0], (int32_t[6]){3, 4, 5, 0, 1, 2}, sizeof prism[0]);
+  fails_with(&r, "prism of cell 1");
+  r = prism_and_tet();
+  x[6][2] = 1.0; // flat
+  fails_with(&r, "no positive volume");
+  r = prism_and_tet();
+  x[6][2] = NAN;
+  fails_with(&r, "no positive volume");
+}
+
+static void face_of_three_cells(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  memcpy(tet[1], (int32_t[4]){3, 4, 5, 7}, sizeof tet[1]);
+  r.tetrahedron_count = 2, r.point_count = 8;
+  triangle_cell[0] = quad_cell[0] = quad_cell[1] = quad_cell[2] = 2; // the prism
+  fails_with(&r, "belongs to more than two cells");
+}
+
+static void two_cells_on_one_side(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  memcpy(tet[1], (int32_t[4]){3, 4, 5, 7}, sizeof tet[1]);
+  r.tetrahedron_count = 2, r.prism_count = 0, r.triangle_count = 0, r.quad_count = 0, r.point_count = 5;
+  // Points 3..7 alone, renumbered 0..4.
+  memmove(x, x + 3, 5 * sizeof x[0]);
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; i < 4; i++) tet[k][i] -= 3;
+  }
+  fails_with(&r, "has both of its cells on one side");
+}
+
+static void open_face_is_allowed_only_on_dividing_planes(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q;
+  r.quad_count = 2; // quad 2, 0, 3, 5 is no longer listed
+  fails_with(&r, "is open");
+  r.shared_count = 5;
+  fails_with(&r, "quadrilateral of cell 1 at (0, 500, 500) mm is open");
+  r.shared_count = 6;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+}
+
+static void wrong_lists_are_found(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  memcpy(triangle[4], triangle[1], sizeof triangle[1]);
+  triangle_cell[4] = triangle_cell[1];
+  r.triangle_count = 5;
+  fails_with(&r, "more than once");
+  r = prism_and_tet();
+  memcpy(triangle[4], (int32_t[3]){3, 4, 5}, sizeof triangle[4]);
+  r.triangle_count = 5;
+  fails_with(&r, "lies between two cells");
+  r = prism_and_tet();
+  memcpy(triangle[0], (int32_t[3]){0, 1, 2}, sizeof triangle[0]);
+  fails_with(&r, "with its normal into the domain");
+  r = prism_and_tet();
+  triangle_cell[0] = 0;
+  fails_with(&r, "wrong cell");
+  r = prism_and_tet();
+  memcpy(triangle[4], (int32_t[3]){0, 1, 6}, sizeof triangle[4]);
+  r.triangle_count = 5;
+  fails_with(&r, "no face of a cell");
+  r = prism_and_tet();
+  memcpy(quad[0], (int32_t[4]){0, 4, 1, 3}, sizeof quad[0]); // corners in a wrong order
+  fails_with(&r, "boundary");
+}
+
+static void points_and_indices_are_checked(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  r.point_count = 8;
+  fails_with(&r, "point 7 at (5000, 5000, 5000) mm belongs to no cell");
+  r = prism_and_tet();
+  tet[0][3] = 7;
+  fails_with(&r, "names point 7; 0 to 6 are allowed");
+}
+
+static void sums_of_two_regions(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q, sum;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  cw_quality_start(&sum);
+  cw_quality_add(&sum, &q, 1);
+  q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0;
+  q.aspect_class[0] = 0, q.aspect_class[2] = 3;
+  cw_quality_add(&sum, &q, 3);
+  NEAR(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
+  NEAR(sum.aspect_max, 4.0, 0.0);
+  NEAR(sum.dihedral_least, 12.0, 0.0);
+  NEAR(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
+  assert_int_equal(sum.cells, 4);
+  assert_int_equal(sum.aspect_class[2], 3);
+  assert_int_equal(sum.prism_count, 2);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(good_region_passes_with_its_figures),
+    cmocka_unit_test(single_tetrahedron),
+    cmocka_unit_test(inverted_cells_are_named_with_their_place),
+    cmocka_unit_test(face_of_three_cells),
+    cmocka_unit_test(two_cells_on_one_side),
+    cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
+    cmocka_unit_test(wrong_lists_are_found),
+    cmocka_unit_test(points_and_indices_are_checked),
+    cmocka_unit_test(sums_of_two_regions),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

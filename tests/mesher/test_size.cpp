@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <gp_Pnt.hxx>
+#include <gp_Vec.hxx>
+
+#include "mesher/background.h"
+#include "mesher/size.h"
+
+#include "solids.h"
+
+static const double gradation = 0.2;
+
+// Everything of one solid; lengths in mm for the reader, as the field takes metres.
+struct Model {
+  CwCad *cad;
+  CwBackground background;
+  CwSize *size = nullptr;
+
+  Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
+        std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall)
+      : cad(open_solid(solid, patch_of)) {
+    CwMeshTable table = {};
+    table.gradation = gradation;
+    table.curvature_angle = curvature_angle;
+    table.cells_across_gap = cells_across_gap;
+    assert_int_equal(patch_size.size(), cw_cad_patch_count(cad));
+    assert_int_equal(cw_background_make(cad, 1e-5, 0.1, &background), CW_OK);
+    if (cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &size) != CW_OK) {
+      fail_msg("%s", cw_fail_message());
+    }
+  }
+  ~Model() {
+    cw_size_free(&size);
+    cw_background_free(&background);
+    cw_cad_close(&cad);
+  }
+  double at(double x, double y, double z) const {
+    const double metres[3] = {x * 1e-3, y * 1e-3, z * 1e-3};
+    return cw_size_at(size, metres) * 1e3;
+  }
+};
+
+static TopoDS_Shape bevelled_block() {
+  const double leg = 1 / std::sqrt(2.0); // of the bevel: 1 mm wide
+  BRepBuilderAPI_MakePolygon outline;
+  outline.Add(gp_Pnt(0, 0, 0));
+  outline.Add(gp_Pnt(30 - leg, 0, 0));
+  outline.Add(gp_Pnt(30, leg, 0));
+  outline.Add(gp_Pnt(30, 30, 0));
+  outline.Add(gp_Pnt(0, 30, 0));
+  outline.Close();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire()), gp_Vec(0, 0, 30)).Shape();
+}
+
+static void patch_size_grows_into_the_inside(void **state) {
+  Model box(BRepPrimAPI_MakeBox(100, 100, 100).Shape(), 5, 0.5, 2, {2});
+  assert_near(box.at(50, 50, 0), 10, 0.01);
+  assert_near(box.at(50, 30, 100), 10, 0.01);
+  // 50 mm from every wall, less the spacing (3 mm) within which the size of the wall holds, and less what the
+  // sweep rounds off where the growth from six walls meets.
+  double centre = box.at(50, 50, 50);
+  assert_true(centre <= 10 + gradation * 50 && centre >= 10 + gradation * 44);
+  assert_near(box.at(50, 50, 1000), box.at(50, 50, 105), 1e-9); // clamped outside
+  cw_size_set_scale(box.size, 0.5);
+  assert_near(cw_size_scale(box.size), 0.5, 0);
+  assert_near(box.at(50, 50, 50), 0.5 * centre, 1e-9);
+}
+
+static void curvature_refines_to_a_quarter_at_most(void **state) {
+  const double x = 5 * std::cos(0.7), y = 5 * std::sin(0.7);
+  const TopoDS_Shape quarter = BRepPrimAPI_MakeCylinder(5, 40, M_PI / 2).Shape();
+  Model coarse(quarter, 2, 0.3, 1, {1, 1}, by_shape);
+  assert_near(coarse.at(x, y, 20), 0.3 * 5, 0.02);
+  Model fine(quarter, 2, 0.01, 1, {1, 1}, by_shape);
+  assert_near(fine.at(x, y, 20), 0.25 * 2, 0.01);
+  Model none(quarter, 1, 0.3, 1, {1, 1}, by_shape);
+  assert_near(none.at(x, y, 20), 1, 0.01);
+}
+
+static void gaps_get_their_cells(void **state) {
+  const TopoDS_Shape slab = BRepPrimAPI_MakeBox(60, 60, 4).Shape();
+  Model four(slab, 2, 0.5, 4, {1});
+  assert_near(four.at(30, 30, 0), 1, 0.01);
+  assert_near(four.at(10, 50, 4), 1, 0.01);
+  assert_true(four.at(30, 30, 2) >= 1 && four.at(30, 30, 2) <= 1 + gradation * 2);
+  Model one(slab, 2, 0.5, 1, {1});
+  assert_near(one.at(30, 30, 0), 2, 0.01);
+  // Before an opening two cells do; no gap asks for less than 0.15 of the base size.
+  Model open(slab, 3, 0.5, 4, {1, 1}, [](const TopoDS_Face &face) {
+    double z = std::fabs(BRepAdaptor_Surface(face).Plane().Location().Z());
+    double normal_z = std::fabs(BRepAdaptor_Surface(face).Plane().Axis().Direction().Z());
+    return std::string(normal_z > 0.5 && z > 2 ? "top,interface" : "rest,wall");
+  });
+  assert_near(open.at(30, 30, 0), 2, 0.01);
+  assert_near(open.at(30, 30, 4), 2, 0.01);
+  Model thin(BRepPrimAPI_MakeBox(60, 60, 0.5).Shape(), 2, 0.5, 4, {1});
+  assert_near(thin.at(30, 30, 0.5), 0.15 * 2, 0.01);
+}
+
+static void walls_of_a_wedge_are_no_gap(void **state) {
+  Model wedge(BRepPrimAPI_MakeCylinder(50, 50, M_PI / 6).Shape(), 2, 0.5, 4, {1});
+  for (double r = 2; r < 20; r += 1)
+    assert_near(wedge.at(r, 0, 25), 2, 0.02);
+}
+
+static void narrow_faces_get_their_width(void **state) {
+  Model block(bevelled_block(), 3, 0.5, 1, {1});
+  const double middle = 0.5 / std::sqrt(2.0);
+  double h = block.at(30 - middle, middle, 15);
+  assert_true(h >= 1 - 0.01 && h <= 1 + gradation * 0.5 + 0.01);
+  assert_near(block.at(1, 29, 15), 3, 0.02);
+  Model coarse(bevelled_block(), 10, 0.5, 1, {1});
+  assert_near(coarse.at(30 - middle, middle, 15), 0.15 * 10, 0.15);
+}
+
+static void growth_is_limited(void **state) {
+  Model block(bevelled_block(), 3, 0.5, 1, {1});
+  uint32_t seed = 1;
+  auto next = [&seed]() { return (seed = seed * 1664525u + 1013904223u) / 4294967296.0 * 30; };
+  for (int i = 0; i < 200000; i++) {
+    double p[3], q[3];
+    for (int k = 0; k < 3; k++) {
+      p[k] = next();
+      q[k] = i % 2 ? next() : p[k] + (next() - 15) / 10;
+    }
+    double apart = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    double change = std::fabs(block.at(p[0], p[1], p[2]) - block.at(q[0], q[1], q[2]));
+    // The first-order sweep is 6 % off far from small features; a fifth of the spacing is for the
+    // interpolation.
+    assert_true(change <= gradation * (apart * 1.06 + 0.2 * 1.8));
+    // No more than the bevel allows.
+    double off = std::hypot(30 - p[0], p[1]);
+    assert_true(block.at(p[0], p[1], p[2]) <= 1 + gradation * (off + 0.1));
+  }
+}
+
+static double check_samples(const Model &model, const std::function<bool(const double *)> &inside) {
+  int32_t count;
+  double(*x)[3], *volume, sum = 0;
+  assert_int_equal(cw_size_samples(model.size, &count, &x, &volume), CW_OK);
+  for (int32_t i = 0; i < count; i++) {
+    assert_true(inside(x[i]));
+    assert_true(volume[i] > 0);
+    sum += volume[i];
+  }
+  free(x);
+  free(volume);
+  return sum;
+}
+
+static void samples_fill_the_domain(void **state) {
+  Model slab(BRepPrimAPI_MakeBox(60, 60, 4).Shape(), 2, 0.5, 2, {1});
+  double sum = check_samples(slab, [](const double *x) {
+    return x[0] > 0 && x[0] < 0.06 && x[1] > 0 && x[1] < 0.06 && x[2] > 0 && x[2] < 0.004;
+  });
+  assert_near(sum, cw_cad_volume(slab.cad), 0.01 * cw_cad_volume(slab.cad));
+  Model quarter(BRepPrimAPI_MakeCylinder(20, 40, M_PI / 2).Shape(), 1, 0.5, 2, {1});
+  sum = check_samples(quarter, [](const double *x) {
+    return x[0] > 0 && x[1] > 0 && std::hypot(x[0], x[1]) < 0.02 && x[2] > 0 && x[2] < 0.04;
+  });
+  assert_near(sum, cw_cad_volume(quarter.cad), 0.01 * cw_cad_volume(quarter.cad));
+}
+
+static void two_runs_are_the_same(void **state) {
+  const TopoDS_Shape block = bevelled_block();
+  Model a(block, 3, 0.5, 3, {1}), b(block, 3, 0.5, 3, {1});
+  for (double x = -1; x < 32; x += 0.7) {
+    double p = a.at(x, 31 - x, 0.9 * x), q = b.at(x, 31 - x, 0.9 * x);
+    assert_memory_equal(&p, &q, sizeof p);
+  }
+}
+
+static void wrong_input_is_refused(void **state) {
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
+  CwBackground background;
+  CwMeshTable table = {};
+  CwSize *size = nullptr;
+  double patch_size = 1;
+  table.gradation = table.curvature_angle = 0.2;
+  assert_int_equal(cw_background_make(cad, 1e-5, 0.1, &background), CW_OK);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, &size), CW_ERR_USAGE);
+  patch_size = 0;
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, &size), CW_ERR_USAGE);
+  assert_non_null(std::strstr(cw_fail_message(), "patch 'wall'"));
+  assert_null(size);
+  cw_background_free(&background);
+  cw_cad_close(&cad);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(patch_size_grows_into_the_inside),
+      cmocka_unit_test(curvature_refines_to_a_quarter_at_most),
+      cmocka_unit_test(gaps_get_their_cells),
+      cmocka_unit_test(walls_of_a_wedge_are_no_gap),
+      cmocka_unit_test(narrow_faces_get_their_width),
+      cmocka_unit_test(growth_is_limited),
+      cmocka_unit_test(samples_fill_the_domain),
+      cmocka_unit_test(two_runs_are_the_same),
+      cmocka_unit_test(wrong_input_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
