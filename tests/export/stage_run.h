@@ -9,8 +9,8 @@ enum { STAGE_OUTPUT_SIZE = 1 << 18, STAGE_PATH_SIZE = 400 };
 int stage_folder_make(char folder[STAGE_PATH_SIZE]);
 void stage_folder_remove(const char *folder);
 
-// Runs a shell command (printf style) and keeps what it prints on both streams, cut to STAGE_OUTPUT_SIZE. Returns
-// its exit status.
+// Runs a shell command (printf style) and keeps what it prints on both streams, cut to STAGE_OUTPUT_SIZE.
+// Returns its exit status.
 int stage_shell(char *output, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Runs the exporter on `run` with so many ranks, on the paper's case. Returns its exit status.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Reads pump.cgns back with the CGNS library and checks what cgnscheck does not: that every cell is positive and the
-// cells fill the solid, that every face is shared by two cells or is one boundary element with its normal outward,
-// that every boundary element belongs to one condition, and that the interface is complete and lies where it says.
+// Reads pump.cgns back with the CGNS library and checks what cgnscheck does not: that every cell is positive
+// and the cells fill the solid, that every face is shared by two cells or is one boundary element with its
+// normal outward, that every boundary element belongs to one condition, and that the interface is complete
+// and lies where it says.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -140,7 +141,8 @@ static void zone_read(int number, Zone *z) {
       ElementType_t type;
       cgsize_t first, last, size;
       int boundary, parents, nodes;
-      assert_int_equal(cg_section_read(file, 1, number, s, name, &type, &first, &last, &boundary, &parents), 0);
+      assert_int_equal(cg_section_read(file, 1, number, s, name, &type, &first, &last, &boundary, &parents),
+                       0);
       assert_int_equal(first, next); // no gap, no overlap
       next = last + 1;
       if (!pass)
@@ -239,8 +241,9 @@ static void every_boundary_element_has_one_condition(void **state) {
       DataType_t normal_type;
       cgsize_t count, normals, range[2];
       int normal_index[3], sets;
-      assert_int_equal(cg_boco_info(file, 1, number, c, name, &type, &set, &count, normal_index, &normals, &normal_type,
-                                    &sets), 0);
+      assert_int_equal(cg_boco_info(file, 1, number, c, name, &type, &set, &count, normal_index, &normals,
+                                    &normal_type, &sets),
+                       0);
       assert_int_equal(type, FamilySpecified);
       assert_int_equal(set, PointRange);
       assert_int_equal(cg_boco_read(file, 1, number, c, range, NULL), 0);
@@ -275,8 +278,9 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
     cgsize_t count, donor_count, range[2];
     assert_int_equal(cg_nconns(file, 1, side + 1, &connections), 0);
     assert_int_equal(connections, 1);
-    assert_int_equal(cg_conn_info(file, 1, side + 1, 1, name, &location, &type, &set, &count, donor_zone, &donor_type,
-                                  &donor_set, &data_type, &donor_count), 0);
+    assert_int_equal(cg_conn_info(file, 1, side + 1, 1, name, &location, &type, &set, &count, donor_zone,
+                                  &donor_type, &donor_set, &data_type, &donor_count),
+                     0);
     assert_int_equal(type, Abutting);
     assert_int_equal(location, FaceCenter);
     assert_int_equal(donor_set, CellListDonor);
@@ -285,7 +289,8 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
     double *place = malloc(2 * (size_t)donor_count * sizeof *place);
     assert_int_equal(cg_conn_read(file, 1, side + 1, 1, range, data_type, donors), 0);
     assert_int_equal(range[1] - range[0] + 1, donor_count);
-    assert_int_equal(cg_goto(file, 1, "Zone_t", side + 1, "ZoneGridConnectivity_t", 1, "GridConnectivity_t", 1, "end"), 0);
+    assert_int_equal(
+        cg_goto(file, 1, "Zone_t", side + 1, "ZoneGridConnectivity_t", 1, "GridConnectivity_t", 1, "end"), 0);
     assert_int_equal(cg_array_read(1, place), 0);
     double area = 0;
     for (cgsize_t i = 0; i < donor_count; ++i) {
@@ -293,7 +298,8 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
       const cgsize_t *n = here->boundary_nodes + 4 * (range[0] + i - here->cells - 1);
       const cgsize_t *d = there->boundary_nodes + 4 * (donors[i] - there->cells - 1);
       double r = place[2 * i], s = place[2 * i + 1], centre[3] = {0}, over[3] = {0}, x[3], vector[3];
-      const double weights3[] = {1 - r - s, r, s}, weights4[] = {(1 - r) * (1 - s), r * (1 - s), r * s, (1 - r) * s};
+      const double weights3[] = {1 - r - s, r, s},
+                   weights4[] = {(1 - r) * (1 - s), r * (1 - s), r * s, (1 - r) * s};
       int corners = n[3] ? 4 : 3, donor_corners = d[3] ? 4 : 3;
       for (int c = 0; c < corners; ++c) {
         node_place(here, n[c], x);
@@ -332,7 +338,8 @@ static void rotation_and_units_are_there(void **state) {
   cg_goto(file, 1, "Zone_t", 1, "end");
   assert_int_equal(cg_rotating_read(rate, centre), 0);
   assert_float_equal(rate[2], 1450 * M_PI / 30, 1e-4);
-  assert_float_equal(fabs(rate[0]) + fabs(rate[1]) + fabs(centre[0]) + fabs(centre[1]) + fabs(centre[2]), 0, 0);
+  assert_float_equal(fabs(rate[0]) + fabs(rate[1]) + fabs(centre[0]) + fabs(centre[1]) + fabs(centre[2]), 0,
+                     0);
   cg_goto(file, 1, "Zone_t", 2, "end");
   assert_int_equal(cg_rotating_read(rate, centre), CG_NODE_NOT_FOUND);
   cg_goto(file, 1, "end");

@@ -59,8 +59,10 @@ static void checkmesh_finds_a_sound_mesh(void **state) {
   (void)state;
   if (!stage_has_program("checkMesh"))
     skip();
-  stage_shell(output, "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
-              folder, folder, folder);
+  stage_shell(
+      output,
+      "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
+      folder, folder, folder);
   if (!strstr(output, "Mesh OK") || strstr(output, "***") || strstr(output, "Failed"))
     fail_msg("%s", output);
   assert_non_null(strstr(output, "Upper triangular ordering OK"));
@@ -85,8 +87,9 @@ static void steady_run_starts_and_reports(void **state) {
   (void)state;
   if (!stage_has_program("simpleFoam"))
     skip();
-  int code = stage_shell(output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run",
-                         folder, folder, folder);
+  int code = stage_shell(
+      output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run", folder,
+      folder, folder);
   if (code || strstr(output, "FOAM FATAL"))
     fail_msg("%s", output);
   code = stage_shell(output,
@@ -112,11 +115,13 @@ static void transient_run_starts_from_the_steady_one(void **state) {
   (void)state;
   if (!stage_has_program("pimpleFoam"))
     skip();
-  int code = stage_shell(output,
-                         "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
-                         "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' ../system/functions && "
-                         "./Allrun && grep -c '^Time = ' log.pimpleFoam",
-                         folder);
+  int code =
+      stage_shell(output,
+                  "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
+                  "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' "
+                  "../system/functions && "
+                  "./Allrun && grep -c '^Time = ' log.pimpleFoam",
+                  folder);
   if (code)
     fail_msg("%s", output);
   assert_non_null(strstr(output, "starts from iteration 100 of the steady run"));

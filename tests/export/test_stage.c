@@ -63,8 +63,14 @@ static void a_second_export_replaces_the_first(void **state) {
   assert_int_equal(stage_export(run, 1, output), 0);
   assert_int_equal(stage_shell(output, "touch '%s/export/openfoam/left-over'", run), 0);
   assert_int_equal(stage_export(run, 1, output), 0);
-  assert_int_equal(stage_shell(output, "find '%s/export' -name left-over -o -name '*.old' -o -name '.part'", run), 0);
+  assert_int_equal(
+      stage_shell(output, "find '%s/export' -name left-over -o -name '*.old' -o -name '.part'", run), 0);
   assert_string_equal(output, "");
+  // A failed run leaves the earlier files as they were, without a record that would call them new.
+  stage_shell(output, "rm '%s/mesh/rotor-0003.h5'", run);
+  assert_int_not_equal(stage_export(run, 1, output), 0);
+  assert_int_equal(stage_shell(output, "ls -A '%s/export'", run), 0);
+  assert_string_equal(output, "cfx\nopenfoam\npump.cgns\n");
 }
 
 // One line that has the words, and no export folder. With one rank nothing follows that line.
@@ -123,14 +129,17 @@ static void a_manifest_that_does_not_fit_is_told(void **state) {
   static const struct {
     const char *edit, *words;
   } cases[] = {
-      {"0,/\"tetrahedra\": [0-9]*/s//\"tetrahedra\": 17/", "dataset 'tetrahedra' has 2184 rows, but the manifest says 17"},
+      {"0,/\"tetrahedra\": [0-9]*/s//\"tetrahedra\": 17/",
+       "dataset 'tetrahedra' has 2184 rows, but the manifest says 17"},
       {"0,/\"shared_points\": [0-9]*/s//\"shared_points\": 3/", "leave more than the 3 'shared_points'"},
       {"s/\"region\": 2/\"region\": 3/", "regions must stand in order 1, 2, 3, ..."},
       {"s/rotor-0001.h5/rotor-0002.h5/", "rotor-0002.h5: attribute 'region' is 2; it must be 1"},
-      {"s/stator-0001.h5/rotor-0001.h5/", "rotor-0001.h5: attribute 'domain' is 'rotor'; it must be 'stator'"},
+      {"s/stator-0001.h5/rotor-0001.h5/",
+       "rotor-0001.h5: attribute 'domain' is 'rotor'; it must be 'stator'"},
       {"s/\"format\": 1/\"format\": 9/", "'format' must be 1"},
       {"s/\"kind\": \"outlet\"/\"kind\": \"exit\"/", "patch 'outlet': kind 'exit'; allowed are wall, inlet"},
-      {"s/\"kind\": \"outlet\"/\"kind\": \"wall\"/", "domain stator has 0 patches of kind outlet; it must have one"},
+      {"s/\"kind\": \"outlet\"/\"kind\": \"wall\"/",
+       "domain stator has 0 patches of kind outlet; it must have one"},
       {"s/\"name\": \"tongue\"/\"name\": \"volute\"/", "patch 'volute' is named twice"},
       {"$ d", "manifest.json:"},
   };
@@ -170,8 +179,10 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
   move_point(run, "rotor-0001.h5", 0, 2, -4.0001e-3);
   expect_error(run, "differs between regions by 0.0001 mm");
   copy_run("bad", run);
-  stage_shell(output, "sed -i 's/\"interface_radius_m\": 0.101/\"interface_radius_m\": 0.102/' '%s/geometry/design.json'",
-              run);
+  stage_shell(
+      output,
+      "sed -i 's/\"interface_radius_m\": 0.101/\"interface_radius_m\": 0.102/' '%s/geometry/design.json'",
+      run);
   expect_error(run, "mm has the radius 101 mm; the interface has 102 mm");
 }
 
