@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "geometry/design_check.h"
 #include "geometry/design_file.h"
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
@@ -31,6 +32,10 @@ static void show_design(const CwDesign *design) {
     cw_hydraulic_design_row(design, i, line, sizeof line);
     cw_log("%s", line);
   }
+  CwDesignRemarks remarks;
+  cw_design_check(design, &remarks);
+  for (int i = 0; i < remarks.count; i++)
+    cw_log_warn("%s", remarks.text[i]);
 }
 
 static CwStatus check_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {

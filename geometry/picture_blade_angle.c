@@ -27,6 +27,7 @@ CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path) {
   CwPicture picture = {0};
   CwMeridian m;
   static const char *const where[] = {"hub", "mid-span", "shroud"};
+  static const CwStroke stroke[] = {CW_STROKE_WALL, CW_STROKE_FLOW, CW_STROKE_BLADE};
   const double first = 290, second = 590;
   double line[POINTS + 1][2], largest = 0;
   CW_TRY(cw_meridian_make(design, &m));
@@ -39,8 +40,10 @@ CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path) {
       line[i][0] = left + width * i / POINTS;
       line[i][1] = first - height * cw_blade_beta(&section, (double)i / POINTS) * 3 / M_PI;
     }
-    cw_picture_line(&picture, j == 1 ? CW_STROKE_FLOW : CW_STROKE_BLADE, (const double(*)[2])line, POINTS + 1, 0);
-    cw_picture_text(&picture, CW_TEXT_LEFT, left + 8, line[3][1] + (j == 0 ? -6 : j == 1 ? 5 : 14), "%s", where[j]);
+    cw_picture_line(&picture, stroke[j], (const double(*)[2])line, POINTS + 1, 0);
+    const double x = left + 140 * j + 20, y = first - 16;
+    cw_picture_segment(&picture, stroke[j], x, y, x + 30, y);
+    cw_picture_text(&picture, CW_TEXT_LEFT, x + 38, y + 4, "%s", where[j]);
   }
   for (int i = 0; i <= POINTS; i++)
     largest = fmax(largest, cw_meridian_area(&m, (double)i / POINTS));

@@ -74,7 +74,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   const double ri = design->interface_radius, half = design->outlet_width / 2;
   const double length = half - m.inlet_z, r1 = design->inlet_diameter / 2;
   const Frame frame = {560 / fmax(ri, length), 70, 640, m.inlet_z};
-  const double width = frame.scale * length + 270;
+  const double width = frame.scale * length + 340;
   CW_TRY(cw_picture_begin(&picture, path, width, 690));
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Meridional section, z = %d", design->blade_count);
   draw_blade(&picture, &frame, &m);
@@ -90,12 +90,12 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   label(&picture, &frame, CW_TEXT_MIDDLE, ri, 0, 0, -12, "b2", design->outlet_width);
   label(&picture, &frame, CW_TEXT_LEFT, design->hub_diameter / 2, m.hub.pole[0][1], 14, 14, "hub",
         design->hub_diameter);
-  label(&picture, &frame, CW_TEXT_LEFT, design->leading_edge_radius_hub, half, 12, 4, "leading edge, hub: r",
+  label(&picture, &frame, CW_TEXT_LEFT, design->leading_edge_radius_hub, half, 12, 4, "leading edge: hub r",
         design->leading_edge_radius_hub);
   double x[2], p[2];
   cw_meridian_blade_point(&m, 1, 0, x, NULL);
   to_pixels(&frame, x, p);
-  cw_picture_text(&picture, CW_TEXT_RIGHT, p[0] - 8, p[1] - 4, "shroud: r = %.1f mm", x[0] * 1e3);
+  cw_picture_text(&picture, CW_TEXT_RIGHT, p[0] - 8, p[1] - 4, "leading edge: shroud r = %.1f mm", x[0] * 1e3);
   const double flow[2][2] = {{0.6 * r1, m.inlet_z}, {0.6 * r1, m.inlet_z + 0.12 * ri}};
   double a[2], b[2];
   to_pixels(&frame, flow[0], a);

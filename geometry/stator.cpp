@@ -32,6 +32,9 @@ const double PI = 3.14159265358979323846;
 const int SECTORS = 5;           // round the axis; the last one holds the tongue and opens into the throat
 const double SECTOR = PI * 5 / 12; // angle of all but the last
 const int ALONG = 33, ACROSS = 49, SIDE = 25; // points of interpolation: along the flow, over the outer arc, other
+// Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4 by 1 %.
+const double TANGENT = 0.4;
+const double LEAST_WALL = 0.5; // mm, between diffuser and spiral
 const double LARGEST_TOLERANCE = 1e-3; // mm
 const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
@@ -218,7 +221,8 @@ private:
           loop.push_back(ray[j + 1]);
         else
           for (int edge : {throat_side_[side], flank_side_[side], nose_side_[side], ray[0]}) loop.push_back(edge);
-        double to = std::max(angle_[j + 1], j < SECTORS - 1 ? 0 : cw_volute_throat_angle(&v_, v_.arc_half_angle));
+        double to = angle_[j + 1];
+        if (j == SECTORS - 1) to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
         b_.face(new Geom_ConicalSurface(frame(angle_[j], to, b3, side), cone_angle, r3()), loop, "volute");
       }
     }
@@ -227,7 +231,7 @@ private:
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave in the
   // tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
-    double length = 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
+    double length = TANGENT * 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
     auto outer_start = [&](double t) { return wall(cw_volute_throat_angle(&v_, psi(t)), psi(t)); };
     auto outer_direction = [&](double t) {
@@ -279,6 +283,8 @@ private:
         SIDE, [&](double t) { return throat_side(t, side); }, [&](double t) { return side_direction(t, side); },
         side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]), straight);
 
+    for (const Handle(Geom_BSplineSurface) &surface : {inner_surface, sides[BOTTOM], sides[TOP]}) keep_off_spiral(surface);
+
     const std::array<int, 4> &end = circle_end_.vertex, &arc = circle_end_.arc;
     int outer_edge[2], inner_edge[2];
     for (int side : {BOTTOM, TOP}) {
@@ -294,6 +300,22 @@ private:
       b_.face(sides[side], {LoopEdge(throat_side_[side], 0, 0, 1, 0), LoopEdge(outer_edge[side], 1, 0, 1, 1), circle,
                             LoopEdge(inner_edge[side], 0, 0, 0, 1)}, "diffuser");
     }
+  }
+
+  void keep_off_spiral(const Handle(Geom_BSplineSurface) &surface) const {
+    const int samples = 24;
+    for (int i = 0; i <= samples; i++)
+      for (int j = 1; j <= samples; j++) {
+        gp_Pnt p = surface->Value(double(i) / samples, double(j) / samples);
+        CwVoluteSection s = cw_volute_section(&v_, std::atan2(p.Y(), p.X()));
+        double z = std::min(std::fabs(p.Z()) * 1e-3, s.kink_height);
+        double wall = 1e3 * (s.arc_centre + std::sqrt(s.arc_radius * s.arc_radius - z * z));
+        if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL || std::hypot(p.X(), p.Y()) > wall + LEAST_WALL) continue;
+        char text[160];
+        snprintf(text, sizeof text, "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length or "
+                 "tongue_gap, or lower outlet_diameter", p.X(), p.Y(), p.Z());
+        throw std::runtime_error(text);
+      }
   }
 
   gp_Dir downstream() const { return gp_Dir(-std::sin(v_.discharge_lean), std::cos(v_.discharge_lean), 0); }

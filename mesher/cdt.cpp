@@ -18,16 +18,18 @@
 namespace {
 
 struct FaceInfo {
-  int32_t parity = -1;    // boundary edges between the face and the infinite one, modulo 2; -1: not reached yet
-  int32_t number = -1;    // in the result
+  int32_t parity = -1; // boundary edges between the face and the infinite one, modulo 2; -1: not reached yet
+  int32_t number = -1; // in the result
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel>;
 using FaceBase =
-    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
+    CGAL::Constrained_triangulation_face_base_2<Kernel,
+                                                CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 using Point = Kernel::Point_2;
 using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
@@ -60,8 +62,8 @@ CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {
   for (int32_t e = 0; e < input->edge_count; e++) {
     int32_t a = input->edge[e][0], b = input->edge[e][1];
     CW_REQUIRE(a >= 0 && b >= 0 && a < input->point_count && b < input->point_count && a != b, CW_ERR_INPUT,
-               "patch %s: edge %d joins points %d and %d: allowed are two different points of 0 to %d", input->name, e,
-               a, b, input->point_count - 1);
+               "patch %s: edge %d joins points %d and %d: allowed are two different points of 0 to %d",
+               input->name, e, a, b, input->point_count - 1);
   }
 done:
   return status;
@@ -76,13 +78,16 @@ CwStatus check_closed(const CwPatchInput *input) {
       edges[size_t(input->edge[e][k])]++;
   for (int32_t p = 0; p < input->point_count; p++)
     CW_REQUIRE(edges[size_t(p)] % 2 == 0, CW_ERR_INPUT,
-               "patch %s: the boundary is open at point %d, " PLACE " (%d boundary edges meet there; allowed: an even "
-               "number)", input->name, p, PLACE_OF(p), edges[size_t(p)]);
+               "patch %s: the boundary is open at point %d, " PLACE
+               " (%d boundary edges meet there; allowed: an even "
+               "number)",
+               input->name, p, PLACE_OF(p), edges[size_t(p)]);
 done:
   return status;
 }
 
-// Names the given edge that crosses or touches edge e. Only called once something is wrong, so a plain search does.
+// Names the given edge that crosses or touches edge e. Only called once something is wrong, so a plain search
+// does.
 CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &vertex, int32_t e) {
   int32_t a = input->edge[e][0], b = input->edge[e][1];
   auto at = [&](int32_t p) { return vertex[size_t(p)]->point(); };
@@ -94,7 +99,8 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
     int32_t c = input->edge[f][0], d = input->edge[f][1];
     if (f == e || c == a || c == b || d == a || d == b)
       continue;
-    double ca = CGAL::to_double(CGAL::area(at(c), at(d), at(a))), cb = CGAL::to_double(CGAL::area(at(c), at(d), at(b)));
+    double ca = CGAL::to_double(CGAL::area(at(c), at(d), at(a))),
+           cb = CGAL::to_double(CGAL::area(at(c), at(d), at(b)));
     if (CGAL::orientation(at(c), at(d), at(a)) == CGAL::orientation(at(c), at(d), at(b)) ||
         CGAL::orientation(at(a), at(b), at(c)) == CGAL::orientation(at(a), at(b), at(d)))
       continue;
@@ -103,11 +109,12 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
       x[k] = 1e3 * ((1 - t) * input->x[a][k] + t * input->x[b][k]);
     for (int k = 0; k < 2; k++)
       uv[k] = (1 - t) * input->uv[a][k] + t * input->uv[b][k];
-    return CW_FAIL(CW_ERR_INPUT, "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE,
+    return CW_FAIL(CW_ERR_INPUT,
+                   "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE,
                    input->name, e, a, b, f, c, d, x[0], x[1], x[2], uv[0], uv[1]);
   }
-  return CW_FAIL(CW_ERR_INPUT, "patch %s: edge %d (points %d and %d) crosses another near " PLACE, input->name, e, a,
-                 b, PLACE_OF(a));
+  return CW_FAIL(CW_ERR_INPUT, "patch %s: edge %d (points %d and %d) crosses another near " PLACE,
+                 input->name, e, a, b, PLACE_OF(a));
 }
 
 CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangulation &mesh,
@@ -121,8 +128,8 @@ CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangu
   for (Vertex v : mesh.finite_vertex_handles())
     vertex[size_t(v->info())] = v;
   for (int32_t p = 0; p < input->point_count; p++)
-    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_INPUT, "patch %s: point %d at " PLACE " coincides with another",
-               input->name, p, PLACE_OF(p));
+    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_INPUT,
+               "patch %s: point %d at " PLACE " coincides with another", input->name, p, PLACE_OF(p));
 done:
   return status;
 }
@@ -136,8 +143,8 @@ CwStatus insert_edges(const CwPatchInput *input, Triangulation &mesh, const std:
   for (size_t k = 1; k < pairs.size(); k++)
     CW_REQUIRE(pairs[k].first != pairs[k - 1].first, CW_ERR_INPUT,
                "patch %s: the edge of points %d and %d at " PLACE " is given twice (%d and %d)", input->name,
-               pairs[k].first.first, pairs[k].first.second, PLACE_OF(pairs[k].first.first), pairs[k - 1].second,
-               pairs[k].second);
+               pairs[k].first.first, pairs[k].first.second, PLACE_OF(pairs[k].first.first),
+               pairs[k - 1].second, pairs[k].second);
   for (int32_t e = 0; e < input->edge_count; e++) {
     try {
       mesh.insert_constraint(vertex[size_t(input->edge[e][0])], vertex[size_t(input->edge[e][1])]);
@@ -192,12 +199,13 @@ CwStatus take_inside(const CwPatchInput *input, Triangulation &mesh, CwCdt *cdt)
       if (face->vertex(i)->info() < face->vertex(first)->info())
         first = i;
     inside.push_back({{face->vertex(first)->info(), face->vertex(mesh.ccw(first))->info(),
-                       face->vertex(mesh.cw(first))->info()}, {face, first}});
+                       face->vertex(mesh.cw(first))->info()},
+                      {face, first}});
   }
   std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   size_t count = inside.size();
-  CW_REQUIRE(count > 0, CW_ERR_INPUT, "patch %s: nothing lies inside its boundary (%d points, %d edges)", input->name,
-             input->point_count, input->edge_count);
+  CW_REQUIRE(count > 0, CW_ERR_INPUT, "patch %s: nothing lies inside its boundary (%d points, %d edges)",
+             input->name, input->point_count, input->edge_count);
   take_memory(&cdt->triangle, count);
   take_memory(&cdt->neighbour, count);
   take_memory(&cdt->given, count);
@@ -259,8 +267,8 @@ CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cd
     CW_TRY(take_inside(input, mesh, cdt));
     find_components(cdt);
   } catch (const std::bad_alloc &) {
-    status = CW_FAIL(CW_ERR_MEMORY, "patch %s: out of memory in the Delaunay triangulation of %d points", input->name,
-                     input->point_count);
+    status = CW_FAIL(CW_ERR_MEMORY, "patch %s: out of memory in the Delaunay triangulation of %d points",
+                     input->name, input->point_count);
   } catch (const std::exception &failure) {
     status = CW_FAIL(CW_ERR_LIBRARY, "patch %s: CGAL failed: %s", input->name, failure.what());
   }

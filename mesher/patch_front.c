@@ -10,9 +10,10 @@ static const double least_room = 0.65;
 // Sizes grow at most this fast away from short given edges.
 static const double growth = 0.3;
 
-// Edges of the front: triangle t, not done, lies to the left of a -> b; on the right is a given edge or a done triangle.
-// They wait in queues by the sum of the rows of a and b, given points being row 0, so that a row is whole before the next
-// one starts: out of order, slanted sides of a half-made row would start fronts of their own.
+// Edges of the front: triangle t, not done, lies to the left of a -> b; on the right is a given edge or a
+// done triangle. They wait in queues by the sum of the rows of a and b, given points being row 0, so that a
+// row is whole before the next one starts: out of order, slanted sides of a half-made row would start fronts
+// of their own.
 typedef struct {
   int32_t t, a, b;
   int32_t next; // in the same queue; -1: the last
@@ -23,7 +24,7 @@ typedef struct {
   int32_t count, room;
   int32_t (*queue)[2]; // first and last entry, -1: empty
   int32_t queue_count, current;
-  int32_t *row;        // of each point
+  int32_t *row; // of each point
   int32_t row_room;
 } Front;
 
@@ -93,15 +94,16 @@ done:
 }
 
 typedef struct {
-  double length;      // of edge a b
-  double apex[2];     // c, from the middle of a b: along it, and square to it
-  double centre;      // of the circle, square to the edge
+  double length;  // of edge a b
+  double apex[2]; // c, from the middle of a b: along it, and square to it
+  double centre;  // of the circle, square to the edge
   double radius2;
-  double along[2];    // per unit length on the surface, in (u,v)
+  double along[2]; // per unit length on the surface, in (u,v)
   double square[2];
 } Shape;
 
-// The triangle in the mean metric of its corners, seen from its edge i. Returns 0 where the metric is degenerate.
+// The triangle in the mean metric of its corners, seen from its edge i. Returns 0 where the metric is
+// degenerate.
 static int shape_of(const CwPatchWork *work, int32_t t, int i, Shape *shape) {
   const int32_t *corner = work->corner[t];
   int32_t c = corner[i], a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
@@ -170,18 +172,20 @@ static int place_point(const CwPatchWork *work, int32_t t, int i, double uv[2]) 
   int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
   double size = 0.5 * (work->size[a] + work->size[b]);
   double half = 0.5 * shape.length, q = shape.centre;
-  // Rebay's height grows when the edge shrinks, which amplifies rounding errors 1.7 times a row until the rows break up;
-  // a height that does not depend on the length of the edge damps them.
+  // Rebay's height grows when the edge shrinks, which amplifies rounding errors 1.7 times a row until the
+  // rows break up; a height that does not depend on the length of the edge damps them.
   double height = fmax(0.5 * sqrt(3) * size, half);
-  // Not far past the centre of the circle, which is where the room is. In a row of equilateral triangles the height
-  // is the centre's: a limit without slack would let errors in again.
+  // Not far past the centre of the circle, which is where the room is. In a row of equilateral triangles the
+  // height is the centre's: a limit without slack would let errors in again.
   height = fmin(height, 1.2 * fmax(q, half * half / q));
   double middle[2], x[3], foot[3];
   for (int k = 0; k < 2; k++) {
     middle[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);
     uv[k] = middle[k] + height * shape.square[k];
   }
-  // The metric may change over the triangle: measure once, and step again.
+  // The metric may change over the triangle: measure once, and step again. The surface is not asked outside.
+  if (cw_patch_find(work, uv, t) < 0)
+    return 0;
   work->input->surface(work->input->surface_context, uv, x, NULL, NULL);
   for (int k = 0; k < 3; k++)
     foot[k] = 0.5 * (work->x[a][k] + work->x[b][k]);
@@ -225,7 +229,8 @@ CwStatus cw_patch_front(CwPatchWork *work) {
       continue;
     }
     CW_TRY(status);
-    CW_TRY(set_row(&front, work->point_count - 1, 1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
+    CW_TRY(set_row(&front, work->point_count - 1,
+                   1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
     for (int32_t k = 0; k < work->rim_count; k++)
       CW_TRY(push_edges(work, &front, work->fresh[k]));
   }

@@ -20,10 +20,10 @@ typedef struct {
   int32_t triangle[CW_PATCH_RING], ring[CW_PATCH_RING];
 } Ring;
 
-// The worst quality of the ring with p at uv, x. Negative where a triangle would be turned in (u,v) or p would come
-// nearer to a given edge than 0.4 of its size and nearer than `height` (the least one now).
-static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, const double uv[2], const double x[3],
-                           const double normal[3]) {
+// The worst quality of the ring with p at uv, x. Negative where a triangle would be turned in (u,v) or p
+// would come nearer to a given edge than 0.4 of its size and nearer than `height` (the least one now).
+static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, const double uv[2],
+                           const double x[3], const double normal[3]) {
   double worst = 1;
   for (int k = 0; k < r->count; k++) {
     int32_t a = r->ring[k], b = r->ring[(k + 1) % r->count], t = r->triangle[k];
@@ -44,7 +44,8 @@ static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, co
   return worst;
 }
 
-// Tries p moved by `step` (in space, tangential); keeps the move if the worst triangle of the ring stays above `least`.
+// Tries p moved by `step` (in space, tangential); keeps the move if the worst triangle of the ring stays
+// above `least`.
 static int try_move(CwPatchWork *work, const Ring *r, int32_t p, const double step[3], double least) {
   const double *m = work->metric[p];
   double det = m[0] * m[2] - m[1] * m[1], f[2] = {0, 0}, uv[2], x[3], xu[3], xv[3], n[3];
@@ -90,6 +91,10 @@ static void smooth_point(CwPatchWork *work, int32_t p) {
   for (int k = 0; k < r.count; k++)
     for (int c = 0; c < 3; c++)
       step[c] += (work->x[r.ring[k]][c] - work->x[p][c]) / r.count;
+  // A point that stands well is left alone: most do, and evaluating the surface is what costs.
+  double still = 0.01 * work->size[p];
+  if (step[0] * step[0] + step[1] * step[1] + step[2] * step[2] < still * still)
+    return;
   cw_patch_normal(work, p, n);
   // A loss of the worst triangle is allowed where it stays good.
   double least = fmin(ring_quality(work, &r, p, work->uv[p], work->x[p], n), 0.7);
@@ -117,7 +122,8 @@ static CwStatus split_long(CwPatchWork *work) {
     int longest = -1;
     double most = 0;
     for (int i = 0; i < 3; i++) {
-      double d = cw_patch_distance2(work->x[work->corner[t][(i + 1) % 3]], work->x[work->corner[t][(i + 2) % 3]]);
+      double d =
+          cw_patch_distance2(work->x[work->corner[t][(i + 1) % 3]], work->x[work->corner[t][(i + 2) % 3]]);
       if (d > most) {
         most = d;
         longest = i;
@@ -248,9 +254,10 @@ static int flip_best(CwPatchWork *work, int32_t t) {
   return best >= 0 && cw_patch_flip(work, t, best);
 }
 
-// Moves p by shorter and shorter steps in six directions of the tangent plane while its worst triangle gets better.
+// Moves p by shorter and shorter steps in six directions of the tangent plane while its worst triangle gets
+// better.
 static int climb(CwPatchWork *work, int32_t p) {
-  static const double direction[6][2] = {{1, 0}, {0.5, 0.8660254037844386}, {-0.5, 0.8660254037844386},
+  static const double direction[6][2] = {{1, 0},  {0.5, 0.8660254037844386},   {-0.5, 0.8660254037844386},
                                          {-1, 0}, {-0.5, -0.8660254037844386}, {0.5, -0.8660254037844386}};
   Ring r;
   int moved = 0;
@@ -282,7 +289,8 @@ static int climb(CwPatchWork *work, int32_t p) {
   return moved;
 }
 
-// Goes through the triangles below `bound` and takes the first change that betters the worst triangle it touches.
+// Goes through the triangles below `bound` and takes the first change that betters the worst triangle it
+// touches.
 static int64_t mend_worst(CwPatchWork *work, double bound) {
   int64_t changes = 0;
   for (int32_t t = 0; t < work->triangle_count; t++) {

@@ -8,7 +8,8 @@
 #define GROW(pointer, room)                                                                                  \
   do {                                                                                                       \
     void *grown = realloc((pointer), (size_t)(room) * sizeof *(pointer));                                    \
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "patch %s: out of memory for %d items", work->input->name, (int)(room)); \
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "patch %s: out of memory for %d items", work->input->name,              \
+               (int)(room));                                                                                 \
     (pointer) = grown;                                                                                       \
   } while (0)
 
@@ -72,8 +73,8 @@ static void set_metric(CwPatchWork *work, int32_t p) {
 CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatchWork *work) {
   CwStatus status = CW_OK;
   int32_t *edges = NULL;
-  *work = (CwPatchWork){.input = input, .given_count = input->point_count, .point_count = input->point_count,
-                        .free_slot = -1};
+  *work = (CwPatchWork){
+      .input = input, .given_count = input->point_count, .point_count = input->point_count, .free_slot = -1};
   CW_TRY(grow_points(work, 4 * input->point_count + 64));
   CW_TRY(grow_triangles(work, 8 * input->point_count + 128));
   CW_TRY(grow_cavity(work, 64));
@@ -89,7 +90,8 @@ CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatch
   // The spacing of the given edges is what the mesh beside them must meet.
   for (int32_t e = 0; e < input->edge_count; e++)
     for (int k = 0; k < 2; k++) {
-      work->size[input->edge[e][k]] += sqrt(cw_patch_distance2(input->x[input->edge[e][0]], input->x[input->edge[e][1]]));
+      work->size[input->edge[e][k]] +=
+          sqrt(cw_patch_distance2(input->x[input->edge[e][0]], input->x[input->edge[e][1]]));
       edges[input->edge[e][k]]++;
     }
   for (int32_t p = 0; p < input->point_count; p++)
@@ -100,10 +102,8 @@ CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatch
     memcpy(work->neighbour[t], cdt->neighbour[t], sizeof work->neighbour[t]);
     work->given[t] = cdt->given[t];
     work->component[t] = cdt->component[t];
-    for (int i = 0; i < 3; i++) {
-      // Outside is across a given edge only, so a neighbour outside is never asked for.
+    for (int i = 0; i < 3; i++)
       work->point_triangle[work->corner[t][i]] = t;
-    }
   }
 done:
   free(edges);
@@ -185,8 +185,7 @@ static void join(CwPatchWork *work, int32_t t, int i, int32_t n, int given) {
   work->given[t] = (uint8_t)((work->given[t] & ~(1 << i)) | given << i);
 }
 
-// Finds the triangle that holds uv by walking from triangle t; -1 where a given edge is in the way.
-static int32_t walk_to(const CwPatchWork *work, const double uv[2], int32_t t) {
+int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t t) {
   int32_t from = -1;
   for (int step = 0; step < 1000; step++) {
     const int32_t *c = work->corner[t];
@@ -211,7 +210,8 @@ static int32_t walk_to(const CwPatchWork *work, const double uv[2], int32_t t) {
   return -1;
 }
 
-// Whether p lies in the circle of the triangle in the metric m (E, F, G): the lifted determinant relative to p.
+// Whether p lies in the circle of the triangle in the metric m (E, F, G): the lifted determinant relative to
+// p.
 static int in_circle(const CwPatchWork *work, const int32_t corner[3], const double p[2], const double m[3]) {
   double d[3][2], lift[3];
   for (int i = 0; i < 3; i++) {
@@ -288,7 +288,8 @@ static int cavity_is_star(const CwPatchWork *work, const double p[2], const doub
   return 1;
 }
 
-static int cavity_has_room(const CwPatchWork *work, const double uv[2], const double m[3], double size, double least) {
+static int cavity_has_room(const CwPatchWork *work, const double uv[2], const double m[3], double size,
+                           double least) {
   double root = sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0));
   for (int32_t k = 0; k < work->rim_count; k++) {
     const double *a = work->uv[work->rim[k][0]], *b = work->uv[work->rim[k][1]];
@@ -342,11 +343,30 @@ done:
   return status;
 }
 
+// Where the metric turns fast the circles mislead: then only the triangle t at p, or the two where p is near
+// their edge.
+static CwStatus collect_least_cavity(CwPatchWork *work, const double p[2], const double m[3], int32_t t) {
+  const int32_t *c = work->corner[t];
+  double cross[3];
+  int flat = 0, seeds = 1;
+  for (int i = 0; i < 3; i++) {
+    cross[i] = cw_patch_cross(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], p);
+    if (cross[i] < cross[flat])
+      flat = i;
+  }
+  work->cavity[0] = t;
+  if (cross[flat] < 0.05 * (cross[0] + cross[1] + cross[2]) && !(work->given[t] >> flat & 1))
+    work->cavity[seeds++] = work->neighbour[t][flat];
+  return collect_cavity(work, p, m, seeds, 0);
+}
+
 CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap) {
   CwStatus status = CW_OK;
-  int32_t p = work->point_count, t = walk_to(work, uv, from);
-  if (t < 0)
-    return CW_RETRY;
+  int32_t p = work->point_count, t = cw_patch_find(work, uv, from);
+  if (t < 0) {
+    status = CW_RETRY;
+    goto done;
+  }
   CW_TRY(grow_points(work, p + 1));
   memcpy(work->uv[p], uv, sizeof work->uv[p]);
   work->input->surface(work->input->surface_context, uv, work->x[p], work->xu[p], work->xv[p]);
@@ -355,29 +375,12 @@ CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, do
   const double *m = work->metric[p];
   work->cavity[0] = t;
   CW_TRY(collect_cavity(work, uv, m, 1, 1));
-  if (!cavity_is_star(work, uv, m)) {
-    // Where the metric turns fast the circles mislead: then only the triangle at p, or the two where p is on their edge.
-    const int32_t *c = work->corner[t];
-    double cross[3];
-    int flat = 0;
-    for (int i = 0; i < 3; i++) {
-      cross[i] = cw_patch_cross(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], uv);
-      if (cross[i] < cross[flat])
-        flat = i;
-    }
-    int seeds = 1;
-    if (cross[flat] < 0.05 * (cross[0] + cross[1] + cross[2])) {
-      if (work->given[t] >> flat & 1)
-        return CW_RETRY;
-      work->cavity[seeds++] = work->neighbour[t][flat];
-    }
-    work->cavity[0] = t;
-    CW_TRY(collect_cavity(work, uv, m, seeds, 0));
-    if (!cavity_is_star(work, uv, m))
-      return CW_RETRY;
+  if (!cavity_is_star(work, uv, m))
+    CW_TRY(collect_least_cavity(work, uv, m, t));
+  if (!cavity_is_star(work, uv, m) || !cavity_has_room(work, uv, m, work->size[p], least)) {
+    status = CW_RETRY;
+    goto done;
   }
-  if (!cavity_has_room(work, uv, m, work->size[p], least))
-    return CW_RETRY;
   CW_TRY(fill_cavity(work, p));
   work->point_count++;
 done:
@@ -416,7 +419,8 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   return 1;
 }
 
-int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING], int32_t ring[CW_PATCH_RING]) {
+int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING],
+                  int32_t ring[CW_PATCH_RING]) {
   int count = 0;
   int32_t t = work->point_triangle[p], first = t;
   do {
@@ -465,7 +469,8 @@ int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double m
   if (best < 0)
     return 0;
   int32_t q = ring[best];
-  // Triangle `best` (p, q, r) and the one before it (p, s, q) go; what lies across their outer edges joins the next ones.
+  // Triangle `best` (p, q, r) and the one before it (p, s, q) go; what lies across their outer edges joins
+  // the next ones.
   for (int side = 0; side < 2; side++) {
     int32_t gone = triangles[side ? (best + count - 1) % count : best];
     int i = cw_patch_corner_of(work->corner[gone], p), j = cw_patch_corner_of(work->corner[gone], q);
@@ -499,7 +504,8 @@ static double angle_margin(const CwPatchWork *work, int32_t t, int i, int on_cho
   double sin_a, sin_d, cos_a, cos_d;
   if (on_chords) {
     const double *xa = work->x[a], *xb = work->x[b], *xc = work->x[c], *xd = work->x[d];
-    double ab2 = cw_patch_distance2(xa, xb), ac2 = cw_patch_distance2(xa, xc), bc2 = cw_patch_distance2(xb, xc);
+    double ab2 = cw_patch_distance2(xa, xb), ac2 = cw_patch_distance2(xa, xc),
+           bc2 = cw_patch_distance2(xb, xc);
     double db2 = cw_patch_distance2(xd, xb), dc2 = cw_patch_distance2(xd, xc);
     cos_a = 0.5 * (ab2 + ac2 - bc2);
     cos_d = 0.5 * (db2 + dc2 - bc2);

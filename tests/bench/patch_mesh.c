@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Meshes the unit square and prints: title, triangles, triangles per second, least, 1 % and mean least angle in degrees.
-// Use: patch_mesh EDGE_LENGTH GRADED (0: uniform; 1: that length on a circle, growing by 0.2 to at most 0.05)
+// Meshes the unit square and prints: title, triangles, triangles per second, least, 1 % and mean least angle
+// in degrees. Use: patch_mesh EDGE_LENGTH GRADED (0: uniform; 1: that length on a circle, growing by 0.2 to
+// at most 0.05)
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,9 +58,16 @@ int main(int argc, char **argv) {
     edge[k][1] = (k + 1) % count;
     boundary[k] = 1;
   }
-  CwPatchInput input = {.surface = plane_at, .size = length_at, .size_context = &field, .point_count = count,
-                        .uv = (const double(*)[2])uv, .x = (const double(*)[3])x, .edge_count = count,
-                        .edge = (const int32_t(*)[2])edge, .boundary = boundary, .name = "square"};
+  CwPatchInput input = {.surface = plane_at,
+                        .size = length_at,
+                        .size_context = &field,
+                        .point_count = count,
+                        .uv = (const double(*)[2])uv,
+                        .x = (const double(*)[3])x,
+                        .edge_count = count,
+                        .edge = (const int32_t(*)[2])edge,
+                        .boundary = boundary,
+                        .name = "square"};
   CwPatchMesh mesh;
   double start = now();
   CwStatus status = cw_patch_mesh(&input, &mesh);
@@ -79,8 +87,8 @@ int main(int argc, char **argv) {
   }
   if (angle) {
     qsort(angle, (size_t)mesh.triangle_count, sizeof *angle, compare);
-    printf("%-24s %9d %12.0f %6.1f %6.1f %6.1f\n", "cutwater", mesh.triangle_count, mesh.triangle_count / seconds, angle[0],
-           angle[mesh.triangle_count / 100], mean);
+    printf("%-24s %9d %12.0f %6.1f %6.1f %6.1f\n", "cutwater", mesh.triangle_count,
+           mesh.triangle_count / seconds, angle[0], angle[mesh.triangle_count / 100], mean);
   }
   free(angle);
   cw_patch_mesh_free(&mesh);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Compares the patch mesher with gmsh (frontal and Delaunay) on a flat square, uniform and graded, on one core.
+"""Compares the patch mesher with gmsh (frontal, Delaunay) on a flat square, uniform and graded, on one core.
 
 Use, from the top of the source: tests/bench/patch_mesh.py BUILD_DIR [EDGE_LENGTH ...]
 """
@@ -34,7 +34,8 @@ def gmsh_angles(mesh_file):
         for i in range(3):
             a, b, c = corner[i], corner[(i + 1) % 3], corner[(i + 2) % 3]
             u, v = (b[0] - a[0], b[1] - a[1]), (c[0] - a[0], c[1] - a[1])
-            least = min(least, math.degrees(abs(math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]))))
+            angle = math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
+            least = min(least, math.degrees(abs(angle)))
         angles.append(least)
     return sorted(angles)
 
@@ -52,8 +53,8 @@ def run_gmsh(folder, title, algorithm, length, graded):
                    + (f'Field[1]=MathEval;Field[1].F="{field}";Background Field=1;\n' if graded else
                       f"Mesh.CharacteristicLengthMax={length};Mesh.CharacteristicLengthMin={length};\n"))
     mesh = folder / "square.msh"
-    done = subprocess.run(["gmsh", "-2", "-nt", "1", "-algo", algorithm, "-format", "msh2", "-o", str(mesh), str(geo)],
-                          check=True, capture_output=True, text=True)
+    done = subprocess.run(["gmsh", "-2", "-nt", "1", "-algo", algorithm, "-format", "msh2", "-o", str(mesh),
+                           str(geo)], check=True, capture_output=True, text=True)
     seconds = float(re.search(r"Done meshing 2D \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)", done.stdout).group(1))
     angles = gmsh_angles(mesh)
     print(f"{title:24s} {len(angles):9d} {len(angles) / max(seconds, 1e-9):12.0f} {angles[0]:6.1f} "
@@ -66,14 +67,15 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         program = folder / "patch_mesh"
-        subprocess.run(["cc", "-std=gnu11", "-O2", f"-I{SOURCE}", str(SOURCE / "tests/bench/patch_mesh.c"), "-o",
-                        str(program), str(build / "mesher/libcutwater_mesher_room.a"),
+        subprocess.run(["cc", "-std=gnu11", "-O2", f"-I{SOURCE}", str(SOURCE / "tests/bench/patch_mesh.c"),
+                        "-o", str(program), str(build / "mesher/libcutwater_mesher_room.a"),
                         str(build / "pipeline/libcutwater_pipeline.a"), "-lstdc++", "-lgmp", "-lmpfr", "-lm"],
                        check=True)
         for graded in (0, 1):
             for length in lengths:
                 print(f"{'graded' if graded else 'uniform'} square, edge length {length}\n"
-                      f"{'':24s} {'triangles':>9s} {'per second':>12s} {'least':>6s} {'1 %':>6s} {'mean':>6s}  (least angle)")
+                      f"{'':24s} {'triangles':>9s} {'per second':>12s} {'least':>6s} {'1 %':>6s} "
+                      f"{'mean':>6s}  (least angle)")
                 sys.stdout.flush()
                 subprocess.run([str(program), str(length), str(graded)], check=True)
                 if shutil.which("gmsh"):

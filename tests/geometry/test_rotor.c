@@ -161,6 +161,7 @@ static void sweep(void **state) {
       table.impeller.blade_count = z;
       table.impeller.wrap_angle = wraps[i] * degree;
       table.impeller.outlet_width = widths[(i + z) % 3] * 1e-3;
+      table.volute.inlet_width = table.impeller.outlet_width + 4e-3;
       const CwDesign design = design_of(&table);
       CwMeasuredSolid solid;
       CwMeasuredRotor rotor;

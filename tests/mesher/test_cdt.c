@@ -51,7 +51,8 @@ static void add_square(Plan *plan, double low, double high) {
 static double area(const Plan *plan, const CwCdt *cdt) {
   double sum = 0;
   for (int32_t t = 0; t < cdt->triangle_count; t++) {
-    const double *a = plan->uv[cdt->triangle[t][0]], *b = plan->uv[cdt->triangle[t][1]], *c = plan->uv[cdt->triangle[t][2]];
+    const double *a = plan->uv[cdt->triangle[t][0]], *b = plan->uv[cdt->triangle[t][1]],
+                 *c = plan->uv[cdt->triangle[t][2]];
     double cross = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     assert_true(cross > 0);
     sum += 0.5 * cross;

@@ -60,9 +60,15 @@ static Plan *new_plan(int shape, double size) {
   assert_non_null(plan);
   plan->shape = shape;
   plan->size = size;
-  plan->input = (CwPatchInput){.surface = surface_at, .surface_context = plan, .size = size_at, .size_context = plan,
-                               .uv = (const double(*)[2])plan->uv, .x = (const double(*)[3])plan->x,
-                               .edge = (const int32_t(*)[2])plan->edge, .boundary = plan->boundary, .name = "lid"};
+  plan->input = (CwPatchInput){.surface = surface_at,
+                               .surface_context = plan,
+                               .size = size_at,
+                               .size_context = plan,
+                               .uv = (const double(*)[2])plan->uv,
+                               .x = (const double(*)[3])plan->x,
+                               .edge = (const int32_t(*)[2])plan->edge,
+                               .boundary = plan->boundary,
+                               .name = "lid"};
   return plan;
 }
 
@@ -130,6 +136,7 @@ static void add_rectangle(Plan *plan, double u0, double v0, double u1, double v1
 typedef struct {
   double least_angle, mean_angle; // degrees; the mean is of the least angle of each triangle
   double outside;                 // share of edges not within 0.5 to 1.6 of the wanted length
+  double clearance;               // least height of a free point over a given edge, in wanted lengths
   double area;                    // in space
 } Figures;
 
@@ -146,9 +153,18 @@ static double distance(const double a[3], const double b[3]) {
   return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-// Every triangle has three sides; a side belongs to one triangle exactly where it is a boundary edge, to two elsewhere;
-// the given edges are among the sides; vertices - edges + triangles is as expected; components meet at given edges only.
-static void check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler) {
+static double height_over(const CwPatchMesh *mesh, int32_t p, int32_t a, int32_t b) {
+  double ab = distance(mesh->x[a], mesh->x[b]), ap = distance(mesh->x[a], mesh->x[p]),
+         bp = distance(mesh->x[b], mesh->x[p]);
+  double along = (ab * ab + ap * ap - bp * bp) / (2 * ab);
+  return sqrt(fmax(ap * ap - along * along, 0));
+}
+
+// Every triangle has three sides; a side belongs to one triangle exactly where it is a boundary edge, to two
+// elsewhere; the given edges are among the sides; vertices - edges + triangles is as expected; components
+// meet at given edges only. Returns the clearance of the free points over the given edges.
+static double check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler) {
+  double clearance = 1;
   int32_t count = 3 * mesh->triangle_count, edges = 0, points = 0, given = plan->input.edge_count, found = 0;
   Side *side = calloc((size_t)(count + given), sizeof *side);
   uint8_t *used = calloc((size_t)mesh->point_count, 1);
@@ -169,10 +185,12 @@ static void check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler)
   qsort(side, (size_t)(count + given), sizeof *side, compare_sides);
   for (int32_t k = 0, next; k < count + given; k = next) {
     int triangles = 0, wall = 0, is_given = 0;
-    int32_t component[2] = {0, 0};
+    int32_t component[2] = {0, 0}, apex[2] = {-1, -1};
     for (next = k; next < count + given && !compare_sides(&side[k], &side[next]); next++)
       if (side[next].triangle >= 0) {
         assert_true(triangles < 2);
+        const int32_t *c = mesh->triangle[side[next].triangle];
+        apex[triangles] = c[0] + c[1] + c[2] - side[k].a - side[k].b;
         component[triangles++] = mesh->component[side[next].triangle];
       } else {
         is_given = 1;
@@ -181,6 +199,10 @@ static void check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler)
     assert_int_equal(triangles, wall ? 1 : 2);
     if (!is_given)
       assert_int_equal(component[0], component[1]);
+    for (int i = 0; is_given && i < 2; i++)
+      if (apex[i] >= plan->input.point_count)
+        clearance = fmin(clearance,
+                         height_over(mesh, apex[i], side[k].a, side[k].b) / size_at(plan, mesh->x[apex[i]]));
     found += is_given;
     edges++;
   }
@@ -191,6 +213,7 @@ static void check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler)
   assert_int_equal(points - edges + mesh->triangle_count, euler);
   free(side);
   free(used);
+  return clearance;
 }
 
 static void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area) {
@@ -215,7 +238,7 @@ static void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_ar
 }
 
 static Figures measure(const Plan *plan, const CwPatchMesh *mesh) {
-  Figures figures = {180, 0, 0, 0};
+  Figures figures = {180, 0, 0, 0, 0};
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     double l[3], least = 180;
     for (int i = 0; i < 3; i++) {
@@ -242,7 +265,7 @@ static Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int
   CwPatchMesh mesh, again;
   if (cw_patch_mesh(&plan->input, &mesh) != CW_OK)
     fail_msg("%s: %s", title, cw_fail_message());
-  check_topology(plan, &mesh, euler);
+  double clearance = check_topology(plan, &mesh, euler);
   check_places(plan, &mesh, uv_area);
   assert_int_equal(mesh.component_count, components);
   assert_int_equal(cw_patch_mesh(&plan->input, &again), CW_OK);
@@ -250,10 +273,13 @@ static Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int
   assert_int_equal(again.triangle_count, mesh.triangle_count);
   assert_memory_equal(again.x, mesh.x, sizeof mesh.x[0] * (size_t)mesh.point_count);
   assert_memory_equal(again.triangle, mesh.triangle, sizeof mesh.triangle[0] * (size_t)mesh.triangle_count);
-  assert_memory_equal(again.component, mesh.component, sizeof mesh.component[0] * (size_t)mesh.triangle_count);
+  assert_memory_equal(again.component, mesh.component,
+                      sizeof mesh.component[0] * (size_t)mesh.triangle_count);
   Figures figures = measure(plan, &mesh);
-  printf("%-24s %7d triangles, least angle %5.1f, mean %5.2f, edges out of size %.2f %%\n", title, mesh.triangle_count,
-         figures.least_angle, figures.mean_angle, 100 * figures.outside);
+  figures.clearance = clearance;
+  printf("%-24s %7d triangles, least angle %5.1f, mean %5.2f, edges out of size %.2f %%, clearance %.2f\n",
+         title, mesh.triangle_count, figures.least_angle, figures.mean_angle, 100 * figures.outside,
+         clearance);
   if (triangle_count)
     *triangle_count = mesh.triangle_count;
   cw_patch_mesh_free(&again);
@@ -266,6 +292,7 @@ static void check_good(Figures figures, double least, double mean) {
   assert_true(figures.least_angle >= least);
   assert_true(figures.mean_angle >= mean);
   assert_true(figures.outside <= 0.01);
+  assert_true(figures.clearance >= 0.4);
 }
 
 static void unit_square(void **state) {
@@ -305,7 +332,8 @@ static void annulus(void **state) {
 static void two_holes_and_a_dividing_line(void **state) {
   Plan *plan = new_plan(PLANE, 0.03);
   const double outer[5][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1.5}, {0, 1}};
-  const double first[3][2] = {{0.3, 0.3}, {0.6, 0.8}, {0.7, 0.4}}, second[4][2] = {{1.4, 0.4}, {1.6, 0.4}, {1.6, 0.7}, {1.4, 0.6}};
+  const double first[3][2] = {{0.3, 0.3}, {0.6, 0.8}, {0.7, 0.4}},
+               second[4][2] = {{1.4, 0.4}, {1.6, 0.4}, {1.6, 0.7}, {1.4, 0.6}};
   add_loop(plan, 5, outer);
   add_loop(plan, 3, first);
   add_loop(plan, 4, second);
@@ -403,6 +431,53 @@ static double random_unit(void) {
   return (seed >> 8) / 16777216.0;
 }
 
+// Fewer than five edges around a half turn: chords and surface part, but no triangle may turn over.
+static void coarse_on_curvature(void **state) {
+  const double sizes[3] = {0.04, 0.08, 0.15};
+  for (int k = 0; k < 3; k++) {
+    Plan *plan = new_plan(CYLINDER, sizes[k]);
+    add_rectangle(plan, 0, 0, 6, 1);
+    Figures figures = mesh_and_check(plan, "coarse cylinder", 6, 1, 1, NULL);
+    assert_true(figures.least_angle >= 30);
+  }
+}
+
+// A straight side whose points are off by rounding has slivers in its Delaunay triangulation: none may stay.
+static void noisy_straight_sides(void **state) {
+  seed = 7;
+  for (int k = 0; k < 6; k++) {
+    Plan *plan = new_plan(PLANE, 0.03);
+    double area = 0, noise = pow(10, -16 + 2 * k);
+    add_rectangle(plan, 0.01, 0, 1, 1);
+    for (int32_t p = 4; p < plan->input.point_count; p++) {
+      for (int i = 0; i < 2; i++)
+        plan->uv[p][i] += noise * (random_unit() - 0.5);
+      surface_at(plan, plan->uv[p], plan->x[p], NULL, NULL);
+    }
+    for (int32_t e = 0; e < plan->input.edge_count; e++) {
+      const double *a = plan->uv[plan->edge[e][0]], *b = plan->uv[plan->edge[e][1]];
+      area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+    check_good(mesh_and_check(plan, "noisy sides", area, 1, 1, NULL), 30, 55);
+  }
+}
+
+// The given places may contradict the map: here they mirror it, so that the one triangle lies upside down.
+static void folds_are_counted(void **state) {
+  Plan *plan = new_plan(PLANE, 1);
+  CwPatchMesh mesh;
+  const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  add_loop(plan, 3, corner);
+  for (int k = 0; k < 3; k++)
+    plan->x[k][0] = -plan->x[k][0];
+  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_OK);
+  assert_int_equal(mesh.triangle_count, 1);
+  assert_int_equal(mesh.folded_count, 1);
+  assert_float_equal(mesh.folded_at[0], -1.0 / 3, 1e-12);
+  cw_patch_mesh_free(&mesh);
+  free(plan);
+}
+
 static void random_stars(void **state) {
   seed = 20240229;
   for (int round = 0; round < 40; round++) {
@@ -466,6 +541,9 @@ int main(void) {
       cmocka_unit_test(slender_trapezoid),
       cmocka_unit_test(sharp_corner),
       cmocka_unit_test(foreign_boundary_spacing),
+      cmocka_unit_test(coarse_on_curvature),
+      cmocka_unit_test(noisy_straight_sides),
+      cmocka_unit_test(folds_are_counted),
       cmocka_unit_test(random_stars),
       cmocka_unit_test(wrong_input_is_refused_with_its_place),
   };

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/assembly.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "export/cell.h"
+#include "pipeline/log.h"
+
+// What one rank collects over its regions.
+typedef struct {
+  CwOpenFace *open;
+  int64_t open_count, open_room;
+  CwInterfaceFace *interface[CW_EXPORT_DOMAINS];
+  int64_t interface_count[CW_EXPORT_DOMAINS], interface_room[CW_EXPORT_DOMAINS];
+  double *least[CW_EXPORT_DOMAINS], *most[CW_EXPORT_DOMAINS]; // coordinates of each shared point over the regions
+  double *volume, *least_volume;                              // by region
+  int64_t *open_counts;                                       // by region
+} Collected;
+
+static void collected_free(Collected *c) {
+  free(c->open);
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    free(c->interface[d]);
+    free(c->least[d]);
+    free(c->most[d]);
+  }
+  free(c->volume);
+  free(c->least_volume);
+  free(c->open_counts);
+}
+
+void cw_assembly_free(CwAssembly *assembly) {
+  free(assembly->places);
+  free(assembly->parts);
+  free(assembly->patches);
+  free(assembly->across);
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    free(assembly->shared[d]);
+    free(assembly->interface[d]);
+  }
+  memset(assembly, 0, sizeof *assembly);
+}
+
+// Makes room for `more` items of `size` bytes beyond `count`.
+static CwStatus reserve(void **items, int64_t *room, int64_t count, int64_t more, size_t size) {
+  CwStatus status = CW_OK;
+  if (count + more > *room) {
+    int64_t wanted = count + more > 2 * *room ? count + more : 2 * *room;
+    void *grown = realloc(*items, (size_t)wanted * size);
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %lld items of %zu bytes", (long long)wanted, size);
+    *items = grown;
+    *room = wanted;
+  }
+done:
+  return status;
+}
+
+// Numbers that follow from the manifest alone.
+static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
+  CwStatus status = CW_OK;
+  int64_t cells = 0;
+  CW_NEW(a->places, mesh->region_count);
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    CwDomainTotal *t = &a->totals[d];
+    const CwMeshDomain *domain = &mesh->domains[d];
+    t->points = domain->shared_points;
+    for (int r = domain->first_region; r < domain->first_region + domain->region_count; ++r) {
+      const CwMeshRegion *line = &mesh->regions[r];
+      a->places[r].own_point = t->points;
+      a->places[r].tetrahedron = t->tetrahedra;
+      a->places[r].pyramid = t->pyramids;
+      a->places[r].prism = t->prisms;
+      a->places[r].cell = cells;
+      t->points += line->own_points;
+      t->tetrahedra += line->tetrahedra;
+      t->pyramids += line->pyramids;
+      t->prisms += line->prisms;
+      cells += line->tetrahedra + line->pyramids + line->prisms;
+    }
+    t->cells = t->tetrahedra + t->pyramids + t->prisms;
+  }
+done:
+  return status;
+}
+
+static CwStatus collect_points(const CwMesh *mesh, int region, const CwRegionData *data, Collected *c) {
+  CwStatus status = CW_OK;
+  unsigned char *used = NULL;
+  CW_NEW(used, data->point_count);
+  for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
+    int count;
+    const int32_t *nodes = cw_cell_nodes(data, cell, &count);
+    for (int i = 0; i < count; ++i)
+      used[nodes[i]] = 1;
+  }
+  for (int32_t p = 0; p < data->point_count; ++p) {
+    const double *x = data->points[p];
+    CW_REQUIRE(used[p] || p < data->shared_count, CW_ERR_INPUT,
+               "%s: point %d at (%.6g, %.6g, %.6g) mm is used by no cell", mesh->regions[region].path, p,
+               1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+    if (p < data->shared_count && used[p]) {
+      double *least = c->least[data->domain] + 3 * data->shared_id[p];
+      double *most = c->most[data->domain] + 3 * data->shared_id[p];
+      for (int k = 0; k < 3; ++k) {
+        double value = x[k] + 0.0; // turns -0 into 0: the bits must not follow from the order of the ranks
+        least[k] = fmin(least[k], value);
+        most[k] = fmax(most[k], value);
+      }
+    }
+  }
+done:
+  free(used);
+  return status;
+}
+
+static CwStatus collect_volumes(const CwMesh *mesh, int region, const CwRegionData *data, Collected *c) {
+  CwStatus status = CW_OK;
+  c->least_volume[region] = INFINITY;
+  for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
+    double volume = cw_cell_volume(data, cell);
+    if (!(volume > 0)) {
+      double x[3];
+      cw_cell_centre(data, cell, x);
+      CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
+                 mesh->regions[region].path, cell, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e9 * volume);
+    }
+    c->volume[region] += volume;
+    c->least_volume[region] = fmin(c->least_volume[region], volume);
+  }
+done:
+  return status;
+}
+
+static void add_patch_face(CwPatchPart *part, const CwRegionData *data, const int32_t *nodes, int count) {
+  double vector[3];
+  cw_face_area((const double(*)[3])data->points, nodes, count, vector);
+  ++*(count == 3 ? &part->triangles : &part->quads);
+  for (int k = 0; k < 3; ++k)
+    part->vector[k] += vector[k];
+  part->area += sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+}
+
+static void add_interface_face(CwInterfaceFace *face, int64_t place, const CwRegionData *data,
+                               const int32_t *nodes, int count) {
+  face->place = place;
+  face->count = count;
+  for (int i = 0; i < count; ++i)
+    memcpy(face->nodes[i], data->points[nodes[i]], sizeof face->nodes[i]);
+}
+
+// `place` of the interface faces counts within the region here; settle_interface() makes it the one in the patch.
+// The region goes into its upper half, so that nothing else need be kept.
+static CwStatus collect_patches(const CwMesh *mesh, int region, const CwRegionData *data, CwAssembly *a,
+                                Collected *c) {
+  CwStatus status = CW_OK;
+  const CwMeshDomain *domain = &mesh->domains[data->domain];
+  CwPatchPart *parts = a->parts + (size_t)region * (size_t)mesh->patch_count;
+  int interface = cw_mesh_patch_of_kind(mesh, data->domain, CW_KIND_INTERFACE);
+  for (int32_t i = 0; i < data->triangle_count; ++i)
+    add_patch_face(&parts[domain->first_patch + data->triangle_patch[i]], data, data->triangles[i], 3);
+  for (int32_t i = 0; i < data->quad_count; ++i)
+    add_patch_face(&parts[domain->first_patch + data->quad_patch[i]], data, data->quads[i], 4);
+
+  int64_t *count = &c->interface_count[data->domain];
+  CW_TRY(reserve((void **)&c->interface[data->domain], &c->interface_room[data->domain], *count,
+                 parts[interface].triangles + parts[interface].quads, sizeof(CwInterfaceFace)));
+  int64_t place = (int64_t)region << 32;
+  for (int32_t i = 0; i < data->triangle_count; ++i)
+    if (domain->first_patch + data->triangle_patch[i] == interface)
+      add_interface_face(&c->interface[data->domain][(*count)++], place++, data, data->triangles[i], 3);
+  place = (int64_t)region << 32;
+  for (int32_t i = 0; i < data->quad_count; ++i)
+    if (domain->first_patch + data->quad_patch[i] == interface)
+      add_interface_face(&c->interface[data->domain][(*count)++], place++, data, data->quads[i], 4);
+done:
+  return status;
+}
+
+static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Collected *c) {
+  CwStatus status = CW_OK;
+  CwRegionData data = {0};
+  CwRegionFaces faces = {0};
+  CW_TRY(cw_region_read(mesh, region, &data));
+  CW_TRY(collect_volumes(mesh, region, &data, c));
+  CW_TRY(cw_region_faces(mesh, region, &data, &faces));
+  CW_TRY(collect_points(mesh, region, &data, c));
+  CW_TRY(collect_patches(mesh, region, &data, a, c));
+  a->places[region].inner_triangles = faces.inner_triangles;
+  a->places[region].inner_quads = faces.inner_quads;
+  c->open_counts[region] = faces.open_count;
+  CW_TRY(reserve((void **)&c->open, &c->open_room, c->open_count, faces.open_count, sizeof *c->open));
+  memcpy(c->open + c->open_count, faces.open, (size_t)faces.open_count * sizeof *c->open);
+  c->open_count += faces.open_count;
+done:
+  cw_region_faces_free(&faces);
+  cw_region_free(&data);
+  return status;
+}
+
+// Gives all ranks what each found of its regions: sums over ranks, of which one holds the value and the others 0.
+static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
+  const CwMesh *mesh = a->mesh;
+  for (int r = 0; r < mesh->region_count; ++r) {
+    int root = r % ranks->size;
+    CwPatchPart *parts = a->parts + (size_t)r * (size_t)mesh->patch_count;
+    MPI_Bcast(&a->places[r], sizeof a->places[r], MPI_BYTE, root, ranks->comm);
+    MPI_Bcast(parts, (int)sizeof *parts * mesh->patch_count, MPI_BYTE, root, ranks->comm);
+    MPI_Bcast(&c->volume[r], 1, MPI_DOUBLE, root, ranks->comm);
+    MPI_Bcast(&c->least_volume[r], 1, MPI_DOUBLE, root, ranks->comm);
+    MPI_Bcast(&c->open_counts[r], 1, MPI_INT64_T, root, ranks->comm);
+  }
+  for (int r = 0; r < mesh->region_count; ++r) {
+    a->places[r].open = a->open_count;
+    a->open_count += c->open_counts[r];
+    CwDomainTotal *total = &a->totals[mesh->regions[r].domain];
+    total->least_volume = total->volume > 0 ? fmin(total->least_volume, c->least_volume[r]) : c->least_volume[r];
+    total->volume += c->volume[r];
+    for (int p = 0; p < mesh->patch_count; ++p) {
+      CwPatchPart *part = &a->parts[(size_t)r * (size_t)mesh->patch_count + (size_t)p], *sum = &a->patches[p];
+      part->triangle = sum->triangles;
+      part->quad = sum->quads;
+      sum->triangles += part->triangles;
+      sum->quads += part->quads;
+      sum->area += part->area;
+      for (int k = 0; k < 3; ++k)
+        sum->vector[k] += part->vector[k];
+    }
+  }
+}
+
+static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    const CwMeshDomain *domain = &a->mesh->domains[d];
+    int count = (int)(3 * domain->shared_points);
+    MPI_Allreduce(MPI_IN_PLACE, c->least[d], count, MPI_DOUBLE, MPI_MIN, ranks->comm);
+    MPI_Allreduce(MPI_IN_PLACE, c->most[d], count, MPI_DOUBLE, MPI_MAX, ranks->comm);
+    for (int64_t i = 0; i < count; ++i) {
+      const double *x = c->least[d] + i / 3 * 3;
+      CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT, "domain %s: shared point %lld is used by no cell of any region",
+                 domain->name, (long long)(i / 3));
+      CW_REQUIRE(c->least[d][i] == c->most[d][i], CW_ERR_INPUT,
+                 "domain %s: shared point %lld near (%.6g, %.6g, %.6g) mm differs between regions by %.3g mm",
+                 domain->name, (long long)(i / 3), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
+                 1e3 * (c->most[d][i] - c->least[d][i]));
+    }
+    a->shared[d] = (double(*)[3])c->least[d];
+    c->least[d] = NULL;
+  }
+done:
+  return status;
+}
+
+static int compare_open_faces(const void *left, const void *right) {
+  const CwOpenFace *x = left, *y = right;
+  for (int i = 0; i < 4; ++i)
+    if (x->loop[i] != y->loop[i])
+      return x->loop[i] < y->loop[i] ? -1 : 1;
+  return x->region != y->region ? (x->region > y->region) - (x->region < y->region)
+                                : (x->slot > y->slot) - (x->slot < y->slot);
+}
+
+static CwStatus fail_at_open_face(const CwAssembly *a, const CwOpenFace *face, const char *what) {
+  double x[3] = {0};
+  int count = face->loop[3] < 0 ? 3 : 4;
+  const CwMeshRegion *line = &a->mesh->regions[face->region];
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < 3; ++k)
+      x[k] += 1e3 * a->shared[line->domain][face->loop[i]][k] / count;
+  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a dividing plane %s", line->path, x[0], x[1],
+                 x[2], what);
+}
+
+// Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.
+static CwStatus pair_open_faces(CwAssembly *a, CwOpenFace *open, int64_t count) {
+  CwStatus status = CW_OK;
+  qsort(open, (size_t)count, sizeof *open, compare_open_faces);
+  for (int64_t i = 0; i < count; i += 2) {
+    const CwOpenFace *x = &open[i], *y = &open[i + 1];
+    if (i + 1 == count || memcmp(x->loop, y->loop, sizeof x->loop) != 0)
+      CW_TRY(fail_at_open_face(a, x, "has no partner in another region"));
+    if (i + 2 < count && memcmp(x->loop, open[i + 2].loop, sizeof x->loop) == 0)
+      CW_TRY(fail_at_open_face(a, x, "is shared by more than two cells"));
+    if (x->reversed == y->reversed)
+      CW_TRY(fail_at_open_face(a, x, "has both of its cells on the same side"));
+    const CwOpenFace *sides[2] = {x, y};
+    for (int s = 0; s < 2; ++s) {
+      const CwOpenFace *here = sides[s], *there = sides[1 - s];
+      CwRegionPlace *place = &a->places[here->region];
+      int64_t mine = place->cell + here->cell, other = a->places[there->region].cell + there->cell;
+      a->across[place->open + here->slot] = other;
+      if (mine < other)
+        ++*(here->loop[3] < 0 ? &place->outer_triangles : &place->outer_quads);
+    }
+  }
+done:
+  return status;
+}
+
+static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected *c) {
+  CwStatus status = CW_OK;
+  CwOpenFace *all = NULL;
+  int64_t total = 0, rotor = 0;
+  CW_NEW(a->across, a->open_count);
+  CW_TRY(cw_ranks_gather(ranks, c->open, c->open_count, sizeof *all, (void **)&all, &total));
+  // Rotor first: a stable split by domain, as both number their shared points from 0.
+  if (ranks->rank == 0) {
+    CwOpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
+    if (split) {
+      int64_t at = 0;
+      for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+        for (int64_t i = 0; i < total; ++i)
+          if (a->mesh->regions[all[i].region].domain == d)
+            split[at++] = all[i];
+        rotor = d == 0 ? at : rotor;
+      }
+      status = pair_open_faces(a, split, rotor);
+      if (status == CW_OK)
+        status = pair_open_faces(a, split + rotor, total - rotor);
+    } else {
+      status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on dividing planes", (long long)total);
+    }
+    free(split);
+  }
+  CW_TRY(cw_ranks_agree(ranks, status));
+  cw_ranks_broadcast(ranks, a->across, a->open_count, sizeof *a->across);
+  cw_ranks_broadcast(ranks, a->places, a->mesh->region_count, sizeof *a->places);
+done:
+  free(all);
+  return status;
+}
+
+static CwStatus settle_interface(const CwRanks *ranks, CwAssembly *a, Collected *c) {
+  CwStatus status = CW_OK;
+  CwInterfaceFace *all = NULL;
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    int patch = cw_mesh_patch_of_kind(a->mesh, d, CW_KIND_INTERFACE);
+    int64_t total = 0;
+    CW_TRY(cw_ranks_gather(ranks, c->interface[d], c->interface_count[d], sizeof *all, (void **)&all, &total));
+    a->interface[d] = calloc(total ? (size_t)total : 1, sizeof *all);
+    CW_TRY(cw_ranks_agree(ranks, a->interface[d] ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
+    for (int64_t i = 0; i < total; ++i) {
+      int region = (int)(all[i].place >> 32);
+      const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
+      int64_t place = all[i].place & 0xffffffff;
+      place += all[i].count == 3 ? part->triangle : a->patches[patch].triangles + part->quad;
+      a->interface[d][place] = all[i];
+      a->interface[d][place].place = place;
+    }
+    free(all);
+    all = NULL;
+  }
+done:
+  free(all);
+  return status;
+}
+
+static CwStatus check_surface(const CwAssembly *a) {
+  CwStatus status = CW_OK;
+  const CwMesh *mesh = a->mesh;
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    double area = 0, vector[3] = {0};
+    const CwMeshDomain *domain = &mesh->domains[d];
+    for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p) {
+      const CwPatchPart *sum = &a->patches[p];
+      CW_REQUIRE(sum->triangles + sum->quads > 0 || mesh->patches[p].kind == CW_KIND_WALL, CW_ERR_INPUT,
+                 "domain %s: patch '%s' has no face", domain->name, mesh->patches[p].name);
+      area += sum->area;
+      for (int k = 0; k < 3; ++k)
+        vector[k] += sum->vector[k];
+    }
+    double open = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+    CW_REQUIRE(open <= 1e-9 * area, CW_ERR_INPUT,
+               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name, area,
+               open);
+  }
+done:
+  return status;
+}
+
+static CwStatus prepare(const CwMesh *mesh, CwAssembly *a, Collected *c) {
+  CwStatus status = CW_OK;
+  a->mesh = mesh;
+  CW_TRY(number_regions(mesh, a));
+  CW_NEW(a->parts, (size_t)mesh->region_count * (size_t)mesh->patch_count);
+  CW_NEW(a->patches, mesh->patch_count);
+  CW_NEW(c->volume, mesh->region_count);
+  CW_NEW(c->least_volume, mesh->region_count);
+  CW_NEW(c->open_counts, mesh->region_count);
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    CW_NEW(c->least[d], 3 * mesh->domains[d].shared_points);
+    CW_NEW(c->most[d], 3 * mesh->domains[d].shared_points);
+    for (int64_t i = 0; i < 3 * mesh->domains[d].shared_points; ++i) {
+      c->least[d][i] = INFINITY;
+      c->most[d][i] = -INFINITY;
+    }
+  }
+done:
+  return status;
+}
+
+CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *a) {
+  CwStatus status = CW_OK;
+  Collected c = {0};
+  CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
+  cw_progress_start("check the mesh", mesh->region_count, "regions");
+  for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
+    if (cw_ranks_own(ranks, r))
+      status = collect_region(mesh, r, a, &c);
+    cw_progress(r + 1);
+  }
+  cw_progress_end();
+  CW_TRY(cw_ranks_agree(ranks, status));
+  spread(ranks, a, &c);
+  CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));
+  CW_TRY(settle_open_faces(ranks, a, &c));
+  CW_TRY(check_surface(a));
+  CW_TRY(settle_interface(ranks, a, &c));
+done:
+  collected_free(&c);
+  return status;
+}

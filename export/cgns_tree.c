@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The nodes of pump.cgns. One zone a domain; sections: tetrahedra, pyramids, prisms, then the triangles and
+// quadrilaterals of each patch next to each other, so that one range covers a patch.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "export/cgns_file.h"
+#include "export/cgns_node.h"
+#include "export/cgns_sections.h"
+
+static CwStatus put_reference_state(hid_t base, const CwCase *table) {
+  CwStatus status = CW_OK;
+  hid_t state = -1, array = -1;
+  const struct {
+    const char *name;
+    double value;
+    float exponents[5];
+  } values[] = {
+      {"Density", table->fluid.density, {1, -3, 0, 0, 0}},
+      {"Pressure", table->operating_point.inlet_pressure, {1, -1, -2, 0, 0}},
+      {"ViscosityKinematic", table->fluid.kinematic_viscosity, {0, 2, -1, 0, 0}},
+      {"LengthReference", table->impeller.outlet_diameter, {0, 1, 0, 0, 0}},
+  };
+  CW_TRY(cw_cgns_node(base, "ReferenceState", "ReferenceState_t", "MT", 0, NULL, NULL, &state));
+  for (size_t i = 0; i < sizeof values / sizeof *values; ++i) {
+    CW_TRY(cw_cgns_list(state, values[i].name, "DataArray_t", "R8", 1, &values[i].value, &array));
+    CW_TRY(cw_cgns_exponents(array, values[i].exponents));
+    H5Gclose(array);
+    array = -1;
+  }
+done:
+  if (array >= 0)
+    H5Gclose(array);
+  if (state >= 0)
+    H5Gclose(state);
+  return status;
+}
+
+static CwStatus put_equations(hid_t base) {
+  CwStatus status = CW_OK;
+  hid_t set = -1;
+  const int three = 3;
+  CW_TRY(cw_cgns_node(base, "FlowEquationSet", "FlowEquationSet_t", "MT", 0, NULL, NULL, &set));
+  CW_TRY(cw_cgns_list(set, "EquationDimension", "\"int\"", "I4", 1, &three, NULL));
+  CW_TRY(cw_cgns_text(set, "GoverningEquations", "GoverningEquations_t", "NSTurbulent", NULL));
+  CW_TRY(cw_cgns_text(set, "TurbulenceModel", "TurbulenceModel_t", "TwoEquation_JonesLaunder", NULL));
+done:
+  if (set >= 0)
+    H5Gclose(set);
+  return status;
+}
+
+static CwStatus put_families(hid_t base, const CwMesh *mesh) {
+  CwStatus status = CW_OK;
+  static const char *const types[] = {"BCWallViscous", "BCInflow", "BCOutflow", "UserDefined"};
+  hid_t family = -1;
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    CW_TRY(cw_cgns_node(base, mesh->patches[p].name, "Family_t", "MT", 0, NULL, NULL, &family));
+    CW_TRY(cw_cgns_text(family, "FamBC", "FamilyBC_t", types[mesh->patches[p].kind], NULL));
+    H5Gclose(family);
+    family = -1;
+  }
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    char name[CW_EXPORT_NAME_SIZE];
+    snprintf(name, sizeof name, "%.20s_domain", mesh->domains[d].name);
+    CW_TRY(cw_cgns_node(base, name, "Family_t", "MT", 0, NULL, NULL, NULL));
+  }
+done:
+  if (family >= 0)
+    H5Gclose(family);
+  return status;
+}
+
+static CwStatus put_coordinates(hid_t zone, int64_t points) {
+  CwStatus status = CW_OK;
+  static const char *const names[] = {"CoordinateX", "CoordinateY", "CoordinateZ"};
+  hid_t grid = -1, array = -1;
+  CW_TRY(cw_cgns_node(zone, "GridCoordinates", "GridCoordinates_t", "MT", 0, NULL, NULL, &grid));
+  for (int k = 0; k < 3; ++k) {
+    CW_TRY(cw_cgns_list(grid, names[k], "DataArray_t", "R8", (hsize_t)points, NULL, &array));
+    CW_TRY(cw_cgns_exponents(array, (float[]){0, 1, 0, 0, 0}));
+    H5Gclose(array);
+    array = -1;
+  }
+done:
+  if (array >= 0)
+    H5Gclose(array);
+  if (grid >= 0)
+    H5Gclose(grid);
+  return status;
+}
+
+static CwStatus put_section(hid_t zone, const CwSection *section) {
+  CwStatus status = CW_OK;
+  hid_t elements = -1;
+  const int code[] = {section->type, 0};
+  const int range[] = {(int)section->first, (int)(section->first + section->count - 1)};
+  CW_TRY(cw_cgns_list(zone, section->name, "Elements_t", "I4", 2, code, &elements));
+  CW_TRY(cw_cgns_list(elements, "ElementRange", "IndexRange_t", "I4", 2, range, NULL));
+  CW_TRY(cw_cgns_list(elements, "ElementConnectivity", "DataArray_t", "I4",
+                      (hsize_t)(section->count * section->nodes), NULL, NULL));
+done:
+  if (elements >= 0)
+    H5Gclose(elements);
+  return status;
+}
+
+static CwStatus put_point_range(hid_t parent, const int range[2]) {
+  return cw_cgns_node(parent, "PointRange", "IndexRange_t", "I4", 2, (hsize_t[]){2, 1}, range, NULL);
+}
+
+// A readers shows a surface only where a BC names it, so the interface has one too.
+static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
+  CwStatus status = CW_OK;
+  const CwMesh *mesh = a->mesh;
+  hid_t all = -1, one = -1;
+  CW_TRY(cw_cgns_node(zone, "ZoneBC", "ZoneBC_t", "MT", 0, NULL, NULL, &all));
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    const CwPatchPart *sum = &a->patches[p];
+    if (mesh->patches[p].domain != domain || sum->triangles + sum->quads == 0)
+      continue;
+    int first = (int)cw_cgns_patch_first(a, p);
+    CW_TRY(cw_cgns_text(all, mesh->patches[p].name, "BC_t", "FamilySpecified", &one));
+    CW_TRY(put_point_range(one, (int[]){first, first + (int)(sum->triangles + sum->quads) - 1}));
+    CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
+    CW_TRY(cw_cgns_text(one, "FamilyName", "FamilyName_t", mesh->patches[p].name, NULL));
+    H5Gclose(one);
+    one = -1;
+  }
+done:
+  if (one >= 0)
+    H5Gclose(one);
+  if (all >= 0)
+    H5Gclose(all);
+  return status;
+}
+
+static CwStatus put_connection(hid_t zone, const CwAssembly *a, const CwInterface *interface, int domain) {
+  CwStatus status = CW_OK;
+  const int other = 1 - domain;
+  hid_t all = -1, one = -1;
+  int32_t *donors = NULL;
+  int64_t count = interface->count[domain];
+  int first = (int)cw_cgns_patch_first(a, cw_mesh_patch_of_kind(a->mesh, domain, CW_KIND_INTERFACE));
+  int64_t donor_first = cw_cgns_patch_first(a, cw_mesh_patch_of_kind(a->mesh, other, CW_KIND_INTERFACE));
+  CW_NEW(donors, count);
+  for (int64_t i = 0; i < count; ++i)
+    donors[i] = (int32_t)(donor_first + interface->donor[domain][i]);
+  CW_TRY(cw_cgns_node(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t", "MT", 0, NULL, NULL, &all));
+  CW_TRY(cw_cgns_text(all, domain == CW_EXPORT_ROTOR ? "rotor_to_stator" : "stator_to_rotor",
+                      "GridConnectivity_t", cw_cgns_zone_name(other), &one));
+  CW_TRY(cw_cgns_text(one, "GridConnectivityType", "GridConnectivityType_t", "Abutting", NULL));
+  CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
+  CW_TRY(put_point_range(one, (int[]){first, first + (int)count - 1}));
+  CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors, NULL));
+  CW_TRY(cw_cgns_node(one, "InterpolantsDonor", "DataArray_t", "R8", 2, (hsize_t[]){(hsize_t)count, 2},
+                      interface->place[domain], NULL));
+done:
+  free(donors);
+  if (one >= 0)
+    H5Gclose(one);
+  if (all >= 0)
+    H5Gclose(all);
+  return status;
+}
+
+static CwStatus put_rotation(hid_t zone, double speed) {
+  CwStatus status = CW_OK;
+  hid_t rotating = -1, array = -1;
+  CW_TRY(cw_cgns_node(zone, "RotatingCoordinates", "RotatingCoordinates_t", "MT", 0, NULL, NULL, &rotating));
+  CW_TRY(cw_cgns_list(rotating, "RotationCenter", "DataArray_t", "R4", 3, (float[]){0, 0, 0}, &array));
+  CW_TRY(cw_cgns_exponents(array, (float[]){0, 1, 0, 0, 0}));
+  H5Gclose(array);
+  array = -1;
+  CW_TRY(cw_cgns_list(rotating, "RotationRateVector", "DataArray_t", "R4", 3, (float[]){0, 0, (float)speed},
+                      &array));
+  CW_TRY(cw_cgns_exponents(array, (float[]){0, 0, -1, 0, 1}));
+done:
+  if (array >= 0)
+    H5Gclose(array);
+  if (rotating >= 0)
+    H5Gclose(rotating);
+  return status;
+}
+
+static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *interface, const CwCase *table,
+                         int domain) {
+  CwStatus status = CW_OK;
+  hid_t zone = -1;
+  CwSection *sections = NULL;
+  int section_count = 0;
+  const CwDomainTotal *total = &a->totals[domain];
+  char family[CW_EXPORT_NAME_SIZE];
+  int64_t elements = total->cells;
+  for (int p = 0; p < a->mesh->patch_count; ++p)
+    if (a->mesh->patches[p].domain == domain)
+      elements += a->patches[p].triangles + a->patches[p].quads;
+  CW_REQUIRE(total->points <= INT32_MAX && elements <= INT32_MAX, CW_ERR_EXPORT,
+             "domain %s: %lld points and %lld elements; CGNS with 32-bit numbers allows %d",
+             a->mesh->domains[domain].name, (long long)total->points, (long long)elements, INT32_MAX);
+  const int size[] = {(int)total->points, (int)total->cells, 0};
+  CW_TRY(cw_cgns_sections(a, domain, &sections, &section_count));
+  CW_TRY(cw_cgns_node(base, cw_cgns_zone_name(domain), "Zone_t", "I4", 2, (hsize_t[]){3, 1}, size, &zone));
+  CW_TRY(cw_cgns_text(zone, "ZoneType", "ZoneType_t", "Unstructured", NULL));
+  snprintf(family, sizeof family, "%.20s_domain", a->mesh->domains[domain].name);
+  CW_TRY(cw_cgns_text(zone, "FamilyName", "FamilyName_t", family, NULL));
+  CW_TRY(put_coordinates(zone, total->points));
+  for (int s = 0; s < section_count; ++s)
+    CW_TRY(put_section(zone, &sections[s]));
+  CW_TRY(put_conditions(zone, a, domain));
+  CW_TRY(put_connection(zone, a, interface, domain));
+  if (domain == CW_EXPORT_ROTOR)
+    CW_TRY(put_rotation(zone, table->operating_point.speed));
+done:
+  free(sections);
+  if (zone >= 0)
+    H5Gclose(zone);
+  return status;
+}
+
+CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interface,
+                            const CwCase *table) {
+  CwStatus status = CW_OK;
+  hid_t file = -1, base = -1;
+  const int dimensions[] = {3, 3};
+  static const char units[5][33] = {"Kilogram                        ", "Meter                           ",
+                                    "Second                          ", "Kelvin                          ",
+                                    "Radian                          "};
+  char packed[5 * 32];
+  for (int i = 0; i < 5; ++i)
+    memcpy(packed + 32 * i, units[i], 32);
+  CW_TRY(cw_cgns_create(path, &file));
+  CW_TRY(cw_cgns_list(file, "pump", "CGNSBase_t", "I4", 2, dimensions, &base));
+  CW_TRY(cw_cgns_text(base, "SimulationType", "SimulationType_t", "NonTimeAccurate", NULL));
+  CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
+  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed, NULL));
+  CW_TRY(put_equations(base));
+  CW_TRY(put_reference_state(base, table));
+  CW_TRY(put_families(base, a->mesh));
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d)
+    CW_TRY(put_zone(base, a, interface, table, d));
+done:
+  if (base >= 0)
+    H5Gclose(base);
+  if (file >= 0 && H5Fclose(file) < 0 && status == CW_OK)
+    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written", path);
+  return status;
+}

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# Writes the files below ROOT into the C source OUT as the list of template.h. Scripts (#!) are executable.
+file(GLOB_RECURSE names LIST_DIRECTORIES false RELATIVE ${ROOT} ${ROOT}/*)
+list(SORT names)
+set(arrays "")
+set(list "")
+set(index 0)
+foreach(name ${names})
+  file(READ ${ROOT}/${name} bytes HEX)
+  set(executable 0)
+  if(bytes MATCHES "^2321")
+    set(executable 1)
+  endif()
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+  string(APPEND arrays "static const char text_${index}[] = {${bytes}0};\n")
+  string(APPEND list "  {\"${name}\", text_${index}, ${executable}},\n")
+  math(EXPR index "${index} + 1")
+endforeach()
+file(WRITE ${OUT} "#include \"export/template.h\"\n${arrays}const CwTemplate cw_templates[] = {\n${list}};\n"
+  "const int cw_template_count = ${index};\n")

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/foam_case.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "export/template.h"
+#include "pipeline/atomic_file.h"
+
+CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length) {
+  const double cmu = 0.09;
+  CwTurbulence t;
+  t.k = 1.5 * (intensity * speed) * (intensity * speed);
+  t.epsilon = pow(cmu, 0.75) * pow(t.k, 1.5) / mixing_length;
+  t.omega = t.epsilon / (cmu * t.k);
+  return t;
+}
+
+static int patch_is_there(const CwAssembly *a, int p) {
+  return a->patches[p].triangles + a->patches[p].quads > 0;
+}
+
+// The names of the patches that `wanted` picks, with blanks between.
+static CwStatus list_patches(const CwAssembly *a, int (*wanted)(const CwMeshPatch *), CwValues *values,
+                             const char *key) {
+  CwStatus status = CW_OK;
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
+  for (int p = 0, first = 1; p < a->mesh->patch_count; ++p)
+    if (patch_is_there(a, p) && wanted(&a->mesh->patches[p])) {
+      fprintf(out, "%s%s", first ? "" : " ", a->mesh->patches[p].name);
+      first = 0;
+    }
+  fclose(out);
+  CW_TRY(cw_values_set(values, key, "%s", text));
+done:
+  free(text);
+  return status;
+}
+
+static int is_rotor_and_fixed(const CwMeshPatch *patch) {
+  return patch->domain == CW_EXPORT_ROTOR && !cw_patch_rotates(patch);
+}
+
+typedef enum { FIELD_U, FIELD_P, FIELD_K, FIELD_EPSILON, FIELD_OMEGA, FIELD_NUT } Field;
+
+static const struct {
+  const char *name, *class, *dimensions, *wall;
+} fields[] = {
+    [FIELD_U] = {"U", "volVectorField", "[0 1 -1 0 0 0 0]", NULL},
+    [FIELD_P] = {"p", "volScalarField", "[0 2 -2 0 0 0 0]", "zeroGradient"},
+    [FIELD_K] = {"k", "volScalarField", "[0 2 -2 0 0 0 0]", "kqRWallFunction"},
+    [FIELD_EPSILON] = {"epsilon", "volScalarField", "[0 2 -3 0 0 0 0]", "epsilonWallFunction"},
+    [FIELD_OMEGA] = {"omega", "volScalarField", "[0 0 -1 0 0 0 0]", "omegaWallFunction"},
+    [FIELD_NUT] = {"nut", "volScalarField", "[0 2 -1 0 0 0 0]", NULL},
+};
+
+// What the fields need to know.
+typedef struct {
+  const CwCase *table;
+  const CwAssembly *assembly;
+  CwTurbulence inlet, inside;
+  double outlet_velocity[3];
+  int moving; // transient: the mesh turns
+} Start;
+
+static void put_wall_velocity(FILE *out, const CwMeshPatch *patch, const Start *start) {
+  if (cw_patch_rotates(patch) && start->moving)
+    fprintf(out, "        type            movingWallVelocity;\n        value           uniform (0 0 0);\n");
+  else if (cw_patch_rotates(patch)) // MRF puts the velocity of the turning wall in its place
+    fprintf(out, "        type            fixedValue;\n        value           uniform (0 0 0);\n");
+  else
+    fprintf(out, "        type            noSlip;\n");
+}
+
+static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start) {
+  switch (patch->kind) {
+  case CW_KIND_WALL:
+    put_wall_velocity(out, patch, start);
+    break;
+  case CW_KIND_INLET:
+    fprintf(out, "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n");
+    break;
+  case CW_KIND_OUTLET:
+    fprintf(out,
+            "        type            flowRateOutletVelocity;\n        volumetricFlowRate constant %.9g;\n"
+            "        value           uniform (%.9g %.9g %.9g);\n",
+            start->table->operating_point.flow_rate, start->outlet_velocity[0], start->outlet_velocity[1],
+            start->outlet_velocity[2]);
+    break;
+  case CW_KIND_INTERFACE:
+    fprintf(out, "        type            cyclicAMI;\n        value           uniform (0 0 0);\n");
+  }
+}
+
+static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *start) {
+  const CwWalls *walls = &start->table->walls;
+  if (patch->kind != CW_KIND_WALL)
+    fprintf(out, "        type            %s;\n", patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
+  else if (cw_patch_y_plus(patch, walls) < CW_Y_PLUS_LAMINAR)
+    fprintf(out, "        type            nutUSpaldingWallFunction;\n");
+  else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
+    fprintf(out,
+            "        type            nutkRoughWallFunction;\n        Ks              uniform %.9g;\n"
+            "        Cs              uniform 0.5;\n",
+            walls->roughness);
+  else
+    fprintf(out, "        type            nutkWallFunction;\n");
+  fprintf(out, "        value           uniform 0;\n");
+}
+
+static void put_scalar(FILE *out, Field field, const CwMeshPatch *patch, double inlet, double inside) {
+  const char *type = "cyclicAMI";
+  double value = inside;
+  if (patch->kind == CW_KIND_WALL)
+    type = fields[field].wall;
+  if (patch->kind == CW_KIND_INLET || patch->kind == CW_KIND_OUTLET) {
+    type = "inletOutlet";
+    value = inlet;
+    if (field == FIELD_P)
+      type = patch->kind == CW_KIND_INLET ? "totalPressure" : "zeroGradient";
+  }
+  fprintf(out, "        type            %s;\n", type);
+  if (strcmp(type, "inletOutlet") == 0)
+    fprintf(out, "        inletValue      uniform %.9g;\n", value);
+  if (strcmp(type, "totalPressure") == 0)
+    fprintf(out, "        p0              uniform 0;\n");
+  if (strcmp(type, "zeroGradient") != 0)
+    fprintf(out, "        value           uniform %.9g;\n", value);
+}
+
+// Literal values throughout: readers of such files do not expand macros.
+static CwStatus write_field(const char *folder, Field field, const Start *start) {
+  CwStatus status = CW_OK;
+  char *path = NULL, *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  double inlet = 0, inside = 0;
+  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
+  if (field == FIELD_K)
+    inlet = start->inlet.k, inside = start->inside.k;
+  if (field == FIELD_EPSILON)
+    inlet = start->inlet.epsilon, inside = start->inside.epsilon;
+  if (field == FIELD_OMEGA)
+    inlet = start->inlet.omega, inside = start->inside.omega;
+  fprintf(out,
+          "// SPDX-License-Identifier: AGPL-3.0-or-later\nFoamFile\n{\n    version     2.0;\n    format      ascii;\n"
+          "    class       %s;\n    object      %s;\n}\n\ndimensions      %s;\ninternalField   uniform ",
+          fields[field].class, fields[field].name, fields[field].dimensions);
+  if (field == FIELD_U)
+    fprintf(out, "(0 0 0)");
+  else
+    fprintf(out, "%.9g", inside);
+  fprintf(out, ";\nboundaryField\n{\n");
+  for (int p = 0; p < start->assembly->mesh->patch_count; ++p) {
+    const CwMeshPatch *patch = &start->assembly->mesh->patches[p];
+    if (!patch_is_there(start->assembly, p))
+      continue;
+    fprintf(out, "    %s\n    {\n", patch->name);
+    if (field == FIELD_U)
+      put_velocity(out, patch, start);
+    else if (field == FIELD_NUT)
+      put_viscosity(out, patch, start);
+    else
+      put_scalar(out, field, patch, inlet, inside);
+    fprintf(out, "    }\n");
+  }
+  fprintf(out, "}\n");
+  CW_REQUIRE(fflush(out) == 0, CW_ERR_MEMORY, "out of memory");
+  CW_REQUIRE(asprintf(&path, "%s/%s", folder, fields[field].name) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_text_write(path, text, 0));
+done:
+  if (out)
+    fclose(out);
+  free(path);
+  free(text);
+  return status;
+}
+
+static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  const CwOperatingPoint *point = &table->operating_point;
+  const CwMesh *mesh = a->mesh;
+  int resolved = cw_walls_resolved(mesh, &table->walls);
+  const struct {
+    const char *key;
+    int domain;
+    CwPatchKind kind;
+  } ends[] = {{"inlet", CW_EXPORT_ROTOR, CW_KIND_INLET},
+              {"outlet", CW_EXPORT_STATOR, CW_KIND_OUTLET},
+              {"rotor_interface", CW_EXPORT_ROTOR, CW_KIND_INTERFACE},
+              {"stator_interface", CW_EXPORT_STATOR, CW_KIND_INTERFACE}};
+  for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i)
+    CW_TRY(cw_values_set(values, ends[i].key, "%s",
+                         mesh->patches[cw_mesh_patch_of_kind(mesh, ends[i].domain, ends[i].kind)].name));
+  CW_TRY(list_patches(a, cw_patch_rotates, values, "rotating_walls"));
+  CW_TRY(list_patches(a, is_rotor_and_fixed, values, "rotor_fixed_patches"));
+  CW_TRY(cw_values_set(values, "case", "%s", table->name));
+  CW_TRY(cw_values_set(values, "speed", "%.9g", point->speed));
+  CW_TRY(cw_values_set(values, "flow_rate", "%.9g", point->flow_rate));
+  CW_TRY(cw_values_set(values, "head", "%.9g", point->head));
+  CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", point->inlet_pressure));
+  CW_TRY(cw_values_set(values, "time_step", "%.9g", point->time_step_angle / point->speed));
+  CW_TRY(cw_values_set(values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
+  CW_TRY(cw_values_set(values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
+  CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
+  CW_TRY(cw_values_set(values, "viscosity", "%.9g", table->fluid.kinematic_viscosity));
+  CW_TRY(cw_values_set(values, "turbulence_model", "%s", resolved ? "kOmegaSST" : "kEpsilon"));
+  CW_TRY(cw_values_set(values, "dissipation", "%s", resolved ? "omega" : "epsilon"));
+  CW_TRY(cw_values_set(values, "report_interval", "10"));
+done:
+  return status;
+}
+
+CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+  CwStatus status = CW_OK;
+  CwValues values = {0};
+  char *start_folder = NULL;
+  const double intensity = 0.05;
+  // Mixing lengths: 7 % of the suction pipe's diameter, and of the width of the channels inside.
+  Start start = {.table = table,
+                 .assembly = a,
+                 .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
+                 .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
+  const CwPatchPart *outlet = &a->patches[cw_mesh_patch_of_kind(a->mesh, CW_EXPORT_STATOR, CW_KIND_OUTLET)];
+  for (int k = 0; k < 3; ++k)
+    start.outlet_velocity[k] =
+        table->operating_point.flow_rate * outlet->vector[k] / (outlet->area * outlet->area);
+  CW_TRY(set_values(table, a, &values));
+  CW_TRY(cw_templates_write("openfoam/", folder, &values));
+  for (start.moving = 0; start.moving < 2; ++start.moving) {
+    free(start_folder);
+    start_folder = NULL;
+    CW_REQUIRE(asprintf(&start_folder, "%s%s/0", folder, start.moving ? "/transient" : "") >= 0, CW_ERR_MEMORY,
+               "out of memory");
+    CW_TRY(cw_make_directory(start_folder));
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f)
+      CW_TRY(write_field(start_folder, (Field)f, &start));
+  }
+done:
+  free(start_folder);
+  cw_values_free(&values);
+  return status;
+}

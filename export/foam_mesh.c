@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/foam_mesh.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "export/cell.h"
+
+static const char *const file_names[CW_FOAM_FILES] = {"points", "faces", "owner", "neighbour"};
+static const char *const file_classes[CW_FOAM_FILES] = {"vectorField", "faceCompactList", "labelList",
+                                                        "labelList"};
+
+enum { HEADER_SIZE = 1000 };
+
+// The head of a binary file, up to the bracket before the first value.
+static int make_header(const CwFoamMesh *mesh, CwFoamFile f, char text[HEADER_SIZE]) {
+  int64_t counts[CW_FOAM_FILES] = {mesh->points, mesh->faces + 1, mesh->faces, mesh->inner_faces};
+  char note[200] = "";
+  if (f == CW_FOAM_OWNER || f == CW_FOAM_NEIGHBOUR)
+    snprintf(note, sizeof note,
+             "    note        \"nPoints:%lld  nCells:%lld  nFaces:%lld  nInternalFaces:%lld\";\n",
+             (long long)mesh->points, (long long)mesh->cells, (long long)mesh->faces, (long long)mesh->inner_faces);
+  return snprintf(text, HEADER_SIZE,
+                  "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       %s;\n%s"
+                  "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
+                  "    object      %s;\n}\n\n%lld\n(",
+                  file_classes[f], note, file_names[f], (long long)counts[f]);
+}
+
+CwStatus cw_foam_mesh_plan(const CwAssembly *a, const char *folder, CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  int64_t face = 0, label = 0;
+  char text[HEADER_SIZE];
+  mesh->assembly = a;
+  CW_REQUIRE((mesh->folder = strdup(folder)), CW_ERR_MEMORY, "out of memory");
+  CW_NEW(mesh->first_face, a->mesh->region_count);
+  CW_NEW(mesh->first_label, a->mesh->region_count);
+  CW_NEW(mesh->patch_face, a->mesh->patch_count);
+  CW_NEW(mesh->patch_label, a->mesh->patch_count);
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    mesh->points += a->totals[d].points;
+    mesh->cells += a->totals[d].cells;
+  }
+  for (int r = 0; r < a->mesh->region_count; ++r) {
+    const CwRegionPlace *place = &a->places[r];
+    int64_t triangles = place->inner_triangles + place->outer_triangles;
+    int64_t quads = place->inner_quads + place->outer_quads;
+    mesh->first_face[r] = face;
+    mesh->first_label[r] = label;
+    face += triangles + quads;
+    label += 3 * triangles + 4 * quads;
+  }
+  mesh->inner_faces = face;
+  for (int p = 0; p < a->mesh->patch_count; ++p) {
+    mesh->patch_face[p] = face;
+    mesh->patch_label[p] = label;
+    face += a->patches[p].triangles + a->patches[p].quads;
+    label += 3 * a->patches[p].triangles + 4 * a->patches[p].quads;
+  }
+  mesh->faces = face;
+  mesh->labels = label;
+  CW_REQUIRE(label <= INT32_MAX && mesh->points <= INT32_MAX, CW_ERR_EXPORT,
+             "%lld face corners and %lld points; OpenFOAM with 32-bit labels allows %d", (long long)label,
+             (long long)mesh->points, INT32_MAX);
+  for (int f = 0; f < CW_FOAM_FILES; ++f)
+    mesh->start[f] = make_header(mesh, (CwFoamFile)f, text);
+  // ")\n\nCOUNT\n(" stands between the offsets and the labels.
+  mesh->label_start = mesh->start[CW_FOAM_FACES] + 4 * (mesh->faces + 1) +
+                      snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)mesh->labels);
+done:
+  return status;
+}
+
+static CwStatus put(const CwFoamMesh *mesh, CwFoamFile f, const void *bytes, int64_t count, int64_t at) {
+  CwStatus status = CW_OK;
+  const char *from = bytes;
+  while (count > 0) {
+    ssize_t done_now = pwrite(mesh->file[f], from, (size_t)(count > 1 << 30 ? 1 << 30 : count), at);
+    if (done_now < 0 && errno == EINTR)
+      continue;
+    CW_REQUIRE(done_now > 0, CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f],
+               strerror(errno));
+    from += done_now;
+    at += done_now;
+    count -= done_now;
+  }
+done:
+  return status;
+}
+
+static CwStatus open_file(CwFoamMesh *mesh, int f, int flags) {
+  CwStatus status = CW_OK;
+  char *path = NULL;
+  CW_REQUIRE(asprintf(&path, "%s/%s", mesh->folder, file_names[f]) >= 0, CW_ERR_MEMORY, "out of memory");
+  int descriptor = open(path, O_WRONLY | O_CLOEXEC | flags, 0666);
+  CW_REQUIRE(descriptor > 0, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  mesh->file[f] = descriptor;
+done:
+  free(path);
+  return status;
+}
+
+CwStatus cw_foam_mesh_open(CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  for (int f = 0; f < CW_FOAM_FILES; ++f)
+    if (!mesh->file[f])
+      CW_TRY(open_file(mesh, f, 0));
+done:
+  return status;
+}
+
+CwStatus cw_foam_mesh_close(CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  for (int f = 0; f < CW_FOAM_FILES; ++f)
+    if (mesh->file[f] && close(mesh->file[f]) != 0 && status == CW_OK)
+      status = CW_FAIL(CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f], strerror(errno));
+  free(mesh->folder);
+  free(mesh->first_face);
+  free(mesh->first_label);
+  free(mesh->patch_face);
+  free(mesh->patch_label);
+  memset(mesh, 0, sizeof *mesh);
+  return status;
+}
+
+static CwStatus write_boundary(const CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  const CwMesh *input = mesh->assembly->mesh;
+  FILE *out = NULL;
+  char *path = NULL;
+  int present = 0;
+  CW_REQUIRE(asprintf(&path, "%s/boundary", mesh->folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  out = fopen(path, "w");
+  CW_REQUIRE(out, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  for (int p = 0; p < input->patch_count; ++p)
+    present += mesh->assembly->patches[p].triangles + mesh->assembly->patches[p].quads > 0;
+  fprintf(out,
+          "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       polyBoundaryMesh;\n"
+          "    location    \"constant/polyMesh\";\n    object      boundary;\n}\n\n%d\n(\n",
+          present);
+  for (int p = 0; p < input->patch_count; ++p) {
+    const CwMeshPatch *patch = &input->patches[p];
+    int64_t count = mesh->assembly->patches[p].triangles + mesh->assembly->patches[p].quads;
+    if (count == 0)
+      continue;
+    fprintf(out, "    %s\n    {\n", patch->name);
+    if (patch->kind == CW_KIND_INTERFACE)
+      fprintf(out,
+              "        type            cyclicAMI;\n        inGroups        1(cyclicAMI);\n"
+              "        matchTolerance  0.0001;\n        transform       noOrdering;\n"
+              "        neighbourPatch  %s;\n        lowWeightCorrection 0.2;\n",
+              input->patches[cw_mesh_patch_of_kind(input, 1 - patch->domain, CW_KIND_INTERFACE)].name);
+    else if (patch->kind == CW_KIND_WALL)
+      fprintf(out, "        type            wall;\n        inGroups        1(wall);\n");
+    else
+      fprintf(out, "        type            patch;\n");
+    fprintf(out, "        nFaces          %lld;\n        startFace       %lld;\n    }\n", (long long)count,
+            (long long)mesh->patch_face[p]);
+  }
+  fprintf(out, ")\n");
+  CW_REQUIRE(!ferror(out), CW_ERR_IO, "%s: cannot be written", path);
+done:
+  if (out && fclose(out) != 0 && status == CW_OK)
+    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  free(path);
+  return status;
+}
+
+// The cells of each domain are one run of numbers.
+static CwStatus write_zones(const CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  FILE *out = NULL;
+  char *path = NULL;
+  int32_t cell = 0;
+  CW_REQUIRE(asprintf(&path, "%s/cellZones", mesh->folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  out = fopen(path, "wb");
+  CW_REQUIRE(out, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  fprintf(out, "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       regIOobject;\n"
+               "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
+               "    object      cellZones;\n}\n\n2\n(\n");
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    int64_t count = mesh->assembly->totals[d].cells;
+    fprintf(out, "%s\n{\n    type            cellZone;\n    cellLabels      List<label>\n%lld\n(",
+            mesh->assembly->mesh->domains[d].name, (long long)count);
+    for (int64_t i = 0; i < count; ++i, ++cell)
+      fwrite(&cell, sizeof cell, 1, out);
+    fprintf(out, ");\n}\n");
+  }
+  fprintf(out, ")\n");
+  CW_REQUIRE(!ferror(out), CW_ERR_IO, "%s: cannot be written", path);
+done:
+  if (out && fclose(out) != 0 && status == CW_OK)
+    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  free(path);
+  return status;
+}
+
+CwStatus cw_foam_mesh_create(CwFoamMesh *mesh) {
+  CwStatus status = CW_OK;
+  const CwAssembly *a = mesh->assembly;
+  char text[HEADER_SIZE];
+  int32_t end = (int32_t)mesh->labels;
+  for (int f = 0; f < CW_FOAM_FILES; ++f) {
+    CW_TRY(open_file(mesh, f, O_CREAT | O_TRUNC));
+    CW_TRY(put(mesh, (CwFoamFile)f, text, make_header(mesh, (CwFoamFile)f, text), 0));
+  }
+  CW_TRY(put(mesh, CW_FOAM_POINTS, ")\n", 2, mesh->start[CW_FOAM_POINTS] + 24 * mesh->points));
+  CW_TRY(put(mesh, CW_FOAM_OWNER, ")\n", 2, mesh->start[CW_FOAM_OWNER] + 4 * mesh->faces));
+  CW_TRY(put(mesh, CW_FOAM_NEIGHBOUR, ")\n", 2, mesh->start[CW_FOAM_NEIGHBOUR] + 4 * mesh->inner_faces));
+  CW_TRY(put(mesh, CW_FOAM_FACES, &end, 4, mesh->start[CW_FOAM_FACES] + 4 * mesh->faces));
+  int length = snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)mesh->labels);
+  CW_TRY(put(mesh, CW_FOAM_FACES, text, length, mesh->label_start - length));
+  CW_TRY(put(mesh, CW_FOAM_FACES, ")\n", 2, mesh->label_start + 4 * mesh->labels));
+  for (int d = 0, before = 0; d < CW_EXPORT_DOMAINS; before += (int)a->totals[d++].points)
+    CW_TRY(put(mesh, CW_FOAM_POINTS, a->shared[d], 24 * a->mesh->domains[d].shared_points,
+               mesh->start[CW_FOAM_POINTS] + 24 * (int64_t)before));
+  CW_TRY(write_boundary(mesh));
+  CW_TRY(write_zones(mesh));
+done:
+  return status;
+}
+
+// A stretch of faces in memory.
+typedef struct {
+  int32_t *offsets, *labels, *owners, *neighbours;
+  int64_t faces, labels_used, first_label;
+} Stretch;
+
+static CwStatus stretch_new(int64_t triangles, int64_t quads, int64_t first_label, Stretch *s) {
+  CwStatus status = CW_OK;
+  *s = (Stretch){.first_label = first_label};
+  CW_NEW(s->offsets, triangles + quads);
+  CW_NEW(s->owners, triangles + quads);
+  CW_NEW(s->neighbours, triangles + quads);
+  CW_NEW(s->labels, 3 * triangles + 4 * quads);
+done:
+  return status;
+}
+
+static void stretch_free(Stretch *s) {
+  free(s->offsets);
+  free(s->owners);
+  free(s->neighbours);
+  free(s->labels);
+  memset(s, 0, sizeof *s);
+}
+
+static void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data, int32_t cell,
+                        int face, int64_t neighbour) {
+  const CwAssembly *a = mesh->assembly;
+  int64_t points_before = data->domain ? a->totals[0].points : 0;
+  int32_t nodes[4];
+  int count = cw_cell_face(data, cell, face, nodes);
+  s->offsets[s->faces] = (int32_t)(s->first_label + s->labels_used);
+  s->owners[s->faces] = (int32_t)(a->places[region].cell + cell);
+  s->neighbours[s->faces++] = (int32_t)neighbour;
+  for (int i = 0; i < count; ++i)
+    s->labels[s->labels_used++] = (int32_t)(points_before + cw_point_number(a, region, data, nodes[i]));
+}
+
+static CwStatus stretch_write(const Stretch *s, const CwFoamMesh *mesh, int64_t first_face, int is_inner) {
+  CwStatus status = CW_OK;
+  CW_TRY(put(mesh, CW_FOAM_FACES, s->offsets, 4 * s->faces, mesh->start[CW_FOAM_FACES] + 4 * first_face));
+  CW_TRY(put(mesh, CW_FOAM_FACES, s->labels, 4 * s->labels_used, mesh->label_start + 4 * s->first_label));
+  CW_TRY(put(mesh, CW_FOAM_OWNER, s->owners, 4 * s->faces, mesh->start[CW_FOAM_OWNER] + 4 * first_face));
+  if (is_inner)
+    CW_TRY(put(mesh, CW_FOAM_NEIGHBOUR, s->neighbours, 4 * s->faces,
+               mesh->start[CW_FOAM_NEIGHBOUR] + 4 * first_face));
+done:
+  return status;
+}
+
+static CwStatus write_inner_faces(const CwFoamMesh *mesh, int region, const CwRegionData *data,
+                                  const CwRegionFaces *faces) {
+  CwStatus status = CW_OK;
+  Stretch s = {0};
+  const CwRegionPlace *place = &mesh->assembly->places[region];
+  int64_t open = place->open;
+  CW_TRY(stretch_new(place->inner_triangles + place->outer_triangles, place->inner_quads + place->outer_quads,
+                     mesh->first_label[region], &s));
+  for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
+    // The faces to cells of larger numbers, in the order of those numbers.
+    int64_t other[CW_CELL_FACES];
+    int face[CW_CELL_FACES], count = 0;
+    for (int f = 0; f < CW_CELL_FACES; ++f) {
+      int32_t across = faces->across[CW_CELL_FACES * cell + f];
+      int64_t number = across >= 0 ? place->cell + across : -1;
+      if (across == CW_ACROSS_OPEN)
+        number = mesh->assembly->across[open++];
+      if (number <= place->cell + cell)
+        continue;
+      int at = count++;
+      for (; at > 0 && other[at - 1] > number; --at) {
+        other[at] = other[at - 1];
+        face[at] = face[at - 1];
+      }
+      other[at] = number;
+      face[at] = f;
+    }
+    for (int i = 0; i < count; ++i)
+      stretch_add(&s, mesh, region, data, cell, face[i], other[i]);
+  }
+  CW_TRY(stretch_write(&s, mesh, mesh->first_face[region], 1));
+done:
+  stretch_free(&s);
+  return status;
+}
+
+static CwStatus write_patch_faces(const CwFoamMesh *mesh, int region, const CwRegionData *data,
+                                  const CwRegionFaces *faces, int patch) {
+  CwStatus status = CW_OK;
+  Stretch s = {0};
+  const CwAssembly *a = mesh->assembly;
+  const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
+  int local = patch - a->mesh->domains[data->domain].first_patch;
+  if (part->triangles + part->quads == 0)
+    goto done;
+  CW_TRY(stretch_new(part->triangles, part->quads,
+                     mesh->patch_label[patch] + 3 * part->triangle + 4 * part->quad, &s));
+  for (int32_t i = 0; i < data->triangle_count; ++i)
+    if (data->triangle_patch[i] == local)
+      stretch_add(&s, mesh, region, data, faces->triangle_face[i] / CW_CELL_FACES,
+                  faces->triangle_face[i] % CW_CELL_FACES, -1);
+  for (int32_t i = 0; i < data->quad_count; ++i)
+    if (data->quad_patch[i] == local)
+      stretch_add(&s, mesh, region, data, faces->quad_face[i] / CW_CELL_FACES,
+                  faces->quad_face[i] % CW_CELL_FACES, -1);
+  CW_TRY(stretch_write(&s, mesh, mesh->patch_face[patch] + part->triangle + part->quad, 0));
+done:
+  stretch_free(&s);
+  return status;
+}
+
+CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwRegionData *data,
+                                   const CwRegionFaces *faces) {
+  CwStatus status = CW_OK;
+  const CwAssembly *a = mesh->assembly;
+  const CwMeshDomain *domain = &a->mesh->domains[data->domain];
+  int64_t first_point = (data->domain ? a->totals[0].points : 0) + a->places[region].own_point;
+  CW_TRY(put(mesh, CW_FOAM_POINTS, data->points + data->shared_count,
+             24 * (int64_t)(data->point_count - data->shared_count),
+             mesh->start[CW_FOAM_POINTS] + 24 * first_point));
+  CW_TRY(write_inner_faces(mesh, region, data, faces));
+  for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p)
+    CW_TRY(write_patch_faces(mesh, region, data, faces, p));
+done:
+  return status;
+}

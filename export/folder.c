@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/folder.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)info;
+  (void)kind;
+  (void)place;
+  return remove(path);
+}
+
+CwStatus cw_folder_remove(const char *path) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS) == 0 || errno == ENOENT, CW_ERR_IO,
+             "%s: cannot be removed: %s", path, strerror(errno));
+done:
+  return status;
+}
+
+CwStatus cw_folder_replace(const char *from, const char *to) {
+  CwStatus status = CW_OK;
+  char *old = NULL;
+  CW_REQUIRE(asprintf(&old, "%s.old", to) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_folder_remove(old));
+  CW_REQUIRE(rename(to, old) == 0 || errno == ENOENT, CW_ERR_IO, "%s: cannot be moved aside: %s", to,
+             strerror(errno));
+  CW_REQUIRE(rename(from, to) == 0, CW_ERR_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));
+  CW_TRY(cw_folder_remove(old));
+done:
+  free(old);
+  return status;
+}

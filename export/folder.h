@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Folders that appear whole or not at all.
+#ifndef CUTWATER_EXPORT_FOLDER_H
+#define CUTWATER_EXPORT_FOLDER_H
+
+#include "pipeline/status.h"
+
+// Removes a folder and what it holds; fine where there is none. CW_ERR_IO.
+CwStatus cw_folder_remove(const char *path);
+
+// Puts the folder or file `from` in the place of `to`, whatever was there before. CW_ERR_IO.
+CwStatus cw_folder_replace(const char *from, const char *to);
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// cutwater-export: `mpirun -n RANKS cutwater-export --case FILE --run DIR`.
+#include <hdf5.h>
+#include <mpi.h>
+
+#include "export/stage.h"
+#include "pipeline/log.h"
+#include "pipeline/stage_args.h"
+
+int main(int argc, char **argv) {
+  CwStatus status = CW_OK;
+  static const CwStageUsage usage = {
+      .stage = "export",
+      .summary = "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
+                 "Runs under mpirun with any number of ranks; what it writes is the same for all.\n"};
+  CwStageArgs args = {0};
+  CwCase table;
+  CwRanks ranks = {.comm = MPI_COMM_WORLD};
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(ranks.comm, &ranks.rank);
+  MPI_Comm_size(ranks.comm, &ranks.size);
+  CW_TRY(cw_ranks_agree(&ranks, cw_stage_begin(argc, argv, &usage, ranks.rank == 0, &args, &table)));
+  if (!args.finished)
+    CW_TRY(cw_export_run(&table, args.run_path, &ranks));
+done:;
+  int speaks = cw_ranks_speaks_of(&ranks, status);
+  int code = status == CW_OK ? 0 : speaks ? cw_log_error(status) : (int)status;
+  // All ranks end with the same code: mpirun passes on the first one it sees.
+  MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, ranks.comm);
+  cw_log_close();
+  H5close();
+  MPI_Finalize();
+  return code;
+}

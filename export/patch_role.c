@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/patch_role.h"
+
+#include <string.h>
+
+int cw_patch_rotates(const CwMeshPatch *patch) {
+  return patch->domain == CW_EXPORT_ROTOR && patch->kind == CW_KIND_WALL && strcmp(patch->name, "suction_pipe") != 0;
+}
+
+double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
+  if (strncmp(patch->name, "blade", 5) == 0)
+    return walls->y_plus_blade;
+  if (cw_patch_rotates(patch))
+    return walls->y_plus_hub_shroud;
+  if (patch->domain == CW_EXPORT_ROTOR || strcmp(patch->name, "discharge") == 0)
+    return walls->y_plus_pipe;
+  return walls->y_plus_volute;
+}
+
+int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls) {
+  for (int p = 0; p < mesh->patch_count; ++p)
+    if (mesh->patches[p].kind == CW_KIND_WALL && cw_patch_y_plus(&mesh->patches[p], walls) < CW_Y_PLUS_LAMINAR)
+      return 1;
+  return 0;
+}

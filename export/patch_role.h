@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What a patch is for a solver, beyond its kind: whether it turns, and how its wall is treated.
+#ifndef CUTWATER_EXPORT_PATCH_ROLE_H
+#define CUTWATER_EXPORT_PATCH_ROLE_H
+
+#include "export/mesh_input.h"
+#include "pipeline/case.h"
+
+// y+ from which the first cell counts as in the log layer: where the laws of the viscous sublayer and the log layer
+// meet, y+ = ln(9.8 y+)/0.41.
+#define CW_Y_PLUS_LAMINAR 11.225
+
+// A wall that turns with the impeller: the walls of the rotor but for the suction pipe.
+int cw_patch_rotates(const CwMeshPatch *patch);
+
+// The y+ target of the case for the patch, as the mesher applies it.
+double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls);
+
+// Whether any wall is to be resolved down to the viscous sublayer.
+int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls);
+
+#endif

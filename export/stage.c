@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/stage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "export/cfx_case.h"
+#include "export/cgns_file.h"
+#include "export/design_input.h"
+#include "export/foam_case.h"
+#include "export/foam_mesh.h"
+#include "export/folder.h"
+#include "export/interface.h"
+#include "pipeline/atomic_file.h"
+#include "pipeline/log.h"
+#include "pipeline/record.h"
+
+// Everything is made in one folder next to the final places, and moved out of it at the end.
+typedef struct {
+  char *folder, *part; // RUN/export, RUN/export/.part
+  char *cgns, *foam, *foam_mesh, *cfx;
+} Paths;
+
+static void paths_free(Paths *p) {
+  free(p->folder);
+  free(p->part);
+  free(p->cgns);
+  free(p->foam);
+  free(p->foam_mesh);
+  free(p->cfx);
+}
+
+static CwStatus join(const char *folder, const char *name, char **path) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(asprintf(path, "%s/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
+done:
+  return status;
+}
+
+static CwStatus paths_make(const char *run, Paths *p) {
+  CwStatus status = CW_OK;
+  CW_TRY(join(run, "export", &p->folder));
+  CW_TRY(join(p->folder, ".part", &p->part));
+  CW_TRY(join(p->part, "pump.cgns", &p->cgns));
+  CW_TRY(join(p->part, "openfoam", &p->foam));
+  CW_TRY(join(p->foam, "constant/polyMesh", &p->foam_mesh));
+  CW_TRY(join(p->part, "cfx", &p->cfx));
+done:
+  return status;
+}
+
+// What rank 0 does alone before the regions are written.
+static CwStatus begin_files(const CwCase *table, const CwDesign *design, const CwAssembly *assembly,
+                            CwInterface *interface, const Paths *paths, CwFoamMesh *foam) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_interface_make(assembly, design->interface_radius, interface));
+  CW_TRY(cw_folder_remove(paths->part));
+  CW_TRY(cw_make_directory(paths->foam_mesh));
+  CW_TRY(cw_make_directory(paths->cfx));
+  CW_TRY(cw_cgns_tree_write(paths->cgns, assembly, interface, table));
+  CW_TRY(cw_foam_mesh_create(foam));
+  CW_TRY(cw_foam_case_write(paths->foam, table, design, assembly));
+  CW_TRY(cw_cfx_case_write(paths->cfx, table, assembly->mesh));
+done:
+  return status;
+}
+
+static CwStatus write_region(const CwAssembly *assembly, int region, hid_t cgns, const CwFoamMesh *foam) {
+  CwStatus status = CW_OK;
+  CwRegionData data = {0};
+  CwRegionFaces faces = {0};
+  CW_TRY(cw_region_read(assembly->mesh, region, &data));
+  CW_TRY(cw_cgns_write_region(cgns, assembly, region, &data));
+  CW_TRY(cw_region_faces(assembly->mesh, region, &data, &faces));
+  CW_TRY(cw_foam_mesh_write_region(foam, region, &data, &faces));
+done:
+  cw_region_faces_free(&faces);
+  cw_region_free(&data);
+  return status;
+}
+
+// The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is collective.
+static CwStatus write_regions(const CwAssembly *assembly, const CwRanks *ranks, const Paths *paths,
+                              CwFoamMesh *foam) {
+  CwStatus status = CW_OK, closed;
+  hid_t cgns = -1;
+  status = cw_cgns_open(paths->cgns, ranks, &cgns);
+  if (status == CW_OK)
+    status = cw_foam_mesh_open(foam);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  if (ranks->rank == 0)
+    status = cw_cgns_write_shared(cgns, assembly);
+  cw_progress_start("write the mesh", assembly->mesh->region_count, "regions");
+  for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
+    if (cw_ranks_own(ranks, r))
+      status = write_region(assembly, r, cgns, foam);
+    cw_progress(r + 1);
+  }
+  cw_progress_end();
+done:
+  if (cgns >= 0) {
+    closed = cw_cgns_close(cgns);
+    status = status == CW_OK ? closed : status;
+  }
+  closed = cw_foam_mesh_close(foam);
+  return cw_ranks_agree(ranks, status == CW_OK ? closed : status);
+}
+
+static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
+  json_t *patches = json_array();
+  for (int p = 0; p < a->mesh->patch_count; ++p) {
+    const CwPatchPart *sum = &a->patches[p];
+    json_array_append_new(patches, json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name, "domain",
+                                             a->mesh->domains[a->mesh->patches[p].domain].name, "triangles",
+                                             (json_int_t)sum->triangles, "quads", (json_int_t)sum->quads, "area_m2",
+                                             sum->area));
+  }
+  return cw_record_json(record, "patches", patches);
+}
+
+static CwStatus record_results(const CwAssembly *a, const CwInterface *interface, CwRecord *record) {
+  CwStatus status = CW_OK;
+  int64_t cells = 0;
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    const CwDomainTotal *t = &a->totals[d];
+    cells += t->cells;
+    CW_TRY(cw_record_json(
+        record, a->mesh->domains[d].name,
+        json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f}", "points", (json_int_t)t->points, "tetrahedra",
+                  (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids, "prisms", (json_int_t)t->prisms,
+                  "volume_m3", t->volume, "solid_volume_m3", a->mesh->domains[d].solid_volume,
+                  "least_cell_volume_m3", t->least_volume)));
+  }
+  CW_TRY(cw_record_integer(record, "cells", cells));
+  CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
+  CW_TRY(cw_record_number(record, "interface_area_rotor_m2", interface->sides[CW_EXPORT_ROTOR].area));
+  CW_TRY(cw_record_number(record, "interface_area_stator_m2", interface->sides[CW_EXPORT_STATOR].area));
+  CW_TRY(record_patches(a, record));
+done:
+  return status;
+}
+
+// Worth a word, though the mesh can be used.
+static void warn(const CwAssembly *a, const CwInterface *interface) {
+  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+    double solid = a->mesh->domains[d].solid_volume, off = a->totals[d].volume / solid - 1;
+    if (fabs(off) > 0.02)
+      cw_log_warn("domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%", a->mesh->domains[d].name,
+                  a->totals[d].volume, solid, 100 * off);
+  }
+  double ratio = interface->sides[0].area / interface->sides[1].area;
+  if (fabs(ratio - 1) > 0.02)
+    cw_log_warn("the interface has %.6g mm2 on the rotor and %.6g mm2 on the stator", 1e6 * interface->sides[0].area,
+                1e6 * interface->sides[1].area);
+  for (int p = 0; p < a->mesh->patch_count; ++p)
+    if (a->patches[p].triangles + a->patches[p].quads == 0)
+      cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
+}
+
+static CwStatus finish_files(const Paths *paths) {
+  CwStatus status = CW_OK;
+  static const char *const names[] = {"pump.cgns", "openfoam", "cfx"};
+  char *from = NULL, *to = NULL;
+  for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+    CW_TRY(join(paths->part, names[i], &from));
+    CW_TRY(join(paths->folder, names[i], &to));
+    CW_TRY(cw_folder_replace(from, to));
+    free(from);
+    free(to);
+    from = to = NULL;
+  }
+  CW_TRY(cw_folder_remove(paths->part));
+done:
+  free(from);
+  free(to);
+  return status;
+}
+
+CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *ranks) {
+  CwStatus status = CW_OK;
+  Paths paths = {0};
+  CwMesh mesh = {0};
+  CwDesign design = {0};
+  CwAssembly assembly = {0};
+  CwInterface interface = {0};
+  CwFoamMesh foam = {0};
+  CwRecord *record = NULL;
+  char *path = NULL;
+  double start = cw_seconds(), checked = 0, planned = 0, written = 0;
+  CW_TRY(paths_make(run, &paths));
+  CW_TRY(cw_record_start("export", &record));
+  CW_TRY(join(run, "geometry/design.json", &path));
+  status = cw_design_read(path, &design);
+  if (status == CW_OK)
+    status = cw_mesh_manifest_read(run, &mesh);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
+  checked = cw_seconds();
+  status = cw_foam_mesh_plan(&assembly, paths.foam_mesh, &foam);
+  if (status == CW_OK && ranks->rank == 0)
+    status = begin_files(table, &design, &assembly, &interface, &paths, &foam);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  planned = cw_seconds();
+  CW_TRY(write_regions(&assembly, ranks, &paths, &foam));
+  written = cw_seconds();
+  int64_t memory = cw_peak_memory_bytes(), cells = assembly.totals[0].cells + assembly.totals[1].cells;
+  MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
+  if (ranks->rank == 0) {
+    warn(&assembly, &interface);
+    CW_TRY(cw_record_step(record, "check the mesh", checked - start, cells, "cells"));
+    CW_TRY(cw_record_step(record, "interface and tree", planned - checked,
+                          interface.count[0] + interface.count[1], "faces"));
+    CW_TRY(cw_record_step(record, "write the mesh", written - planned, cells, "cells"));
+    CW_TRY(record_results(&assembly, &interface, record));
+    CW_TRY(cw_record_integer(record, "ranks", ranks->size));
+    cw_record_set_peak_memory(record, memory);
+    CW_TRY(finish_files(&paths));
+    free(path);
+    path = NULL;
+    CW_TRY(join(paths.folder, "record.json", &path));
+    CW_TRY(cw_record_write(record, path));
+    cw_log("%lld cells written to %s in %.1f s", (long long)cells, paths.folder, cw_seconds() - start);
+  }
+done:
+  if (status != CW_OK && ranks->rank == 0 && paths.part) {
+    // Keeps the message of the failure: removing a folder that is not there is none.
+    cw_folder_remove(paths.part);
+    rmdir(paths.folder); // only if nothing is in it
+  }
+  cw_foam_mesh_close(&foam);
+  cw_interface_free(&interface);
+  cw_assembly_free(&assembly);
+  cw_mesh_free(&mesh);
+  cw_record_free(record);
+  paths_free(&paths);
+  free(path);
+  return cw_ranks_agree(ranks, status);
+}

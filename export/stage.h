@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The export stage: a meshed run in, RUN/export with pump.cgns, openfoam/, cfx/ and record.json out.
+#ifndef CUTWATER_EXPORT_STAGE_H
+#define CUTWATER_EXPORT_STAGE_H
+
+#include "export/ranks.h"
+#include "pipeline/case.h"
+
+// Collective. What it writes takes its final name only when all of it is whole; on failure nothing stays behind.
+CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *ranks);
+
+#endif

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "export/template.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "pipeline/atomic_file.h"
+
+CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ...) {
+  CwStatus status = CW_OK;
+  va_list arguments;
+  CwValue *grown = realloc(values->list, (size_t)(values->count + 1) * sizeof *grown);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory");
+  values->list = grown;
+  grown[values->count] = (CwValue){0};
+  CW_REQUIRE((grown[values->count].key = strdup(key)), CW_ERR_MEMORY, "out of memory");
+  va_start(arguments, format);
+  int length = vasprintf(&grown[values->count].value, format, arguments);
+  va_end(arguments);
+  if (length < 0)
+    free(grown[values->count].key);
+  CW_REQUIRE(length >= 0, CW_ERR_MEMORY, "out of memory");
+  ++values->count;
+done:
+  return status;
+}
+
+void cw_values_free(CwValues *values) {
+  for (int i = 0; i < values->count; ++i) {
+    free(values->list[i].key);
+    free(values->list[i].value);
+  }
+  free(values->list);
+  memset(values, 0, sizeof *values);
+}
+
+static const char *find_value(const CwValues *values, const char *key, size_t length) {
+  for (int i = 0; i < values->count; ++i)
+    if (strlen(values->list[i].key) == length && strncmp(values->list[i].key, key, length) == 0)
+      return values->list[i].value;
+  return NULL;
+}
+
+CwStatus cw_template_fill(const char *name, const char *text, const CwValues *values, char **filled) {
+  CwStatus status = CW_OK;
+  size_t size = 0;
+  FILE *out = open_memstream(filled, &size);
+  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
+  while (*text) {
+    size_t length = 0;
+    if (*text == '@')
+      while (islower((unsigned char)text[1 + length]) || text[1 + length] == '_')
+        ++length;
+    if (length == 0 || text[1 + length] != '@') {
+      fputc(*text++, out);
+      continue;
+    }
+    const char *value = find_value(values, text + 1, length);
+    CW_REQUIRE(value, CW_ERR_EXPORT, "%s: no value for @%.*s@", name, (int)length, text + 1);
+    fputs(value, out);
+    text += length + 2;
+  }
+done:
+  if (out && fclose(out) != 0 && status == CW_OK)
+    status = CW_FAIL(CW_ERR_MEMORY, "out of memory");
+  if (status != CW_OK && out) {
+    free(*filled);
+    *filled = NULL;
+  }
+  return status;
+}
+
+CwStatus cw_text_write(const char *path, const char *text, int executable) {
+  CwStatus status = CW_OK;
+  FILE *out = fopen(path, "w");
+  CW_REQUIRE(out, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  fputs(text, out);
+  int failed = ferror(out);
+  failed |= fclose(out);
+  CW_REQUIRE(!failed && (!executable || chmod(path, 0755) == 0), CW_ERR_IO, "%s: cannot be written: %s", path,
+             strerror(errno));
+done:
+  return status;
+}
+
+CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValues *values) {
+  CwStatus status = CW_OK;
+  char *path = NULL, *text = NULL;
+  for (int i = 0; i < cw_template_count; ++i) {
+    const CwTemplate *t = &cw_templates[i];
+    if (strncmp(t->path, prefix, strlen(prefix)) != 0)
+      continue;
+    CW_REQUIRE(asprintf(&path, "%s/%s", folder, t->path + strlen(prefix)) >= 0, CW_ERR_MEMORY, "out of memory");
+    char *slash = strrchr(path, '/');
+    *slash = '\0';
+    CW_TRY(cw_make_directory(path));
+    *slash = '/';
+    CW_TRY(cw_template_fill(t->path, t->text, values, &text));
+    CW_TRY(cw_text_write(path, text, t->executable));
+    free(path);
+    free(text);
+    path = text = NULL;
+  }
+done:
+  free(path);
+  free(text);
+  return status;
+}

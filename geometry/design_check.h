@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Compares a design with the usual correlations and limits, and says where they disagree. Nothing here is an error: the
+// case's table is the law.
+#ifndef CUTWATER_GEOMETRY_DESIGN_CHECK_H
+#define CUTWATER_GEOMETRY_DESIGN_CHECK_H
+
+#include "geometry/hydraulic_design.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_DESIGN_REMARK_LIMIT = 16 };
+
+typedef struct {
+  int count;
+  char text[CW_DESIGN_REMARK_LIMIT][200]; // one line each
+} CwDesignRemarks;
+
+void cw_design_check(const CwDesign *design, CwDesignRemarks *remarks);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tests/export/synthetic_run.h"
+
+#include <hdf5.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+typedef struct {
+  const char *name, *kind;
+} Patch;
+
+static const Patch rotor_patches[] = {
+    {"inlet", "inlet"},          {"suction_pipe", "wall"},   {"hub", "wall"},
+    {"hub_nut", "wall"},         {"shroud", "wall"},         {"blade_pressure", "wall"},
+    {"blade_suction", "wall"},   {"blade_leading_edge", "wall"}, {"blade_trailing_edge", "wall"},
+    {"rotor_interface", "interface"}};
+static const Patch stator_patches[] = {{"stator_interface", "interface"}, {"neck", "wall"},     {"step", "wall"},
+                                       {"volute", "wall"},                {"tongue", "wall"},   {"diffuser", "wall"},
+                                       {"discharge", "wall"},             {"outlet", "outlet"}};
+
+// A domain while it is written.
+typedef struct {
+  const SyntheticPump *pump;
+  const SyntheticAnnulus *annulus;
+  const char *name;
+  const Patch *patches;
+  int patch_count, is_rotor;
+  int node_count;
+  int *shared; // by node: shared number or -1
+  int shared_count;
+  double volume;
+} Domain;
+
+typedef struct {
+  double (*points)[3];
+  int64_t *shared_id;
+  int32_t (*tetrahedra)[4], (*prisms)[6], (*triangles)[3], (*quads)[4];
+  int32_t *triangle_patch, *triangle_cell, *quad_patch, *quad_cell;
+  int point_count, shared_count, tetrahedron_count, prism_count, triangle_count, quad_count;
+  int *local; // by node: place in the region or -1
+} Region;
+
+SyntheticPump synthetic_pump(void) {
+  return (SyntheticPump){.bottom = -4e-3,
+                         .top = 4e-3,
+                         .rotor = {.inner = 0.05, .outer = 0.101, .radial = 8, .around = 72, .axial = 4, .regions = 3},
+                         .stator = {.inner = 0.101, .outer = 0.13, .radial = 6, .around = 90, .axial = 5, .regions = 2},
+                         .blades = 6};
+}
+
+static int node_at(const Domain *d, int i, int j, int k) {
+  const SyntheticAnnulus *a = d->annulus;
+  int around = (j % a->around + a->around) % a->around;
+  return (k * a->around + around) * (a->radial + 1) + i;
+}
+
+static void place(const Domain *d, int node, double x[3]) {
+  const SyntheticAnnulus *a = d->annulus;
+  int i = node % (a->radial + 1), j = node / (a->radial + 1) % a->around, k = node / (a->radial + 1) / a->around;
+  double r = a->inner + (a->outer - a->inner) * i / a->radial;
+  double angle = 2 * M_PI * j / a->around + (d->is_rotor ? 0 : 0.013);
+  double height = d->pump->top - d->pump->bottom, skin = 0.1 * height;
+  double z = k == 0 ? 0 : k == a->axial ? height : skin + (height - 2 * skin) * (k - 1) / (a->axial - 2);
+  x[0] = r * cos(angle);
+  x[1] = r * sin(angle);
+  x[2] = d->pump->bottom + z;
+  // The ends are met exactly.
+  if (k == a->axial)
+    x[2] = d->pump->top;
+}
+
+static int blade_begin(const Domain *d) {
+  return d->annulus->radial / 4;
+}
+
+static int blade_end(const Domain *d) {
+  return d->annulus->radial - 1;
+}
+
+static int is_cell(const Domain *d, int i, int j, int k) {
+  const SyntheticAnnulus *a = d->annulus;
+  if (i < 0 || i >= a->radial || k < 0 || k >= a->axial)
+    return 0;
+  j = (j % a->around + a->around) % a->around;
+  return !(d->is_rotor && i >= blade_begin(d) && i < blade_end(d) && j % (a->around / d->pump->blades) == 2);
+}
+
+static int region_of(const Domain *d, int j) {
+  return (int)((int64_t)j * d->annulus->regions / d->annulus->around);
+}
+
+static int find_patch(const Domain *d, const char *name) {
+  for (int p = 0; p < d->patch_count; ++p)
+    if (strcmp(d->patches[p].name, name) == 0)
+      return p;
+  abort();
+}
+
+// The patch of the side `axis` (0 radius, 1 around, 2 axis), `up` or down, of a cell.
+static int patch_of(const Domain *d, int i, int j, int axis, int up) {
+  const SyntheticAnnulus *a = d->annulus;
+  if (!d->is_rotor) {
+    static const char *const flat[] = {"neck", "step", "volute", "tongue", "diffuser", "discharge"};
+    if (axis == 0)
+      return find_patch(d, up ? "outlet" : "stator_interface");
+    return find_patch(d, flat[i * COUNT(flat) / a->radial]);
+  }
+  if (axis == 0 && i == (up ? a->radial - 1 : 0))
+    return find_patch(d, up ? "rotor_interface" : "inlet");
+  if (axis == 0)
+    return find_patch(d, up ? "blade_leading_edge" : "blade_trailing_edge");
+  if (axis == 1)
+    return find_patch(d, up ? "blade_suction" : "blade_pressure");
+  if (i == 0)
+    return find_patch(d, up ? "suction_pipe" : "hub_nut");
+  (void)j;
+  return find_patch(d, up ? "shroud" : "hub");
+}
+
+static int local_node(const Domain *d, Region *r, int node) {
+  if (r->local[node] < 0) {
+    r->local[node] = r->point_count;
+    place(d, node, r->points[r->point_count++]);
+  }
+  return r->local[node];
+}
+
+static double dot_cross(const double *a, const double *b, const double *c, const double *to) {
+  double u[3], v[3], w[3];
+  for (int k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+    w[k] = to[k] - a[k];
+  }
+  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
+}
+
+static double tetrahedron_volume(const Region *r, int a, int b, int c, int e) {
+  return dot_cross(r->points[a], r->points[b], r->points[c], r->points[e]) / 6;
+}
+
+// Adds a boundary face of one of the cells first, ..., first + count - 1 with `nodes` nodes each: finds the cell that
+// has all its corners and turns the normal outward.
+static void add_boundary(Region *r, const int32_t *cells, int first, int count, int nodes, const int *corners,
+                         int corner_count, int patch) {
+  for (int c = first; c < first + count; ++c) {
+    const int32_t *cell = cells + c * nodes;
+    int found = 0;
+    double centre[3] = {0};
+    for (int n = 0; n < nodes; ++n)
+      for (int k = 0; k < 3; ++k)
+        centre[k] += r->points[cell[n]][k] / nodes;
+    for (int m = 0; m < corner_count; ++m)
+      for (int n = 0; n < nodes; ++n)
+        found += cell[n] == corners[m];
+    if (found < corner_count)
+      continue;
+    int inward =
+        dot_cross(r->points[corners[0]], r->points[corners[1]], r->points[corners[2]], centre) > 0;
+    int32_t *out = corner_count == 3 ? r->triangles[r->triangle_count] : r->quads[r->quad_count];
+    for (int m = 0; m < corner_count; ++m)
+      out[m] = corners[inward ? corner_count - 1 - m : m];
+    // Prisms are counted after the tetrahedra, whose number is not known yet.
+    int32_t number = nodes == 6 ? -1 - c : c;
+    if (corner_count == 3) {
+      r->triangle_patch[r->triangle_count] = patch;
+      r->triangle_cell[r->triangle_count++] = number;
+    } else {
+      r->quad_patch[r->quad_count] = patch;
+      r->quad_cell[r->quad_count++] = number;
+    }
+    return;
+  }
+  abort();
+}
+
+static void add_cell(Domain *d, Region *r, int i, int j, int k) {
+  int is_prism = k == 0 || k == d->annulus->axial - 1;
+  int v[8], first;
+  for (int b = 0; b < 8; ++b)
+    v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
+  if (is_prism) {
+    const int base[2][3] = {{0, 1, 3}, {0, 3, 2}};
+    first = r->prism_count;
+    for (int p = 0; p < 2; ++p) {
+      int32_t *prism = r->prisms[r->prism_count++];
+      for (int n = 0; n < 3; ++n) {
+        prism[n] = v[base[p][n]];
+        prism[n + 3] = v[base[p][n] + 4];
+      }
+    }
+  } else {
+    const int order[6][3] = {{1, 2, 4}, {2, 4, 1}, {4, 1, 2}, {1, 4, 2}, {4, 2, 1}, {2, 1, 4}};
+    first = r->tetrahedron_count;
+    for (int p = 0; p < 6; ++p) {
+      int32_t *t = r->tetrahedra[r->tetrahedron_count++];
+      int a = order[p][0], b = order[p][0] + order[p][1];
+      t[0] = v[0];
+      t[1] = v[p < 3 ? a : b]; // the last three permutations are odd
+      t[2] = v[p < 3 ? b : a];
+      t[3] = v[7];
+      d->volume += tetrahedron_volume(r, t[0], t[1], t[2], t[3]);
+    }
+  }
+  if (is_prism) {
+    // The sides of the prisms are flat or ruled along the axis: the volume is that of the base times the height.
+    double z = r->points[v[4]][2] - r->points[v[0]][2];
+    for (int p = 0; p < 2; ++p) {
+      const int32_t *n = r->prisms[first + p];
+      const double *a = r->points[n[0]], *b = r->points[n[1]], *c = r->points[n[2]];
+      d->volume += 0.5 * z * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    for (int up = 0; up < 2; ++up) {
+      int step = up ? 1 : -1;
+      if (is_cell(d, i + (axis == 0) * step, j + (axis == 1) * step, k + (axis == 2) * step))
+        continue;
+      int patch = patch_of(d, i, j, axis, up);
+      int s = axis == 0 ? 2 : 1, t = axis == 2 ? 2 : 4, o = up ? 1 << axis : 0;
+      int corners[4] = {v[o], v[o + s], v[o + s + t], v[o + t]};
+      const int32_t *cells = is_prism ? *r->prisms : *r->tetrahedra;
+      int nodes = is_prism ? 6 : 4, count = is_prism ? 2 : 6;
+      if (is_prism && axis != 2) {
+        add_boundary(r, cells, first, count, nodes, corners, 4, patch);
+      } else {
+        int second[3] = {corners[0], corners[2], corners[3]};
+        add_boundary(r, cells, first, count, nodes, corners, 3, patch);
+        add_boundary(r, cells, first, count, nodes, second, 3, patch);
+      }
+    }
+}
+
+static int put(hid_t file, const char *name, hid_t type, int rows, int columns, const void *data) {
+  hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
+  hid_t space = H5Screate_simple(columns ? 2 : 1, size, NULL);
+  hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  int failed = set < 0 || (rows && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0);
+  H5Dclose(set);
+  H5Sclose(space);
+  return failed;
+}
+
+static void put_number(hid_t file, const char *name, int value) {
+  hid_t space = H5Screate(H5S_SCALAR), attribute = H5Acreate2(file, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, H5T_NATIVE_INT, &value);
+  H5Aclose(attribute);
+  H5Sclose(space);
+}
+
+static void put_text(hid_t file, const char *name, const char *value) {
+  hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+  H5Tset_size(type, strlen(value) + 1);
+  hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, type, value);
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Tclose(type);
+}
+
+static int write_region_file(const char *path, const Domain *d, int region, const Region *r) {
+  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (file < 0)
+    return -1;
+  put_number(file, "format", 1);
+  put_number(file, "region", region + 1);
+  put_number(file, "number", region + 1);
+  put_text(file, "domain", d->name);
+  put_text(file, "fingerprint", "synthetic");
+  int failed = put(file, "points", H5T_NATIVE_DOUBLE, r->point_count, 3, r->points);
+  failed |= put(file, "shared_id", H5T_NATIVE_INT64, r->shared_count, 0, r->shared_id);
+  failed |= put(file, "tetrahedra", H5T_NATIVE_INT32, r->tetrahedron_count, 4, r->tetrahedra);
+  failed |= put(file, "pyramids", H5T_NATIVE_INT32, 0, 5, NULL);
+  failed |= put(file, "prisms", H5T_NATIVE_INT32, r->prism_count, 6, r->prisms);
+  failed |= put(file, "triangles", H5T_NATIVE_INT32, r->triangle_count, 3, r->triangles);
+  failed |= put(file, "triangle_patch", H5T_NATIVE_INT32, r->triangle_count, 0, r->triangle_patch);
+  failed |= put(file, "triangle_cell", H5T_NATIVE_INT32, r->triangle_count, 0, r->triangle_cell);
+  failed |= put(file, "quads", H5T_NATIVE_INT32, r->quad_count, 4, r->quads);
+  failed |= put(file, "quad_patch", H5T_NATIVE_INT32, r->quad_count, 0, r->quad_patch);
+  failed |= put(file, "quad_cell", H5T_NATIVE_INT32, r->quad_count, 0, r->quad_cell);
+  failed |= H5Fclose(file) < 0;
+  return failed ? -1 : 0;
+}
+
+// Numbers the points that lie on a dividing plane and belong to a cell.
+static void number_shared(Domain *d) {
+  const SyntheticAnnulus *a = d->annulus;
+  d->shared = malloc((size_t)d->node_count * sizeof *d->shared);
+  for (int n = 0; n < d->node_count; ++n)
+    d->shared[n] = -1;
+  for (int j = 0; j < a->around; ++j) {
+    if (a->regions == 1 || region_of(d, j) == region_of(d, (j + a->around - 1) % a->around))
+      continue;
+    for (int k = 0; k <= a->axial; ++k)
+      for (int i = 0; i <= a->radial; ++i)
+        for (int side = -1; side < 1 && d->shared[node_at(d, i, j, k)] < 0; ++side)
+          for (int up = -1; up < 1; ++up)
+            for (int out = -1; out < 1; ++out)
+              if (d->shared[node_at(d, i, j, k)] < 0 && is_cell(d, i + out, j + side, k + up))
+                d->shared[node_at(d, i, j, k)] = d->shared_count++;
+  }
+}
+
+static json_t *write_region(const char *run, Domain *d, int region) {
+  const SyntheticAnnulus *a = d->annulus;
+  size_t cells = (size_t)a->radial * (size_t)(a->around / a->regions + 1) * (size_t)a->axial;
+  Region r = {0};
+  r.points = malloc((size_t)d->node_count * sizeof *r.points);
+  r.shared_id = malloc((size_t)(d->shared_count + 1) * sizeof *r.shared_id);
+  r.tetrahedra = malloc(6 * cells * sizeof *r.tetrahedra);
+  r.prisms = malloc(2 * cells * sizeof *r.prisms);
+  r.triangles = malloc(12 * cells * sizeof *r.triangles);
+  r.quads = malloc(6 * cells * sizeof *r.quads);
+  r.triangle_patch = malloc(12 * cells * sizeof *r.triangle_patch);
+  r.triangle_cell = malloc(12 * cells * sizeof *r.triangle_cell);
+  r.quad_patch = malloc(6 * cells * sizeof *r.quad_patch);
+  r.quad_cell = malloc(6 * cells * sizeof *r.quad_cell);
+  r.local = malloc((size_t)d->node_count * sizeof *r.local);
+  for (int n = 0; n < d->node_count; ++n)
+    r.local[n] = -1;
+  // Shared points first: those of the planes that bound this region and are used by its cells.
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int j = 0; j < a->around; ++j)
+      for (int k = 0; k < a->axial && region_of(d, j) == region; ++k)
+        for (int i = 0; i < a->radial; ++i) {
+          if (!is_cell(d, i, j, k))
+            continue;
+          if (pass) {
+            add_cell(d, &r, i, j, k);
+            continue;
+          }
+          for (int b = 0; b < 8; ++b) {
+            int node = node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1));
+            if (d->shared[node] >= 0 && r.local[node] < 0) {
+              r.shared_id[r.shared_count++] = d->shared[node];
+              local_node(d, &r, node);
+            }
+          }
+        }
+  }
+  for (int t = 0; t < r.triangle_count; ++t)
+    if (r.triangle_cell[t] < 0)
+      r.triangle_cell[t] = r.tetrahedron_count - 1 - r.triangle_cell[t];
+  for (int q = 0; q < r.quad_count; ++q)
+    if (r.quad_cell[q] < 0)
+      r.quad_cell[q] = r.tetrahedron_count - 1 - r.quad_cell[q];
+  char path[4000], name[40];
+  snprintf(name, sizeof name, "%s-%04d.h5", d->name, region + 1);
+  snprintf(path, sizeof path, "%s/mesh/%s", run, name);
+  json_t *line = NULL;
+  if (write_region_file(path, d, region, &r) == 0)
+    line = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1,
+                     "number", region + 1, "points", r.point_count, "own_points", r.point_count - r.shared_count,
+                     "tetrahedra", r.tetrahedron_count, "pyramids", 0, "prisms", r.prism_count, "triangles",
+                     r.triangle_count, "quads", r.quad_count);
+  else
+    fprintf(stderr, "%s: cannot be written\n", path);
+  free(r.points);
+  free(r.shared_id);
+  free(r.tetrahedra);
+  free(r.prisms);
+  free(r.triangles);
+  free(r.quads);
+  free(r.triangle_patch);
+  free(r.triangle_cell);
+  free(r.quad_patch);
+  free(r.quad_cell);
+  free(r.local);
+  return line;
+}
+
+static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_rotor) {
+  Domain d = {.pump = pump,
+              .annulus = is_rotor ? &pump->rotor : &pump->stator,
+              .name = is_rotor ? "rotor" : "stator",
+              .patches = is_rotor ? rotor_patches : stator_patches,
+              .patch_count = is_rotor ? COUNT(rotor_patches) : COUNT(stator_patches),
+              .is_rotor = is_rotor};
+  d.node_count = (d.annulus->radial + 1) * d.annulus->around * (d.annulus->axial + 1);
+  number_shared(&d);
+  json_t *patches = json_array(), *regions = json_array();
+  for (int p = 0; p < d.patch_count; ++p)
+    json_array_append_new(patches,
+                          json_pack("{s:s, s:s}", "name", d.patches[p].name, "kind", d.patches[p].kind));
+  int failed = 0;
+  for (int r = 0; r < d.annulus->regions && !failed; ++r)
+    failed = json_array_append_new(regions, write_region(run, &d, r));
+  free(d.shared);
+  json_t *domain = json_pack("{s:s, s:i, s:f, s:o, s:o}", "name", d.name, "shared_points", d.shared_count,
+                             "solid_volume_m3", d.volume, "patches", patches, "regions", regions);
+  if (failed) {
+    json_decref(domain);
+    return NULL;
+  }
+  return domain;
+}
+
+int synthetic_run_write(const char *run, const SyntheticPump *pump) {
+  char path[4000];
+  mkdir(run, 0777);
+  snprintf(path, sizeof path, "%s/mesh", run);
+  mkdir(path, 0777);
+  snprintf(path, sizeof path, "%s/geometry", run);
+  mkdir(path, 0777);
+  json_t *rotor = write_domain(run, pump, 1), *stator = write_domain(run, pump, 0);
+  if (!rotor || !stator) {
+    json_decref(rotor);
+    json_decref(stator);
+    return -1;
+  }
+  json_t *root = json_pack("{s:i, s:s, s:[o, o]}", "format", 1, "case", "paper", "domains", rotor, stator);
+  snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
+  int failed = json_dump_file(root, path, JSON_INDENT(1));
+  json_decref(root);
+  root = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
+                   "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s", 7.0,
+                   "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0);
+  snprintf(path, sizeof path, "%s/geometry/design.json", run);
+  failed |= json_dump_file(root, path, JSON_INDENT(1));
+  json_decref(root);
+  return failed ? -1 : 0;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "geometry/design_check.h"
+#include "pipeline/case.h"
+
+static CwDesign paper(void) {
+  CwCase table;
+  CwDesign design;
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  return design;
+}
+
+static int remarked(const CwDesign *design, const char *words) {
+  CwDesignRemarks remarks;
+  cw_design_check(design, &remarks);
+  for (int i = 0; i < remarks.count; i++)
+    if (strstr(remarks.text[i], words))
+      return 1;
+  return 0;
+}
+
+// Table 3: D2 = 200 mm against 178 to 182 mm (a tenth over 182.2 is 200.4: just within), D3 = 1.02 D2, and a head that
+// the wrap does not give; b2 = 8 against 8.8 mm lies within a tenth.
+static void paper_remarks(void **state) {
+  const CwDesign design = paper();
+  assert_true(remarked(&design, "predicts a head"));
+  assert_true(remarked(&design, "D3 is 1.020 D2"));
+  assert_true(remarked(&design, "incidence"));
+  assert_false(remarked(&design, "b2 is"));
+  assert_false(remarked(&design, "D2 is 200"));
+  assert_true(remarked(&design, "6 blades; ")); // 6.5 274/126 sin 34.3 deg = 7.96
+  assert_false(remarked(&design, "the wrap is"));
+}
+
+static void far_off_values_are_remarked(void **state) {
+  CwDesign design = paper();
+  design.outlet_diameter = 0.25;
+  assert_true(remarked(&design, "D2 is 250.0 mm; Gulich's psi gives 182.2, Guan's correlation 178.0 mm"));
+  design = paper();
+  design.blade_count = 11;
+  assert_true(remarked(&design, "11 blades"));
+  design = paper();
+  design.wrap_residual = 0.1;
+  assert_true(remarked(&design, "the wrap is"));
+  design = paper();
+  design.head_residual = 0;
+  assert_false(remarked(&design, "predicts a head"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(far_off_values_are_remarked)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

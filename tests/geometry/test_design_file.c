@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+#include <jansson.h>
+
+#include "geometry/design_file.h"
+#include "pipeline/case.h"
+
+static double number(const json_t *root, const char *key) {
+  const json_t *value = json_object_get(root, key);
+  if (!json_is_number(value))
+    fail_msg("no number %s", key);
+  return json_number_value(value);
+}
+
+// The keys that other stages read, with their units.
+static void keys_of_the_format(void **state) {
+  static const char *const keys[] = {
+      "impeller_tip_speed_m_per_s", "relative_speed_m_per_s", "volute_speed_m_per_s", "suction_speed_m_per_s",
+      "discharge_speed_m_per_s",    "interface_radius_m",     "predicted_head_m",     "rotor_volume_m3",
+      "stator_volume_m3"};
+  CwCase table;
+  CwDesign design;
+  CwMeasuredPump measured = {.rotor.volume = 5e-4, .stator.volume = 7e-4, .rotor_dimensions.wrap_angle = 71 * M_PI / 180};
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
+  json_error_t error;
+  json_t *root = json_load_file("design-file-test.json", 0, &error);
+  unlink("design-file-test.json");
+  assert_non_null(root);
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+    assert_true(number(root, keys[i]) > 0);
+  assert_true(fabs(number(root, "wrap_angle_deg") - 71) < 1e-9);
+  assert_true(fabs(number(root, "outlet_diameter_m") - 0.2) < 1e-12);
+  assert_true(number(root, "rotor_volume_m3") == 5e-4);
+  assert_true(fabs(number(json_object_get(root, "measured"), "wrap_angle_deg") - 71) < 1e-9);
+  // Every number of the design says where it comes from.
+  const json_t *sources = json_object_get(root, "sources");
+  assert_int_equal(json_object_size(sources), CW_DESIGN_COUNT);
+  assert_string_equal(json_string_value(json_object_get(sources, "outlet_diameter_m")), "case");
+  json_decref(root);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_the_format)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "geometry/picture.h"
+#include "pipeline/case.h"
+
+static char *slurp(const char *path) {
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  fseek(file, 0, SEEK_END);
+  const size_t size = (size_t)ftell(file);
+  rewind(file);
+  char *text = malloc(size + 1);
+  assert_non_null(text);
+  assert_int_equal(fread(text, 1, size, file), size);
+  text[size] = 0;
+  fclose(file);
+  return text;
+}
+
+// Each picture is whole, has no undefined number and no point outside its sheet.
+static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design, const char *words) {
+  char path[64];
+  snprintf(path, sizeof path, "picture-test-%ld.svg", (long)getpid());
+  if (draw(design, path) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  char *text = slurp(path);
+  unlink(path);
+  assert_int_equal(strncmp(text, "<svg ", 5), 0);
+  assert_string_equal(text + strlen(text) - 7, "</svg>\n");
+  assert_null(strstr(text, "nan"));
+  assert_null(strstr(text, "inf"));
+  assert_non_null(strstr(text, words));
+  double width = 0, height = 0;
+  assert_int_equal(sscanf(strstr(text, "viewBox"), "viewBox=\"0 0 %lf %lf", &width, &height), 2);
+  int points = 0;
+  for (const char *list = text; (list = strstr(list, "points=\"")) != NULL;) {
+    list += 8;
+    double x, y;
+    int used;
+    while (sscanf(list, "%lf,%lf%n", &x, &y, &used) == 2) {
+      assert_true(x >= 0 && x <= width && y >= 0 && y <= height);
+      list += used;
+      points++;
+    }
+  }
+  assert_true(points > 10);
+  free(text);
+}
+
+static void pictures(void **state) {
+  CwCase table;
+  CwDesign design;
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  check(cw_picture_meridional, &design, "D2 = 200.0 mm");
+  check(cw_picture_blade_to_blade, &design, "wrap 71.0 deg");
+  check(cw_picture_velocity_triangles, &design, "u = 15.18 m/s");
+  check(cw_picture_blade_angle, &design, "mid-span");
+}
+
+static void text_is_escaped(void **state) {
+  CwPicture picture = {0};
+  assert_int_equal(cw_picture_begin(&picture, "picture-test-escape.svg", 10, 10), CW_OK);
+  cw_picture_text(&picture, CW_TEXT_LEFT, 1, 1, "%s", "a<b & c>d");
+  assert_int_equal(cw_picture_end(&picture), CW_OK);
+  char *text = slurp("picture-test-escape.svg");
+  assert_non_null(strstr(text, "a&lt;b &amp; c&gt;d"));
+  free(text);
+  unlink("picture-test-escape.svg");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pictures), cmocka_unit_test(text_is_escaped)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
