@@ -8,6 +8,8 @@
 #include "export/cell.h"
 #include "pipeline/log.h"
 
+static const double ROUNDING = 1e-12; // m
+
 // What one rank collects over its regions.
 typedef struct {
   CwOpenFace *open;
@@ -246,7 +248,8 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
       CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT,
                  "domain %s: shared point %lld is used by no cell of any region", domain->name,
                  (long long)(i / 3));
-      CW_REQUIRE(c->least[d][i] == c->most[d][i], CW_ERR_INPUT,
+      // Regions that are copies of one another, turned, differ by rounding: the least coordinates are taken.
+      CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING, CW_ERR_INPUT,
                  "domain %s: shared point %lld near (%.6g, %.6g, %.6g) mm differs between regions by %.3g mm",
                  domain->name, (long long)(i / 3), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
                  1e3 * (c->most[d][i] - c->least[d][i]));

@@ -110,7 +110,7 @@ static CwStatus put_point_range(hid_t parent, const int range[2]) {
   return cw_cgns_node(parent, "PointRange", "IndexRange_t", "I4", 2, (hsize_t[]){2, 1}, range, NULL);
 }
 
-// A readers shows a surface only where a BC names it, so the interface has one too.
+// A reader shows a surface only where a BC names it, so the interface has one too.
 static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
