@@ -16,6 +16,7 @@ enum {
   SAMPLES_WANTED = 40000
 };
 static const double FIRST_SHARE = 0.2, LAST_SHARE = 0.8;
+static const double SMOOTH_COSINE = 0.98, SMOOTH_SHARE = 0.25; // of the clearance, beside an edge that is no feature
 static const double ALONG_EDGE = 0.35;     // sine of the least angle between a plane and a CAD edge that it crosses
 static const double SHARP_PLANE = 0.7;     // least plane-to-wall measure of a plane that is not penalised
 
@@ -89,6 +90,25 @@ static double polygon_area(int32_t corners, const double (*corner)[3]) {
   return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / 2;
 }
 
+// True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
+static int is_smooth(const CwCad *cad, int edge) {
+  int face[2];
+  double range[2], normal[2][3];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_faces(cad, edge, face);
+  for (int s = 0; s < 2; s++) {
+    double uv[2], x[3], xu[3], xv[3];
+    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
+    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
+    cw_cross(xu, xv, normal[s]);
+    cw_unit(normal[s]);
+    if (cw_cad_face_reversed(cad, face[s])) {
+      for (int k = 0; k < 3; k++) normal[s][k] = -normal[s][k];
+    }
+  }
+  return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
+}
+
 // Keeps every n-th sample, which then stands for n times its volume: planes need no finer picture.
 static void thin_samples(CwPlanScorer *scorer) {
   int32_t stride = scorer->sample_count / SAMPLES_WANTED + 1, kept = 0;
@@ -127,15 +147,16 @@ CwStatus cw_plan_scorer_make(const CwCad *cad, const CwBackground *background, c
   }
   CW_NEW(scorer->edge_x, (size_t)cw_cad_edge_count(cad) * EDGE_POINTS);
   CW_NEW(scorer->edge_t, (size_t)cw_cad_edge_count(cad) * EDGE_POINTS);
+  CW_NEW(scorer->edge_room, (size_t)cw_cad_edge_count(cad) * EDGE_POINTS);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
-    double range[2];
+    double range[2], room = options->clearance * (is_smooth(cad, e) ? SMOOTH_SHARE : 1);
     cw_cad_edge_range(cad, e, range);
     for (int i = 0; i < EDGE_POINTS; i++) {
       double t = range[0] + (range[1] - range[0]) * i / (EDGE_POINTS - 1), *tangent = scorer->edge_t[scorer->edge_point_count];
       cw_cad_edge_point(cad, e, t, scorer->edge_x[scorer->edge_point_count], tangent);
       double length = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1] + tangent[2] * tangent[2]);
       for (int k = 0; k < 3; k++) tangent[k] /= length > 0 ? length : 1;
-      scorer->edge_point_count++;
+      scorer->edge_room[scorer->edge_point_count++] = room;
     }
   }
 done:
@@ -151,6 +172,7 @@ void cw_plan_scorer_free(CwPlanScorer *scorer) {
   free(scorer->normal);
   free(scorer->edge_x);
   free(scorer->edge_t);
+  free(scorer->edge_room);
   memset(scorer, 0, sizeof *scorer);
 }
 
@@ -235,8 +257,8 @@ static double plane_to_wall(const CwPlanScorer *scorer, const CwPieces *pieces, 
 // How many points of CAD edges in the cell the plane runs along or grazes.
 static int32_t grazed_edges(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane) {
   int32_t count = 0;
-  double clearance = scorer->options->clearance;
   for (int32_t i = 0; i < scorer->edge_point_count; i++) {
+    double clearance = scorer->edge_room[i];
     double distance = fabs(cw_plane_distance(plane, scorer->edge_x[i]));
     if (distance > clearance) continue;
     const double *n = plane->normal, *t = scorer->edge_t[i];
