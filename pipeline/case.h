@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The case file: one pump, its operating point, its walls and its mesh. Read and validated once by every stage,
-// against the one schema in case_schema.c. In memory all is SI (m, kg, s, rad, Pa) whatever the unit in the key.
+// The case file: one pump, its operating point, its walls and its mesh. Read and validated once by every
+// stage, against the one schema in case_schema.c. In memory all is SI (m, kg, s, rad, Pa) whatever the unit
+// in the key.
 #ifndef CUTWATER_PIPELINE_CASE_H
 #define CUTWATER_PIPELINE_CASE_H
 
@@ -98,8 +99,13 @@ typedef struct {
   CwMeshTable mesh;
 } CwCase;
 
-// Reads and validates `path`. On bad input fails with CW_ERR_INPUT and
-// "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; what is allowed".
+// Every key at its default, as for an empty file: keys that the hydraulic design computes are NAN, required
+// ones NAN, 0 or "".
+void cw_case_defaults(CwCase *table);
+
+// Reads and validates `path`, a YAML file of at most 1 MiB. A file that cannot be read fails with CW_ERR_IO,
+// bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then
+// *table stays as it was.
 CwStatus cw_case_read(const char *path, CwCase *table);
 
 #ifdef __cplusplus

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
@@ -161,6 +162,7 @@ const char *cw_log_warning(size_t index) {
 
 int cw_log_error(CwStatus status) {
   if (status == CW_OK) return 0;
+  if (status == CW_ERR_RANK && !logger.speaks) return (int)status;
   char text[LINE_SIZE];
   snprintf(text, sizeof text, "%s", cw_fail_message()[0] ? cw_fail_message() : cw_status_text(status));
   make_one_line(text);
@@ -230,6 +232,15 @@ void cw_progress_start(const char *step, int64_t total, const char *unit) {
   progress.terminal_time = 0;
 }
 
+// A rewritten line that wraps could not be rewritten: it ends before the last column.
+static void fit_terminal(char *text, size_t size) {
+  struct winsize window;
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) || !window.ws_col) return;
+  size_t head = strlen("cutwater-: ") + strlen(logger.stage);
+  size_t room = window.ws_col > head + 1 ? window.ws_col - head - 1 : 0;
+  if (room < size) text[room] = '\0';
+}
+
 void cw_progress(int64_t done) {
   if (!progress.active) return;
   progress.done = done;
@@ -238,6 +249,7 @@ void cw_progress(int64_t done) {
   char text[LINE_SIZE];
   if (logger.terminal && now - progress.terminal_time >= terminal_interval) {
     format_progress(text, sizeof text, now, 0);
+    fit_terminal(text, sizeof text);
     fprintf(stderr, "\r\033[Kcutwater%s%s: %s", logger.stage[0] ? "-" : "", logger.stage, text);
     fflush(stderr);
     progress.line_shown = 1;

@@ -28,12 +28,12 @@ void cw_log_debug(const char *format, ...) __attribute__((format(printf, 1, 2)))
 void cw_log_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // The warnings since cw_log_open (at most the first 1000, those of ranks that do not speak too), oldest
-// first;
-// "" past the last. They stand until cw_log_close. record.h writes them down.
+// first; "" past the last. They stand until cw_log_close. record.h writes them down.
 size_t cw_log_warning_count(void);
 const char *cw_log_warning(size_t index);
 
-// Prints "cutwater-STAGE: error: MESSAGE" from the last failure; returns the exit status for main().
+// Prints "cutwater-STAGE: error: MESSAGE" from the last failure; returns the exit status for main(). A rank
+// that does not speak prints nothing for CW_ERR_RANK: the rank that failed has told.
 int cw_log_error(CwStatus status);
 
 // Progress of a step: `done` of `total` in `unit`s ("regions", "faces"), with rate and time left.

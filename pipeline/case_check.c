@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/case_check.h"
+
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+static const double gravity = 9.80665; // m/s2
+
+typedef enum { ABOVE, AT_LEAST, BELOW, AT_MOST } Relation;
+static const char *const relation_texts[] = {"above", "at least", "below", "at most"};
+
+// value(section.key) RELATION share * value(other), both in mm.
+typedef struct {
+  const char *section, *key;
+  Relation relation;
+  double share;
+  const char *other_section, *other_key, *why;
+} Rule;
+
+static const Rule rules[] = {
+    {"impeller", "inlet_diameter_mm", BELOW, 1, "impeller", "outlet_diameter_mm", "the flow goes outwards"},
+    {"impeller", "outlet_width_mm", BELOW, 0.5, "impeller", "outlet_diameter_mm", "the impeller is radial"},
+    {"impeller", "hub_diameter_mm", BELOW, 1, "impeller", "inlet_diameter_mm", "the eye must stay open"},
+    {"impeller", "leading_edge_radius_hub_mm", BELOW, 0.5, "impeller", "outlet_diameter_mm",
+     "the leading edge lies inside D2/2"},
+    {"impeller", "leading_edge_radius_shroud_mm", BELOW, 0.5, "impeller", "outlet_diameter_mm",
+     "the leading edge lies inside D2/2"},
+    {"impeller", "leading_edge_radius_shroud_mm", ABOVE, 0.5, "impeller", "hub_diameter_mm",
+     "the leading edge meets the shroud outside the hub"},
+    {"impeller", "leading_edge_radius_hub_mm", AT_LEAST, 0.5, "impeller", "hub_diameter_mm",
+     "the leading edge meets the hub outside its nut"},
+    {"impeller", "leading_edge_thickness_mm", AT_MOST, 1, "impeller", "blade_thickness_mm",
+     "this is the largest thickness of the blade"},
+    {"impeller", "trailing_edge_thickness_mm", AT_MOST, 1, "impeller", "blade_thickness_mm",
+     "this is the largest thickness of the blade"},
+    {"impeller", "trailing_edge_bevel_mm", AT_MOST, 1, "impeller", "trailing_edge_thickness_mm",
+     "two bevels share the trailing edge"},
+    {"volute", "base_diameter_mm", ABOVE, 1, "impeller", "outlet_diameter_mm",
+     "the volute lies around the impeller"},
+    {"volute", "inlet_width_mm", AT_LEAST, 1, "impeller", "outlet_width_mm",
+     "the volute takes the impeller's outlet"},
+    {"walls", "total_thickness_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
+     "layers on hub and shroud would meet"},
+};
+
+static CwStatus check_rule(const char *path, const CwCase *table, const CwCasePlace *places,
+                           const Rule *rule) {
+  CwStatus status = CW_OK;
+  int left = cw_case_key_find(rule->section, rule->key);
+  int right = cw_case_key_find(rule->other_section, rule->other_key);
+  double value = cw_case_key_value(&cw_case_keys[left], table);
+  double limit = rule->share * cw_case_key_value(&cw_case_keys[right], table);
+  if (isnan(value) || isnan(limit)) goto done;
+  // 37 mm is not exactly half of 74 mm once both went through metres.
+  double slack = 1e-9 * fabs(limit);
+  int fine = rule->relation == ABOVE      ? value > limit + slack
+             : rule->relation == AT_LEAST ? value >= limit - slack
+             : rule->relation == BELOW    ? value < limit - slack
+                                          : value <= limit + slack;
+  char name[CW_KEY_PATH_SIZE], other[CW_KEY_PATH_SIZE];
+  cw_case_key_path(&cw_case_keys[left], name);
+  cw_case_key_path(&cw_case_keys[right], other);
+  CW_REQUIRE(fine, CW_ERR_INPUT, "%s:%d:%d: %s: %.6g contradicts %s%s (%s); allowed: %s %.6g mm", path,
+             places[left].line, places[left].column, name, value, rule->share == 1 ? "" : "half of ", other,
+             rule->why, relation_texts[rule->relation], limit);
+done:
+  return status;
+}
+
+static CwStatus check_priority(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  const CwCasePlace *place = &places[cw_case_key_find("impeller", "priority")];
+  CW_REQUIRE(table->impeller.priority != CW_PRIORITY_WRAP || cw_case_given(table->impeller.wrap_angle),
+             CW_ERR_INPUT,
+             "%s:%d:%d: impeller.priority: wrap needs the key wrap_angle_deg, which is missing; allowed: "
+             "wrap_angle_deg "
+             "from 20 to 300 degrees, or priority head or beta",
+             path, place->line, place->column);
+  CW_REQUIRE(
+      table->impeller.priority != CW_PRIORITY_BETA || cw_case_given(table->impeller.outlet_blade_angle),
+      CW_ERR_INPUT,
+      "%s:%d:%d: impeller.priority: beta needs the key outlet_blade_angle_deg, which is missing; allowed: "
+      "outlet_blade_angle_deg from 5 to 85 degrees, or priority wrap or head",
+      path, place->line, place->column);
+done:
+  return status;
+}
+
+static CwStatus check_operating_point(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  const CwCasePlace *place = &places[cw_case_key_find("operating_point", "speed_rpm")];
+  const CwOperatingPoint *point = &table->operating_point;
+  double rpm = point->speed * 30 / pi;
+  // Specific speed nq = n sqrt(Q) / H^(3/4) in rpm, m3/s, m: radial and mixed-flow impellers lie in 5 to 160.
+  double specific_speed = rpm * sqrt(point->flow_rate) / pow(point->head, 0.75);
+  CW_REQUIRE(
+      specific_speed >= 5 && specific_speed <= 160, CW_ERR_INPUT,
+      "%s:%d:%d: operating_point.speed_rpm: %.6g contradicts flow rate and head, together they give the "
+      "specific speed nq = %.4g; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)",
+      path, place->line, place->column, rpm, specific_speed);
+  // Without swirl before the impeller no blade gives more than u2^2 / g (Euler).
+  double tip_speed = point->speed * table->impeller.outlet_diameter / 2;
+  double most = tip_speed * tip_speed / gravity;
+  place = &places[cw_case_key_find("operating_point", "head_m")];
+  CW_REQUIRE(point->head < most, CW_ERR_INPUT,
+             "%s:%d:%d: operating_point.head_m: %.6g contradicts speed_rpm and impeller.outlet_diameter_mm, "
+             "which give "
+             "the tip speed %.4g m/s; allowed: below %.4g m (u2^2/g)",
+             path, place->line, place->column, point->head, tip_speed, most);
+done:
+  return status;
+}
+
+static CwStatus check_blockage(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  const CwImpellerTable *impeller = &table->impeller;
+  const CwCasePlace *place = &places[cw_case_key_find("impeller", "blade_thickness_mm")];
+  if (!cw_case_given(impeller->blade_thickness)) goto done;
+  double most = 0.5 * pi * impeller->inlet_diameter / impeller->blade_count;
+  CW_REQUIRE(
+      impeller->blade_thickness < most, CW_ERR_INPUT,
+      "%s:%d:%d: impeller.blade_thickness_mm: %.6g contradicts blade_count and inlet_diameter_mm (the blades "
+      "fill the inlet); allowed: below %.4g mm",
+      path, place->line, place->column, 1000 * impeller->blade_thickness, 1000 * most);
+done:
+  return status;
+}
+
+static CwStatus check_roughness(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  const CwCasePlace *place = &places[cw_case_key_find("walls", "treatment")];
+  CW_REQUIRE(table->walls.treatment != CW_WALL_FUNCTION_ROUGH || table->walls.roughness > 0, CW_ERR_INPUT,
+             "%s:%d:%d: walls.treatment: rough contradicts roughness_um, which is 0; allowed: smooth, or "
+             "roughness_um "
+             "above 0 to 5000 um",
+             path, place->line, place->column);
+done:
+  return status;
+}
+
+CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  CW_TRY(check_priority(path, table, places));
+  for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
+    CW_TRY(check_rule(path, table, places, &rules[i]));
+  CW_TRY(check_operating_point(path, table, places));
+  CW_TRY(check_blockage(path, table, places));
+  CW_TRY(check_roughness(path, table, places));
+done:
+  return status;
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What no key can tell alone: values of a whole case that contradict each other.
+#ifndef CUTWATER_PIPELINE_CASE_CHECK_H
+#define CUTWATER_PIPELINE_CASE_CHECK_H
+
+#include "pipeline/case_schema.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Where the file gives a key, 1-based. A key left out has `given` 0 and the place of its section.
+typedef struct {
+  int given;
+  int line, column; // of the value
+} CwCasePlace;
+
+// Checks the whole table; `places` holds one place a key of the schema, in its order. Fails with CW_ERR_INPUT
+// and "FILE:LINE:COLUMN: KEY: VALUE contradicts ...; allowed: ..." at the first contradiction.
+CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

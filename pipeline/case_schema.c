@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/case_schema.h"
+
+#include <string.h>
+#include <strings.h>
+
+static const double pi = 3.14159265358979323846;
+
+static const char *const priorities[] = {"wrap", "head", "beta", NULL};
+static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
+static const char *const treatments[] = {"smooth", "rough", NULL};
+
+#define AT(field) offsetof(CwCase, field)
+#define REAL_REQUIRED(section, key, unit, least, most, field, meaning)                                       \
+  { section, key, CW_KEY_REAL, CW_KEY_REQUIRED, unit, least, most, NAN, NULL, AT(field), meaning }
+#define REAL_DEFAULT(section, key, unit, least, most, fallback, field, meaning)                              \
+  { section, key, CW_KEY_REAL, CW_KEY_DEFAULT, unit, least, most, fallback, NULL, AT(field), meaning }
+#define REAL_COMPUTED(section, key, unit, least, most, field, meaning)                                       \
+  { section, key, CW_KEY_REAL, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
+#define CHOICE(section, key, choices, fallback, field, meaning)                                              \
+  { section, key, CW_KEY_CHOICE, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
+
+const CwCaseKey cw_case_keys[] = {
+    {"", "name", CW_KEY_NAME, CW_KEY_REQUIRED, "", 1, CW_NAME_SIZE - 1, 0, NULL, AT(name),
+     "name of the case, used for the run's folder and as a name in the exported files"},
+
+    REAL_REQUIRED("operating_point", "flow_rate_m3_per_h", "m3_per_h", 0.1, 100000, operating_point.flow_rate,
+                  "Q, delivered"),
+    REAL_REQUIRED("operating_point", "head_m", "m", 0.1, 1000, operating_point.head, "H, design head"),
+    REAL_REQUIRED("operating_point", "speed_rpm", "rpm", 10, 100000, operating_point.speed,
+                  "n, about +z by the right hand"),
+    REAL_DEFAULT("operating_point", "inlet_pressure_pa", "pa", 100, 1e8, 101325,
+                 operating_point.inlet_pressure, "absolute total pressure at the inlet"),
+    REAL_DEFAULT("operating_point", "time_step_deg", "deg", 0.01, 20, 1, operating_point.time_step_angle,
+                 "rotation in one time step of the transient run"),
+
+    REAL_DEFAULT("fluid", "density_kg_per_m3", "kg_per_m3", 100, 20000, 998.2, fluid.density,
+                 "density; the default is water at 20 degrees Celsius"),
+    REAL_DEFAULT("fluid", "kinematic_viscosity_m2_per_s", "m2_per_s", 1e-8, 1e-2, 1.004e-6,
+                 fluid.kinematic_viscosity,
+                 "kinematic viscosity; the default is water at 20 degrees Celsius"),
+
+    CHOICE("impeller", "priority", priorities, CW_PRIORITY_WRAP, impeller.priority,
+           "the law of an over-determined table: the wrap angle, the head, or the blade angle at the outlet"),
+    {"impeller", "blade_count", CW_KEY_INT, CW_KEY_REQUIRED, "", 3, 9, NAN, NULL, AT(impeller.blade_count),
+     "z, number of blades"},
+    REAL_REQUIRED("impeller", "inlet_diameter_mm", "mm", 5, 5000, impeller.inlet_diameter, "D1, of the eye"),
+    REAL_REQUIRED("impeller", "outlet_diameter_mm", "mm", 10, 5000, impeller.outlet_diameter,
+                  "D2, of the blades' trailing edges"),
+    REAL_REQUIRED("impeller", "outlet_width_mm", "mm", 0.5, 1000, impeller.outlet_width,
+                  "b2, between hub and shroud at D2"),
+    REAL_COMPUTED("impeller", "wrap_angle_deg", "deg", 20, 300, impeller.wrap_angle,
+                  "angle about the axis from leading to trailing edge; required where it is the priority"),
+    REAL_COMPUTED("impeller", "hub_diameter_mm", "mm", 1, 4000, impeller.hub_diameter,
+                  "of the hub at its nut"),
+    REAL_COMPUTED("impeller", "leading_edge_radius_hub_mm", "mm", 1, 2500, impeller.leading_edge_radius_hub,
+                  "radius where the leading edge meets the hub"),
+    REAL_COMPUTED("impeller", "leading_edge_radius_shroud_mm", "mm", 1, 2500,
+                  impeller.leading_edge_radius_shroud, "radius where the leading edge meets the shroud"),
+    REAL_COMPUTED("impeller", "inlet_blade_angle_deg", "deg", 5, 85, impeller.inlet_blade_angle,
+                  "beta1 at mid-span, from the tangential direction"),
+    REAL_COMPUTED("impeller", "outlet_blade_angle_deg", "deg", 5, 85, impeller.outlet_blade_angle,
+                  "beta2, from the tangential direction; required where it is the priority"),
+    REAL_COMPUTED("impeller", "leading_edge_thickness_mm", "mm", 0.1, 200, impeller.leading_edge_thickness,
+                  "blade thickness behind the rounding of the leading edge"),
+    REAL_COMPUTED("impeller", "blade_thickness_mm", "mm", 0.1, 200, impeller.blade_thickness,
+                  "largest blade thickness"),
+    REAL_COMPUTED("impeller", "trailing_edge_thickness_mm", "mm", 0.1, 200, impeller.trailing_edge_thickness,
+                  "blade thickness at the blunt trailing edge"),
+    REAL_COMPUTED("impeller", "trailing_edge_bevel_mm", "mm", 0.01, 50, impeller.trailing_edge_bevel,
+                  "length of the bevel facet on each edge of the trailing edge"),
+    REAL_COMPUTED("impeller", "suction_pipe_length_mm", "mm", 1, 100000, impeller.suction_pipe_length,
+                  "straight pipe before the shroud's inlet"),
+
+    REAL_REQUIRED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter,
+                  "D3, base circle of the spiral"),
+    REAL_REQUIRED("volute", "inlet_width_mm", "mm", 0.5, 2000, volute.inlet_width, "b3, width at D3"),
+    REAL_COMPUTED("volute", "side_wall_angle_deg", "deg", 1, 45, volute.side_wall_angle,
+                  "half angle of the trapezoid section: side wall from the plane normal to the axis"),
+    REAL_COMPUTED("volute", "tongue_radius_mm", "mm", 0.1, 200, volute.tongue_radius, "of the tongue's nose"),
+    REAL_COMPUTED("volute", "tongue_gap_mm", "mm", 0.05, 500, volute.tongue_gap,
+                  "radial distance from the base circle to the tongue's tip"),
+    REAL_COMPUTED("volute", "throat_area_mm2", "mm2", 10, 1e7, volute.throat_area,
+                  "section of the volute at the tongue"),
+    REAL_COMPUTED("volute", "diffuser_length_mm", "mm", 1, 20000, volute.diffuser_length,
+                  "from the throat to the outlet diameter"),
+    REAL_COMPUTED("volute", "outlet_diameter_mm", "mm", 5, 5000, volute.outlet_diameter,
+                  "DN, of the discharge"),
+    REAL_COMPUTED("volute", "discharge_pipe_length_mm", "mm", 1, 100000, volute.discharge_pipe_length,
+                  "straight pipe behind the diffuser"),
+
+    REAL_DEFAULT("walls", "roughness_um", "um", 0, 5000, 0, walls.roughness,
+                 "equivalent sand grain roughness of all walls"),
+    CHOICE("walls", "treatment", treatments, CW_WALL_FUNCTION_SMOOTH, walls.treatment,
+           "wall function: smooth, or rough with the roughness above"),
+    CHOICE("walls", "y_plus_at", y_plus_places, CW_Y_PLUS_AT_CELL_CENTRE, walls.y_plus_at,
+           "where y+ is asked: at the first node (CFX) or at the first cell centre (OpenFOAM)"),
+    REAL_DEFAULT("walls", "y_plus_blade", "", 0.05, 1000, 30, walls.y_plus_blade, "target on the blades"),
+    REAL_DEFAULT("walls", "y_plus_hub_shroud", "", 0.05, 1000, 30, walls.y_plus_hub_shroud,
+                 "target on hub and shroud"),
+    REAL_DEFAULT("walls", "y_plus_volute", "", 0.05, 1000, 30, walls.y_plus_volute,
+                 "target in the volute, on the tongue and in the neck"),
+    REAL_DEFAULT("walls", "y_plus_pipe", "", 0.05, 1000, 30, walls.y_plus_pipe,
+                 "target in the suction and discharge pipes"),
+    {"walls", "layer_count", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 40, 5, NULL, AT(walls.layer_count),
+     "number of prism layers"},
+    REAL_DEFAULT("walls", "growth_ratio", "", 1, 2, 1.2, walls.growth_ratio,
+                 "largest ratio of the heights of neighbouring layers"),
+    REAL_COMPUTED("walls", "total_thickness_mm", "mm", 0.001, 200, walls.total_thickness,
+                  "of all layers together; computed: from first height, count and growth ratio"),
+
+    {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
+     "cells of rotor and stator together; --cells on the command line goes before it"},
+    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 20000, 4e6, 400000, NULL,
+     AT(mesh.cells_per_region), "about this many cells a region; at least four regions a domain in any case"},
+    REAL_DEFAULT("mesh", "gradation", "", 0.05, 1, 0.25, mesh.gradation,
+                 "growth of the cell size with distance: change of size per distance"),
+    REAL_DEFAULT("mesh", "curvature_angle_deg", "deg", 2, 60, 20, mesh.curvature_angle,
+                 "turn of the surface normal across one edge, at relative size 1"),
+    REAL_DEFAULT("mesh", "cells_across_gap", "", 1, 20, 3, mesh.cells_across_gap,
+                 "least number of cells across a narrow place"),
+    REAL_DEFAULT("mesh", "size_blade", "", 0.05, 20, 0.6, mesh.size_blade,
+                 "cell size on the blades, relative to the base size"),
+    REAL_DEFAULT("mesh", "size_hub_shroud", "", 0.05, 20, 0.9, mesh.size_hub_shroud,
+                 "the same on hub and shroud"),
+    REAL_DEFAULT("mesh", "size_volute", "", 0.05, 20, 1.2, mesh.size_volute, "the same in the volute"),
+    REAL_DEFAULT("mesh", "size_pipe", "", 0.05, 20, 1.6, mesh.size_pipe, "the same in the pipes"),
+    REAL_DEFAULT("mesh", "size_interface", "", 0.05, 20, 0.9, mesh.size_interface,
+                 "the same on the interface between rotor and stator"),
+};
+const size_t cw_case_key_count = sizeof cw_case_keys / sizeof *cw_case_keys;
+
+// Those that keys end in, and those that people write by mistake.
+static const CwUnit units[] = {
+    {"mm", "mm", "length", 1, 1000},
+    {"m", "m", "length", 1, 1},
+    {"cm", "cm", "length", 1, 100},
+    {"um", "um", "length", 1, 1e6},
+    {"in", "in", "length", 254, 10000},
+    {"inch", "in", "length", 254, 10000},
+    {"ft", "ft", "length", 3048, 10000},
+    {"mm2", "mm2", "area", 1, 1e6},
+    {"cm2", "cm2", "area", 1, 1e4},
+    {"m2", "m2", "area", 1, 1},
+    {"deg", "degrees", "angle", pi, 180},
+    {"rad", "rad", "angle", 1, 1},
+    {"rpm", "rpm", "speed", pi, 30},
+    {"rad_per_s", "rad/s", "speed", 1, 1},
+    {"hz", "Hz", "speed", 2 * pi, 1},
+    {"m3_per_h", "m3/h", "flow rate", 1, 3600},
+    {"m3_per_s", "m3/s", "flow rate", 1, 1},
+    {"l_per_s", "l/s", "flow rate", 1, 1000},
+    {"l_per_min", "l/min", "flow rate", 1, 60000},
+    {"pa", "Pa", "pressure", 1, 1},
+    {"kpa", "kPa", "pressure", 1000, 1},
+    {"mpa", "MPa", "pressure", 1e6, 1},
+    {"bar", "bar", "pressure", 1e5, 1},
+    {"atm", "atm", "pressure", 101325, 1},
+    {"kg_per_m3", "kg/m3", "density", 1, 1},
+    {"g_per_cm3", "g/cm3", "density", 1000, 1},
+    {"m2_per_s", "m2/s", "viscosity", 1, 1},
+    {"mm2_per_s", "mm2/s", "viscosity", 1, 1e6},
+    {"cst", "cSt", "viscosity", 1, 1e6},
+};
+enum { UNIT_COUNT = sizeof units / sizeof *units };
+
+const CwUnit *cw_unit_find(const char *suffix) {
+  for (int i = 0; i < UNIT_COUNT; ++i)
+    if (!strcmp(units[i].suffix, suffix)) return &units[i];
+  return NULL;
+}
+
+const CwUnit *cw_unit_of_key(const char *key, size_t *stem) {
+  // The longest suffix wins: "speed_rad_per_s" does not end in "s" and "kinematic_viscosity_m2_per_s" not in
+  // "m2".
+  const CwUnit *best = NULL;
+  size_t length = strlen(key), best_size = 0;
+  *stem = length;
+  for (int i = 0; i < UNIT_COUNT; ++i) {
+    size_t size = strlen(units[i].suffix);
+    if (size <= best_size || size + 2 > length || key[length - size - 1] != '_') continue;
+    if (strcasecmp(key + length - size, units[i].suffix)) continue;
+    best = &units[i];
+    best_size = size;
+    *stem = length - size - 1;
+  }
+  return best;
+}
+
+int cw_case_key_find(const char *section, const char *key) {
+  for (size_t i = 0; i < cw_case_key_count; ++i)
+    if (!strcmp(cw_case_keys[i].section, section) && !strcmp(cw_case_keys[i].key, key)) return (int)i;
+  return -1;
+}
+
+int cw_case_section_known(const char *section) {
+  for (size_t i = 0; i < cw_case_key_count; ++i)
+    if (!strcmp(cw_case_keys[i].section, section)) return 1;
+  return 0;
+}
+
+void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]) {
+  snprintf(path, CW_KEY_PATH_SIZE, "%s%s%s", key->section, key->section[0] ? "." : "", key->key);
+}
+
+static const char *unit_text(const CwCaseKey *key) {
+  const CwUnit *unit = cw_unit_find(key->unit);
+  return unit ? unit->text : "";
+}
+
+void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]) {
+  size_t size = CW_KEY_ALLOWED_SIZE, used = 0;
+  switch (key->type) {
+  case CW_KEY_REAL:
+    snprintf(allowed, size, "%.10g to %.10g%s%s", key->least, key->most, key->unit[0] ? " " : "",
+             unit_text(key));
+    return;
+  case CW_KEY_INT:
+  case CW_KEY_INT64:
+    snprintf(allowed, size, "a whole number from %.0f to %.0f", key->least, key->most);
+    return;
+  case CW_KEY_CHOICE:
+    allowed[0] = '\0';
+    for (int i = 0; key->choices[i] && used < size; ++i) {
+      const char *between = i == 0 ? "" : key->choices[i + 1] ? ", " : " or ";
+      used += (size_t)snprintf(allowed + used, size - used, "%s%s", between, key->choices[i]);
+    }
+    return;
+  case CW_KEY_NAME:
+    snprintf(allowed, size, "%.0f to %.0f letters, digits, _ and -, a letter first", key->least, key->most);
+    return;
+  }
+}
+
+double cw_case_key_value(const CwCaseKey *key, const CwCase *table) {
+  const char *field = (const char *)table + key->offset;
+  const CwUnit *unit = cw_unit_find(key->unit);
+  double real;
+  int integer;
+  int64_t large;
+  switch (key->type) {
+  case CW_KEY_REAL:
+    memcpy(&real, field, sizeof real);
+    return unit ? real * unit->denominator / unit->numerator : real;
+  case CW_KEY_INT:
+  case CW_KEY_CHOICE:
+    memcpy(&integer, field, sizeof integer);
+    return integer;
+  case CW_KEY_INT64:
+    memcpy(&large, field, sizeof large);
+    return (double)large;
+  case CW_KEY_NAME:
+    break;
+  }
+  return NAN;
+}
+
+_Static_assert(sizeof(CwPriority) == sizeof(int), "a choice is stored as an int");
+
+void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table) {
+  char *field = (char *)table + key->offset;
+  const CwUnit *unit = cw_unit_find(key->unit);
+  double real = unit ? value * unit->numerator / unit->denominator : value;
+  int integer;
+  int64_t large;
+  switch (key->type) {
+  case CW_KEY_REAL:
+    memcpy(field, &real, sizeof real);
+    return;
+  case CW_KEY_INT:
+  case CW_KEY_CHOICE:
+    integer = (int)value;
+    memcpy(field, &integer, sizeof integer);
+    return;
+  case CW_KEY_INT64:
+    large = (int64_t)value;
+    memcpy(field, &large, sizeof large);
+    return;
+  case CW_KEY_NAME:
+    return;
+  }
+}
+
+void cw_case_defaults(CwCase *table) {
+  memset(table, 0, sizeof *table);
+  for (size_t i = 0; i < cw_case_key_count; ++i) {
+    const CwCaseKey *key = &cw_case_keys[i];
+    if (key->presence == CW_KEY_DEFAULT || key->type == CW_KEY_REAL)
+      cw_case_key_set(key, key->fallback, table);
+  }
+}
+
+void cw_case_schema_markdown(FILE *stream) {
+  const char *section = NULL;
+  for (size_t i = 0; i < cw_case_key_count; ++i) {
+    const CwCaseKey *key = &cw_case_keys[i];
+    if (!section || strcmp(section, key->section)) {
+      section = key->section;
+      if (i) fputc('\n', stream);
+      fprintf(stream, section[0] ? "### %s\n\n" : "### Top of the file\n\n", section);
+      fputs("| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n", stream);
+    }
+    char allowed[CW_KEY_ALLOWED_SIZE], fallback[64];
+    cw_case_key_allowed(key, allowed);
+    if (key->presence == CW_KEY_REQUIRED)
+      snprintf(fallback, sizeof fallback, "required");
+    else if (key->presence == CW_KEY_COMPUTED)
+      snprintf(fallback, sizeof fallback, "computed");
+    else if (key->type == CW_KEY_CHOICE)
+      snprintf(fallback, sizeof fallback, "%s", key->choices[(int)key->fallback]);
+    else
+      snprintf(fallback, sizeof fallback, "%.10g", key->fallback);
+    fprintf(stream, "| `%s` | %s | %s | %s | %s |\n", key->key, key->unit[0] ? unit_text(key) : "-", allowed,
+            fallback, key->meaning);
+  }
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The one table of every key of the case file. Reading, validation, defaults and the page
+// docs/case-reference.md all follow from it: a new key is one new row here and one field in case.h.
+#ifndef CUTWATER_PIPELINE_CASE_SCHEMA_H
+#define CUTWATER_PIPELINE_CASE_SCHEMA_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "pipeline/case.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// The field at `offset` is a double, an int, an int64_t, an enum, or a char[CW_NAME_SIZE].
+typedef enum { CW_KEY_REAL, CW_KEY_INT, CW_KEY_INT64, CW_KEY_CHOICE, CW_KEY_NAME } CwKeyType;
+
+// A key left out: an error, the default, or NAN for the hydraulic design (or the mesher) to compute.
+typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED } CwKeyPresence;
+
+typedef struct {
+  const char *section; // "" for the top of the file
+  const char *key;     // ends in its unit, when it has one
+  CwKeyType type;
+  CwKeyPresence presence;
+  const char *unit;           // suffix of the key, an entry of the table of units; "" without
+  double least, most;         // in the unit, both allowed
+  double fallback;            // the default in the unit; of a choice: its index
+  const char *const *choices; // NULL-terminated, in the order of the enum
+  size_t offset;              // into CwCase
+  const char *meaning;
+} CwCaseKey;
+
+// All keys, section after section, in the order of the page.
+extern const CwCaseKey cw_case_keys[];
+extern const size_t cw_case_key_count;
+
+enum { CW_KEY_PATH_SIZE = 80, CW_KEY_ALLOWED_SIZE = 160 };
+
+// Index of `key` in `section`, or -1.
+int cw_case_key_find(const char *section, const char *key);
+
+// Whether the schema has keys in `section`.
+int cw_case_section_known(const char *section);
+
+// "impeller.blade_count"; "name" at the top.
+void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]);
+
+// What the key may be, for messages and the page: "10 to 5000 mm", "a whole number from 3 to 9", "wrap, head
+// or beta".
+void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]);
+
+// Value of the key's field in the unit of the key; of a choice: its index. Not for names.
+double cw_case_key_value(const CwCaseKey *key, const CwCase *table);
+
+// Sets the key's field from a value in the unit of the key. Not for names. No check of the range.
+void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table);
+
+// Writes the sections and their tables as docs/case-reference.md holds them.
+void cw_case_schema_markdown(FILE *stream);
+
+// Units that a key may end in. `value` SI units are value * numerator / denominator: a quotient, so that 74
+// mm is the double nearest to 0.074 m.
+typedef struct {
+  const char *suffix;   // as in keys: "m3_per_h"
+  const char *text;     // as people write it: "m3/h"
+  const char *quantity; // "length"
+  double numerator, denominator;
+} CwUnit;
+
+// The unit of a suffix, or NULL.
+const CwUnit *cw_unit_find(const char *suffix);
+
+// The unit that `key` ends in, or NULL; `*stem` is the length of the key without it ("wrap_angle_deg": 10).
+const CwUnit *cw_unit_of_key(const char *key, size_t *stem);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

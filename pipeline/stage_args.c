@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/stage_args.h"
+
+#include <ctype.h>
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/case_schema.h"
+#include "pipeline/case_value.h"
+#include "pipeline/log.h"
+
+// Codes past all characters, so that getopt's code of an unknown short option is never one of them.
+enum { CASE = 256, RUN, CELLS, VERBOSE, VERSION, HELP, OPTION, SHARED_COUNT = OPTION - CASE };
+
+static const struct option shared[SHARED_COUNT] = {
+    {"case", required_argument, NULL, CASE},   {"run", required_argument, NULL, RUN},
+    {"cells", required_argument, NULL, CELLS}, {"verbose", no_argument, NULL, VERBOSE},
+    {"version", no_argument, NULL, VERSION},   {"help", no_argument, NULL, HELP},
+};
+
+static void print_help(const CwStageUsage *usage, FILE *out) {
+  fprintf(out, "usage: cutwater-%s --case FILE --run DIR [OPTIONS]\n%s\n", usage->stage, usage->summary);
+  fputs("  --case FILE     the case file, see docs/case-reference.md\n"
+        "  --run DIR       folder of the run; its files are read and written there\n"
+        "  --cells N       asked number of cells (500000, 500k, 2M), before that of the case file\n",
+        out);
+  for (int i = 0; i < usage->option_count; ++i) {
+    const CwStageOption *option = &usage->options[i];
+    char left[64];
+    snprintf(left, sizeof left, "--%s %s", option->name, option->argument ? option->argument : "");
+    fprintf(out, "  %-15s %s\n", left, option->help);
+  }
+  fputs("  --verbose       more lines, and where in the program an error arose\n"
+        "  --version       print the version and end\n"
+        "  --help          print this and end\n",
+        out);
+}
+
+CwStatus cw_count_read(const char *name, const char *text, int64_t least, int64_t most, int64_t *count) {
+  CwStatus status = CW_OK;
+  char digits[40];
+  double number = NAN, factor = 1;
+  size_t length = strlen(text);
+  int readable = length > 0 && length < sizeof digits && (isdigit((unsigned char)text[0]));
+  if (readable) {
+    memcpy(digits, text, length + 1);
+    char last = text[length - 1];
+    factor = last == 'k' || last == 'K' ? 1e3 : last == 'M' ? 1e6 : last == 'G' ? 1e9 : 1;
+    if (factor > 1) digits[length - 1] = '\0';
+    readable = !cw_number_read(digits, &number);
+    number = round(number * factor * 1e3) / 1e3; // 1.1 M is 1100000 and not its neighbour
+  }
+  char shown[CW_SHOWN_SIZE];
+  cw_show(text, shown);
+  CW_REQUIRE(readable && number == floor(number), CW_ERR_USAGE,
+             "%s: %s is not a whole number; allowed: %lld to %lld, as 500000, 500k or 2M", name, shown,
+             (long long)least, (long long)most);
+  CW_REQUIRE(number >= (double)least && number <= (double)most, CW_ERR_USAGE,
+             "%s: %s is out of range; allowed: %lld to %lld, as 500000, 500k or 2M", name, shown,
+             (long long)least, (long long)most);
+  *count = (int64_t)number;
+done:
+  return status;
+}
+
+static CwStatus read_cells(const char *text, int64_t *cells) {
+  const CwCaseKey *key = &cw_case_keys[cw_case_key_find("mesh", "cells")];
+  return cw_count_read("--cells", text, (int64_t)key->least, (int64_t)key->most, cells);
+}
+
+CwStatus cw_stage_args_read(int argc, char **argv, const CwStageUsage *usage, FILE *out, CwStageArgs *args) {
+  CwStatus status = CW_OK;
+  struct option options[SHARED_COUNT + CW_STAGE_OPTION_LIMIT + 1] = {{0}};
+  memset(args, 0, sizeof *args);
+  memcpy(options, shared, sizeof shared);
+  for (int i = 0; i < usage->option_count && i < CW_STAGE_OPTION_LIMIT; ++i)
+    options[SHARED_COUNT + i] =
+        (struct option){usage->options[i].name, usage->options[i].argument ? required_argument : no_argument,
+                        NULL, OPTION + i};
+  optind = 0; // begins anew, also when called twice
+  opterr = 0;
+  for (;;) {
+    int code = getopt_long(argc, argv, ":", options, NULL);
+    if (code == -1) break;
+    switch (code) {
+    case CASE:
+      args->case_path = optarg;
+      break;
+    case RUN:
+      args->run_path = optarg;
+      break;
+    case CELLS:
+      CW_TRY(read_cells(optarg, &args->cells));
+      break;
+    case VERBOSE:
+      args->verbose = 1;
+      break;
+    case VERSION:
+      if (out) fprintf(out, "cutwater-%s %s\n", usage->stage, CUTWATER_VERSION);
+      args->finished = 1;
+      goto done;
+    case HELP:
+      if (out) print_help(usage, out);
+      args->finished = 1;
+      goto done;
+    case ':':
+      status = CW_FAIL(CW_ERR_USAGE, "%s: its value is missing; see cutwater-%s --help", argv[optind - 1],
+                       usage->stage);
+      goto done;
+    case '?':
+      // Of short options in one word getopt moves on only behind the last: the word is not always argv[optind
+      // - 1].
+      if (optopt > 0 && optopt < CASE)
+        status = CW_FAIL(CW_ERR_USAGE, "-%c: no such option; see cutwater-%s --help", optopt, usage->stage);
+      else
+        status = CW_FAIL(CW_ERR_USAGE, "%s: no such option, or not so; see cutwater-%s --help",
+                         argv[optind - 1], usage->stage);
+      goto done;
+    default:
+      args->options[code - OPTION] = optarg ? optarg : "";
+    }
+  }
+  CW_REQUIRE(optind == argc, CW_ERR_USAGE, "%s: an argument without an option; see cutwater-%s --help",
+             argv[optind], usage->stage);
+  CW_REQUIRE(args->case_path && args->case_path[0], CW_ERR_USAGE,
+             "--case FILE is missing; see cutwater-%s --help", usage->stage);
+  CW_REQUIRE(args->run_path && args->run_path[0], CW_ERR_USAGE,
+             "--run DIR is missing; see cutwater-%s --help", usage->stage);
+done:
+  return status;
+}
+
+CwStatus cw_stage_path(const CwStageArgs *args, const char *name, char **path) {
+  CwStatus status = CW_OK;
+  size_t size = strlen(args->run_path) + strlen(name) + 2;
+  CW_NEW(*path, size);
+  snprintf(*path, size, "%s/%s", args->run_path, name);
+done:
+  return status;
+}
+
+CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args,
+                        CwCase *table) {
+  CwStatus status = CW_OK;
+  char *log_path = NULL, name[64];
+  CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0));
+  CW_TRY(cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args));
+  if (args->finished) goto done;
+  snprintf(name, sizeof name, "log/%s.log", usage->stage);
+  CW_TRY(cw_stage_path(args, name, &log_path));
+  CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));
+  CW_TRY(cw_case_read(args->case_path, table));
+  if (args->cells) table->mesh.cells = args->cells;
+done:
+  free(log_path);
+  return status;
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <errno.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "pipeline/atomic_file.h"
+
+static char folder[] = CUTWATER_BIN_DIR "/atomic-XXXXXX";
+static char whole[sizeof folder + 32], part[sizeof folder + 32];
+
+static int make_folder(void **state) {
+  if (!mkdtemp(folder)) return -1;
+  snprintf(whole, sizeof whole, "%s/mesh.txt", folder);
+  snprintf(part, sizeof part, "%s/.part-mesh.txt", folder);
+  return 0;
+}
+
+static int remove_folder(void **state) {
+  unlink(whole);
+  return rmdir(folder); // fails unless every test left the folder clean
+}
+
+static void assert_content(const char *path, const char *expected) {
+  char text[64] = "";
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  text[fread(text, 1, sizeof text - 1, file)] = '\0';
+  fclose(file);
+  assert_string_equal(text, expected);
+}
+
+static int exists(const char *path) {
+  return !access(path, F_OK);
+}
+
+static void file_appears_at_the_commit(void **state) {
+  CwAtomicFile file = {0};
+  assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
+  assert_string_equal(file.temporary_path, part);
+  fputs("new", file.stream);
+  assert_false(exists(whole));
+  assert_true(exists(part));
+  assert_int_equal(cw_atomic_file_commit(&file), CW_OK);
+  assert_content(whole, "new");
+  assert_false(exists(part));
+  cw_atomic_file_abandon(&file); // nothing after a commit
+  assert_content(whole, "new");
+}
+
+static void abandoned_file_leaves_the_old_one(void **state) {
+  CwAtomicFile file = {0};
+  assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
+  fputs("half", file.stream);
+  cw_atomic_file_abandon(&file);
+  cw_atomic_file_abandon(&file);
+  assert_content(whole, "new");
+  assert_false(exists(part));
+}
+
+static void library_writes_by_name(void **state) {
+  CwAtomicFile file = {0};
+  FILE *stale = fopen(part, "w"); // of a killed run
+  assert_non_null(stale);
+  fclose(stale);
+  assert_int_equal(cw_atomic_file_name(whole, &file), CW_OK);
+  assert_null(file.stream);
+  assert_false(exists(part));
+  FILE *library = fopen(file.temporary_path, "w");
+  assert_non_null(library);
+  fputs("by name", library);
+  fclose(library);
+  assert_int_equal(cw_atomic_file_commit(&file), CW_OK);
+  assert_content(whole, "by name");
+  // A library that wrote nothing is found out.
+  assert_int_equal(cw_atomic_file_name(whole, &file), CW_OK);
+  assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
+  assert_content(whole, "by name");
+}
+
+static void full_disk_is_an_error(void **state) {
+  if (access("/dev/full", W_OK)) skip();
+  CwAtomicFile file = {0};
+  assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
+  assert_non_null(freopen("/dev/full", "w", file.stream));
+  fputs("lost", file.stream);
+  assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "mesh.txt: cannot be written: No space left on device"));
+  assert_content(whole, "by name");
+  assert_false(exists(part));
+  assert_null(file.temporary_path);
+}
+
+static void bad_places_are_errors(void **state) {
+  CwAtomicFile file = {0};
+  char path[sizeof folder + 64];
+  snprintf(path, sizeof path, "%s/missing/file", folder);
+  assert_int_equal(cw_atomic_file_open(path, &file), CW_ERR_IO);
+  assert_null(file.temporary_path);
+  snprintf(path, sizeof path, "%s/", folder);
+  assert_int_equal(cw_atomic_file_open(path, &file), CW_ERR_IO);
+  assert_int_equal(cw_atomic_file_open(folder, &file), CW_OK); // a folder stands under the final name
+  assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
+  assert_null(file.temporary_path);
+}
+
+static void directories_are_made_with_parents(void **state) {
+  char path[sizeof folder + 64];
+  struct stat about;
+  snprintf(path, sizeof path, "%s/a//b/c/", folder);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(stat(path, &about), 0);
+  assert_true(S_ISDIR(about.st_mode));
+  assert_int_equal(cw_make_directory("/"), CW_OK);
+  assert_int_equal(cw_make_directory("."), CW_OK);
+  assert_int_equal(cw_make_directory(""), CW_ERR_IO);
+  assert_int_equal(cw_make_directory(whole), CW_ERR_IO); // a file
+  assert_non_null(strstr(cw_fail_message(), "mesh.txt: is not a folder"));
+  snprintf(path, sizeof path, "%s/below", whole);
+  assert_int_equal(cw_make_directory(path), CW_ERR_IO);
+  const char *const made[] = {"a/b/c", "a/b", "a"};
+  for (int i = 0; i < 3; ++i) {
+    snprintf(path, sizeof path, "%s/%s", folder, made[i]);
+    assert_int_equal(rmdir(path), 0);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(file_appears_at_the_commit), cmocka_unit_test(abandoned_file_leaves_the_old_one),
+      cmocka_unit_test(library_writes_by_name),     cmocka_unit_test(full_disk_is_an_error),
+      cmocka_unit_test(bad_places_are_errors),      cmocka_unit_test(directories_are_made_with_parents),
+  };
+  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

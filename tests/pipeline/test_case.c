@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "pipeline/case.h"
+
+static const double pi = 3.14159265358979323846;
+
+static const char *const good[] = {
+    "name: test",                // 1
+    "operating_point:",          // 2
+    "  flow_rate_m3_per_h: 25",  // 3
+    "  head_m: 10",              // 4
+    "  speed_rpm: 1450",         // 5
+    "impeller:",                 // 6
+    "  priority: wrap",          // 7
+    "  blade_count: 6",          // 8
+    "  inlet_diameter_mm: 74",   // 9
+    "  outlet_diameter_mm: 200", // 10
+    "  outlet_width_mm: 8",      // 11
+    "  wrap_angle_deg: 71",      // 12
+    "volute:",                   // 13
+    "  base_diameter_mm: 204",   // 14
+    "  inlet_width_mm: 12",      // 15
+    "walls:",                    // 16
+    "  layer_count: 5",          // 17
+    "  growth_ratio: 1.2",       // 18
+    "mesh:",                     // 19
+    "  cells: 1000000",          // 20
+};
+enum { GOOD_COUNT = sizeof good / sizeof *good };
+
+static char path[] = CUTWATER_BIN_DIR "/case-XXXXXX";
+
+static int make_path(void **state) {
+  int file = mkstemp(path);
+  if (file < 0) return -1;
+  return close(file);
+}
+
+static int remove_path(void **state) {
+  return unlink(path);
+}
+
+static void write_bytes(const char *text, size_t length) {
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(text, 1, length, file), length);
+  assert_int_equal(fclose(file), 0);
+}
+
+// Writes the good case with line `line` (1-based) replaced; "" removes it, line 0 changes nothing.
+static void write_changed(int line, const char *replacement) {
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  for (int i = 0; i < GOOD_COUNT; ++i) {
+    const char *text = i + 1 == line ? replacement : good[i];
+    if (*text) fprintf(file, "%s\n", text);
+  }
+  assert_int_equal(fclose(file), 0);
+}
+
+// Whether reading fails as it should; prints how it does not.
+static int is_refused(const char *expected) {
+  CwCase table, before;
+  char whole[1200];
+  memset(&table, 7, sizeof table);
+  memcpy(&before, &table, sizeof table);
+  cw_fail_clear();
+  CwStatus status = cw_case_read(path, &table);
+  snprintf(whole, sizeof whole, "%s:%s", path, expected);
+  int fine =
+      status == CW_ERR_INPUT && !strcmp(cw_fail_message(), whole) && !memcmp(&table, &before, sizeof table);
+  if (!fine) print_error("expected %s\ngot %d %s\n", whole, status, cw_fail_message());
+  return fine;
+}
+
+typedef struct {
+  int line;
+  const char *replacement;
+  const char *expected; // all of the message behind "FILE:"
+} BadCase;
+
+static const BadCase bad_cases[] = {
+    // Wrong units in the key.
+    {10, "  outlet_diameter_m: 0.2",
+     "10:3: impeller.outlet_diameter_m: wrong unit in the key, m instead of mm; allowed: outlet_diameter_mm, "
+     "10 to "
+     "5000 mm (0.2 m is 200 mm)"},
+    {12, "  wrap_angle_rad: 1.25",
+     "12:3: impeller.wrap_angle_rad: wrong unit in the key, rad instead of degrees; allowed: wrap_angle_deg, "
+     "20 to 300 "
+     "degrees (1.25 rad is 71.6197 degrees)"},
+    {12, "  wrap_angle: 71",
+     "12:3: impeller.wrap_angle: the key lacks its unit, degrees; allowed: wrap_angle_deg, 20 to 300 "
+     "degrees"},
+    {3, "  flow_rate_l_per_s: 7",
+     "3:3: operating_point.flow_rate_l_per_s: wrong unit in the key, l/s instead of m3/h; allowed: "
+     "flow_rate_m3_per_h, "
+     "0.1 to 100000 m3/h (7 l/s is 25.2 m3/h)"},
+    {5, "  speed_rad_per_s: 152",
+     "5:3: operating_point.speed_rad_per_s: wrong unit in the key, rad/s instead of rpm; allowed: speed_rpm, "
+     "10 to "
+     "100000 rpm (152 rad/s is 1451.49 rpm)"},
+    {4, "  head_bar: 1",
+     "4:3: operating_point.head_bar: wrong unit in the key, bar instead of m; allowed: head_m, 0.1 to 1000 "
+     "m"},
+    {8, "  blade_count_mm: 6",
+     "8:3: impeller.blade_count_mm: wrong unit in the key, mm; allowed: blade_count without unit, a whole "
+     "number from "
+     "3 to 9"},
+    // Unknown keys.
+    {8, "  blade_cuont: 6",
+     "8:3: impeller.blade_cuont: unknown key; allowed: the keys of docs/case-reference.md, the nearest is "
+     "blade_count"},
+    {19,
+     "mseh:", "19:1: mseh: unknown key; allowed: the keys of docs/case-reference.md, the nearest is mesh"},
+    {20, "  layer_count: 5",
+     "20:3: mesh.layer_count: unknown key here; allowed: the key layer_count in section walls"},
+    {20, "  name: x", "20:3: mesh.name: unknown key here; allowed: the key name in the top of the file"},
+    {1, "name: test\ncells: 5", "2:1: cells: unknown key here; allowed: the key cells in section mesh"},
+    {20, "  <<: {cells: 5}",
+     "20:3: mesh.<<: unknown key; allowed: the keys of docs/case-reference.md, the nearest is cells"},
+    {8, "  blade_count: 6\n  : 7",
+     "8:16: impeller.(nothing): the key is empty; allowed: the keys of docs/case-reference.md"},
+    // Wrong types.
+    {8, "  blade_count: six",
+     "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: 6.5",
+     "8:16: impeller.blade_count: 6.5 is not a whole number; allowed: a whole number from 3 to 9"},
+    {20, "  cells: 1e6",
+     "20:10: mesh.cells: 1e6 is not a whole number; allowed: a whole number from 10000 to 2000000000"},
+    {11, "  outlet_width_mm: \"8\"",
+     "11:20: impeller.outlet_width_mm: 8 is text, not a number (it stands in quotes); allowed: 0.5 to 1000 "
+     "mm"},
+    {11,
+     "  outlet_width_mm:", "11:3: impeller.outlet_width_mm: (nothing) is no value; allowed: 0.5 to 1000 mm"},
+    {12, "  wrap_angle_deg: ~",
+     "12:19: impeller.wrap_angle_deg: ~ is no value (leave the key out for its default); allowed: 20 to 300 "
+     "degrees"},
+    {11, "  outlet_width_mm: [8, 9]",
+     "11:20: impeller.outlet_width_mm: it is a list, not one value; allowed: 0.5 to 1000 mm"},
+    {11, "  outlet_width_mm: {a: 8}",
+     "11:20: impeller.outlet_width_mm: it is a mapping, not one value; allowed: 0.5 to 1000 mm"},
+    {11, "  outlet_width_mm: *width",
+     "11:20: impeller.outlet_width_mm: it is an alias (*name), not one value; allowed: 0.5 to 1000 mm"},
+    {11, "  outlet_width_mm: !!float 8",
+     "11:28: impeller.outlet_width_mm: it has a tag (!...); allowed: without tag, 0.5 to 1000 mm"},
+    {7, "  priority: warp",
+     "7:13: impeller.priority: warp is not one of the choices; allowed: wrap, head or beta"},
+    {7, "  priority: Wrap",
+     "7:13: impeller.priority: Wrap is not one of the choices; allowed: wrap, head or beta"},
+    {16, "walls:\n  y_plus_at: 1",
+     "17:14: walls.y_plus_at: 1 is not one of the choices; allowed: node or cell_centre"},
+    {1, "name: my/pump",
+     "1:7: name: my/pump is not a name that files and solvers take; allowed: 1 to 32 letters, digits, _ and "
+     "-, a "
+     "letter first"},
+    {1, "name: \"a\\0b\"",
+     "1:7: name: a?b is not a name that files and solvers take; allowed: 1 to 32 letters, digits, _ and -, a "
+     "letter "
+     "first"},
+    {1, "name: a23456789012345678901234567890123",
+     "1:7: name: a23456789012345678901234567890123 is not a name that files and solvers take; allowed: 1 to "
+     "32 "
+     "letters, digits, _ and -, a letter first"},
+    // Numbers that are none.
+    {4, "  head_m: .nan",
+     "4:11: operating_point.head_m: .nan is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: nan", "4:11: operating_point.head_m: nan is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: -.inf",
+     "4:11: operating_point.head_m: -.inf is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 1e999",
+     "4:11: operating_point.head_m: 1e999 is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 0x10",
+     "4:11: operating_point.head_m: 0x10 is not a decimal number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 0o17",
+     "4:11: operating_point.head_m: 0o17 is not a decimal number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 010", "4:11: operating_point.head_m: 010 has a leading zero; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 10,5",
+     "4:11: operating_point.head_m: 10,5 has a comma (decimals follow a point); allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 10 m",
+     "4:11: operating_point.head_m: 10 m has text behind the number (the unit stands in the key); allowed: "
+     "0.1 to 1000 "
+     "m"},
+    {4, "  head_m: 1e",
+     "4:11: operating_point.head_m: 1e has text behind the number (the unit stands in the key); "
+     "allowed: 0.1 to 1000 m"},
+    {4, "  head_m: .", "4:11: operating_point.head_m: . is not a number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 1\n   2",
+     "4:11: operating_point.head_m: 1 2 has text behind the number (the unit stands in the key); allowed: "
+     "0.1 to 1000 "
+     "m"},
+    // Out of range, at both ends.
+    {8, "  blade_count: 2",
+     "8:16: impeller.blade_count: 2 is out of range; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: 10",
+     "8:16: impeller.blade_count: 10 is out of range; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: 99999999999999999999",
+     "8:16: impeller.blade_count: 99999999999999999999 is out of range; allowed: a whole number from 3 to 9"},
+    {10, "  outlet_diameter_mm: -200",
+     "10:23: impeller.outlet_diameter_mm: -200 is out of range; allowed: 10 to 5000 mm"},
+    {10, "  outlet_diameter_mm: 0.2",
+     "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 5000 mm"},
+    {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2"},
+    {17, "  layer_count: 0",
+     "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
+    {20, "  cells: 9999",
+     "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000"},
+    // Missing.
+    {1, "", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
+    {8, "", "6:1: impeller.blade_count: the key is missing; allowed: a whole number from 3 to 9"},
+    {15, "", "13:1: volute.inlet_width_mm: the key is missing; allowed: 0.5 to 2000 mm"},
+    // Twice.
+    {9, "  inlet_diameter_mm: 74\n  inlet_diameter_mm: 75",
+     "10:3: impeller.inlet_diameter_mm: given twice, first in line 9; allowed: once"},
+    {20, "  cells: 1000000\nname: again", "21:1: name: given twice, first in line 1; allowed: once"},
+    {20, "  cells: 1000000\nwalls:\n  roughness_um: 1",
+     "21:1: walls: given twice, first in line 16; allowed: once"},
+    // Sections that are none.
+    {19, "mesh: 5\nwalls2:",
+     "19:7: mesh: 5 is not a mapping; allowed: the section's keys, one a line, indented below "
+     "it"},
+    {19, "mesh: [1]\nwalls2:",
+     "19:7: mesh: a list is not a mapping; allowed: the section's keys, one a line, indented "
+     "below it"},
+    {20, "",
+     "19:1: mesh: (nothing) is not a mapping; allowed: the section's keys, one a line, indented below it"},
+    {20, "  [a, b]: 5", "20:3: mesh: a key is a list; allowed: a plain word"},
+    {1, "{a: 1}: 5", "1:1: case file: a key is a mapping; allowed: a plain word"},
+    // No YAML.
+    {9, " inlet_diameter_mm: 74",
+     "9:2: case file: it is not YAML, invalid indentation in mapping; allowed: one \"key: value\" a line, "
+     "sections "
+     "indented by blanks"},
+    {2, "operating_point:\n\thead_m: 10",
+     "3:1: case file: it is not YAML, tab character may not be used as indentation; allowed: one \"key: "
+     "value\" a line, "
+     "sections indented by blanks"},
+    {1, "name: \"test",
+     "1:7: case file: it is not YAML, wrongly indented double-quoted scalar; allowed: one \"key: value\" a "
+     "line, "
+     "sections indented by blanks"},
+    {4, "  head_m: 10: 5",
+     "4:13: case file: it is not YAML, invalid nested block mapping on the same line; allowed: one \"key: "
+     "value\" a "
+     "line, sections indented by blanks"},
+    {20, "  cells: 1000000\n---\nname: second",
+     "21:1: case file: a second document begins; allowed: one document"},
+    // Not text.
+    {1,
+     "name: te\xff"
+     "st",
+     "1:9: case file: byte 0xff is no text; allowed: UTF-8 text"},
+    {1, "# caf\xc3\xa9 \xc3(\nname: test", "1:8: case file: byte 0xc3 is no text; allowed: UTF-8 text"},
+    {4, "  head_m: 10 # \x01", "4:16: case file: byte 0x01 is no text; allowed: UTF-8 text"},
+    {1, "name: \xed\xa0\x80", "1:7: case file: byte 0xed is no text; allowed: UTF-8 text"},
+    // Contradictions.
+    {15, "  inlet_width_mm: 7.9",
+     "15:19: volute.inlet_width_mm: 7.9 contradicts impeller.outlet_width_mm (the volute takes the "
+     "impeller's outlet); "
+     "allowed: at least 8 mm"},
+    {14, "  base_diameter_mm: 200",
+     "14:21: volute.base_diameter_mm: 200 contradicts impeller.outlet_diameter_mm (the volute lies around "
+     "the "
+     "impeller); allowed: above 200 mm"},
+    {9, "  inlet_diameter_mm: 200",
+     "9:22: impeller.inlet_diameter_mm: 200 contradicts impeller.outlet_diameter_mm (the flow goes "
+     "outwards); allowed: "
+     "below 200 mm"},
+    {12, "  wrap_angle_deg: 71\n  hub_diameter_mm: 80",
+     "13:20: impeller.hub_diameter_mm: 80 contradicts impeller.inlet_diameter_mm (the eye must stay open); "
+     "allowed: "
+     "below 74 mm"},
+    {12, "  wrap_angle_deg: 71\n  leading_edge_radius_shroud_mm: 100",
+     "13:34: impeller.leading_edge_radius_shroud_mm: 100 contradicts half of impeller.outlet_diameter_mm "
+     "(the leading "
+     "edge lies inside D2/2); allowed: below 100 mm"},
+    {12, "  wrap_angle_deg: 71\n  hub_diameter_mm: 30\n  leading_edge_radius_hub_mm: 14",
+     "14:31: impeller.leading_edge_radius_hub_mm: 14 contradicts half of impeller.hub_diameter_mm (the "
+     "leading edge "
+     "meets the hub outside its nut); allowed: at least 15 mm"},
+    {12, "  wrap_angle_deg: 71\n  blade_thickness_mm: 3\n  leading_edge_thickness_mm: 3.5",
+     "14:30: impeller.leading_edge_thickness_mm: 3.5 contradicts impeller.blade_thickness_mm (this is the "
+     "largest "
+     "thickness of the blade); allowed: at most 3 mm"},
+    {12, "  wrap_angle_deg: 71\n  leading_edge_radius_hub_mm: 101",
+     "13:31: impeller.leading_edge_radius_hub_mm: 101 contradicts half of impeller.outlet_diameter_mm (the "
+     "leading edge lies inside D2/2); allowed: below 100 mm"},
+    {12, "  leading_edge_radius_shroud_mm: 15\n  wrap_angle_deg: 71\n  hub_diameter_mm: 30",
+     "12:34: impeller.leading_edge_radius_shroud_mm: 15 contradicts half of impeller.hub_diameter_mm (the "
+     "leading edge meets the shroud outside the hub); allowed: above 15 mm"},
+    {12, "  wrap_angle_deg: 71\n  blade_thickness_mm: 3\n  trailing_edge_thickness_mm: 3.1",
+     "14:31: impeller.trailing_edge_thickness_mm: 3.1 contradicts impeller.blade_thickness_mm (this is the "
+     "largest thickness of the blade); allowed: at most 3 mm"},
+    {12, "  wrap_angle_deg: 71\n  trailing_edge_thickness_mm: 2\n  trailing_edge_bevel_mm: 2.1",
+     "14:27: impeller.trailing_edge_bevel_mm: 2.1 contradicts impeller.trailing_edge_thickness_mm (two "
+     "bevels share the trailing edge); allowed: at most 2 mm"},
+    {12, "  wrap_angle_deg: 71\n  blade_thickness_mm: 20",
+     "13:23: impeller.blade_thickness_mm: 20 contradicts blade_count and inlet_diameter_mm (the blades fill "
+     "the inlet); "
+     "allowed: below 19.37 mm"},
+    {11, "  outlet_width_mm: 100",
+     "11:20: impeller.outlet_width_mm: 100 contradicts half of impeller.outlet_diameter_mm (the impeller is "
+     "radial); "
+     "allowed: below 100 mm"},
+    {18, "  total_thickness_mm: 4",
+     "18:23: walls.total_thickness_mm: 4 contradicts half of impeller.outlet_width_mm (layers on hub and "
+     "shroud would "
+     "meet); allowed: below 4 mm"},
+    {12, "",
+     "7:13: impeller.priority: wrap needs the key wrap_angle_deg, which is missing; allowed: wrap_angle_deg "
+     "from 20 to "
+     "300 degrees, or priority head or beta"},
+    {7, "  priority: beta",
+     "7:13: impeller.priority: beta needs the key outlet_blade_angle_deg, which is missing; allowed: "
+     "outlet_blade_angle_deg from 5 to 85 degrees, or priority wrap or head"},
+    {18, "  treatment: rough",
+     "18:14: walls.treatment: rough contradicts roughness_um, which is 0; allowed: smooth, or roughness_um "
+     "above 0 to "
+     "5000 um"},
+    // u2 = pi 0.2 1450/60 = 15.18 m/s, u2^2/g = 23.51 m. nq = 1450 sqrt(25/3600) / 24^0.75 = 11.1 is fine.
+    {4, "  head_m: 24",
+     "4:11: operating_point.head_m: 24 contradicts speed_rpm and impeller.outlet_diameter_mm, which give the "
+     "tip speed "
+     "15.18 m/s; allowed: below 23.51 m (u2^2/g)"},
+    // nq = 1450 sqrt(25/3600) / 0.1^0.75 = 120.83 / 0.17783 = 679.5
+    {4, "  head_m: 0.1",
+     "5:14: operating_point.speed_rpm: 1450 contradicts flow rate and head, together they give the specific "
+     "speed nq = "
+     "679.5; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)"},
+};
+
+static void bad_cases_are_refused_at_their_place(void **state) {
+  int wrong = 0;
+  for (size_t i = 0; i < sizeof bad_cases / sizeof *bad_cases; ++i) {
+    write_changed(bad_cases[i].line, bad_cases[i].replacement);
+    wrong += !is_refused(bad_cases[i].expected);
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void whole_files_that_are_no_case(void **state) {
+  static const struct {
+    const char *text, *expected;
+  } files[] = {
+      {"", "1:1: case file: it is empty; allowed: the keys of docs/case-reference.md"},
+      {"# nothing\n\n", "1:1: case file: it is empty; allowed: the keys of docs/case-reference.md"},
+      {"~\n", "1:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
+      {"\n- a\n- b\n", "2:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
+      {"just words\n", "1:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
+      {"name: x\n",
+       "1:1: operating_point.flow_rate_m3_per_h: the key is missing; allowed: 0.1 to 100000 m3/h"},
+      {"{}\n", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
+  };
+  for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+    write_bytes(files[i].text, strlen(files[i].text));
+    assert_true(is_refused(files[i].expected));
+  }
+  write_bytes("name: a\0b\n", 10);
+  assert_true(is_refused("1:8: case file: byte 0x00 is no text; allowed: UTF-8 text"));
+}
+
+static void huge_file_is_refused(void **state) {
+  size_t size = (1 << 20) + 1;
+  char *text = malloc(size);
+  assert_non_null(text);
+  memset(text, '#', size);
+  write_bytes(text, size);
+  free(text);
+  assert_true(is_refused("1:1: case file: it is too large; allowed: at most 1 MiB"));
+}
+
+static void deep_nesting_is_refused(void **state) {
+  char text[20000] = "mesh: ";
+  memset(text + 6, '[', sizeof text - 7);
+  write_bytes(text, sizeof text - 1);
+  CwCase table;
+  assert_int_equal(cw_case_read(path, &table), CW_ERR_INPUT);
+}
+
+static void files_that_cannot_be_read(void **state) {
+  CwCase table;
+  assert_int_equal(cw_case_read("/nowhere/case.yaml", &table), CW_ERR_IO);
+  assert_string_equal(cw_fail_message(),
+                      "/nowhere/case.yaml: the case file cannot be read: No such file or directory");
+  assert_int_equal(cw_case_read("/", &table), CW_ERR_IO);
+  assert_string_equal(cw_fail_message(), "/: this is a folder; allowed: a case file in YAML");
+}
+
+static void long_path_leaves_room_for_the_message(void **state) {
+  char far[3000];
+  memset(far, 'a', sizeof far);
+  far[sizeof far - 1] = '\0';
+  CwCase table;
+  assert_int_equal(cw_case_read(far, &table), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "File name too long"));
+  assert_memory_equal(cw_fail_message(), "...aaa", 6);
+}
+
+static void good_case_is_read_in_si(void **state) {
+  CwCase table;
+  write_changed(0, "");
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
+  assert_string_equal(table.name, "test");
+  assert_true(table.operating_point.flow_rate == 25.0 / 3600);
+  assert_true(table.operating_point.head == 10);
+  assert_true(fabs(table.operating_point.speed - 1450 * 2 * pi / 60) < 1e-12);
+  assert_true(table.impeller.inlet_diameter == 0.074);
+  assert_true(table.impeller.outlet_diameter == 0.2);
+  assert_true(fabs(table.impeller.wrap_angle - 71 * pi / 180) < 1e-15);
+  assert_int_equal(table.impeller.blade_count, 6);
+  assert_int_equal(table.mesh.cells, 1000000);
+  assert_int_equal(table.impeller.priority, CW_PRIORITY_WRAP);
+  // Left out: a default, or for the hydraulic design to compute.
+  assert_true(table.operating_point.inlet_pressure == 101325);
+  assert_true(table.fluid.density == 998.2);
+  assert_true(table.fluid.kinematic_viscosity == 1.004e-6);
+  assert_int_equal(table.walls.y_plus_at, CW_Y_PLUS_AT_CELL_CENTRE);
+  assert_true(table.mesh.gradation == 0.25);
+  assert_true(fabs(table.mesh.curvature_angle - pi / 9) < 1e-15);
+  assert_int_equal(table.mesh.cells_per_region, 400000);
+  assert_false(cw_case_given(table.impeller.hub_diameter));
+  assert_false(cw_case_given(table.impeller.outlet_blade_angle));
+  assert_false(cw_case_given(table.volute.throat_area));
+  assert_false(cw_case_given(table.walls.total_thickness));
+}
+
+static void forms_that_yaml_allows(void **state) {
+  static const BadCase fine[] = {
+      {1, "%YAML 1.2\n---\nname: 'test'", NULL}, // directive, document start, quoted name
+      {1, "\xef\xbb\xbfname: test", NULL},       // byte order mark
+      {1, "name: test # caf\xc3\xa9", NULL},     // comment in UTF-8
+      {4, "  head_m: +1.0e+1", NULL},
+      {4, "  head_m: 10.", NULL},
+      {4, "  \"head_m\": &h 10", NULL},
+      {20, "  {cells: 20000,\n   size_pipe: .5}", NULL},
+      {20, "  cells: 1000000\n...", NULL},
+      {15, "  inlet_width_mm: 8", NULL}, // b3 = b2 is allowed
+      {4, "  head_m: 10\r", NULL},
+      {8, "  blade_count: 3", NULL},
+      {8, "  blade_count: 9", NULL},
+      {12, "  wrap_angle_deg: 71\n  hub_diameter_mm: 74e-3\n",
+       "13:20: impeller.hub_diameter_mm: 74e-3 is out of "
+       "range; allowed: 1 to 4000 mm"},
+  };
+  for (size_t i = 0; i < sizeof fine / sizeof *fine; ++i) {
+    CwCase table;
+    write_changed(fine[i].line, fine[i].replacement);
+    if (fine[i].expected) {
+      assert_true(is_refused(fine[i].expected));
+      continue;
+    }
+    if (cw_case_read(path, &table) != CW_OK) fail_msg("%s: %s", fine[i].replacement, cw_fail_message());
+  }
+}
+
+static void case_of_the_paper_is_valid(void **state) {
+  CwCase table;
+  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  assert_string_equal(table.name, "paper");
+  assert_true(table.volute.base_diameter == 0.204);
+  assert_true(fabs(table.walls.roughness - 25e-6) < 1e-18);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bad_cases_are_refused_at_their_place),
+      cmocka_unit_test(whole_files_that_are_no_case),
+      cmocka_unit_test(huge_file_is_refused),
+      cmocka_unit_test(deep_nesting_is_refused),
+      cmocka_unit_test(files_that_cannot_be_read),
+      cmocka_unit_test(long_path_leaves_room_for_the_message),
+      cmocka_unit_test(good_case_is_read_in_si),
+      cmocka_unit_test(forms_that_yaml_allows),
+      cmocka_unit_test(case_of_the_paper_is_valid),
+  };
+  return cmocka_run_group_tests(tests, make_path, remove_path);
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The page docs/case-reference.md and the schema agree. `test_case_reference --print` prints the tables for
+// the page.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "pipeline/case_schema.h"
+
+static char *tables_text(void) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&text, &size);
+  assert_non_null(stream);
+  cw_case_schema_markdown(stream);
+  assert_int_equal(fclose(stream), 0);
+  return text;
+}
+
+static void page_holds_exactly_the_tables(void **state) {
+  FILE *file = fopen(CUTWATER_SOURCE_DIR "/docs/case-reference.md", "r");
+  assert_non_null(file);
+  char *page = calloc(1, 1 << 17);
+  assert_non_null(page);
+  size_t length = fread(page, 1, (1 << 17) - 1, file);
+  fclose(file);
+  assert_true(length > 0);
+  char *tables = tables_text();
+  const char *begin = strstr(page, "### Top of the file\n");
+  assert_non_null(begin);
+  assert_string_equal(begin, tables); // they are the end of the page
+  free(tables);
+  free(page);
+}
+
+static void rows_are_sound(void **state) {
+  CwCase table;
+  cw_case_defaults(&table);
+  for (size_t i = 0; i < cw_case_key_count; ++i) {
+    const CwCaseKey *key = &cw_case_keys[i];
+    char path[CW_KEY_PATH_SIZE];
+    size_t stem;
+    cw_case_key_path(key, path);
+    // No key twice, no two keys of one field.
+    assert_int_equal(cw_case_key_find(key->section, key->key), (int)i);
+    for (size_t j = 0; j < i; ++j)
+      if (cw_case_keys[j].offset == key->offset) fail_msg("%s shares its field with another key", path);
+    assert_true(key->offset < sizeof(CwCase));
+    assert_true(strlen(key->meaning) > 3);
+    assert_null(strchr(key->meaning, '|'));
+    // The unit column and the end of the key say the same.
+    const CwUnit *unit = cw_unit_of_key(key->key, &stem);
+    if (unit != cw_unit_find(key->unit)) fail_msg("%s does not end in its unit", path);
+    if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_NAME) continue;
+    assert_true(key->least < key->most);
+    if (key->presence == CW_KEY_DEFAULT) {
+      if (!(key->fallback >= key->least && key->fallback <= key->most))
+        fail_msg("%s: default out of range", path);
+      assert_true(fabs(cw_case_key_value(key, &table) - key->fallback) <= 1e-12 * key->fallback);
+    } else if (key->type == CW_KEY_REAL) {
+      assert_true(isnan(cw_case_key_value(key, &table)));
+    }
+  }
+}
+
+static void every_field_of_the_case_has_a_key(void **state) {
+  // Bytes that no key sets would be a field without a key; paddings are listed by their fields' sizes.
+  CwCase table;
+  unsigned char covered[sizeof(CwCase)] = {0};
+  for (size_t i = 0; i < cw_case_key_count; ++i) {
+    const CwCaseKey *key = &cw_case_keys[i];
+    size_t size = key->type == CW_KEY_NAME                                ? CW_NAME_SIZE
+                  : key->type == CW_KEY_INT || key->type == CW_KEY_CHOICE ? sizeof(int)
+                                                                          : sizeof(double);
+    memset(covered + key->offset, 1, size);
+  }
+  size_t bare = 0;
+  for (size_t i = 0; i < sizeof table; ++i) {
+    bare = covered[i] ? 0 : bare + 1;
+    if (bare == sizeof(double)) fail_msg("no key for the field that ends at byte %zu of CwCase", i);
+  }
+}
+
+static void units_convert(void **state) {
+  static const struct {
+    const char *suffix;
+    double value, si;
+  } known[] = {
+      {"mm", 74, 0.074},
+      {"um", 25, 25e-6},
+      {"in", 1, 0.0254},
+      {"ft", 1, 0.3048},
+      {"mm2", 1e6, 1},
+      {"deg", 180, 3.14159265358979323846},
+      {"rpm", 60, 6.283185307179586},
+      {"m3_per_h", 3600, 1},
+      {"l_per_min", 60000, 1},
+      {"bar", 1, 1e5},
+      {"cst", 1, 1e-6},
+      {"g_per_cm3", 1, 1000},
+      {"hz", 1, 6.283185307179586},
+  };
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i) {
+    const CwUnit *unit = cw_unit_find(known[i].suffix);
+    assert_non_null(unit);
+    double si = known[i].value * unit->numerator / unit->denominator;
+    assert_true(fabs(si - known[i].si) <= 1e-15 * known[i].si);
+  }
+  size_t stem;
+  assert_string_equal(cw_unit_of_key("kinematic_viscosity_m2_per_s", &stem)->suffix, "m2_per_s");
+  assert_int_equal(stem, strlen("kinematic_viscosity"));
+  assert_null(cw_unit_of_key("blade_count", &stem));
+  assert_int_equal(stem, strlen("blade_count"));
+  assert_null(cw_unit_of_key("mm", &stem));
+}
+
+int main(int argc, char **argv) {
+  if (argc == 2 && !strcmp(argv[1], "--print")) {
+    cw_case_schema_markdown(stdout);
+    return 0;
+  }
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(page_holds_exactly_the_tables),
+      cmocka_unit_test(rows_are_sound),
+      cmocka_unit_test(every_field_of_the_case_has_a_key),
+      cmocka_unit_test(units_convert),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
