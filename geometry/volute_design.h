@@ -5,7 +5,7 @@
 //
 //      z ^          ,--K--.            cone  z = h(r) = b3/2 + (r - D3/2) tan a, the same at every phi
 //        |     ,---'       \           K     kink (r_k, h_k) between cone and outer wall
-//     b3/2 |--'             |          arc   centre (r_c, 0), radius rho, half angle k = 60 deg:
+//     b3/2 |--'             |          arc   centre (r_c, 0), radius rho, half angle k = 35 deg:
 //     b2/2 |                |                points (r_c + rho cos psi, rho sin psi), -k <= psi <= k
 //        +-+----------------+--> r
 //         D3/2      r_k   r_c + rho
@@ -37,7 +37,7 @@ typedef struct {
   double throat_area;         // m2; NAN: what the law of constant angular momentum gives for Q and K
   double tongue_radius;       // of the nose, m
   double tongue_gap;          // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
-  double least_tongue_gap;    // m, for the chosen one; NAN: none
+  double least_tongue_gap;    // m, for a chosen gap, which comes as near as the spiral allows; NAN: none
   double diffuser_length;     // m; NAN: from the diffuser's angle
   double diffuser_angle;      // rad, full angle of the cone of equal areas; used where the length is NAN
   double outlet_diameter;     // DN, m
