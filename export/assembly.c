@@ -8,15 +8,18 @@
 #include "export/cell.h"
 #include "pipeline/log.h"
 
+static const double ROUNDING = 1e-12; // m
+
 // What one rank collects over its regions.
 typedef struct {
   CwOpenFace *open;
   int64_t open_count, open_room;
   CwInterfaceFace *interface[CW_EXPORT_DOMAINS];
   int64_t interface_count[CW_EXPORT_DOMAINS], interface_room[CW_EXPORT_DOMAINS];
-  double *least[CW_EXPORT_DOMAINS], *most[CW_EXPORT_DOMAINS]; // coordinates of each shared point over the regions
-  double *volume, *least_volume;                              // by region
-  int64_t *open_counts;                                       // by region
+  double *least[CW_EXPORT_DOMAINS],
+      *most[CW_EXPORT_DOMAINS];  // coordinates of each shared point over the regions
+  double *volume, *least_volume; // by region
+  int64_t *open_counts;          // by region
 } Collected;
 
 static void collected_free(Collected *c) {
@@ -123,7 +126,8 @@ static CwStatus collect_volumes(const CwMesh *mesh, int region, const CwRegionDa
     if (!(volume > 0)) {
       double x[3];
       cw_cell_centre(data, cell, x);
-      CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
+      CW_REQUIRE(0, CW_ERR_INPUT,
+                 "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
                  mesh->regions[region].path, cell, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e9 * volume);
     }
     c->volume[region] += volume;
@@ -150,8 +154,8 @@ static void add_interface_face(CwInterfaceFace *face, int64_t place, const CwReg
     memcpy(face->nodes[i], data->points[nodes[i]], sizeof face->nodes[i]);
 }
 
-// `place` of the interface faces counts within the region here; settle_interface() makes it the one in the patch.
-// The region goes into its upper half, so that nothing else need be kept.
+// `place` of the interface faces counts within the region here; settle_interface() makes it the one in the
+// patch. The region goes into its upper half, so that nothing else need be kept.
 static CwStatus collect_patches(const CwMesh *mesh, int region, const CwRegionData *data, CwAssembly *a,
                                 Collected *c) {
   CwStatus status = CW_OK;
@@ -199,7 +203,8 @@ done:
   return status;
 }
 
-// Gives all ranks what each found of its regions: sums over ranks, of which one holds the value and the others 0.
+// Gives all ranks what each found of its regions: sums over ranks, of which one holds the value and the
+// others 0.
 static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
   const CwMesh *mesh = a->mesh;
   for (int r = 0; r < mesh->region_count; ++r) {
@@ -215,7 +220,8 @@ static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
     a->places[r].open = a->open_count;
     a->open_count += c->open_counts[r];
     CwDomainTotal *total = &a->totals[mesh->regions[r].domain];
-    total->least_volume = total->volume > 0 ? fmin(total->least_volume, c->least_volume[r]) : c->least_volume[r];
+    total->least_volume =
+        total->volume > 0 ? fmin(total->least_volume, c->least_volume[r]) : c->least_volume[r];
     total->volume += c->volume[r];
     for (int p = 0; p < mesh->patch_count; ++p) {
       CwPatchPart *part = &a->parts[(size_t)r * (size_t)mesh->patch_count + (size_t)p], *sum = &a->patches[p];
@@ -239,9 +245,11 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
     MPI_Allreduce(MPI_IN_PLACE, c->most[d], count, MPI_DOUBLE, MPI_MAX, ranks->comm);
     for (int64_t i = 0; i < count; ++i) {
       const double *x = c->least[d] + i / 3 * 3;
-      CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT, "domain %s: shared point %lld is used by no cell of any region",
-                 domain->name, (long long)(i / 3));
-      CW_REQUIRE(c->least[d][i] == c->most[d][i], CW_ERR_INPUT,
+      CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT,
+                 "domain %s: shared point %lld is used by no cell of any region", domain->name,
+                 (long long)(i / 3));
+      // Regions that are copies of one another, turned, differ by rounding: the least coordinates are taken.
+      CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING, CW_ERR_INPUT,
                  "domain %s: shared point %lld near (%.6g, %.6g, %.6g) mm differs between regions by %.3g mm",
                  domain->name, (long long)(i / 3), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
                  1e3 * (c->most[d][i] - c->least[d][i]));
@@ -269,8 +277,8 @@ static CwStatus fail_at_open_face(const CwAssembly *a, const CwOpenFace *face, c
   for (int i = 0; i < count; ++i)
     for (int k = 0; k < 3; ++k)
       x[k] += 1e3 * a->shared[line->domain][face->loop[i]][k] / count;
-  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a dividing plane %s", line->path, x[0], x[1],
-                 x[2], what);
+  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a dividing plane %s", line->path, x[0],
+                 x[1], x[2], what);
 }
 
 // Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.
@@ -338,7 +346,8 @@ static CwStatus settle_interface(const CwRanks *ranks, CwAssembly *a, Collected 
   for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
     int patch = cw_mesh_patch_of_kind(a->mesh, d, CW_KIND_INTERFACE);
     int64_t total = 0;
-    CW_TRY(cw_ranks_gather(ranks, c->interface[d], c->interface_count[d], sizeof *all, (void **)&all, &total));
+    CW_TRY(
+        cw_ranks_gather(ranks, c->interface[d], c->interface_count[d], sizeof *all, (void **)&all, &total));
     a->interface[d] = calloc(total ? (size_t)total : 1, sizeof *all);
     CW_TRY(cw_ranks_agree(ranks, a->interface[d] ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
     for (int64_t i = 0; i < total; ++i) {
@@ -373,8 +382,8 @@ static CwStatus check_surface(const CwAssembly *a) {
     }
     double open = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
     CW_REQUIRE(open <= 1e-9 * area, CW_ERR_INPUT,
-               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name, area,
-               open);
+               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name,
+               area, open);
   }
 done:
   return status;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The mesh as a whole without holding it: one pass over the region files finds the numbers every region starts at,
-// the shared points, which cells meet across dividing planes, and whether the mesh is sound. Writers then take the
-// regions one at a time, in any order and from any rank.
+// The mesh as a whole without holding it: one pass over the region files finds the numbers every region
+// starts at, the shared points, which cells meet across dividing planes, and whether the mesh is sound.
+// Writers then take the regions one at a time, in any order and from any rank.
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
@@ -11,19 +11,19 @@
 
 // Where a region begins in the numbering of its domain, all 0-based, and what it adds.
 typedef struct {
-  int64_t own_point;                      // its first own point
-  int64_t tetrahedron, pyramid, prism;    // its first cell of each type among those of the domain
-  int64_t cell;                           // its first cell, cells counted region by region over both domains
-  int64_t open;                           // its first open face in CwAssembly.across
-  int64_t inner_triangles, inner_quads;   // faces between its own cells
-  int64_t outer_triangles, outer_quads;   // open faces whose other cell has the larger number
+  int64_t own_point;                    // its first own point
+  int64_t tetrahedron, pyramid, prism;  // its first cell of each type among those of the domain
+  int64_t cell;                         // its first cell, cells counted region by region over both domains
+  int64_t open;                         // its first open face in CwAssembly.across
+  int64_t inner_triangles, inner_quads; // faces between its own cells
+  int64_t outer_triangles, outer_quads; // open faces whose other cell has the larger number
 } CwRegionPlace;
 
 // Counts and sums of the faces of one patch in one region.
 typedef struct {
   int64_t triangles, quads;
-  int64_t triangle, quad;  // those of the regions before
-  double area, vector[3];  // m2
+  int64_t triangle, quad; // those of the regions before
+  double area, vector[3]; // m2
 } CwPatchPart;
 
 // A face of the interface: nodes in m, 3 or 4, and its place in its patch, triangles first.
@@ -41,18 +41,18 @@ typedef struct {
 typedef struct {
   const CwMesh *mesh;
   CwDomainTotal totals[CW_EXPORT_DOMAINS];
-  CwRegionPlace *places;  // by region
-  CwPatchPart *parts;     // by region, then patch
-  CwPatchPart *patches;   // by patch: the sums over the regions
+  CwRegionPlace *places; // by region
+  CwPatchPart *parts;    // by region, then patch
+  CwPatchPart *patches;  // by patch: the sums over the regions
   double (*shared[CW_EXPORT_DOMAINS])[3];
-  int64_t *across;        // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
+  int64_t *across; // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
   int64_t open_count;
   CwInterfaceFace *interface[CW_EXPORT_DOMAINS]; // on rank 0 only, by place
 } CwAssembly;
 
-// Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a point is used by no
-// cell or differs between regions, a cell has no positive volume, a face on a dividing plane has no partner, the
-// surface of a domain is not closed, or a patch that is no wall is empty. Collective.
+// Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a point is used
+// by no cell or differs between regions, a cell has no positive volume, a face on a dividing plane has no
+// partner, the surface of a domain is not closed, or a patch that is no wall is empty. Collective.
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *assembly);
 void cw_assembly_free(CwAssembly *assembly);
 

@@ -4,7 +4,8 @@
 #include <string.h>
 
 // Faces by the CGNS standard (SIDS 3.3), outward, ended by -1.
-static const signed char tetrahedron_faces[4][4] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
+static const signed char tetrahedron_faces[4][4] = {
+    {0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
 static const signed char pyramid_faces[5][4] = {
     {0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
 static const signed char prism_faces[5][4] = {

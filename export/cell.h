@@ -7,7 +7,8 @@
 
 enum { CW_CELL_FACES = 5 }; // the most a cell has
 
-// The nodes of cell `cell` (tetrahedra first, then pyramids, then prisms); their number in `count`: 4, 5 or 6.
+// The nodes of cell `cell` (tetrahedra first, then pyramids, then prisms); their number in `count`: 4, 5
+// or 6.
 const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t cell, int *count);
 
 // Faces of a cell with so many nodes: 4, 5, 5.
@@ -16,12 +17,12 @@ int cw_cell_face_count(int node_count);
 // The nodes of one face, normal out of the cell (face numbering of the CGNS standard). Returns 3 or 4.
 int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nodes[4]);
 
-// Area vector of a face in m2. A quadrilateral is taken as four triangles about the mean of its nodes, so that
-// both cells at a face and both sides of a sum see the same surface.
+// Area vector of a face in m2. A quadrilateral is taken as four triangles about the mean of its nodes, so
+// that both cells at a face and both sides of a sum see the same surface.
 void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, double area[3]);
 
-// Volume of a cell in m3 by the divergence theorem over its faces as cw_face_area() takes them: the volumes of
-// all cells add up to that of the domain without gaps.
+// Volume of a cell in m3 by the divergence theorem over its faces as cw_face_area() takes them: the volumes
+// of all cells add up to that of the domain without gaps.
 double cw_cell_volume(const CwRegionData *region, int32_t cell);
 
 // Mean of the nodes, m.

@@ -57,7 +57,8 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwMesh
                        mesh->patches[cw_mesh_patch_of_kind(mesh, CW_EXPORT_ROTOR, CW_KIND_INTERFACE)].name));
   CW_TRY(cw_values_set(&values, "stator_interface", "%s",
                        mesh->patches[cw_mesh_patch_of_kind(mesh, CW_EXPORT_STATOR, CW_KIND_INTERFACE)].name));
-  // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of OpenFOAM.
+  // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of
+  // OpenFOAM.
   if (table->walls.roughness > 0)
     CW_TRY(cw_values_set(&values, "wall_roughness",
                          "Option = Rough Wall\n          Sand Grain Roughness Height = %.9g [micron]",

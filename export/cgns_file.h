@@ -9,8 +9,8 @@
 #include "export/interface.h"
 #include "pipeline/case.h"
 
-// Lays down every node, with space for the coordinates and the connectivities. One rank calls it. CW_ERR_EXPORT
-// where a zone has more than 2^31 - 1 elements, CW_ERR_IO, CW_ERR_LIBRARY.
+// Lays down every node, with space for the coordinates and the connectivities. One rank calls it.
+// CW_ERR_EXPORT where a zone has more than 2^31 - 1 elements, CW_ERR_IO, CW_ERR_LIBRARY.
 CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *assembly, const CwInterface *interface,
                             const CwCase *table);
 

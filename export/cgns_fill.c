@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The bulk arrays of pump.cgns, region by region through parallel HDF5. Every region has its own stretch of every
-// array, so ranks need not wait for each other, and the order of writing leaves no trace.
+// The bulk arrays of pump.cgns, region by region through parallel HDF5. Every region has its own stretch of
+// every array, so ranks need not wait for each other, and the order of writing leaves no trace.
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -37,7 +37,8 @@ static CwStatus write_stretch(hid_t file, const char *path, hid_t type, int64_t 
   CW_REQUIRE(set >= 0, CW_ERR_LIBRARY, "the CGNS file has no '%s'", path);
   there = H5Dget_space(set);
   here = H5Screate_simple(1, (hsize_t[]){(hsize_t)count}, NULL);
-  H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count}, NULL);
+  H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count},
+                      NULL);
   CW_REQUIRE(H5Dwrite(set, type, here, there, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
              "%lld values cannot be written to '%s' of the CGNS file", (long long)count, path);
 done:
@@ -50,7 +51,8 @@ done:
   return status;
 }
 
-static CwStatus write_points(hid_t file, int domain, int64_t first, int64_t count, const double (*points)[3]) {
+static CwStatus write_points(hid_t file, int domain, int64_t first, int64_t count,
+                             const double (*points)[3]) {
   CwStatus status = CW_OK;
   double *one = NULL;
   CW_NEW(one, count);
@@ -75,10 +77,11 @@ done:
   return status;
 }
 
-// Writes the elements of `nodes` nodes whose patch is `patch` (patch_of NULL: all), `first` elements into a section.
+// Writes the elements of `nodes` nodes whose patch is `patch` (patch_of NULL: all), `first` elements into a
+// section.
 static CwStatus write_elements(hid_t file, const CwAssembly *a, int region, const CwRegionData *data,
-                               const CwSection *section, int64_t first, const int32_t *elements, int64_t count,
-                               const int32_t *patch_of) {
+                               const CwSection *section, int64_t first, const int32_t *elements,
+                               int64_t count, const int32_t *patch_of) {
   CwStatus status = CW_OK;
   int32_t *out = NULL;
   int64_t used = 0;
@@ -106,10 +109,10 @@ CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const
                       (const double(*)[3])data->points + data->shared_count));
   CW_TRY(cw_cgns_sections(a, data->domain, &sections, &count));
   for (int s = 0; s < count; ++s) {
-    const CwPatchPart *part = sections[s].patch < 0
-                                  ? NULL
-                                  : &a->parts[(size_t)region * (size_t)a->mesh->patch_count +
-                                              (size_t)sections[s].patch];
+    const CwPatchPart *part =
+        sections[s].patch < 0
+            ? NULL
+            : &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)sections[s].patch];
     const int32_t *elements = NULL, *patch_of = NULL;
     int64_t first = 0, elements_count = 0;
     switch (sections[s].type) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Nodes of a CGNS file (the HDF5 mapping of the CGNS standard), laid down through HDF5 itself: the CGNS library
-// stamps the time on every node and cannot write in parallel. The library reads these files as its own.
+// Nodes of a CGNS file (the HDF5 mapping of the CGNS standard), laid down through HDF5 itself: the CGNS
+// library stamps the time on every node and cannot write in parallel. The library reads these files as its
+// own.
 #ifndef CUTWATER_EXPORT_CGNS_NODE_H
 #define CUTWATER_EXPORT_CGNS_NODE_H
 
@@ -8,13 +9,13 @@
 
 #include "pipeline/status.h"
 
-// Creates the file with its root and CGNSLibraryVersion nodes. Without time stamps: the same calls give the same
-// bytes. Fails with CW_ERR_IO.
+// Creates the file with its root and CGNSLibraryVersion nodes. Without time stamps: the same calls give the
+// same bytes. Fails with CW_ERR_IO.
 CwStatus cw_cgns_create(const char *path, hid_t *file);
 
-// Adds a node to `parent` and gives its group in *node (NULL: closes it). `type` is MT, C1, I4, R4 or R8. `size` is
-// in C order, the reverse of the standard's, with `dimensions` entries. data NULL with another type than MT: the
-// space is set aside, to be filled later. Fails with CW_ERR_LIBRARY.
+// Adds a node to `parent` and gives its group in *node (NULL: closes it). `type` is MT, C1, I4, R4 or R8.
+// `size` is in C order, the reverse of the standard's, with `dimensions` entries. data NULL with another type
+// than MT: the space is set aside, to be filled later. Fails with CW_ERR_LIBRARY.
 CwStatus cw_cgns_node(hid_t parent, const char *name, const char *label, const char *type, int dimensions,
                       const hsize_t *size, const void *data, hid_t *node);
 

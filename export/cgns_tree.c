@@ -110,7 +110,7 @@ static CwStatus put_point_range(hid_t parent, const int range[2]) {
   return cw_cgns_node(parent, "PointRange", "IndexRange_t", "I4", 2, (hsize_t[]){2, 1}, range, NULL);
 }
 
-// A readers shows a surface only where a BC names it, so the interface has one too.
+// A reader shows a surface only where a BC names it, so the interface has one too.
 static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
@@ -153,7 +153,8 @@ static CwStatus put_connection(hid_t zone, const CwAssembly *a, const CwInterfac
   CW_TRY(cw_cgns_text(one, "GridConnectivityType", "GridConnectivityType_t", "Abutting", NULL));
   CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
   CW_TRY(put_point_range(one, (int[]){first, first + (int)count - 1}));
-  CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors, NULL));
+  CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors,
+                      NULL));
   CW_TRY(cw_cgns_node(one, "InterpolantsDonor", "DataArray_t", "R8", 2, (hsize_t[]){(hsize_t)count, 2},
                       interface->place[domain], NULL));
 done:
@@ -234,7 +235,8 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CW_TRY(cw_cgns_list(file, "pump", "CGNSBase_t", "I4", 2, dimensions, &base));
   CW_TRY(cw_cgns_text(base, "SimulationType", "SimulationType_t", "NonTimeAccurate", NULL));
   CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
-  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed, NULL));
+  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed,
+                      NULL));
   CW_TRY(put_equations(base));
   CW_TRY(put_reference_state(base, table));
   CW_TRY(put_families(base, a->mesh));

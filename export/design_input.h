@@ -6,9 +6,9 @@
 #include "pipeline/status.h"
 
 typedef struct {
-  double interface_radius; // m
+  double interface_radius;                                                        // m
   double tip_speed, relative_speed, volute_speed, suction_speed, discharge_speed; // m/s
-  double predicted_head;   // m
+  double predicted_head;                                                          // m
 } CwDesign;
 
 // Fails with CW_ERR_IO or CW_ERR_INPUT, naming the key.

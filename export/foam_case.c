@@ -83,7 +83,9 @@ static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start
     put_wall_velocity(out, patch, start);
     break;
   case CW_KIND_INLET:
-    fprintf(out, "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n");
+    fprintf(
+        out,
+        "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n");
     break;
   case CW_KIND_OUTLET:
     fprintf(out,
@@ -100,7 +102,8 @@ static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start
 static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *start) {
   const CwWalls *walls = &start->table->walls;
   if (patch->kind != CW_KIND_WALL)
-    fprintf(out, "        type            %s;\n", patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
+    fprintf(out, "        type            %s;\n",
+            patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
   else if (cw_patch_y_plus(patch, walls) < CW_Y_PLUS_LAMINAR)
     fprintf(out, "        type            nutUSpaldingWallFunction;\n");
   else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
@@ -148,7 +151,8 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
   if (field == FIELD_OMEGA)
     inlet = start->inlet.omega, inside = start->inside.omega;
   fprintf(out,
-          "// SPDX-License-Identifier: AGPL-3.0-or-later\nFoamFile\n{\n    version     2.0;\n    format      ascii;\n"
+          "// SPDX-License-Identifier: AGPL-3.0-or-later\nFoamFile\n{\n    version     2.0;\n    format      "
+          "ascii;\n"
           "    class       %s;\n    object      %s;\n}\n\ndimensions      %s;\ninternalField   uniform ",
           fields[field].class, fields[field].name, fields[field].dimensions);
   if (field == FIELD_U)
@@ -216,16 +220,18 @@ done:
   return status;
 }
 
-CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design,
+                            const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
   char *start_folder = NULL;
   const double intensity = 0.05;
   // Mixing lengths: 7 % of the suction pipe's diameter, and of the width of the channels inside.
-  Start start = {.table = table,
-                 .assembly = a,
-                 .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
-                 .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
+  Start start = {
+      .table = table,
+      .assembly = a,
+      .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
+      .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
   const CwPatchPart *outlet = &a->patches[cw_mesh_patch_of_kind(a->mesh, CW_EXPORT_STATOR, CW_KIND_OUTLET)];
   for (int k = 0; k < 3; ++k)
     start.outlet_velocity[k] =
@@ -235,8 +241,8 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDes
   for (start.moving = 0; start.moving < 2; ++start.moving) {
     free(start_folder);
     start_folder = NULL;
-    CW_REQUIRE(asprintf(&start_folder, "%s%s/0", folder, start.moving ? "/transient" : "") >= 0, CW_ERR_MEMORY,
-               "out of memory");
+    CW_REQUIRE(asprintf(&start_folder, "%s%s/0", folder, start.moving ? "/transient" : "") >= 0,
+               CW_ERR_MEMORY, "out of memory");
     CW_TRY(cw_make_directory(start_folder));
     for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f)
       CW_TRY(write_field(start_folder, (Field)f, &start));

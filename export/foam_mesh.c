@@ -23,7 +23,8 @@ static int make_header(const CwFoamMesh *mesh, CwFoamFile f, char text[HEADER_SI
   if (f == CW_FOAM_OWNER || f == CW_FOAM_NEIGHBOUR)
     snprintf(note, sizeof note,
              "    note        \"nPoints:%lld  nCells:%lld  nFaces:%lld  nInternalFaces:%lld\";\n",
-             (long long)mesh->points, (long long)mesh->cells, (long long)mesh->faces, (long long)mesh->inner_faces);
+             (long long)mesh->points, (long long)mesh->cells, (long long)mesh->faces,
+             (long long)mesh->inner_faces);
   return snprintf(text, HEADER_SIZE,
                   "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       %s;\n%s"
                   "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
@@ -117,7 +118,8 @@ CwStatus cw_foam_mesh_close(CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
   for (int f = 0; f < CW_FOAM_FILES; ++f)
     if (mesh->file[f] && close(mesh->file[f]) != 0 && status == CW_OK)
-      status = CW_FAIL(CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f], strerror(errno));
+      status =
+          CW_FAIL(CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f], strerror(errno));
   free(mesh->folder);
   free(mesh->first_face);
   free(mesh->first_label);
@@ -249,8 +251,8 @@ static void stretch_free(Stretch *s) {
   memset(s, 0, sizeof *s);
 }
 
-static void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data, int32_t cell,
-                        int face, int64_t neighbour) {
+static void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data,
+                        int32_t cell, int face, int64_t neighbour) {
   const CwAssembly *a = mesh->assembly;
   int64_t points_before = data->domain ? a->totals[0].points : 0;
   int32_t nodes[4];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// constant/polyMesh of OpenFOAM, binary, in upper-triangular order: cells region by region, inner faces by owner
-// and then neighbour, then the faces of each patch. Labels have 32 bits, as Debian and most others build OpenFOAM.
+// constant/polyMesh of OpenFOAM, binary, in upper-triangular order: cells region by region, inner faces by
+// owner and then neighbour, then the faces of each patch. Labels have 32 bits, as Debian and most others
+// build OpenFOAM.
 #ifndef CUTWATER_EXPORT_FOAM_MESH_H
 #define CUTWATER_EXPORT_FOAM_MESH_H
 
@@ -12,12 +13,12 @@ typedef enum { CW_FOAM_POINTS, CW_FOAM_FACES, CW_FOAM_OWNER, CW_FOAM_NEIGHBOUR, 
 typedef struct {
   const CwAssembly *assembly;
   char *folder;
-  int file[CW_FOAM_FILES]; // descriptors, 0 if not open
+  int file[CW_FOAM_FILES];                           // descriptors, 0 if not open
   int64_t points, cells, faces, inner_faces, labels; // labels: entries of all faces
-  int64_t *first_face, *first_label;   // by region: its first inner face, and label in the list of all faces
-  int64_t *patch_face, *patch_label;   // by patch
-  int64_t start[CW_FOAM_FILES];        // byte at which the first value stands
-  int64_t label_start;                 // that of the labels in `faces`, whose first values are offsets
+  int64_t *first_face, *first_label; // by region: its first inner face, and label in the list of all faces
+  int64_t *patch_face, *patch_label; // by patch
+  int64_t start[CW_FOAM_FILES];      // byte at which the first value stands
+  int64_t label_start;               // that of the labels in `faces`, whose first values are offsets
 } CwFoamMesh;
 
 // Computes the layout. CW_ERR_EXPORT where a number passes 2^31 - 1. Zeroed `mesh` on entry.
@@ -29,7 +30,8 @@ CwStatus cw_foam_mesh_create(CwFoamMesh *mesh);
 // Opens the files for cw_foam_mesh_write_region(), on any rank.
 CwStatus cw_foam_mesh_open(CwFoamMesh *mesh);
 
-// Writes the own points and the faces of a region. A face between regions is written by that of the lower cell.
+// Writes the own points and the faces of a region. A face between regions is written by that of the lower
+// cell.
 CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwRegionData *data,
                                    const CwRegionFaces *faces);
 

@@ -38,7 +38,8 @@ static void unroll(const CwInterfaceFace *face, double flat[4][2]) {
 }
 
 // Calls for the bins that the box of a face reaches: counts (faces NULL) or fills.
-static void bin_face(const Bins *bins, const CwInterfaceFace *face, int64_t place, int64_t *start, int64_t *faces) {
+static void bin_face(const Bins *bins, const CwInterfaceFace *face, int64_t place, int64_t *start,
+                     int64_t *faces) {
   double flat[4][2], low[2], high[2];
   unroll(face, flat);
   for (int k = 0; k < 2; ++k) {
@@ -62,7 +63,8 @@ static void bin_face(const Bins *bins, const CwInterfaceFace *face, int64_t plac
     }
 }
 
-static CwStatus make_bins(const CwInterfaceFace *faces, int64_t count, const CwInterfaceSide *side, Bins *bins) {
+static CwStatus make_bins(const CwInterfaceFace *faces, int64_t count, const CwInterfaceSide *side,
+                          Bins *bins) {
   CwStatus status = CW_OK;
   double height = side->z_most - side->z_least, around = 2 * M_PI * side->radius_most;
   // About as many bins as faces, and square ones.
@@ -121,9 +123,10 @@ static double locate(const CwInterfaceFace *face, const double point[2], double 
   return isnan(inside) ? -INFINITY : inside;
 }
 
-// The donor that holds the point, or where rounding leaves it just outside all of them, the nearest in its own
-// parameters. Looks into wider rings of bins until one has been found.
-static int64_t find_donor(const Bins *bins, const CwInterfaceFace *donors, const double point[2], double rs[2]) {
+// The donor that holds the point, or where rounding leaves it just outside all of them, the nearest in its
+// own parameters. Looks into wider rings of bins until one has been found.
+static int64_t find_donor(const Bins *bins, const CwInterfaceFace *donors, const double point[2],
+                          double rs[2]) {
   int a0 = (int)floor((point[0] + M_PI) / bins->dangle), h0 = (int)floor((point[1] - bins->z0) / bins->dz);
   h0 = h0 < 0 ? 0 : h0 >= bins->heights ? bins->heights - 1 : h0;
   int64_t best = -1;
@@ -154,7 +157,8 @@ static int64_t find_donor(const Bins *bins, const CwInterfaceFace *donors, const
   return best;
 }
 
-static CwStatus measure_side(const CwAssembly *a, int d, int64_t count, double radius, CwInterfaceSide *side) {
+static CwStatus measure_side(const CwAssembly *a, int d, int64_t count, double radius,
+                             CwInterfaceSide *side) {
   CwStatus status = CW_OK;
   const CwInterfaceFace *faces = a->interface[d];
   int patch = cw_mesh_patch_of_kind(a->mesh, d, CW_KIND_INTERFACE);
@@ -163,9 +167,10 @@ static CwStatus measure_side(const CwAssembly *a, int d, int64_t count, double r
     for (int n = 0; n < faces[i].count; ++n) {
       const double *x = faces[i].nodes[n];
       double r = hypot(x[0], x[1]);
-      CW_REQUIRE(fabs(r - radius) <= RELATIVE_TOLERANCE * radius, CW_ERR_INPUT,
-                 "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.6g mm; the interface has %.6g mm",
-                 a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * r, 1e3 * radius);
+      CW_REQUIRE(
+          fabs(r - radius) <= RELATIVE_TOLERANCE * radius, CW_ERR_INPUT,
+          "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.6g mm; the interface has %.6g mm",
+          a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * r, 1e3 * radius);
       side->radius_least = fmin(side->radius_least, r);
       side->radius_most = fmax(side->radius_most, r);
       side->z_least = fmin(side->z_least, x[2]);
@@ -184,11 +189,12 @@ CwStatus cw_interface_make(const CwAssembly *a, double radius, CwInterface *inte
     CW_TRY(measure_side(a, d, interface->count[d], radius, &interface->sides[d]));
   }
   const CwInterfaceSide *s = interface->sides;
-  CW_REQUIRE(fabs(s[0].z_least - s[1].z_least) <= RELATIVE_TOLERANCE * radius &&
-                 fabs(s[0].z_most - s[1].z_most) <= RELATIVE_TOLERANCE * radius,
-             CW_ERR_INPUT,
-             "the interface reaches from z = %.6g to %.6g mm in the rotor, but from %.6g to %.6g mm in the stator",
-             1e3 * s[0].z_least, 1e3 * s[0].z_most, 1e3 * s[1].z_least, 1e3 * s[1].z_most);
+  CW_REQUIRE(
+      fabs(s[0].z_least - s[1].z_least) <= RELATIVE_TOLERANCE * radius &&
+          fabs(s[0].z_most - s[1].z_most) <= RELATIVE_TOLERANCE * radius,
+      CW_ERR_INPUT,
+      "the interface reaches from z = %.6g to %.6g mm in the rotor, but from %.6g to %.6g mm in the stator",
+      1e3 * s[0].z_least, 1e3 * s[0].z_most, 1e3 * s[1].z_least, 1e3 * s[1].z_most);
   for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
     int other = 1 - d;
     CW_TRY(make_bins(a->interface[other], interface->count[other], &s[other], &bins));
@@ -203,8 +209,8 @@ CwStatus cw_interface_make(const CwAssembly *a, double radius, CwInterface *inte
           centre[k] += flat[n][k] / face->count;
       centre[0] = remainder(centre[0], 2 * M_PI);
       interface->donor[d][i] = find_donor(&bins, a->interface[other], centre, interface->place[d][i]);
-      CW_REQUIRE(interface->donor[d][i] >= 0, CW_ERR_INPUT, "interface face %lld has no face on the other side",
-                 (long long)i);
+      CW_REQUIRE(interface->donor[d][i] >= 0, CW_ERR_INPUT,
+                 "interface face %lld has no face on the other side", (long long)i);
     }
     free(bins.start);
     free(bins.faces);

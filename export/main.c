@@ -11,8 +11,9 @@ int main(int argc, char **argv) {
   CwStatus status = CW_OK;
   static const CwStageUsage usage = {
       .stage = "export",
-      .summary = "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
-                 "Runs under mpirun with any number of ranks; what it writes is the same for all.\n"};
+      .summary =
+          "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
+          "Runs under mpirun with any number of ranks; what it writes is the same for all.\n"};
   CwStageArgs args = {0};
   CwCase table;
   CwRanks ranks = {.comm = MPI_COMM_WORLD};

@@ -55,7 +55,8 @@ static CwStatus read_patch(CwMesh *mesh, int domain, const json_t *item, const c
   CW_REQUIRE(name && kind, CW_ERR_INPUT, "%s: domain %s: patch %d needs 'name' and 'kind'", file,
              domain_names[domain], mesh->patch_count - mesh->domains[domain].first_patch + 1);
   CW_REQUIRE(name[0] && strlen(name) <= LONGEST_PATCH_NAME &&
-                 strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == strlen(name),
+                 strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
+                     strlen(name),
              CW_ERR_INPUT, "%s: domain %s: patch name '%s'; allowed are 1 to %d letters, digits and _", file,
              domain_names[domain], name, LONGEST_PATCH_NAME);
   CW_REQUIRE(cw_mesh_patch_find(mesh, name) < 0, CW_ERR_INPUT, "%s: patch '%s' is named twice", file, name);
@@ -63,8 +64,8 @@ static CwStatus read_patch(CwMesh *mesh, int domain, const json_t *item, const c
   int k = 0;
   while (k < 4 && strcmp(kinds[k], kind) != 0)
     ++k;
-  CW_REQUIRE(k < 4, CW_ERR_INPUT, "%s: patch '%s': kind '%s'; allowed are wall, inlet, outlet, interface", file,
-             name, kind);
+  CW_REQUIRE(k < 4, CW_ERR_INPUT, "%s: patch '%s': kind '%s'; allowed are wall, inlet, outlet, interface",
+             file, name, kind);
   snprintf(patch->name, sizeof patch->name, "%s", name);
   patch->kind = (CwPatchKind)k;
   patch->domain = domain;
@@ -87,7 +88,8 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
              where);
   CW_TRY(read_count(item, "region", INT32_MAX, file, where, &index));
   CW_REQUIRE(index == d->region_count + 1, CW_ERR_INPUT,
-             "%s: %s: 'region' is %lld; regions must stand in order 1, 2, 3, ...", file, where, (long long)index);
+             "%s: %s: 'region' is %lld; regions must stand in order 1, 2, 3, ...", file, where,
+             (long long)index);
   region->domain = domain;
   region->region = (int)index;
   CW_TRY(read_count(item, "points", INT32_MAX, file, where, &region->points));
@@ -99,8 +101,9 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
   CW_TRY(read_count(item, "triangles", INT32_MAX / 16, file, where, &region->triangles));
   CW_TRY(read_count(item, "quads", INT32_MAX / 16, file, where, &region->quads));
   CW_REQUIRE(region->points - region->own_points <= d->shared_points, CW_ERR_INPUT,
-             "%s: %s: %lld points less %lld own ones leave more than the %lld 'shared_points' of the domain", file,
-             where, (long long)region->points, (long long)region->own_points, (long long)d->shared_points);
+             "%s: %s: %lld points less %lld own ones leave more than the %lld 'shared_points' of the domain",
+             file, where, (long long)region->points, (long long)region->own_points,
+             (long long)d->shared_points);
   CW_REQUIRE(asprintf(&region->path, "%s/mesh/%s", run, name) >= 0, CW_ERR_MEMORY, "out of memory");
   ++mesh->region_count;
   ++d->region_count;
@@ -118,7 +121,8 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
   const json_t *line;
   size_t i;
   CW_REQUIRE(name && strcmp(name, domain_names[domain]) == 0, CW_ERR_INPUT,
-             "%s: domain %d must be '%s', not '%s'", file, domain + 1, domain_names[domain], name ? name : "");
+             "%s: domain %d must be '%s', not '%s'", file, domain + 1, domain_names[domain],
+             name ? name : "");
   snprintf(d->name, sizeof d->name, "%s", name);
   CW_REQUIRE(json_is_number(volume) && json_number_value(volume) > 0, CW_ERR_INPUT,
              "%s: domain %s: 'solid_volume_m3' must be a number above 0", file, name);
@@ -135,8 +139,11 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
     int count = 0;
     for (int p = d->first_patch; p < mesh->patch_count; ++p)
       count += mesh->patches[p].kind == ends[e];
-    CW_REQUIRE(count == 1, CW_ERR_INPUT, "%s: domain %s has %d patches of kind %s; it must have one", file, name,
-               count, e ? "interface" : domain == CW_EXPORT_ROTOR ? "inlet" : "outlet");
+    CW_REQUIRE(count == 1, CW_ERR_INPUT, "%s: domain %s has %d patches of kind %s; it must have one", file,
+               name, count,
+               e                           ? "interface"
+               : domain == CW_EXPORT_ROTOR ? "inlet"
+                                           : "outlet");
   }
   d->first_region = mesh->region_count;
   json_array_foreach(regions, i, line) {

@@ -28,8 +28,8 @@ typedef struct {
 typedef struct {
   char name[CW_EXPORT_NAME_SIZE];
   int64_t shared_points;
-  double solid_volume;           // m3
-  int first_patch, patch_count;  // into CwMesh.patches
+  double solid_volume;            // m3
+  int first_patch, patch_count;   // into CwMesh.patches
   int first_region, region_count; // into CwMesh.regions
 } CwMeshDomain;
 

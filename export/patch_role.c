@@ -4,7 +4,8 @@
 #include <string.h>
 
 int cw_patch_rotates(const CwMeshPatch *patch) {
-  return patch->domain == CW_EXPORT_ROTOR && patch->kind == CW_KIND_WALL && strcmp(patch->name, "suction_pipe") != 0;
+  return patch->domain == CW_EXPORT_ROTOR && patch->kind == CW_KIND_WALL &&
+         strcmp(patch->name, "suction_pipe") != 0;
 }
 
 double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
@@ -19,7 +20,8 @@ double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
 
 int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls) {
   for (int p = 0; p < mesh->patch_count; ++p)
-    if (mesh->patches[p].kind == CW_KIND_WALL && cw_patch_y_plus(&mesh->patches[p], walls) < CW_Y_PLUS_LAMINAR)
+    if (mesh->patches[p].kind == CW_KIND_WALL &&
+        cw_patch_y_plus(&mesh->patches[p], walls) < CW_Y_PLUS_LAMINAR)
       return 1;
   return 0;
 }

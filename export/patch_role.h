@@ -6,8 +6,8 @@
 #include "export/mesh_input.h"
 #include "pipeline/case.h"
 
-// y+ from which the first cell counts as in the log layer: where the laws of the viscous sublayer and the log layer
-// meet, y+ = ln(9.8 y+)/0.41.
+// y+ from which the first cell counts as in the log layer: where the laws of the viscous sublayer and the log
+// layer meet, y+ = ln(9.8 y+)/0.41.
 #define CW_Y_PLUS_LAMINAR 11.225
 
 // A wall that turns with the impeller: the walls of the rotor but for the suction pipe.

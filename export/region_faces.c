@@ -7,8 +7,8 @@
 #include "export/cell.h"
 
 // One side of a face: seen from a cell (ref = CW_CELL_FACES * cell + face) or from a boundary face (ref below
-// zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `rest` is
-// the loop after it.
+// zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `rest`
+// is the loop after it.
 typedef struct {
   int32_t rest[3];
   int32_t ref;
@@ -135,7 +135,8 @@ static CwStatus take_face(const CwMesh *mesh, int region, const CwRegionData *da
   CwStatus status = CW_OK;
   int64_t loop[4];
   if (count > 2)
-    CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "is shared by more than two cells or boundary faces"));
+    CW_TRY(
+        fail_at_face(mesh, region, data, side[0].ref, "is shared by more than two cells or boundary faces"));
   if (count == 2 && side[1].ref < 0)
     CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "is listed twice as a boundary face"));
   if (count == 1 && side[0].ref < 0)
@@ -190,8 +191,8 @@ CwStatus cw_region_faces(const CwMesh *mesh, int region, const CwRegionData *dat
   int64_t *start = NULL;
   Side *sides = NULL;
   int64_t cell_faces = (int64_t)CW_CELL_FACES * cw_region_cell_count(data);
-  CW_REQUIRE(cell_faces <= INT32_MAX, CW_ERR_INPUT, "%s: %d cells; a region may have %d", mesh->regions[region].path,
-             cw_region_cell_count(data), INT32_MAX / CW_CELL_FACES);
+  CW_REQUIRE(cell_faces <= INT32_MAX, CW_ERR_INPUT, "%s: %d cells; a region may have %d",
+             mesh->regions[region].path, cw_region_cell_count(data), INT32_MAX / CW_CELL_FACES);
   CW_NEW(faces->across, cell_faces);
   CW_NEW(faces->triangle_face, data->triangle_count);
   CW_NEW(faces->quad_face, data->quad_count);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The faces of one region: which two cells share each, which lie on a patch, which wait for a neighbour region.
+// The faces of one region: which two cells share each, which lie on a patch, which wait for a neighbour
+// region.
 #ifndef CUTWATER_EXPORT_REGION_FACES_H
 #define CUTWATER_EXPORT_REGION_FACES_H
 
@@ -9,7 +10,8 @@
 enum { CW_ACROSS_NO_FACE = -1, CW_ACROSS_PATCH = -2, CW_ACROSS_OPEN = -3 };
 
 // A face on a dividing plane. `loop` are the shared numbers of its nodes, the smallest first and then towards
-// the smaller neighbour of it, -1 at the end of a triangle; `reversed` if the outward normal runs the other way.
+// the smaller neighbour of it, -1 at the end of a triangle; `reversed` if the outward normal runs the other
+// way.
 typedef struct {
   int64_t loop[4];
   int32_t region; // into CwMesh.regions
@@ -19,17 +21,17 @@ typedef struct {
 } CwOpenFace;
 
 typedef struct {
-  int32_t *across;         // CW_CELL_FACES entries a cell: the cell of this region across, or a CW_ACROSS_ value
-  int32_t *triangle_face;  // for each boundary triangle CW_CELL_FACES * cell + face of the cell it lies on
-  int32_t *quad_face;      // the same for each boundary quadrilateral
-  CwOpenFace *open;        // in the order of cell, then face of the cell
+  int32_t *across; // CW_CELL_FACES entries a cell: the cell of this region across, or a CW_ACROSS_ value
+  int32_t *triangle_face; // for each boundary triangle CW_CELL_FACES * cell + face of the cell it lies on
+  int32_t *quad_face;     // the same for each boundary quadrilateral
+  CwOpenFace *open;       // in the order of cell, then face of the cell
   int32_t open_count;
   int64_t inner_triangles, inner_quads; // faces between two cells of the region
 } CwRegionFaces;
 
-// Matches the faces of all cells and boundary faces of a region by their nodes. Fails with CW_ERR_INPUT, naming
-// region and place, unless every face is shared by two cells, or is one boundary face with its normal outward and
-// the right cell, or has only shared points. Time and memory grow linearly with the cells.
+// Matches the faces of all cells and boundary faces of a region by their nodes. Fails with CW_ERR_INPUT,
+// naming region and place, unless every face is shared by two cells, or is one boundary face with its normal
+// outward and the right cell, or has only shared points. Time and memory grow linearly with the cells.
 CwStatus cw_region_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwRegionFaces *faces);
 void cw_region_faces_free(CwRegionFaces *faces);
 

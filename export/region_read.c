@@ -22,10 +22,10 @@ void cw_region_free(CwRegionData *data) {
   memset(data, 0, sizeof *data);
 }
 
-// Reads a whole dataset of `rows` x `columns` (columns 0: one dimension) into `into`. A dataset without rows may
-// be left out of the file.
-static CwStatus read_rows(hid_t file, const char *path, const char *name, hid_t type, int64_t rows, int columns,
-                          void *into) {
+// Reads a whole dataset of `rows` x `columns` (columns 0: one dimension) into `into`. A dataset without rows
+// may be left out of the file.
+static CwStatus read_rows(hid_t file, const char *path, const char *name, hid_t type, int64_t rows,
+                          int columns, void *into) {
   CwStatus status = CW_OK;
   hid_t set = -1, space = -1;
   hsize_t size[2] = {0, 0};
@@ -35,8 +35,8 @@ static CwStatus read_rows(hid_t file, const char *path, const char *name, hid_t 
   CW_REQUIRE(set >= 0, CW_ERR_INPUT, "%s: dataset '%s' is missing", path, name);
   space = H5Dget_space(set);
   int ranks = H5Sget_simple_extent_ndims(space);
-  CW_REQUIRE(ranks == (columns ? 2 : 1), CW_ERR_INPUT, "%s: dataset '%s' has %d dimensions; it must have %d", path,
-             name, ranks, columns ? 2 : 1);
+  CW_REQUIRE(ranks == (columns ? 2 : 1), CW_ERR_INPUT, "%s: dataset '%s' has %d dimensions; it must have %d",
+             path, name, ranks, columns ? 2 : 1);
   H5Sget_simple_extent_dims(space, size, NULL);
   CW_REQUIRE(size[0] == (hsize_t)rows, CW_ERR_INPUT,
              "%s: dataset '%s' has %llu rows, but the manifest says %lld", path, name,
@@ -75,13 +75,14 @@ static CwStatus check_attributes(hid_t file, const char *path, const char *domai
   type = H5Aget_type(attribute);
   CW_REQUIRE(H5Tget_class(type) == H5T_STRING, CW_ERR_INPUT, "%s: attribute 'domain' must be a string", path);
   if (H5Tis_variable_str(type) > 0) {
-    CW_REQUIRE(H5Aread(attribute, type, &text) >= 0, CW_ERR_IO, "%s: attribute 'domain' cannot be read", path);
+    CW_REQUIRE(H5Aread(attribute, type, &text) >= 0, CW_ERR_IO, "%s: attribute 'domain' cannot be read",
+               path);
   } else {
     CW_NEW(text, H5Tget_size(type) + 1);
     CW_REQUIRE(H5Aread(attribute, type, text) >= 0, CW_ERR_IO, "%s: attribute 'domain' cannot be read", path);
   }
-  CW_REQUIRE(text && strcmp(text, domain) == 0, CW_ERR_INPUT, "%s: attribute 'domain' is '%s'; it must be '%s'",
-             path, text ? text : "", domain);
+  CW_REQUIRE(text && strcmp(text, domain) == 0, CW_ERR_INPUT,
+             "%s: attribute 'domain' is '%s'; it must be '%s'", path, text ? text : "", domain);
 done:
   free(text);
   if (type >= 0)
@@ -109,8 +110,8 @@ static CwStatus check_region(const CwMesh *mesh, const CwMeshRegion *line, const
   const CwMeshDomain *domain = &mesh->domains[line->domain];
   int64_t cells = cw_region_cell_count(r);
   for (int32_t i = 0; i < r->point_count; ++i)
-    CW_REQUIRE(isfinite(r->points[i][0]) && isfinite(r->points[i][1]) && isfinite(r->points[i][2]), CW_ERR_INPUT,
-               "%s: point %d has a coordinate that is not a number", path, i);
+    CW_REQUIRE(isfinite(r->points[i][0]) && isfinite(r->points[i][1]) && isfinite(r->points[i][2]),
+               CW_ERR_INPUT, "%s: point %d has a coordinate that is not a number", path, i);
   for (int32_t i = 0; i < r->shared_count; ++i)
     CW_REQUIRE(r->shared_id[i] >= 0 && r->shared_id[i] < domain->shared_points, CW_ERR_INPUT,
                "%s: dataset 'shared_id': entry %d is %lld; allowed 0 to %lld", path, i,

@@ -82,7 +82,8 @@ done:
   return status;
 }
 
-// The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is collective.
+// The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is
+// collective.
 static CwStatus write_regions(const CwAssembly *assembly, const CwRanks *ranks, const Paths *paths,
                               CwFoamMesh *foam) {
   CwStatus status = CW_OK, closed;
@@ -113,10 +114,10 @@ static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
   json_t *patches = json_array();
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     const CwPatchPart *sum = &a->patches[p];
-    json_array_append_new(patches, json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name, "domain",
-                                             a->mesh->domains[a->mesh->patches[p].domain].name, "triangles",
-                                             (json_int_t)sum->triangles, "quads", (json_int_t)sum->quads, "area_m2",
-                                             sum->area));
+    json_array_append_new(patches, json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name,
+                                             "domain", a->mesh->domains[a->mesh->patches[p].domain].name,
+                                             "triangles", (json_int_t)sum->triangles, "quads",
+                                             (json_int_t)sum->quads, "area_m2", sum->area));
   }
   return cw_record_json(record, "patches", patches);
 }
@@ -127,12 +128,12 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
   for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
     const CwDomainTotal *t = &a->totals[d];
     cells += t->cells;
-    CW_TRY(cw_record_json(
-        record, a->mesh->domains[d].name,
-        json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f}", "points", (json_int_t)t->points, "tetrahedra",
-                  (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids, "prisms", (json_int_t)t->prisms,
-                  "volume_m3", t->volume, "solid_volume_m3", a->mesh->domains[d].solid_volume,
-                  "least_cell_volume_m3", t->least_volume)));
+    CW_TRY(
+        cw_record_json(record, a->mesh->domains[d].name,
+                       json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f}", "points", (json_int_t)t->points,
+                                 "tetrahedra", (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids,
+                                 "prisms", (json_int_t)t->prisms, "volume_m3", t->volume, "solid_volume_m3",
+                                 a->mesh->domains[d].solid_volume, "least_cell_volume_m3", t->least_volume)));
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
@@ -153,8 +154,8 @@ static void warn(const CwAssembly *a, const CwInterface *interface) {
   }
   double ratio = interface->sides[0].area / interface->sides[1].area;
   if (fabs(ratio - 1) > 0.02)
-    cw_log_warn("the interface has %.6g mm2 on the rotor and %.6g mm2 on the stator", 1e6 * interface->sides[0].area,
-                1e6 * interface->sides[1].area);
+    cw_log_warn("the interface has %.6g mm2 on the rotor and %.6g mm2 on the stator",
+                1e6 * interface->sides[0].area, 1e6 * interface->sides[1].area);
   for (int p = 0; p < a->mesh->patch_count; ++p)
     if (a->patches[p].triangles + a->patches[p].quads == 0)
       cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
@@ -192,6 +193,11 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
   CW_TRY(paths_make(run, &paths));
   CW_TRY(cw_record_start("export", &record));
+  CW_TRY(join(paths.folder, "record.json", &path));
+  if (ranks->rank == 0)
+    unlink(path); // the record of an earlier run does not outlive a failed one
+  free(path);
+  path = NULL;
   CW_TRY(join(run, "geometry/design.json", &path));
   status = cw_design_read(path, &design);
   if (status == CW_OK)

@@ -6,7 +6,8 @@
 #include "export/ranks.h"
 #include "pipeline/case.h"
 
-// Collective. What it writes takes its final name only when all of it is whole; on failure nothing stays behind.
+// Collective. What it writes takes its final name only when all of it is whole; on failure nothing stays
+// behind.
 CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *ranks);
 
 #endif

@@ -95,7 +95,8 @@ CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValu
     const CwTemplate *t = &cw_templates[i];
     if (strncmp(t->path, prefix, strlen(prefix)) != 0)
       continue;
-    CW_REQUIRE(asprintf(&path, "%s/%s", folder, t->path + strlen(prefix)) >= 0, CW_ERR_MEMORY, "out of memory");
+    CW_REQUIRE(asprintf(&path, "%s/%s", folder, t->path + strlen(prefix)) >= 0, CW_ERR_MEMORY,
+               "out of memory");
     char *slash = strrchr(path, '/');
     *slash = '\0';
     CW_TRY(cw_make_directory(path));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Text files with @key@ in place of the values of a case. The files of export/templates are built into the program.
+// Text files with @key@ in place of the values of a case. The files of export/templates are built into the
+// program.
 #ifndef CUTWATER_EXPORT_TEMPLATE_H
 #define CUTWATER_EXPORT_TEMPLATE_H
 
@@ -29,8 +30,8 @@ CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ..
     __attribute__((format(printf, 3, 4)));
 void cw_values_free(CwValues *values);
 
-// The text with every @key@ replaced, as a new string. CW_ERR_EXPORT where a key has no value; `name` says whose
-// text it is.
+// The text with every @key@ replaced, as a new string. CW_ERR_EXPORT where a key has no value; `name` says
+// whose text it is.
 CwStatus cw_template_fill(const char *name, const char *text, const CwValues *values, char **filled);
 
 // Writes every built-in file below `prefix` ("openfoam/") to `folder`, making folders where needed.

@@ -40,10 +40,11 @@ static double smooth_step(double x) {
   return x * x * x * (10 - 15 * x + 6 * x * x);
 }
 
-CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span, CwBladeSection *section) {
+CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span,
+                          CwBladeSection *section) {
   CwStatus status = CW_OK;
   double x[2], dx[2], middle[2];
-  const double wrap = design->wrap_angle + design->leading_edge_lean * (span - 0.5);
+  const double wrap = design->wrap_angle;
   cw_meridian_blade_point(meridian, 0.5, 0, middle, NULL);
   cw_meridian_blade_point(meridian, span, 0, x, dx);
   // The inlet triangle with uniform c_m: tan beta1 falls as 1/r from hub to shroud.
@@ -63,7 +64,8 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
     largest = fmax(largest, b);
   }
   CW_REQUIRE(least >= least_beta && largest <= largest_beta && high - low < degree, CW_ERR_DESIGN,
-             "a wrap of %.2f deg with beta1 %.2f and beta2 %.2f deg asks for blade angles of %.2f to %.2f deg at span "
+             "a wrap of %.2f deg with beta1 %.2f and beta2 %.2f deg asks for blade angles of %.2f to %.2f "
+             "deg at span "
              "%.2f; 12 to 60 deg are allowed: change the wrap or the leading edge radii",
              wrap / degree, beta[0] / degree, beta[2] / degree, least / degree, largest / degree, span);
   section->meridian = meridian;
@@ -90,19 +92,21 @@ double cw_blade_theta(const CwBladeSection *section, double q) {
   int i = (int)(q * CW_BLADE_STEPS);
   i = i < 0 ? 0 : i >= CW_BLADE_STEPS ? CW_BLADE_STEPS - 1 : i;
   const double begin = (double)i / CW_BLADE_STEPS;
-  return section->theta[i] - (q > begin ? wrap_step(section->meridian, section->span, section->beta, begin, q) : 0);
+  return section->theta[i] -
+         (q > begin ? wrap_step(section->meridian, section->span, section->beta, begin, q) : 0);
 }
 
 double cw_blade_half_thickness(const CwBladeSection *section, double q) {
   if (q < thickest_at)
     return section->half_leading + (section->half_largest - section->half_leading) *
                                        smooth_step((q - section->nose) / (thickest_at - section->nose));
-  return section->half_largest +
-         (section->half_trailing - section->half_largest) * smooth_step((q - thickest_at) / (1 - thickest_at));
+  return section->half_largest + (section->half_trailing - section->half_largest) *
+                                     smooth_step((q - thickest_at) / (1 - thickest_at));
 }
 
-// Offset by y (positive: towards greater theta). lambda = 1 at the leading edge is the true normal offset, which
-// makes a round nose; lambda = 0 from q = 0.4 on is a tangential offset, which keeps the trailing edge on D2.
+// Offset by y (positive: towards greater theta). lambda = 1 at the leading edge is the true normal offset,
+// which makes a round nose; lambda = 0 from q = 0.4 on is a tangential offset, which keeps the trailing edge
+// on D2.
 static CwBladePoint offset(const CwBladeSection *section, double q, double y) {
   const double lambda = 1 - smooth_step(q / offset_fades_at), beta = law(section->beta, q);
   const double c = cos(beta), s = sin(beta);
@@ -123,8 +127,10 @@ CwBladePoint cw_blade_leading_edge(const CwBladeSection *section, double psi) {
 }
 
 double cw_blade_balanced_bevel(double trailing_edge_thickness, double outlet_blade_angle) {
-  // The cut is e / sin beta long; with legs l the facet is 2 l sin(beta/2) and the rest of the cut e / sin beta - l.
-  const double cut = trailing_edge_thickness / sin(outlet_blade_angle), chord = 2 * sin(outlet_blade_angle / 2);
+  // The cut is e / sin beta long; with legs l the facet is 2 l sin(beta/2) and the rest of the cut e / sin
+  // beta - l.
+  const double cut = trailing_edge_thickness / sin(outlet_blade_angle),
+               chord = 2 * sin(outlet_blade_angle / 2);
   return cut * chord / (1 + chord);
 }
 

@@ -47,7 +47,8 @@ int basis(const std::vector<double> &knots, int n, double t, double value[degree
   return span - degree;
 }
 
-// Solves for the poles of `width` functions at once: values[i * width + k] becomes the pole. Gauss with row pivots.
+// Solves for the poles of `width` functions at once: values[i * width + k] becomes the pole. Gauss with row
+// pivots.
 void solve_poles(const std::vector<double> &parameters, int width, std::vector<double> &values) {
   const int n = (int)parameters.size();
   const std::vector<double> knots = averaged_knots(parameters);
@@ -89,7 +90,8 @@ void solve_poles(const std::vector<double> &parameters, int width, std::vector<d
 }
 
 // Distinct knots and multiplicities as OpenCASCADE wants them.
-void open_cascade_knots(const std::vector<double> &parameters, std::vector<double> &knots, std::vector<int> &times) {
+void open_cascade_knots(const std::vector<double> &parameters, std::vector<double> &knots,
+                        std::vector<int> &times) {
   const std::vector<double> all = averaged_knots(parameters);
   knots = {all.front()};
   times = {degree + 1};
@@ -115,8 +117,8 @@ void check(const std::vector<double> &parameters) {
 
 } // namespace
 
-Handle(Geom2d_BSplineCurve) cw_bspline_curve_2d(const std::vector<double> &parameters,
-                                                const std::vector<gp_Pnt2d> &points) {
+Handle(Geom2d_BSplineCurve)
+    cw_bspline_curve_2d(const std::vector<double> &parameters, const std::vector<gp_Pnt2d> &points) {
   check(parameters);
   const int n = (int)parameters.size();
   std::vector<double> values((size_t)n * 2), knots;
@@ -161,7 +163,7 @@ Handle(Geom_BSplineSurface) cw_bspline_surface(const std::vector<double> &u, con
   std::vector<int> ut, vt;
   open_cascade_knots(u, uk, ut);
   open_cascade_knots(v, vk, vt);
-  return new Geom_BSplineSurface(poles, to_array<TColStd_Array1OfReal>(uk), to_array<TColStd_Array1OfReal>(vk),
-                                 to_array<TColStd_Array1OfInteger>(ut), to_array<TColStd_Array1OfInteger>(vt), degree,
-                                 degree);
+  return new Geom_BSplineSurface(poles, to_array<TColStd_Array1OfReal>(uk),
+                                 to_array<TColStd_Array1OfReal>(vk), to_array<TColStd_Array1OfInteger>(ut),
+                                 to_array<TColStd_Array1OfInteger>(vt), degree, degree);
 }

@@ -9,7 +9,8 @@ static const double degree = M_PI / 180;
 
 static json_t *solid_json(const CwMeasuredSolid *solid) {
   return json_pack("{s:b, s:b, s:i, s:f, s:f}", "valid", solid->valid, "closed", solid->closed, "faces",
-                   solid->face_count, "largest_tolerance_m", solid->largest_tolerance, "volume_m3", solid->volume);
+                   solid->face_count, "largest_tolerance_m", solid->largest_tolerance, "volume_m3",
+                   solid->volume);
 }
 
 static json_t *angle_json(const CwMeasuredAngle *angle) {
@@ -20,21 +21,21 @@ static json_t *angle_json(const CwMeasuredAngle *angle) {
 json_t *cw_measured_json(const CwMeasuredPump *measured) {
   const CwMeasuredRotor *rotor = &measured->rotor_dimensions;
   const CwMeasuredStator *stator = &measured->stator_dimensions;
-  return json_pack("{s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o}",               //
-                   "rotor", solid_json(&measured->rotor),                                                       //
-                   "stator", solid_json(&measured->stator),                                                     //
-                   "wrap_angle_deg", rotor->wrap_angle / degree,                                                //
-                   "inlet_diameter_m", rotor->inlet_diameter,                                                   //
-                   "outlet_diameter_m", rotor->outlet_diameter,                                                 //
-                   "outlet_width_m", rotor->outlet_width,                                                       //
-                   "base_diameter_m", stator->base_diameter,                                                    //
-                   "inlet_width_m", stator->inlet_width,                                                        //
-                   "rotor_interface_radius_m", rotor->interface_radius,                                         //
-                   "stator_interface_radius_m", stator->interface_radius,                                       //
-                   "rotor_interface_area_m2", rotor->interface_area,                                            //
-                   "stator_interface_area_m2", stator->interface_area,                                          //
-                   "least_blade_hub_angle", angle_json(&rotor->hub_crease),                                     //
-                   "least_blade_shroud_angle", angle_json(&rotor->shroud_crease),                               //
+  return json_pack("{s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o}", //
+                   "rotor", solid_json(&measured->rotor),                                         //
+                   "stator", solid_json(&measured->stator),                                       //
+                   "wrap_angle_deg", rotor->wrap_angle / degree,                                  //
+                   "inlet_diameter_m", rotor->inlet_diameter,                                     //
+                   "outlet_diameter_m", rotor->outlet_diameter,                                   //
+                   "outlet_width_m", rotor->outlet_width,                                         //
+                   "base_diameter_m", stator->base_diameter,                                      //
+                   "inlet_width_m", stator->inlet_width,                                          //
+                   "rotor_interface_radius_m", rotor->interface_radius,                           //
+                   "stator_interface_radius_m", stator->interface_radius,                         //
+                   "rotor_interface_area_m2", rotor->interface_area,                              //
+                   "stator_interface_area_m2", stator->interface_area,                            //
+                   "least_blade_hub_angle", angle_json(&rotor->hub_crease),                       //
+                   "least_blade_shroud_angle", angle_json(&rotor->shroud_crease),                 //
                    "greatest_trailing_edge_angle", angle_json(&rotor->trailing_edge));
 }
 

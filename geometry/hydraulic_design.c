@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Correlations: Gulich, Centrifugal Pumps; Guan, Modern Pumps Theory and Design; Wiesner 1967 in Gulich's form.
+// Correlations: Gulich, Centrifugal Pumps; Guan, Modern Pumps Theory and Design; Wiesner 1967 in Gulich's
+// form.
 #include "geometry/hydraulic_design.h"
 
 #include <math.h>
@@ -61,7 +62,6 @@ static void main_dimensions(const CwCase *table, CwDesign *design) {
   const double d1 = design->inlet_diameter;
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, 0.568 * d1, "0.568 D1");
   TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, 0.635 * d1, "0.635 D1");
-  SET(leading_edge_lean, 0, "unleaned");
   TAKE(blade_thickness, given->blade_thickness, 0.020 * d2, "Gulich: 0.016 to 0.022 D2");
   TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness,
        "0.70 of the largest");
@@ -74,7 +74,8 @@ static void main_dimensions(const CwCase *table, CwDesign *design) {
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
 }
 
-// The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan beta.
+// The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan
+// beta.
 static double spiral_angle(const CwMeridian *meridian, double wrap) {
   const double beta[3] = {M_PI / 4, M_PI / 4, M_PI / 4};
   return atan(cw_blade_wrap(meridian, 0.5, beta) / wrap);
@@ -84,7 +85,8 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   double x[2];
   cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
   const double r = x[0], u = design->angular_speed * r, z = design->blade_count;
-  const double cm = design->flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
+  const double cm = design->flow_rate / cw_meridian_area(meridian, 0),
+               given = table->impeller.inlet_blade_angle;
   SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
   SET(inlet_meridional_speed, cm, "Q / area");
   // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
@@ -130,8 +132,7 @@ static void outlet_triangle(CwDesign *design) {
   SET(outlet_flow_angle, atan2(cm, u2 - cu), "outlet triangle");
   SET(outlet_absolute_angle, atan2(cm, cu), "outlet triangle");
   SET(diffusion_ratio, design->outlet_relative_speed / design->inlet_relative_speed, "w2 / w1");
-  SET(hydraulic_efficiency,
-      1 + 0.0835 * log10(cbrt(design->flow_rate / (design->angular_speed * 30 / M_PI))),
+  SET(hydraulic_efficiency, 1 + 0.0835 * log10(cbrt(design->flow_rate / (design->angular_speed * 30 / M_PI))),
       "Guan: 1 + 0.0835 lg (Q/n)^(1/3)");
   SET(theoretical_head, u2 * cu / gravity, "Euler: u2 c_u2 / g");
   SET(predicted_head, design->hydraulic_efficiency * design->theoretical_head, "eta_h u2 c_u2 / g");
@@ -151,7 +152,8 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, Cw
   double low = least, high = largest;
   if (table->impeller.priority == CW_PRIORITY_BETA) {
     TAKE(outlet_blade_angle, given, 25 * degree, "25 deg: middle of the usual 18 to 32");
-    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
+    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle),
+        "straight law beta1 to beta2");
   } else if (table->impeller.priority == CW_PRIORITY_HEAD) {
     for (int i = 0; i < 60; i++) {
       design->outlet_blade_angle = 0.5 * (low + high);
@@ -161,12 +163,14 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, Cw
       else
         high = design->outlet_blade_angle;
     }
-    CW_REQUIRE(fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
-               "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
-               "change D2, b2 or the priority",
-               design->head, design->predicted_head);
+    CW_REQUIRE(
+        fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
+        "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
+        "change D2, b2 or the priority",
+        design->head, design->predicted_head);
     SET(outlet_blade_angle, 0.5 * (low + high), "solved for the head");
-    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
+    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle),
+        "straight law beta1 to beta2");
   } else {
     for (int i = 0; i < 60; i++) {
       const double middle = 0.5 * (low + high);
@@ -178,7 +182,8 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, Cw
     const double solved = 0.5 * (low + high);
     TAKE(outlet_blade_angle, given, solved, "straight law beta1 to beta2 closes the wrap");
     CW_REQUIRE(cw_case_given(given) || (solved > least + 1e-6 && solved < largest - 1e-6), CW_ERR_DESIGN,
-               "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 deg: change "
+               "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 "
+               "deg: change "
                "the wrap, beta1 or the leading edge radii",
                design->wrap_angle / degree, beta1 / degree);
   }
@@ -199,7 +204,8 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   const double height = cw_volute_trapezoid_height(r3, design->inlet_width, design->side_wall_angle,
                                                    design->flow_rate / design->swirl_constant);
   const double area = height * (design->inlet_width + height * tan(design->side_wall_angle));
-  TAKE(discharge_diameter, given->outlet_diameter, standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
+  TAKE(discharge_diameter, given->outlet_diameter,
+       standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
        "standard bore under 4 m/s, wider than the throat");
   TAKE(discharge_pipe_length, given->discharge_pipe_length, 2 * design->discharge_diameter, "2 DN");
   // Gulich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
@@ -225,8 +231,9 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   TAKE(throat_area, given->throat_area, design->volute.throat_area, "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
   SET(tongue_tip_radius, design->volute.tip_radius,
-      cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
-                                       : "well shaped, at least Gulich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
+      cw_case_given(given->tongue_gap)
+          ? "case: D3/2 + tongue gap"
+          : "well shaped, at least Gulich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
   TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length, "full angle 9 deg");
   SET(diffuser_angle, design->volute.diffuser_angle, "cone of equal areas");
 done:
@@ -253,7 +260,8 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(volute_speed, 0.5 * (design->outlet_swirl_speed * r2 / r3 + design->throat_speed),
       "mean of K / r3 and the throat's speed");
   SET(suction_speed, design->flow_rate / (M_PI / 4 * pow(design->inlet_diameter, 2)), "Q / (pi D1^2 / 4)");
-  SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)), "Q / (pi DN^2 / 4)");
+  SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)),
+      "Q / (pi DN^2 / 4)");
 done:
   return status;
 }
@@ -264,8 +272,14 @@ static const struct {
   double scale;
   const char *unit;
 } print_unit[] = {
-    [NUMBER] = {1, ""},           [LENGTH] = {1e3, "mm"},  [HEAD] = {1, "m"},          [ANGLE] = {180 / M_PI, "deg"}, [SPEED] = {1, "m/s"},
-    [FLOW] = {3600, "m3/h"},      [ANGULAR_SPEED] = {30 / M_PI, "rpm"}, [AREA] = {1e6, "mm2"},
+    [NUMBER] = {1, ""},
+    [LENGTH] = {1e3, "mm"},
+    [HEAD] = {1, "m"},
+    [ANGLE] = {180 / M_PI, "deg"},
+    [SPEED] = {1, "m/s"},
+    [FLOW] = {3600, "m3/h"},
+    [ANGULAR_SPEED] = {30 / M_PI, "rpm"},
+    [AREA] = {1e6, "mm2"},
     [DIFFUSIVITY] = {1, "m2/s"},
 };
 
@@ -273,7 +287,7 @@ void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, 
   switch (quantity) {
 #define ROW(member, kind, text)                                                                              \
   case CW_DESIGN_##member:                                                                                   \
-    snprintf(line, size, "%-52s %10.5g %-5s %s", text, design->member * print_unit[kind].scale,              \
+    snprintf(line, size, "%-52s %10.5g %-5s %s", text, design->member *print_unit[kind].scale,               \
              print_unit[kind].unit, design->source[quantity]);                                               \
     break;
     CW_DESIGN_LIST(ROW)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The hydraulic design: from the case's table to every dimension of the pump. What the table leaves open (NAN) is
-// computed by a named correlation; what it gives is taken as it is. SI units: m, rad, s, kg.
+// The hydraulic design: from the case's table to every dimension of the pump. What the table leaves open
+// (NAN) is computed by a named correlation; what it gives is taken as it is. SI units: m, rad, s, kg.
 //
-// Table 3 of the paper is over-determined: wrap angle, outlet blade angle and head do not fit one another. The case's
-// priority says which is the law; the others are predicted, and their residuals reported.
+// Table 3 of the paper is over-determined: wrap angle, outlet blade angle and head do not fit one another.
+// The case's priority says which is the law; the others are predicted, and their residuals reported.
 #ifndef CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 #define CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 
@@ -35,7 +35,6 @@ extern "C" {
   X(axial_length, LENGTH, "shroud, axial length from eye to outlet")                                         \
   X(leading_edge_radius_hub, LENGTH, "leading edge at the hub, radius")                                      \
   X(leading_edge_radius_shroud, LENGTH, "leading edge at the shroud, radius")                                \
-  X(leading_edge_lean, ANGLE, "leading edge: angle at the shroud minus angle at the hub")                    \
   X(inlet_blade_angle, ANGLE, "blade angle beta1 at mid-span")                                               \
   X(outlet_blade_angle, ANGLE, "blade angle beta2")                                                          \
   X(wrap_angle, ANGLE, "wrap angle at mid-span")                                                             \
@@ -94,12 +93,13 @@ typedef struct {
   CwPriority priority;
   CW_DESIGN_LIST(CW_DESIGN_MEMBER)
   CwVolute volute; // the casing, for cw_stator_build()
-  const char *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
+  const char
+      *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
 } CwDesign;
 #undef CW_DESIGN_MEMBER
 
-// Computes the design of a case. Fails with CW_ERR_DESIGN where it has no solution (for instance blade angles outside
-// 12 to 60 degrees), with the value and the allowed range.
+// Computes the design of a case. Fails with CW_ERR_DESIGN where it has no solution (for instance blade angles
+// outside 12 to 60 degrees), with the value and the allowed range.
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design);
 
 // One line for a person: what the quantity is, its value with a unit, and where it comes from.

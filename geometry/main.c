@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-geometry: from the case file to the pump's solids. Writes RUN/geometry.
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "geometry/design_check.h"
@@ -40,11 +41,12 @@ static void show_design(const CwDesign *design) {
 
 static CwStatus check_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(measured->valid && measured->closed && measured->largest_tolerance < 1e-6, CW_ERR_GEOMETRY,
-             "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
-             "0.001 mm",
-             cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
-             measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3);
+  CW_REQUIRE(
+      measured->valid && measured->closed && measured->largest_tolerance < 1e-6, CW_ERR_GEOMETRY,
+      "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
+      "0.001 mm",
+      cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
+      measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3);
   cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed", cw_solid_domain(solid),
          measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3);
 done:
@@ -56,18 +58,21 @@ static void show_rotor(const CwMeasuredRotor *rotor) {
   const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
   cw_log("measured: wrap %.4f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
-  cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least; sharpest wedge of the trailing edge "
+  cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least; sharpest wedge of the "
+         "trailing edge "
          "%.1f deg",
          rotor->hub_crease.angle / degree, rotor->shroud_crease.angle / degree,
          360 - rotor->trailing_edge.angle / degree);
   if (least < 66)
-    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
-                "leading edge outward",
-                least);
+    cw_log_warn(
+        "blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
+        "leading edge outward",
+        least);
   if (360 - rotor->trailing_edge.angle / degree < 75)
-    cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: lengthen "
-                "the bevel",
-                360 - rotor->trailing_edge.angle / degree);
+    cw_log_warn(
+        "the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: lengthen "
+        "the bevel",
+        360 - rotor->trailing_edge.angle / degree);
 }
 
 // Both sides of the interface must be the same cylinder, so that every weight of the coupling is 1.
@@ -75,11 +80,13 @@ static CwStatus check_interface(const CwMeasuredRotor *rotor, const CwMeasuredSt
   CwStatus status = CW_OK;
   CW_REQUIRE(fabs(rotor->interface_radius - stator->interface_radius) < 1e-8 &&
                  fabs(rotor->interface_area / stator->interface_area - 1) < 1e-6,
-             CW_ERR_GEOMETRY, "the interface is r = %.6f mm, %.4f mm2 on the rotor and r = %.6f mm, %.4f mm2 on the stator",
+             CW_ERR_GEOMETRY,
+             "the interface is r = %.6f mm, %.4f mm2 on the rotor and r = %.6f mm, %.4f mm2 on the stator",
              rotor->interface_radius * 1e3, rotor->interface_area * 1e6, stator->interface_radius * 1e3,
              stator->interface_area * 1e6);
-  cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides", stator->base_diameter * 1e3,
-         stator->inlet_width * 1e3, rotor->interface_radius * 1e3, rotor->interface_area * 1e6);
+  cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides",
+         stator->base_diameter * 1e3, stator->inlet_width * 1e3, rotor->interface_radius * 1e3,
+         rotor->interface_area * 1e6);
 done:
   return status;
 }
@@ -108,8 +115,8 @@ done:
 }
 
 // Files of the stage. Each appears whole; record.json, written last by main(), says that all are there.
-static CwStatus write_file(const CwSolid *const solid[2], const CwDesign *design, const CwMeasuredPump *measured,
-                           const char *path, int file) {
+static CwStatus write_file(const CwSolid *const solid[2], const CwDesign *design,
+                           const CwMeasuredPump *measured, const char *path, int file) {
   switch (file) {
   case 0:
     return cw_solid_write_brep(solid[0], path);
@@ -184,9 +191,10 @@ int main(int argc, char **argv) {
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
   if (args.finished)
     goto done;
+  CW_TRY(in_folder(&args, "record.json", &record_path));
+  remove(record_path); // of an earlier run: it must not vouch for files that this run is about to replace
   CW_TRY(cw_record_start("geometry", &record));
   CW_TRY(make_geometry(&args, &table, record));
-  CW_TRY(in_folder(&args, "record.json", &record_path));
   CW_TRY(cw_record_write(record, record_path));
 done:;
   const int code = cw_log_error(status);

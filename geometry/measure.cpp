@@ -32,7 +32,8 @@ CwStatus guarded(const CwSolid *solid, const std::function<void()> &work) {
     work();
     return CW_OK;
   } catch (const Standard_Failure &failure) {
-    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.GetMessageString());
+    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(),
+                   failure.GetMessageString());
   } catch (const std::exception &failure) {
     return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.what());
   }
@@ -82,7 +83,8 @@ bool is_blade(const CwSolidFace &face) {
 }
 
 // Calls `use` for samples of all edges whose faces satisfy `wanted` (in either order).
-void each_angle(const CwSolid *solid, const std::function<bool(const CwSolidFace &, const CwSolidFace &)> &wanted,
+void each_angle(const CwSolid *solid,
+                const std::function<bool(const CwSolidFace &, const CwSolidFace &)> &wanted,
                 const std::function<void(const CwMeasuredAngle &)> &use) {
   const int samples = 40;
   for (size_t i = 0; i < solid->faces.size(); i++)
@@ -99,9 +101,9 @@ void each_angle(const CwSolid *solid, const std::function<bool(const CwSolidFace
           for (int k = 0; k <= samples; k++) {
             const double t = first + (last - first) * k / samples;
             const gp_Pnt point = curve->Value(t);
-            CwMeasuredAngle measured = {fluid_angle(side_at(edge, solid->faces[i].face, t),
-                                                    side_at(other, solid->faces[j].face, t)),
-                                        {point.X() * metre, point.Y() * metre, point.Z() * metre}};
+            CwMeasuredAngle measured = {
+                fluid_angle(side_at(edge, solid->faces[i].face, t), side_at(other, solid->faces[j].face, t)),
+                {point.X() * metre, point.Y() * metre, point.Z() * metre}};
             use(measured);
           }
         }
@@ -195,9 +197,11 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     measured->interface_radius = interface.largest_r;
     measured->interface_area = interface.area;
     measured->outlet_width = interface.largest_z - interface.least_z;
-    // The suction side's surface goes on to D2 under the bevel: the mean line ends half-way between both corners.
+    // The suction side's surface goes on to D2 under the bevel: the mean line ends half-way between both
+    // corners.
     const gp_Pnt nose = mid_span(rotor, "blade_leading_edge_1", 0.5);
-    const gp_Pnt pressure = mid_span(rotor, "blade_pressure_1", 1), suction = mid_span(rotor, "blade_suction_1", 1);
+    const gp_Pnt pressure = mid_span(rotor, "blade_pressure_1", 1),
+                 suction = mid_span(rotor, "blade_suction_1", 1);
     measured->outlet_diameter = 2 * std::hypot(pressure.X(), pressure.Y()) * metre;
     const double thickness = angle_between(polar(suction), polar(pressure));
     measured->wrap_angle = angle_between(polar(suction) + thickness / 2, polar(nose));
@@ -206,8 +210,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     for (const char *wall : {"hub", "shroud"}) {
       CwMeasuredAngle &least = wall[0] == 'h' ? measured->hub_crease : measured->shroud_crease;
       each_angle(
-          rotor,
-          [&](const CwSolidFace &a, const CwSolidFace &b) { return is_blade(a) && b.patch == wall; },
+          rotor, [&](const CwSolidFace &a, const CwSolidFace &b) { return is_blade(a) && b.patch == wall; },
           [&](const CwMeasuredAngle &found) {
             if (found.angle < least.angle)
               least = found;

@@ -17,29 +17,29 @@ typedef struct {
 } CwMeasuredAngle;
 
 typedef struct {
-  int valid;                // BRepCheck finds no fault, and the volume is positive: not inside out
-  int closed;               // each edge lies on two faces in opposite senses; no seam, no degenerate edge
+  int valid;  // BRepCheck finds no fault, and the volume is positive: not inside out
+  int closed; // each edge lies on two faces in opposite senses; no seam, no degenerate edge
   int face_count;
   double largest_tolerance; // of any vertex, edge or face, m
   double volume;            // m3
 } CwMeasuredSolid;
 
 typedef struct {
-  double wrap_angle;        // mean line at mid-span, leading edge to trailing edge, blade 1, rad
-  double inlet_diameter;    // of the inlet disk, m
-  double outlet_diameter;   // of the blade's cut, m
-  double outlet_width;      // axial extent of the interface, m
-  double interface_radius;  // m
-  double interface_area;    // m2
+  double wrap_angle;       // mean line at mid-span, leading edge to trailing edge, blade 1, rad
+  double inlet_diameter;   // of the inlet disk, m
+  double outlet_diameter;  // of the blade's cut, m
+  double outlet_width;     // axial extent of the interface, m
+  double interface_radius; // m
+  double interface_area;   // m2
   CwMeasuredAngle hub_crease, shroud_crease; // least angle of blade to hub, blade to shroud
-  CwMeasuredAngle trailing_edge;             // greatest angle round an edge of the trailing edge: the sharpest wedge
+  CwMeasuredAngle trailing_edge; // greatest angle round an edge of the trailing edge: the sharpest wedge
 } CwMeasuredRotor;
 
 typedef struct {
-  double base_diameter;     // of the step from b2 to b3, m
-  double inlet_width;       // axial extent of the step, m
-  double interface_radius;  // m
-  double interface_area;    // m2
+  double base_diameter;    // of the step from b2 to b3, m
+  double inlet_width;      // axial extent of the step, m
+  double interface_radius; // m
+  double interface_area;   // m2
 } CwMeasuredStator;
 
 CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured);

@@ -11,7 +11,8 @@ static const double gauss_w[5] = {0.2369268850561891, 0.4786286704993665, 0.5688
 void cw_meridian_point(const CwMeridianCurve *curve, double t, double x[2], double dx[2]) {
   const double u = 1 - t;
   for (int i = 0; i < 2; i++) {
-    const double p0 = curve->pole[0][i], p1 = curve->pole[1][i], p2 = curve->pole[2][i], p3 = curve->pole[3][i];
+    const double p0 = curve->pole[0][i], p1 = curve->pole[1][i], p2 = curve->pole[2][i],
+                 p3 = curve->pole[3][i];
     x[i] = u * u * u * p0 + 3 * u * u * t * p1 + 3 * u * t * t * p2 + t * t * t * p3;
     if (dx)
       dx[i] = 3 * (u * u * (p1 - p0) + 2 * u * t * (p2 - p1) + t * t * (p3 - p2));
@@ -53,7 +54,8 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
     else
       high = middle;
   }
-  double t = (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
+  double t =
+      (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
   for (int i = 0; i < 4; i++)
     t -= (curve->length[low] + curve_piece(curve, (double)low / CW_MERIDIAN_STEPS, t) - length) /
          curve_speed(curve, t);
@@ -61,7 +63,8 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
 }
 
 // Arc length where the curve passes a radius, going downstream; the radius grows along the curve there.
-static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, const char *what, double *length) {
+static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, const char *what,
+                                double *length) {
   CwStatus status = CW_OK;
   double low = 0, high = 1, x[2];
   CW_REQUIRE(radius > curve->pole[0][0] && radius < curve->pole[3][0], CW_ERR_DESIGN,
@@ -82,17 +85,19 @@ done:
 
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   CwStatus status = CW_OK;
-  const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2, ri = design->interface_radius;
+  const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2,
+               ri = design->interface_radius;
   const double rn = design->hub_diameter / 2, half = design->outlet_width / 2, axial = design->axial_length;
-  // Both turn early, so that they are flat where the blades begin: blades then meet them at more than 70 degrees, and
-  // the area hardly rises above that of the eye before it grows to the outlet. Factors by trial on the paper's pump.
-  const double hub[4][2] = {{rn, half - 0.4375 * axial}, {rn, half - 0.125 * axial},
-                            {rn + 0.64 * (r1 - rn), half}, {ri, half}};
-  const double shroud[4][2] = {{r1, -half - axial}, {r1, -half - 0.2 * axial},
-                               {r1 + 0.25 * (r2 - r1), -half}, {ri, -half}};
+  // Both turn early, so that they are flat where the blades begin: blades then meet them at more than 70
+  // degrees, and the area hardly rises above that of the eye before it grows to the outlet. Factors by trial
+  // on the paper's pump.
+  const double hub[4][2] = {
+      {rn, half - 0.4375 * axial}, {rn, half - 0.125 * axial}, {rn + 0.64 * (r1 - rn), half}, {ri, half}};
+  const double shroud[4][2] = {
+      {r1, -half - axial}, {r1, -half - 0.2 * axial}, {r1 + 0.25 * (r2 - r1), -half}, {ri, -half}};
   CW_REQUIRE(rn < r1 && r1 < r2 && r2 < ri, CW_ERR_DESIGN,
-             "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order", rn * 1e3,
-             r1 * 1e3, r2 * 1e3, ri * 1e3);
+             "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order",
+             rn * 1e3, r1 * 1e3, r2 * 1e3, ri * 1e3);
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 2; j++) {
       meridian->hub.pole[i][j] = hub[i][j];
@@ -110,7 +115,8 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   meridian->nut_end_z = hub[0][1] - design->nut_length;
   meridian->inlet_z = shroud[0][1] - design->suction_pipe_length;
   CW_REQUIRE(meridian->inlet_z < meridian->nut_end_z, CW_ERR_DESIGN,
-             "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: a longer suction pipe is needed",
+             "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: a longer suction pipe "
+             "is needed",
              meridian->inlet_z * 1e3, meridian->nut_end_z * 1e3);
 done:
   return status;
@@ -120,10 +126,11 @@ void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, dou
   const double hub_length = meridian->hub_trailing - meridian->hub_leading;
   const double shroud_length = meridian->shroud_trailing - meridian->shroud_leading;
   double h[2], dh[2], c[2], dc[2];
-  cw_meridian_point(&meridian->hub, cw_meridian_parameter(&meridian->hub, meridian->hub_leading + q * hub_length),
-                    h, dh);
+  cw_meridian_point(&meridian->hub,
+                    cw_meridian_parameter(&meridian->hub, meridian->hub_leading + q * hub_length), h, dh);
   cw_meridian_point(&meridian->shroud,
-                    cw_meridian_parameter(&meridian->shroud, meridian->shroud_leading + q * shroud_length), c, dc);
+                    cw_meridian_parameter(&meridian->shroud, meridian->shroud_leading + q * shroud_length), c,
+                    dc);
   const double sh = hub_length / hypot(dh[0], dh[1]), ss = shroud_length / hypot(dc[0], dc[1]);
   for (int i = 0; i < 2; i++) {
     x[i] = (1 - s) * h[i] + s * c[i];
@@ -155,7 +162,8 @@ double cw_meridian_volume(const CwMeridian *meridian) {
   const double d = meridian->nut_disk_radius, a = rn - d, l = meridian->hub.pole[0][1] - meridian->nut_end_z;
   // Quarter ellipse r = d + a sin x, z = -l cos x: pi (d^2 l + 2 d a l pi/4 + a^2 l 2/3).
   const double nut = M_PI * l * (d * d + d * a * M_PI / 2 + a * a * 2 / 3);
-  return M_PI * r1 * r1 * (meridian->shroud.pole[0][1] - meridian->inlet_z) + curve_swept_volume(&meridian->shroud) +
+  return M_PI * r1 * r1 * (meridian->shroud.pole[0][1] - meridian->inlet_z) +
+         curve_swept_volume(&meridian->shroud) +
          M_PI * ri * ri * (meridian->hub.pole[3][1] - meridian->shroud.pole[3][1]) -
          curve_swept_volume(&meridian->hub) - nut;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The meridional section (r, z) of the impeller: hub and shroud as cubic Beziers, both run radially to the interface in
-// one piece; the hub ends upstream in a quarter ellipse and a flat disk (the nut), the shroud in the suction pipe.
+// The meridional section (r, z) of the impeller: hub and shroud as cubic Beziers, both run radially to the
+// interface in one piece; the hub ends upstream in a quarter ellipse and a flat disk (the nut), the shroud in
+// the suction pipe.
 //
 //                      interface r = ri
 //          z = -b2/2 +---+ z = +b2/2
@@ -44,12 +45,13 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length);
 // The arc length at t.
 double cw_meridian_length(const CwMeridianCurve *curve, double t);
 
-// Makes the section of a design. Reads D1, D2, b2, the hub, the axial length, the leading edge radii, the interface
-// radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its curve.
+// Makes the section of a design. Reads D1, D2, b2, the hub, the axial length, the leading edge radii, the
+// interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its
+// curve.
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian);
 
-// Point M_s(q) = (1 - s) H(q) + s S(q) with hub H and shroud S by arc length from the leading (q = 0) to the trailing
-// edge (q = 1); dx = d/dq, NULL: not wanted.
+// Point M_s(q) = (1 - s) H(q) + s S(q) with hub H and shroud S by arc length from the leading (q = 0) to the
+// trailing edge (q = 1); dx = d/dq, NULL: not wanted.
 void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, double x[2], double dx[2]);
 
 // Flow area of the passage at fraction q from the leading edge to the trailing edge, without blades, m2.

@@ -21,11 +21,12 @@ static const char *const stroke_colour[] = {
 CwStatus cw_picture_begin(CwPicture *picture, const char *path, double width, double height) {
   CwStatus status = CW_OK;
   CW_TRY(cw_atomic_file_open(path, &picture->file));
-  fprintf(picture->file.stream,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-          "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" stroke-linejoin=\"round\">\n"
-          "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-          width, height, width, height);
+  fprintf(
+      picture->file.stream,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
+      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" stroke-linejoin=\"round\">\n"
+      "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
+      width, height, width, height);
 done:
   return status;
 }
@@ -41,8 +42,8 @@ void cw_picture_abandon(CwPicture *picture) {
 
 void cw_picture_line(CwPicture *picture, CwStroke stroke, const double (*x)[2], int count, int closed) {
   FILE *stream = picture->file.stream;
-  fprintf(stream, "<%s fill=\"%s\" %s points=\"", closed ? "polygon" : "polyline", closed ? "#d6e8f2" : "none",
-          stroke_style[stroke]);
+  fprintf(stream, "<%s fill=\"%s\" %s points=\"", closed ? "polygon" : "polyline",
+          closed ? "#d6e8f2" : "none", stroke_style[stroke]);
   for (int i = 0; i < count; i++)
     fprintf(stream, "%s%.2f,%.2f", i ? " " : "", x[i][0], x[i][1]);
   fprintf(stream, "\"/>\n");
@@ -63,8 +64,8 @@ void cw_picture_arrow(CwPicture *picture, CwStroke stroke, double x0, double y0,
 }
 
 void cw_picture_circle(CwPicture *picture, CwStroke stroke, double x, double y, double radius) {
-  fprintf(picture->file.stream, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"none\" %s/>\n", x, y, radius,
-          stroke_style[stroke]);
+  fprintf(picture->file.stream, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"none\" %s/>\n", x, y,
+          radius, stroke_style[stroke]);
 }
 
 void cw_picture_text(CwPicture *picture, CwTextAlign align, double x, double y, const char *format, ...) {

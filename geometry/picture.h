@@ -37,7 +37,7 @@ void cw_picture_text(CwPicture *picture, CwTextAlign align, double x, double y, 
 CwStatus cw_picture_meridional(const CwDesign *design, const char *path);         // section (z, r)
 CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path);     // plan view at mid-span
 CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path); // inlet and outlet
-CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path);        // beta and area along the blade
+CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path); // beta and area along the blade
 
 #ifdef __cplusplus
 }

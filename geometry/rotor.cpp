@@ -27,21 +27,22 @@
 namespace {
 
 const double mm = 1e3;
-// Parameter planes of the surfaces of revolution begin this far before a blade's trailing edge, so that a whole
-// passage has angles between 0 and 2 pi.
+// Parameter planes of the surfaces of revolution begin this far before a blade's trailing edge, so that a
+// whole passage has angles between 0 and 2 pi.
 const double margin = 0.5;
 const int span_points = 13;
 
 // Angles are of blade 0; the suffix says the curve of revolution on which they lie.
 enum { HUB, SHROUD };
 
-// One blade patch: grid of (q, theta) points, interpolated. The pressure and suction sides run from the leading edge
-// to D2, the leading edge from suction to pressure, bevel and trailing edge towards greater theta.
+// One blade patch: grid of (q, theta) points, interpolated. The pressure and suction sides run from the
+// leading edge to D2, the leading edge from suction to pressure, bevel and trailing edge towards greater
+// theta.
 struct Patch {
   std::vector<double> u;
-  std::vector<CwBladePoint> points; // points[i * span_points + j]
-  Handle(Geom_BSplineSurface) surface;           // of blade 0
-  Handle(Geom2d_BSplineCurve) on_wall[2];        // (theta, t) on hub and shroud
+  std::vector<CwBladePoint> points;       // points[i * span_points + j]
+  Handle(Geom_BSplineSurface) surface;    // of blade 0
+  Handle(Geom2d_BSplineCurve) on_wall[2]; // (theta, t) on hub and shroud
 };
 
 class Rotor {
@@ -102,8 +103,8 @@ CwStatus Rotor::sections() {
   }
   for (const CwBladeSection &s : section)
     CW_REQUIRE(s.theta[0] + pitch < 2 * M_PI - 1.5 * margin, CW_ERR_GEOMETRY,
-               "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg", s.theta[0] * 180 / M_PI,
-               pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
+               "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg",
+               s.theta[0] * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
 done:
   return status;
 }
@@ -126,7 +127,8 @@ void Rotor::fill(Patch &patch) {
     std::vector<gp_Pnt2d> on_wall;
     for (size_t i = 0; i < patch.u.size(); i++) {
       const CwBladePoint &point = patch.points[i * span_points + (wall == HUB ? 0 : span_points - 1)];
-      on_wall.push_back(gp_Pnt2d(point.theta, cw_meridian_parameter(&curve, begin + point.q * (end - begin))));
+      on_wall.push_back(
+          gp_Pnt2d(point.theta, cw_meridian_parameter(&curve, begin + point.q * (end - begin))));
     }
     patch.on_wall[wall] = cw_bspline_curve_2d(patch.u, on_wall);
   }
@@ -145,8 +147,9 @@ void Rotor::blade_patches() {
     for (int j = 0; j < span_points; j++)
       leading.points.push_back(cw_blade_leading_edge(&section[j], M_PI * (leading.u.back() - 0.5)));
   }
-  // Parameters of the sides run from 0 at the leading edge to 1 on D2, closer together towards the leading edge. The
-  // suction side has a row where the bevel begins, so that the bevel's row of points is one of its own.
+  // Parameters of the sides run from 0 at the leading edge to 1 on D2, closer together towards the leading
+  // edge. The suction side has a row where the bevel begins, so that the bevel's row of points is one of its
+  // own.
   for (int i = 0; i < side_points; i++) {
     const double g = (double)i / (side_points - 1);
     pressure.u.push_back(0.4 * g + 0.6 * g * g);
@@ -164,7 +167,8 @@ void Rotor::blade_patches() {
         // Near the end q depends on u in the same way for all sections, so that the bevel begins at one q.
         const double q = u >= u_bevel ? nose + (1 - nose) * u
                                       : section[j].nose + (q_bevel - section[j].nose) * u / u_bevel;
-        side->points.push_back(cw_blade_side(&section[j], side == &pressure ? CW_BLADE_PRESSURE : CW_BLADE_SUCTION, q));
+        side->points.push_back(
+            cw_blade_side(&section[j], side == &pressure ? CW_BLADE_PRESSURE : CW_BLADE_SUCTION, q));
       }
   for (int i = 0; i < short_points; i++) {
     const double f = (double)i / (short_points - 1);
@@ -233,8 +237,8 @@ CwSolid *Rotor::build() {
 
   // Vertices and edges, blade by blade. [wall] is HUB or SHROUD.
   struct Blade {
-    // Upstream corner of the meridian line on the wall, tip of the nose, nose/pressure, nose/suction, pressure
-    // corner on D2, begin and end of the bevel, on the interface.
+    // Upstream corner of the meridian line on the wall, tip of the nose, nose/pressure, nose/suction,
+    // pressure corner on D2, begin and end of the bevel, on the interface.
     int up[2], tip[2], nose_p[2], nose_s[2], corner[2], bevel0[2], bevel1[2], out[2], disk, inlet;
     // Edges: meridian lines, their continuation on nut or pipe, the blade's foot, and across the span.
     int e_up[2], e_down[2], e_end[2], e_nose_s[2], e_nose_p[2], e_p[2], e_s[2], e_bevel[2], e_te[2];
@@ -272,8 +276,9 @@ CwSolid *Rotor::build() {
     b.disk = shell.vertex(at(r_disk, turn + theta_tip[HUB], meridian.nut_end_z));
     b.inlet = shell.vertex(at(r_pipe, turn + theta_tip[SHROUD], meridian.inlet_z));
     b.e_end[HUB] = shell.edge(nut_curve(turn + theta_tip[HUB]), 0, 1, b.disk, b.up[HUB]);
-    b.e_end[SHROUD] = shell.edge(new Geom_Line(at(r_pipe, turn + theta_tip[SHROUD], 0), gp::DZ()),
-                                 mm * meridian.inlet_z, mm * curve[SHROUD]->pole[0][1], b.inlet, b.up[SHROUD]);
+    b.e_end[SHROUD] =
+        shell.edge(new Geom_Line(at(r_pipe, turn + theta_tip[SHROUD], 0), gp::DZ()), mm * meridian.inlet_z,
+                   mm * curve[SHROUD]->pole[0][1], b.inlet, b.up[SHROUD]);
     const auto across = [&](const Patch &patch, double u, int begin, int end) {
       return shell.edge(turned(patch.surface->UIso(u), turn), 0, 1, begin, end);
     };
@@ -282,13 +287,15 @@ CwSolid *Rotor::build() {
     b.x_bevel0 = across(bevel, 0, b.bevel0[HUB], b.bevel0[SHROUD]);
     b.x_bevel1 = across(trailing, 0, b.bevel1[HUB], b.bevel1[SHROUD]);
     b.x_corner = across(trailing, 1, b.corner[HUB], b.corner[SHROUD]);
-    b.x_out = shell.edge(new Geom_Line(at(ri, turn + theta_corner, 0), gp::DZ()), -mm * design->outlet_width / 2,
-                         mm * design->outlet_width / 2, b.out[SHROUD], b.out[HUB]);
+    b.x_out =
+        shell.edge(new Geom_Line(at(ri, turn + theta_corner, 0), gp::DZ()), -mm * design->outlet_width / 2,
+                   mm * design->outlet_width / 2, b.out[SHROUD], b.out[HUB]);
   }
   // Arcs have the angle in the frame of their passage as parameter.
   const auto arc = [&](int k, double r, double height, double theta, int begin, int end) {
     const gp_Ax3 axes = frame(k, height);
-    return shell.edge(new Geom_Circle(axes.Ax2(), mm * r), theta + margin, theta + margin + pitch, begin, end);
+    return shell.edge(new Geom_Circle(axes.Ax2(), mm * r), theta + margin, theta + margin + pitch, begin,
+                      end);
   };
   for (int k = 0; k < z; k++) {
     Blade &b = blade[k], &next = blade[(k + 1) % z];
@@ -308,7 +315,8 @@ CwSolid *Rotor::build() {
     const std::string number = "_" + std::to_string(k + 1);
     const double base = k * pitch - margin, turn = k * pitch;
     for (int w : {HUB, SHROUD}) {
-      const double u_tip = theta_tip[w] + margin, u_out = theta_corner + margin, near = margin, far = margin + pitch;
+      const double u_tip = theta_tip[w] + margin, u_out = theta_corner + margin, near = margin,
+                   far = margin + pitch;
       shell.face(revolved(meridian_curve(*curve[w], base)),
                  {{b.e_up[w], true, along_v(u_tip)},
                   {b.e_nose_p[w], true, moved(leading.on_wall[w], near)},
@@ -331,7 +339,8 @@ CwSolid *Rotor::build() {
                 {next.e_end[HUB], false, along_v(u_hub + pitch)},
                 {b.a_end[HUB], false, along_u(0)}},
                false, "hub_nut", "wall", "hub_nut" + number);
-    const double z_inlet = mm * meridian.inlet_z, z_eye = mm * curve[SHROUD]->pole[0][1], half = mm * design->outlet_width / 2;
+    const double z_inlet = mm * meridian.inlet_z, z_eye = mm * curve[SHROUD]->pole[0][1],
+                 half = mm * design->outlet_width / 2;
     shell.face(new Geom_CylindricalSurface(frame(k), mm * r_pipe),
                {{b.e_end[SHROUD], true, along_v(u_shroud)},
                 {b.a_up[SHROUD], true, along_u(z_eye)},
@@ -344,7 +353,8 @@ CwSolid *Rotor::build() {
                 {next.x_out, false, along_v(theta_corner + margin + pitch)},
                 {b.a_out[SHROUD], false, along_u(-half)}},
                true, "rotor_interface", "interface", "rotor_interface" + number);
-    const auto blade_face = [&](const Patch &patch, std::vector<CwEdgeUse> loop, bool outward, const char *name) {
+    const auto blade_face = [&](const Patch &patch, std::vector<CwEdgeUse> loop, bool outward,
+                                const char *name) {
       Handle(Geom_Surface) surface = Handle(Geom_Surface)::DownCast(patch.surface->Copy());
       surface->Rotate(gp::OZ(), turn);
       const bool tail = &patch == &bevel || &patch == &trailing;
@@ -383,17 +393,19 @@ CwSolid *Rotor::build() {
                 {b.x_bevel1, false, along_v(0)}},
                true, "blade_trailing_edge");
   }
-  // The flat ends: one disk each, bounded by the arcs of the passages. The plane's axes are those of passage 0, the
-  // arcs' those of their own passage.
+  // The flat ends: one disk each, bounded by the arcs of the passages. The plane's axes are those of passage
+  // 0, the arcs' those of their own passage.
   const auto disk = [&](double height, double r, int w, bool outward, const char *patch, const char *kind,
                         const char *name) {
     std::vector<CwEdgeUse> loop;
     for (int k = 0; k < z; k++) {
       const double angle = k * pitch - margin;
-      loop.push_back({blade[k].a_end[w], true,
-                      new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
+      loop.push_back(
+          {blade[k].a_end[w], true,
+           new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
     }
-    shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch, kind, name);
+    shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch,
+               kind, name);
   };
   disk(meridian.nut_end_z, r_disk, HUB, true, "hub_nut", "wall", "hub_nut_end");
   disk(meridian.inlet_z, r_pipe, SHROUD, false, "inlet", "inlet", "inlet");

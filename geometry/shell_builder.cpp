@@ -34,7 +34,8 @@ int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double 
   builder.Add(edge.edge, vertices[begin].Oriented(TopAbs_FORWARD));
   builder.Add(edge.edge, vertices[end].Oriented(TopAbs_REVERSED));
   builder.Range(edge.edge, first, last);
-  edge.deviation = std::max(curve->Value(first).Distance(points[begin]), curve->Value(last).Distance(points[end]));
+  edge.deviation =
+      std::max(curve->Value(first).Distance(points[begin]), curve->Value(last).Distance(points[end]));
   edges.push_back(edge);
   return (int)edges.size() - 1;
 }
@@ -51,7 +52,8 @@ void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEd
     for (int i = 0; i <= samples; i++) {
       const double t = edge.first + (edge.last - edge.first) * i / samples;
       const gp_Pnt2d uv = use.curve->Value(t);
-      edge.deviation = std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
+      edge.deviation =
+          std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
       if (i > 0)
         twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
       last = uv;
@@ -69,7 +71,8 @@ void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEd
   for (size_t i = 0; i < loop.size(); i++) {
     const CwEdgeUse &use = loop[i], &next = loop[(i + 1) % loop.size()];
     Edge &edge = edges[use.edge];
-    if ((use.forward ? edge.end : edge.begin) != (next.forward ? edges[next.edge].begin : edges[next.edge].end))
+    if ((use.forward ? edge.end : edge.begin) !=
+        (next.forward ? edges[next.edge].begin : edges[next.edge].end))
       throw Standard_Failure(("open loop on face " + name + " after edge " + std::to_string(i)).c_str());
     builder.UpdateEdge(edge.edge, use.curve, made.face, least_tolerance);
     builder.Add(wire, edge.edge.Oriented(use.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
@@ -89,7 +92,8 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
   for (size_t i = 0; i < edges.size(); i++) {
     Edge &edge = edges[i];
     if (edge.forward_uses != 1 || edge.reversed_uses != 1)
-      throw Standard_Failure(("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
+      throw Standard_Failure(
+          ("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
     const double tolerance = std::max(least_tolerance, 2 * edge.deviation);
     builder.UpdateEdge(edge.edge, tolerance);
     builder.SameParameter(edge.edge, Standard_True);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Builds a closed solid from explicit vertices, shared edges and faces with their parameter curves: no booleans, no
-// sewing. Tolerances are measured, not asked for.
+// Builds a closed solid from explicit vertices, shared edges and faces with their parameter curves: no
+// booleans, no sewing. Tolerances are measured, not asked for.
 #ifndef CUTWATER_GEOMETRY_SHELL_BUILDER_HPP
 #define CUTWATER_GEOMETRY_SHELL_BUILDER_HPP
 
@@ -16,8 +16,8 @@
 
 #include "geometry/solid.hpp"
 
-// One edge in the loop of a face. `forward`: along the edge's own direction. The parameter curve has the parameter of
-// the edge's curve.
+// One edge in the loop of a face. `forward`: along the edge's own direction. The parameter curve has the
+// parameter of the edge's curve.
 struct CwEdgeUse {
   int edge;
   bool forward;
@@ -29,10 +29,10 @@ public:
   int vertex(const gp_Pnt &point);
   // An edge of `curve` from parameter `first` at vertex `begin` to `last` at `end`.
   int edge(const Handle(Geom_Curve) & curve, double first, double last, int begin, int end);
-  // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv) points out
-  // of the solid. Each face needs a surface of its own.
-  void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward, const char *patch,
-            const char *kind, const std::string &name);
+  // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv)
+  // points out of the solid. Each face needs a surface of its own.
+  void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward,
+            const char *patch, const char *kind, const std::string &name);
   // Makes the solid, or throws Standard_Failure with the reason.
   CwSolid *finish(const char *domain);
 

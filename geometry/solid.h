@@ -19,7 +19,8 @@ const char *cw_solid_face_patch(const CwSolid *solid, int face);
 const char *cw_solid_face_kind(const CwSolid *solid, int face); // "wall", "inlet", "outlet" or "interface"
 const char *cw_solid_face_name(const CwSolid *solid, int face);
 
-// Writes the solid in OpenCASCADE's text format under a temporary name, then renames it. The same bits each time.
+// Writes the solid in OpenCASCADE's text format under a temporary name, then renames it. The same bits each
+// time.
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path);
 
 #ifdef __cplusplus

@@ -34,6 +34,7 @@ const double SECTOR = PI * 5 / 12; // angle of all but the last
 const int ALONG = 33, ACROSS = 49, SIDE = 25; // points of interpolation: along the flow, over the outer arc, other
 // Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4 by 1 %.
 const double TANGENT = 0.4;
+const double TONGUE_SIDE = 1.01; // least radius of the tongue's end at the side wall, in D3/2
 const double LEAST_WALL = 0.5; // mm, between diffuser and spiral
 const double LARGEST_TOLERANCE = 1e-3; // mm
 const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
@@ -170,8 +171,8 @@ private:
     for (int side : {BOTTOM, TOP}) {
       flank_vertex_[side] = b_.vertex(surface->Value(1, side));
       gp_Pnt p = b_.point(flank_vertex_[side]);
-      if (std::hypot(p.X(), p.Y()) < r3() + 1 || p.Y() < 1)
-        throw std::runtime_error("the tongue's side comes nearer than 1 mm to D3/2; raise tongue_gap");
+      if (std::hypot(p.X(), p.Y()) < TONGUE_SIDE * r3())
+        throw std::runtime_error("the tongue's side comes nearer than 1 % to D3/2; raise tongue_gap");
       nose_side_[side] = b_.edge(surface->VIso(side), 0, 1, kink_vertex_[0][side], flank_vertex_[side]);
     }
     nose_flank_ = b_.edge(surface->UIso(1), 0, 1, flank_vertex_[BOTTOM], flank_vertex_[TOP]);

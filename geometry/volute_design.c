@@ -6,14 +6,14 @@
 
 #define PI 3.14159265358979323846
 
-// The spiral begins this far outside D3/2: a section that begins at nothing has no outer wall.
-static const double START_MARGIN = 0.3e-3;
+// The spiral begins this share of D3/2 outside it: a section that begins at nothing has no outer wall.
+static const double START_MARGIN = 0.003;
 // Half angle of the outer arc. A larger one sweeps the nose back more: with 70 degrees the wall's corner at the tongue
 // falls under 15 degrees; a smaller one sharpens the kink between outer and side walls (130 degrees with 60 and 20).
 static const double ARC_HALF_ANGLE = PI / 3;
-// Where the tongue begins when no gap is given. Further upstream the nose lies flat along the side walls.
-static const double DEFAULT_START_ANGLE = 24.0 * PI / 180;
-static const double LEAST_START_ANGLE = 14.0 * PI / 180, LARGEST_START_ANGLE = 40.0 * PI / 180;
+// Angle of the kink line to the tongue's flank where the nose begins, by default and at its limits. The smaller it is,
+// the further the nose lies along the side walls, and the sharper are the corners of the faces there.
+static const double DEFAULT_WEDGE = 20.5 * PI / 180, LEAST_WEDGE = 10.5 * PI / 180, LARGEST_WEDGE = 36.5 * PI / 180;
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 // Above the kink's level the nose's centre line levels out over this height, in nose radii.
@@ -225,11 +225,18 @@ static double throat_area(const CwVolute *volute) {
   return sum;
 }
 
-// Places the tongue with the kink line beginning at `start`: x_i, tip and throat.
-static void place_tongue(CwVolute *volute, double start) {
+static double wedge_excess(double phi, const void *context) {
+  const Context *c = context;
+  CwVoluteSection s = cw_volute_section(c->volute, phi);
+  return phi - atan(s.kink_slope / s.kink_radius) - c->value;
+}
+
+// Places the tongue where the kink line begins at the angle `wedge` to the flank: x_i, tip and throat.
+static void place_tongue(CwVolute *volute, double wedge) {
   double centre[2], normal[2];
-  volute->start_angle = start;
-  cw_volute_contact_circle(volute, start, volute->arc_half_angle, centre, normal);
+  Context context = {.volute = volute, .value = wedge};
+  volute->start_angle = find_root(wedge_excess, &context, 0, 0.45 * PI);
+  cw_volute_contact_circle(volute, volute->start_angle, volute->arc_half_angle, centre, normal);
   volute->inner_wall_x = centre[0] + volute->input.tongue_radius;
   volute->tip_angle = cw_volute_contact_angle(volute, 0);
   cw_volute_contact_circle(volute, volute->tip_angle, 0, centre, normal);
@@ -237,30 +244,30 @@ static void place_tongue(CwVolute *volute, double start) {
   volute->throat_y = centre[1] + THROAT_SETBACK * volute->input.tongue_radius;
 }
 
-static double gap_at(double start, const CwVolute *volute) {
+static double gap_at(double wedge, const CwVolute *volute) {
   CwVolute trial = *volute;
-  place_tongue(&trial, start);
+  place_tongue(&trial, wedge);
   return trial.tip_radius - base_radius(&trial);
 }
 
-static double gap_excess(double start, const void *context) {
+static double gap_excess(double wedge, const void *context) {
   const Context *c = context;
-  return gap_at(start, c->volute) - c->value;
+  return gap_at(wedge, c->volute) - c->value;
 }
 
 // Throat area of a spiral that ends with the integral `end`, less the asked one.
 static double close_spiral(CwVolute *volute, double end) {
   volute->integral_end = end;
   Context context = {.volute = volute, .value = volute->input.tongue_gap};
-  double start = DEFAULT_START_ANGLE;
-  if (isnan(context.value) && gap_at(start, volute) < volute->input.least_tongue_gap)
+  double wedge = DEFAULT_WEDGE;
+  if (isnan(context.value) && gap_at(wedge, volute) < volute->input.least_tongue_gap)
     context.value = volute->input.least_tongue_gap;
   if (!isnan(context.value)) {
-    start = find_root(gap_excess, &context, LEAST_START_ANGLE, LARGEST_START_ANGLE);
-    if (isnan(start)) // answered for the nearest tongue; check_tongue() then says what is allowed
-      start = gap_excess(LEAST_START_ANGLE, &context) > 0 ? LEAST_START_ANGLE : LARGEST_START_ANGLE;
+    wedge = find_root(gap_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
+    if (isnan(wedge)) // answered for the nearest tongue; check_tongue() then says what is allowed
+      wedge = gap_excess(LEAST_WEDGE, &context) > 0 ? LEAST_WEDGE : LARGEST_WEDGE;
   }
-  place_tongue(volute, start);
+  place_tongue(volute, wedge);
   volute->throat_area = throat_area(volute);
   return volute->throat_area - volute->input.throat_area;
 }
@@ -344,7 +351,7 @@ static CwStatus check_tongue(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
   double gap = volute->tip_radius - base_radius(volute);
-  double least = gap_at(LEAST_START_ANGLE, volute), largest = gap_at(LARGEST_START_ANGLE, volute);
+  double least = gap_at(LEAST_WEDGE, volute), largest = gap_at(LARGEST_WEDGE, volute);
   CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap - in->tongue_gap) < 1e-7, CW_ERR_DESIGN,
              "volute: tongue_gap is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
              in->tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
@@ -389,7 +396,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   volute->input = *input;
   CW_TRY(check_input(input));
   volute->arc_half_angle = ARC_HALF_ANGLE;
-  volute->integral_start = section_at(volute, base_radius(volute) + START_MARGIN).integral;
+  volute->integral_start = section_at(volute, base_radius(volute) * (1 + START_MARGIN)).integral;
   CW_TRY(solve_spiral(volute));
 
   double k = volute->arc_half_angle, x[3], centre[2], normal[2];

@@ -257,6 +257,8 @@ static void learn_tets(CwMeshRun *run, double scale) {
     integral += run->domain[d].tet_integral;
   }
   run->tet_factor = made * scale * scale * scale / integral;
+  cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals", run->tet_factor,
+               run->prism_factor / run->table->walls.layer_count);
 }
 
 static CwStatus open_domains(CwMeshRun *run) {
@@ -325,13 +327,13 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     CW_TRY(mesh_regions(run));
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
+    learn_tets(run, scale);
     if (fabs(off) <= COUNT_TOLERANCE) break;
     if (run->passes == PASSES_MOST) {
       cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off, asked,
                   run->passes);
       break;
     }
-    learn_tets(run, scale);
     scale = solve_scale(run);
   }
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));

@@ -170,6 +170,7 @@ CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t
     if (area[l] > 0) continue;
     double at[2];
     point_left_of_loop(point, corner + loop_start[l], loop_start[l + 1] - loop_start[l], at);
+    if (!odd(edge_count, edge, point, boundary, at)) continue; // it faces the outside, or a solid
     double least = INFINITY;
     for (int32_t m = 0; m < loops; m++) {
       if (outer_of[m] != m || area[m] <= 0 || area[m] >= least || area[m] <= -area[l]) continue;

@@ -6,7 +6,7 @@
 #include "mesher/rays.h"
 #include "mesher/size_sources.h"
 
-static const double least_curvature_share = 0.25; // of the patch size
+static const double least_curvature_share = 0.4; // of the patch size
 static const double least_facing = 0.7;           // cosine of the angle between a ray and the wall it meets
 static const double parallel_facing = 0.95;       // from here on no crease can be the cause
 static const double crease_angle_cosine = 0.94;   // 20 degrees between normals

@@ -123,8 +123,8 @@ const CwCaseKey cw_case_keys[] = {
                  "cell size on the blades, relative to the base size"),
     REAL_DEFAULT("mesh", "size_hub_shroud", "", 0.05, 20, 0.9, mesh.size_hub_shroud,
                  "the same on hub and shroud"),
-    REAL_DEFAULT("mesh", "size_volute", "", 0.05, 20, 1.2, mesh.size_volute, "the same in the volute"),
-    REAL_DEFAULT("mesh", "size_pipe", "", 0.05, 20, 1.6, mesh.size_pipe, "the same in the pipes"),
+    REAL_DEFAULT("mesh", "size_volute", "", 0.05, 20, 0.9, mesh.size_volute, "the same in the volute"),
+    REAL_DEFAULT("mesh", "size_pipe", "", 0.05, 20, 1.2, mesh.size_pipe, "the same in the pipes"),
     REAL_DEFAULT("mesh", "size_interface", "", 0.05, 20, 0.9, mesh.size_interface,
                  "the same on the interface between rotor and stator"),
 };

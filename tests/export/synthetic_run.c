@@ -16,14 +16,24 @@ typedef struct {
   const char *name, *kind;
 } Patch;
 
-static const Patch rotor_patches[] = {
-    {"inlet", "inlet"},          {"suction_pipe", "wall"},   {"hub", "wall"},
-    {"hub_nut", "wall"},         {"shroud", "wall"},         {"blade_pressure", "wall"},
-    {"blade_suction", "wall"},   {"blade_leading_edge", "wall"}, {"blade_trailing_edge", "wall"},
-    {"rotor_interface", "interface"}};
-static const Patch stator_patches[] = {{"stator_interface", "interface"}, {"neck", "wall"},     {"step", "wall"},
-                                       {"volute", "wall"},                {"tongue", "wall"},   {"diffuser", "wall"},
-                                       {"discharge", "wall"},             {"outlet", "outlet"}};
+static const Patch rotor_patches[] = {{"inlet", "inlet"},
+                                      {"suction_pipe", "wall"},
+                                      {"hub", "wall"},
+                                      {"hub_nut", "wall"},
+                                      {"shroud", "wall"},
+                                      {"blade_pressure", "wall"},
+                                      {"blade_suction", "wall"},
+                                      {"blade_leading_edge", "wall"},
+                                      {"blade_trailing_edge", "wall"},
+                                      {"rotor_interface", "interface"}};
+static const Patch stator_patches[] = {{"stator_interface", "interface"},
+                                       {"neck", "wall"},
+                                       {"step", "wall"},
+                                       {"volute", "wall"},
+                                       {"tongue", "wall"},
+                                       {"diffuser", "wall"},
+                                       {"discharge", "wall"},
+                                       {"outlet", "outlet"}};
 
 // A domain while it is written.
 typedef struct {
@@ -48,11 +58,12 @@ typedef struct {
 } Region;
 
 SyntheticPump synthetic_pump(void) {
-  return (SyntheticPump){.bottom = -4e-3,
-                         .top = 4e-3,
-                         .rotor = {.inner = 0.05, .outer = 0.101, .radial = 8, .around = 72, .axial = 4, .regions = 3},
-                         .stator = {.inner = 0.101, .outer = 0.13, .radial = 6, .around = 90, .axial = 5, .regions = 2},
-                         .blades = 6};
+  return (SyntheticPump){
+      .bottom = -4e-3,
+      .top = 4e-3,
+      .rotor = {.inner = 0.05, .outer = 0.101, .radial = 8, .around = 72, .axial = 4, .regions = 3},
+      .stator = {.inner = 0.101, .outer = 0.13, .radial = 6, .around = 90, .axial = 5, .regions = 2},
+      .blades = 6};
 }
 
 static int node_at(const Domain *d, int i, int j, int k) {
@@ -63,7 +74,8 @@ static int node_at(const Domain *d, int i, int j, int k) {
 
 static void place(const Domain *d, int node, double x[3]) {
   const SyntheticAnnulus *a = d->annulus;
-  int i = node % (a->radial + 1), j = node / (a->radial + 1) % a->around, k = node / (a->radial + 1) / a->around;
+  int i = node % (a->radial + 1), j = node / (a->radial + 1) % a->around,
+      k = node / (a->radial + 1) / a->around;
   double r = a->inner + (a->outer - a->inner) * i / a->radial;
   double angle = 2 * M_PI * j / a->around + (d->is_rotor ? 0 : 0.013);
   double height = d->pump->top - d->pump->bottom, skin = 0.1 * height;
@@ -139,15 +151,16 @@ static double dot_cross(const double *a, const double *b, const double *c, const
     v[k] = c[k] - a[k];
     w[k] = to[k] - a[k];
   }
-  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
+  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
+         w[2] * (u[0] * v[1] - u[1] * v[0]);
 }
 
 static double tetrahedron_volume(const Region *r, int a, int b, int c, int e) {
   return dot_cross(r->points[a], r->points[b], r->points[c], r->points[e]) / 6;
 }
 
-// Adds a boundary face of one of the cells first, ..., first + count - 1 with `nodes` nodes each: finds the cell that
-// has all its corners and turns the normal outward.
+// Adds a boundary face of one of the cells first, ..., first + count - 1 with `nodes` nodes each: finds the
+// cell that has all its corners and turns the normal outward.
 static void add_boundary(Region *r, const int32_t *cells, int first, int count, int nodes, const int *corners,
                          int corner_count, int patch) {
   for (int c = first; c < first + count; ++c) {
@@ -162,8 +175,7 @@ static void add_boundary(Region *r, const int32_t *cells, int first, int count, 
         found += cell[n] == corners[m];
     if (found < corner_count)
       continue;
-    int inward =
-        dot_cross(r->points[corners[0]], r->points[corners[1]], r->points[corners[2]], centre) > 0;
+    int inward = dot_cross(r->points[corners[0]], r->points[corners[1]], r->points[corners[2]], centre) > 0;
     int32_t *out = corner_count == 3 ? r->triangles[r->triangle_count] : r->quads[r->quad_count];
     for (int m = 0; m < corner_count; ++m)
       out[m] = corners[inward ? corner_count - 1 - m : m];
@@ -210,7 +222,8 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
     }
   }
   if (is_prism) {
-    // The sides of the prisms are flat or ruled along the axis: the volume is that of the base times the height.
+    // The sides of the prisms are flat or ruled along the axis: the volume is that of the base times the
+    // height.
     double z = r->points[v[4]][2] - r->points[v[0]][2];
     for (int p = 0; p < 2; ++p) {
       const int32_t *n = r->prisms[first + p];
@@ -249,7 +262,8 @@ static int put(hid_t file, const char *name, hid_t type, int rows, int columns, 
 }
 
 static void put_number(hid_t file, const char *name, int value) {
-  hid_t space = H5Screate(H5S_SCALAR), attribute = H5Acreate2(file, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
+  hid_t space = H5Screate(H5S_SCALAR),
+        attribute = H5Acreate2(file, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
   H5Awrite(attribute, H5T_NATIVE_INT, &value);
   H5Aclose(attribute);
   H5Sclose(space);
@@ -357,9 +371,9 @@ static json_t *write_region(const char *run, Domain *d, int region) {
   json_t *line = NULL;
   if (write_region_file(path, d, region, &r) == 0)
     line = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1,
-                     "number", region + 1, "points", r.point_count, "own_points", r.point_count - r.shared_count,
-                     "tetrahedra", r.tetrahedron_count, "pyramids", 0, "prisms", r.prism_count, "triangles",
-                     r.triangle_count, "quads", r.quad_count);
+                     "number", region + 1, "points", r.point_count, "own_points",
+                     r.point_count - r.shared_count, "tetrahedra", r.tetrahedron_count, "pyramids", 0,
+                     "prisms", r.prism_count, "triangles", r.triangle_count, "quads", r.quad_count);
   else
     fprintf(stderr, "%s: cannot be written\n", path);
   free(r.points);
@@ -419,9 +433,10 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
-  root = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
-                   "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s", 7.0,
-                   "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0);
+  root =
+      json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
+                "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s",
+                7.0, "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0);
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   failed |= json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);

@@ -4,24 +4,24 @@
 #ifndef CUTWATER_TESTS_EXPORT_SYNTHETIC_RUN_H
 #define CUTWATER_TESTS_EXPORT_SYNTHETIC_RUN_H
 
-// One annulus: cells along the radius, around and along the axis (at least 3; the outermost are prisms), and the
-// number of regions, divided by planes through the axis.
+// One annulus: cells along the radius, around and along the axis (at least 3; the outermost are prisms), and
+// the number of regions, divided by planes through the axis.
 typedef struct {
-  double inner, outer;   // m
+  double inner, outer; // m
   int radial, around, axial, regions;
 } SyntheticAnnulus;
 
 typedef struct {
-  double bottom, top;        // m
+  double bottom, top; // m
   SyntheticAnnulus rotor, stator;
-  int blades;                // in the rotor, each one cell thick
+  int blades; // in the rotor, each one cell thick
 } SyntheticPump;
 
 // A small pump of about 20000 cells in 3 + 2 regions.
 SyntheticPump synthetic_pump(void);
 
-// Writes geometry/design.json and mesh/ into the folder `run`, which it makes. Returns 0, or -1 with a message on
-// standard error.
+// Writes geometry/design.json and mesh/ into the folder `run`, which it makes. Returns 0, or -1 with a
+// message on standard error.
 int synthetic_run_write(const char *run, const SyntheticPump *pump);
 
 #endif

@@ -9,15 +9,21 @@
 #include <cmocka.h>
 
 // The unit cube's corners, then its top centre.
-static double points[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+static double points[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},  {0, 0, 1},
                              {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {.5, .5, 1}};
 static int32_t tetrahedra[][4] = {{0, 1, 3, 4}};
 static int32_t pyramids[][5] = {{0, 1, 2, 3, 8}};
 static int32_t prisms[][6] = {{0, 1, 3, 4, 5, 7}};
 
 static CwRegionData one_of_each(void) {
-  return (CwRegionData){.points = points, .point_count = 9, .tetrahedra = tetrahedra, .tetrahedron_count = 1,
-                        .pyramids = pyramids, .pyramid_count = 1, .prisms = prisms, .prism_count = 1};
+  return (CwRegionData){.points = points,
+                        .point_count = 9,
+                        .tetrahedra = tetrahedra,
+                        .tetrahedron_count = 1,
+                        .pyramids = pyramids,
+                        .pyramid_count = 1,
+                        .prisms = prisms,
+                        .prism_count = 1};
 }
 
 static void volumes_are_those_of_the_textbook(void **state) {

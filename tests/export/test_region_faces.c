@@ -9,8 +9,8 @@
 
 #include "export/cell.h"
 
-// A pyramid on the unit square with a tetrahedron at its side 1-2-4. Points 1, 2 and 4 are the shared ones (places 0,
-// 1, 2), the others the region's own.
+// A pyramid on the unit square with a tetrahedron at its side 1-2-4. Points 1, 2 and 4 are the shared ones
+// (places 0, 1, 2), the others the region's own.
 static double points[][3] = {{1, 0, 0}, {1, 1, 0}, {.5, .5, 1}, {0, 0, 0}, {0, 1, 0}, {2, .5, .5}};
 static int64_t shared_id[] = {40, 20, 30};
 static int32_t pyramids[][5] = {{3, 0, 1, 4, 2}};
@@ -24,7 +24,8 @@ typedef struct {
   CwRegionData data;
 } Region;
 
-// With every outer face on a patch: three of the tetrahedron (cell 0), three triangles and the square of the pyramid.
+// With every outer face on a patch: three of the tetrahedron (cell 0), three triangles and the square of the
+// pyramid.
 static void make(Region *r) {
   static const int32_t triangles[6][3] = {{0, 1, 5}, {0, 5, 2}, {5, 1, 2}, {3, 0, 2}, {1, 4, 2}, {4, 3, 2}};
   memset(r, 0, sizeof *r);
@@ -33,11 +34,22 @@ static void make(Region *r) {
     r->triangle_cell[i] = i >= 3;
   memcpy(r->quads[0], (int32_t[]){3, 4, 1, 0}, sizeof r->quads[0]);
   r->quad_cell[0] = 1;
-  r->data = (CwRegionData){.points = points, .point_count = 6, .shared_count = 3, .shared_id = shared_id,
-                           .tetrahedra = tetrahedra, .tetrahedron_count = 1, .pyramids = pyramids,
-                           .pyramid_count = 1, .triangles = r->triangles, .triangle_patch = r->triangle_patch,
-                           .triangle_cell = r->triangle_cell, .triangle_count = 6, .quads = r->quads,
-                           .quad_patch = r->quad_patch, .quad_cell = r->quad_cell, .quad_count = 1};
+  r->data = (CwRegionData){.points = points,
+                           .point_count = 6,
+                           .shared_count = 3,
+                           .shared_id = shared_id,
+                           .tetrahedra = tetrahedra,
+                           .tetrahedron_count = 1,
+                           .pyramids = pyramids,
+                           .pyramid_count = 1,
+                           .triangles = r->triangles,
+                           .triangle_patch = r->triangle_patch,
+                           .triangle_cell = r->triangle_cell,
+                           .triangle_count = 6,
+                           .quads = r->quads,
+                           .quad_patch = r->quad_patch,
+                           .quad_cell = r->quad_cell,
+                           .quad_count = 1};
 }
 
 static void fails_with(const Region *r, const char *words) {
@@ -136,8 +148,10 @@ static void loops_do_not_depend_on_the_start(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(neighbours_find_each_other),   cmocka_unit_test(a_face_of_shared_points_stays_open),
-      cmocka_unit_test(bad_surfaces_are_told),        cmocka_unit_test(two_cells_on_one_side_are_told),
+      cmocka_unit_test(neighbours_find_each_other),
+      cmocka_unit_test(a_face_of_shared_points_stays_open),
+      cmocka_unit_test(bad_surfaces_are_told),
+      cmocka_unit_test(two_cells_on_one_side_are_told),
       cmocka_unit_test(loops_do_not_depend_on_the_start),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,8 +17,9 @@ static CwBladeSection section;
 
 static int setup(void **state) {
   CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-         cw_meridian_make(&design, &meridian) || cw_blade_section(&design, &meridian, 0.5, &section);
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
+         cw_hydraulic_design(&table, &design) || cw_meridian_make(&design, &meridian) ||
+         cw_blade_section(&design, &meridian, 0.5, &section);
 }
 
 static void near_to(double value, double expected, double tolerance) {
@@ -56,9 +57,11 @@ static void thickness(void **state) {
   for (double q = 0.4; q <= 1; q += 0.1) {
     double x[2];
     cw_meridian_blade_point(&meridian, 0.5, q, x, NULL);
-    const CwBladePoint p = cw_blade_side(&section, CW_BLADE_PRESSURE, q), s = cw_blade_side(&section, CW_BLADE_SUCTION, q);
+    const CwBladePoint p = cw_blade_side(&section, CW_BLADE_PRESSURE, q),
+                       s = cw_blade_side(&section, CW_BLADE_SUCTION, q);
     near_to(p.q, q, 1e-12);
-    near_to((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)), 2 * cw_blade_half_thickness(&section, q), 1e-12);
+    near_to((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)),
+            2 * cw_blade_half_thickness(&section, q), 1e-12);
   }
   near_to(cw_blade_half_thickness(&section, section.nose), design.leading_edge_thickness / 2, 1e-12);
   near_to(cw_blade_half_thickness(&section, 0.45), design.blade_thickness / 2, 1e-12);
@@ -82,7 +85,8 @@ static void nose(void **state) {
 static void bevel(void **state) {
   const double facet = design.trailing_edge_bevel, q = cw_blade_bevel_begin(&section, facet);
   const double end = cw_blade_bevel_theta(&section, q);
-  const CwBladePoint begin = cw_blade_side(&section, CW_BLADE_SUCTION, q), corner = cw_blade_side(&section, CW_BLADE_SUCTION, 1);
+  const CwBladePoint begin = cw_blade_side(&section, CW_BLADE_SUCTION, q),
+                     corner = cw_blade_side(&section, CW_BLADE_SUCTION, 1);
   double x[2], dx[2];
   cw_meridian_blade_point(&meridian, 0.5, 1, x, dx);
   const double dm = (1 - q) * hypot(dx[0], dx[1]);

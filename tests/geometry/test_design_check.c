@@ -27,8 +27,8 @@ static int remarked(const CwDesign *design, const char *words) {
   return 0;
 }
 
-// Table 3: D2 = 200 mm against 178 to 182 mm (a tenth over 182.2 is 200.4: just within), D3 = 1.02 D2, and a head that
-// the wrap does not give; b2 = 8 against 8.8 mm lies within a tenth.
+// Table 3: D2 = 200 mm against 178 to 182 mm (a tenth over 182.2 is 200.4: just within), D3 = 1.02 D2, and a
+// head that the wrap does not give; b2 = 8 against 8.8 mm lies within a tenth.
 static void paper_remarks(void **state) {
   const CwDesign design = paper();
   assert_true(remarked(&design, "predicts a head"));
@@ -56,6 +56,7 @@ static void far_off_values_are_remarked(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(far_off_values_are_remarked)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks),
+                                     cmocka_unit_test(far_off_values_are_remarked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

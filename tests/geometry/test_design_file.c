@@ -21,12 +21,13 @@ static double number(const json_t *root, const char *key) {
 // The keys that other stages read, with their units.
 static void keys_of_the_format(void **state) {
   static const char *const keys[] = {
-      "impeller_tip_speed_m_per_s", "relative_speed_m_per_s", "volute_speed_m_per_s", "suction_speed_m_per_s",
-      "discharge_speed_m_per_s",    "interface_radius_m",     "predicted_head_m",     "rotor_volume_m3",
-      "stator_volume_m3"};
+      "impeller_tip_speed_m_per_s", "relative_speed_m_per_s",  "volute_speed_m_per_s",
+      "suction_speed_m_per_s",      "discharge_speed_m_per_s", "interface_radius_m",
+      "predicted_head_m",           "rotor_volume_m3",         "stator_volume_m3"};
   CwCase table;
   CwDesign design;
-  CwMeasuredPump measured = {.rotor.volume = 5e-4, .stator.volume = 7e-4, .rotor_dimensions.wrap_angle = 71 * M_PI / 180};
+  CwMeasuredPump measured = {
+      .rotor.volume = 5e-4, .stator.volume = 7e-4, .rotor_dimensions.wrap_angle = 71 * M_PI / 180};
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);

@@ -30,8 +30,9 @@ static CwDesign design_of(const CwCase *table) {
   return design;
 }
 
-// omega = 1450 pi/30 = 151.844; u2 = 15.184; nq = 1450 (25/3600)^0.5 / 10^0.75 = 1450 0.083333 / 5.62341 = 21.487;
-// psi = 2 9.80665 10 / 15.184^2 = 0.8507; overlap 6 71 / 360 = 1.1833; suction 6.9444e-3 / 4.3008e-3 = 1.6147.
+// omega = 1450 pi/30 = 151.844; u2 = 15.184; nq = 1450 (25/3600)^0.5 / 10^0.75 = 1450 0.083333 / 5.62341
+// = 21.487; psi = 2 9.80665 10 / 15.184^2 = 0.8507; overlap 6 71 / 360 = 1.1833; suction 6.9444e-3
+// / 4.3008e-3 = 1.6147.
 static void paper_values_by_hand(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
@@ -55,7 +56,8 @@ static void paper_values_by_hand(void **state) {
 static void velocity_triangles_close(void **state) {
   const CwCase table = paper();
   const CwDesign d = design_of(&table);
-  near_to(d.outlet_relative_speed * cos(d.outlet_flow_angle) + d.outlet_swirl_speed, d.impeller_tip_speed, 1e-12);
+  near_to(d.outlet_relative_speed * cos(d.outlet_flow_angle) + d.outlet_swirl_speed, d.impeller_tip_speed,
+          1e-12);
   near_to(d.outlet_absolute_speed * sin(d.outlet_absolute_angle), d.outlet_meridional_speed, 1e-12);
   near_to(d.predicted_head, d.hydraulic_efficiency * 15.18436 * d.outlet_swirl_speed / 9.80665, 1e-4);
   near_to(d.head_residual, d.predicted_head - 10, 1e-12);
@@ -77,8 +79,8 @@ static void head_over_outlet_angle(void **state) {
   }
 }
 
-// gamma = 0.98 (1 - sin(30 deg)^0.5 / 6^0.7) = 0.98 (1 - 0.70711 / 3.50514) = 0.78230; the leading edge lies inside
-// the limit exp(-8.16 0.5 / 6) = 0.5066 of D2.
+// gamma = 0.98 (1 - sin(30 deg)^0.5 / 6^0.7) = 0.98 (1 - 0.70711 / 3.50514) = 0.78230; the leading edge lies
+// inside the limit exp(-8.16 0.5 / 6) = 0.5066 of D2.
 static void slip_by_hand(void **state) {
   CwCase table = paper();
   table.impeller.priority = CW_PRIORITY_BETA;
@@ -152,10 +154,14 @@ static void rows_are_lines(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paper_values_by_hand),       cmocka_unit_test(velocity_triangles_close),
-      cmocka_unit_test(head_over_outlet_angle),     cmocka_unit_test(slip_by_hand),
-      cmocka_unit_test(head_priority_meets_the_head), cmocka_unit_test(open_dimensions_by_correlation),
-      cmocka_unit_test(case_overrides),             cmocka_unit_test(impossible_wrap_is_refused),
+      cmocka_unit_test(paper_values_by_hand),
+      cmocka_unit_test(velocity_triangles_close),
+      cmocka_unit_test(head_over_outlet_angle),
+      cmocka_unit_test(slip_by_hand),
+      cmocka_unit_test(head_priority_meets_the_head),
+      cmocka_unit_test(open_dimensions_by_correlation),
+      cmocka_unit_test(case_overrides),
+      cmocka_unit_test(impossible_wrap_is_refused),
       cmocka_unit_test(rows_are_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

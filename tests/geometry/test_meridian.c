@@ -15,8 +15,8 @@ static CwMeridian meridian;
 
 static int setup(void **state) {
   CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-         cw_meridian_make(&design, &meridian);
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
+         cw_hydraulic_design(&table, &design) || cw_meridian_make(&design, &meridian);
 }
 
 static void near_to(double value, double expected, double tolerance) {
@@ -52,7 +52,8 @@ static void ends_of_the_blade(void **state) {
   }
 }
 
-// The passage never widens by more than a quarter over the eye before it grows to the outlet, and ends at pi D2 b2.
+// The passage never widens by more than a quarter over the eye before it grows to the outlet, and ends at pi
+// D2 b2.
 static void areas(void **state) {
   const double eye = M_PI / 4 * (pow(design.inlet_diameter, 2) - pow(design.hub_diameter, 2));
   near_to(cw_meridian_area(&meridian, 1), M_PI * 0.2 * 0.008, 1e-6); // the hub is not quite flat at D2
@@ -105,8 +106,10 @@ static void misplaced_leading_edge_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(arc_length), cmocka_unit_test(ends_of_the_blade),
-      cmocka_unit_test(areas),      cmocka_unit_test(volume),
+      cmocka_unit_test(arc_length),
+      cmocka_unit_test(ends_of_the_blade),
+      cmocka_unit_test(areas),
+      cmocka_unit_test(volume),
       cmocka_unit_test(misplaced_leading_edge_is_refused),
   };
   return cmocka_run_group_tests(tests, setup, NULL);

@@ -28,7 +28,8 @@ static char *slurp(const char *path) {
 }
 
 // Each picture is whole, has no undefined number and no point outside its sheet.
-static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design, const char *words) {
+static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design,
+                  const char *words) {
   char path[64];
   snprintf(path, sizeof path, "picture-test-%ld.svg", (long)getpid());
   if (draw(design, path) != CW_OK)

@@ -43,8 +43,8 @@ static void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRo
   cw_solid_free(&rotor);
 }
 
-// Integral of r |M_q x M_s| dq from 0 on, by Simpson: the blade's volume is the integral over its outline of this
-// times d theta (Green), and over the span. Independent of the B-rep.
+// Integral of r |M_q x M_s| dq from 0 on, by Simpson: the blade's volume is the integral over its outline of
+// this times d theta (Green), and over the span. Independent of the B-rep.
 static double swept(const CwMeridian *meridian, double s, double q) {
   enum { STEPS = 10 };
   double sum = 0;
@@ -124,12 +124,18 @@ static void paper_rotor(void **state) {
   near_to(solid.volume / expected, 1, 2e-5);
 }
 
-// The wheel turns by the right hand about +z and the blades sweep backward: the pressure side looks towards greater
-// theta, and the wall of the blade there has its normal out of the fluid towards smaller theta.
+// The wheel turns by the right hand about +z and the blades sweep backward: the pressure side looks towards
+// greater theta, and the wall of the blade there has its normal out of the fluid towards smaller theta.
 static void every_face_has_a_patch(void **state) {
-  static const char *const patches[] = {"inlet",          "suction_pipe",       "hub",
-                                        "hub_nut",        "shroud",             "blade_pressure",
-                                        "blade_suction",  "blade_leading_edge", "blade_trailing_edge",
+  static const char *const patches[] = {"inlet",
+                                        "suction_pipe",
+                                        "hub",
+                                        "hub_nut",
+                                        "shroud",
+                                        "blade_pressure",
+                                        "blade_suction",
+                                        "blade_leading_edge",
+                                        "blade_trailing_edge",
                                         "rotor_interface"};
   static const int counts[] = {1, 6, 6, 7, 6, 6, 6, 6, 12, 6};
   const CwCase table = paper();
@@ -204,8 +210,11 @@ static void too_long_a_bevel_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paper_rotor), cmocka_unit_test(every_face_has_a_patch), cmocka_unit_test(sweep),
-      cmocka_unit_test(other_priorities), cmocka_unit_test(too_long_a_bevel_is_refused),
+      cmocka_unit_test(paper_rotor),
+      cmocka_unit_test(every_face_has_a_patch),
+      cmocka_unit_test(sweep),
+      cmocka_unit_test(other_priorities),
+      cmocka_unit_test(too_long_a_bevel_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

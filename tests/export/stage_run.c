@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tests/export/stage_run.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+
+int stage_folder_make(char folder[STAGE_PATH_SIZE]) {
+  const char *base = getenv("TMPDIR");
+  snprintf(folder, STAGE_PATH_SIZE, "%s/cutwater-export-XXXXXX", base ? base : P_tmpdir);
+  // As root and with more ranks than cores; OpenFOAM must find its etc folder.
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+  setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
+  return mkdtemp(folder) ? 0 : -1;
+}
+
+void stage_folder_remove(const char *folder) {
+  char output[STAGE_OUTPUT_SIZE];
+  stage_shell(output, "rm -rf '%s'", folder);
+}
+
+int stage_shell(char *output, const char *format, ...) {
+  char command[4000];
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(command, sizeof command - 10, format, arguments);
+  va_end(arguments);
+  if (length < 0 || (size_t)length >= sizeof command - 10)
+    return -1;
+  snprintf(command + length, sizeof command - (size_t)length, " 2>&1");
+  FILE *pipe = popen(command, "r");
+  if (!pipe)
+    return -1;
+  size_t used = fread(output, 1, STAGE_OUTPUT_SIZE - 1, pipe);
+  output[used] = '\0';
+  char rest[4096];
+  while (fread(rest, 1, sizeof rest, pipe) > 0)
+    ;
+  int status = pclose(pipe);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+int stage_export(const char *run, int ranks, char *output) {
+  // One rank without mpirun, which has words of its own for a failed run.
+  char launch[40] = "";
+  if (ranks > 1)
+    snprintf(launch, sizeof launch, "mpirun -q -n %d ", ranks);
+  return stage_shell(output, "%s'%s/cutwater-export' --case '%s/cases/paper/case.yaml' --run '%s'", launch,
+                     CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, run);
+}
+
+int stage_has_program(const char *name) {
+  char output[STAGE_OUTPUT_SIZE];
+  return stage_shell(output, "command -v %s", name) == 0;
+}

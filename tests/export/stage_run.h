@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Runs the exporter, and the programs that judge its files, in folders of their own.
+#ifndef CUTWATER_TESTS_EXPORT_STAGE_RUN_H
+#define CUTWATER_TESTS_EXPORT_STAGE_RUN_H
+
+enum { STAGE_OUTPUT_SIZE = 1 << 18, STAGE_PATH_SIZE = 400 };
+
+// Makes an empty folder for the files of a test; its path in `folder`. Returns 0, or -1.
+int stage_folder_make(char folder[STAGE_PATH_SIZE]);
+void stage_folder_remove(const char *folder);
+
+// Runs a shell command (printf style) and keeps what it prints on both streams, cut to STAGE_OUTPUT_SIZE.
+// Returns its exit status.
+int stage_shell(char *output, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Runs the exporter on `run` with so many ranks, on the paper's case. Returns its exit status.
+int stage_export(const char *run, int ranks, char *output);
+
+// Whether a program can be called.
+int stage_has_program(const char *name);
+
+#endif

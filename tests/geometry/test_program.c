@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// cutwater-geometry as a user runs it.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include <cmocka.h>
+
+static char folder[] = "geometry-program-XXXXXX";
+
+static int run(const char *case_file, const char *name) {
+  char command[600];
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages",
+           CUTWATER_BIN_DIR, case_file, folder, name, folder);
+  const int code = system(command);
+  return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+}
+
+static int setup(void **state) {
+  return !mkdtemp(folder);
+}
+
+static int teardown(void **state) {
+  char command[100];
+  snprintf(command, sizeof command, "rm -r %s", folder);
+  return system(command);
+}
+
+static int messages_have(const char *words) {
+  char path[64], line[1000];
+  int found = 0;
+  snprintf(path, sizeof path, "%s/messages", folder);
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  while (fgets(line, sizeof line, file))
+    found |= strstr(line, words) != NULL;
+  fclose(file);
+  return found;
+}
+
+// Two runs give the same bytes, and nothing is left under a temporary name.
+static void files_are_written_and_the_same_each_time(void **state) {
+  static const char *const names[] = {"rotor.brep",         "stator.brep",
+                                      "faces.csv",          "pump.step",
+                                      "design.json",        "meridional_section.svg",
+                                      "blade_to_blade.svg", "velocity_triangles.svg",
+                                      "blade_angle.svg"};
+  char command[300];
+  assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "a"), 0);
+  assert_true(messages_have("measured: wrap 71.0000 deg, D1 74.0000, D2 200.0000, b2 8.0000 mm"));
+  assert_true(messages_have("predicted head"));
+  assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "b"), 0);
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", folder, names[i], folder,
+             names[i]);
+    assert_int_equal(system(command), 0);
+  }
+  snprintf(command, sizeof command, "test $(ls -A %s/a/geometry | wc -l) = 10", folder);
+  assert_int_equal(system(command), 0);
+}
+
+// A design without a solution ends with one line and leaves no record, not even an earlier run's.
+static void failure_leaves_no_record(void **state) {
+  char command[500];
+  assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "c"), 0);
+  snprintf(command, sizeof command,
+           "sed 's/wrap_angle_deg: 71/wrap_angle_deg: 21/' %s/cases/paper/case.yaml > %s/case.yaml",
+           CUTWATER_SOURCE_DIR, folder);
+  assert_int_equal(system(command), 0);
+  char path[64];
+  snprintf(path, sizeof path, "%s/case.yaml", folder);
+  assert_int_not_equal(run(path, "c"), 0);
+  assert_true(messages_have("error: a wrap of 21.00 deg"));
+  snprintf(command, sizeof command, "test ! -e %s/c/geometry/record.json", folder);
+  assert_int_equal(system(command), 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(files_are_written_and_the_same_each_time),
+      cmocka_unit_test(failure_leaves_no_record),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The whole geometry of the paper's pump: both solids as the program builds and measures them.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/rotor.h"
+#include "geometry/stator.h"
+#include "geometry/step_file.h"
+#include "pipeline/case.h"
+
+static CwDesign design;
+static CwSolid *rotor, *stator;
+
+static int setup(void **state) {
+  CwCase table;
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
+         cw_hydraulic_design(&table, &design) || cw_rotor_build(&design, &rotor) ||
+         cw_stator_build(&design.volute, &stator);
+}
+
+static int teardown(void **state) {
+  cw_solid_free(&rotor);
+  cw_solid_free(&stator);
+  return 0;
+}
+
+static void near_to(double value, double expected, double tolerance) {
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+}
+
+// D3 = 204 mm, b3 = 12 mm, and one and the same cylinder r = 101 mm, |z| <= 4 mm on both sides.
+static void stator_dimensions_and_interface(void **state) {
+  CwMeasuredSolid solid;
+  CwMeasuredStator s;
+  CwMeasuredRotor r;
+  assert_int_equal(cw_measure_solid(stator, &solid), CW_OK);
+  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
+  assert_int_equal(cw_measure_stator(stator, &s), CW_OK);
+  assert_int_equal(cw_measure_rotor(rotor, &r), CW_OK);
+  near_to(s.base_diameter, 0.204, 1e-6);
+  near_to(s.inlet_width, 0.012, 1e-6);
+  near_to(s.interface_radius, 0.101, 1e-9);
+  near_to(s.interface_area, 2 * M_PI * 0.101 * 0.008, 1e-10);
+  near_to(s.interface_area / r.interface_area, 1, 1e-9);
+}
+
+static void both_solids_survive_step(void **state) {
+  const CwSolid *const solids[] = {rotor, stator};
+  assert_int_equal(cw_step_write(solids, 2, "pump-test.step"), CW_OK);
+  for (int i = 0; i < 2; i++) {
+    CwSolid *again = NULL;
+    CwMeasuredSolid before, after;
+    if (cw_step_read("pump-test.step", cw_solid_domain(solids[i]), &again) != CW_OK)
+      fail_msg("%s", cw_fail_message());
+    assert_int_equal(cw_measure_solid(solids[i], &before), CW_OK);
+    assert_int_equal(cw_measure_solid(again, &after), CW_OK);
+    assert_true(after.valid);
+    near_to(after.volume / before.volume, 1, 1e-6);
+    assert_int_equal(after.face_count, before.face_count);
+    int named = 0;
+    for (int face = 0; face < cw_solid_face_count(again); face++)
+      named += cw_solid_face_patch(again, face)[0] != 0;
+    assert_int_equal(named, after.face_count);
+    cw_solid_free(&again);
+  }
+  unlink("pump-test.step");
+}
+
+// The dimensions of the rotor cannot be read from a stator: one line says what is missing.
+static void missing_patch_is_named(void **state) {
+  CwMeasuredRotor r;
+  assert_int_equal(cw_measure_rotor(stator, &r), CW_ERR_GEOMETRY);
+  assert_non_null(strstr(cw_fail_message(), "inlet"));
+  cw_fail_clear();
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(stator_dimensions_and_interface),
+      cmocka_unit_test(both_solids_survive_step),
+      cmocka_unit_test(missing_patch_is_named),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}
