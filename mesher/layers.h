@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The envelope of the boundary layers: for every wall vertex a column, so that the one thick prism over each
-// wall triangle is
-// valid, at every layer it is divided into by equal fractions, and the front (the wall moved to its outer
-// ends) crosses
-// neither itself nor the wall nor a cap.
+// The envelope of the boundary layers: for every wall vertex a column, so that the one thick prism over each wall
+// triangle is valid, at every layer it is divided into by equal fractions, and the front (the wall moved to its outer
+// ends) crosses neither itself nor the wall nor a cap.
 //
 //   direction  most normal to the faces around (the least cosine is greatest), inside the guides
-//   length     t / max(cosine, 0.3 on concave edges, 0.55 elsewhere): the normal height is t on every face
-// around
-//   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal
-// height
+//   length     t / max(cosine, 0.3 on concave edges, 0.55 elsewhere): normal height t on every face around
+//   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal height
 //   height     least of target, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x distance more than any neighbour
 //   repair     poor prisms are turned, then thinned by 0.8, until nothing is inverted and nothing crosses
 //
-// Best where the surface is not much finer than t beside concave edges; full height was kept up to t/h = 3 at 60
-// at 60 degrees
-// degrees and t/h = 5 at 90 degrees on straight edges; 77 % at t/h = 4 to 8 around a bevelled blade in a 45 degree wedge.
+// Best where the surface is not much finer than t beside concave edges. Along straight edges the full height is kept
+// up to t/h = 3 at 60 degrees and 4.8 at 90; around a bevelled blade in a wedge of 45 degrees at t/h = 4 to 8 on 77 %.
 #ifndef CUTWATER_MESHER_LAYERS_H
 #define CUTWATER_MESHER_LAYERS_H
 
