@@ -47,13 +47,12 @@ def cutwater(options, run):
 
 def gmsh(options, step, size, folder):
     """Seconds and tetrahedra of gmsh with this largest size (mm)."""
-    seconds, text = timed(["gmsh", "-3", "-algo", "hxt", "-nt", options.ranks, "-clmax", f"{size:.6g}", step, "-bin",
+    seconds, _ = timed(["gmsh", "-3", "-algo", "hxt", "-nt", options.ranks, "-clmax", f"{size:.6g}", step, "-bin",
                            "-o", folder / "gmsh.msh"])
-    tetrahedra = [int(count) for count in re.findall(r"(\d+) tetrahedra", text)]
-    read = subprocess.run(["gmsh", "-0", folder / "gmsh.msh"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True).stdout
-    told = re.search(r"(\d+) tetrahedra", read)
-    return seconds, int(told.group(1)) if told else max(tetrahedra)
+    count = folder / "count.geo"
+    count.write_text('Printf("tetrahedra %.0f", Mesh.NbTetrahedra);')
+    _, text = timed(["gmsh", "-", folder / "gmsh.msh", count])
+    return seconds, int(re.search(r"^tetrahedra (\d+)", text, re.M).group(1))
 
 
 def gmsh_size(options, step, cells, folder, volume):
