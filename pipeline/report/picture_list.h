@@ -24,7 +24,8 @@ typedef struct {
   CwPictureColour colour;
   unsigned sees;
   const char *hidden;       // names of patches that are left out, "|a|b|"
-  int upper_half;           // faces whose middle has z < 0 are left out
+  int upper_half;           // of the stator, what lies at z < 0 is cut off
+  int hollow_white;         // faces of the rotor seen from within the metal are left white
   int edges;                // with the edges of the faces
   CwPicturePlane plane;
   CwPictureTarget target;

@@ -14,7 +14,7 @@
 static const uint32_t background = 0xffffff, ink = 0x27313c;
 static const uint32_t cut_colour[2][2] = {{0xdbe7f2, 0x8db4da}, {0xf6ecd6, 0xe2bb78}}; // domain; tetrahedra, prisms
 static const uint32_t pyramid_colour = 0xb98fc0;
-enum { PATCHES = CW_REPORT_PATCHES, FIT_MARGIN = 28 };
+enum { PATCHES = CW_REPORT_PATCHES, FIT_MARGIN = 28, METAL = 65000 };
 
 // A picture while it is drawn.
 typedef struct {
@@ -78,7 +78,7 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
     }
     break;
   case CW_TARGET_SHROUD:
-    radius = 0.7 * survey->sizes.outlet_radius;
+    radius = 0.43 * survey->sizes.outlet_radius;
     if (!cw_survey_shroud(survey, radius, &z)) drawing->lacking = "the mesh has no shroud";
     // fall through
   case CW_TARGET_NECK:
@@ -124,10 +124,23 @@ static Face face_at(const CwReportCells *cells, int32_t index) {
 
 static int face_shown(const Drawing *drawing, int d, const Face *face) {
   if (drawing->hidden[d][face->patch]) return 0;
-  if (!drawing->spec->upper_half) return 1;
+  if (!drawing->spec->upper_half || d == CW_REPORT_ROTOR) return 1;
   double z = 0;
-  for (int k = 0; k < face->count; k++) z += face->x[k][2];
-  return z >= 0 || d == CW_REPORT_ROTOR;
+  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
+  return z > 0;
+}
+
+// Cuts off what lies at z < 0: the corners that are left, in order; at most one more than before.
+static int upper_part(const Face *face, double part[5][3]) {
+  int count = 0;
+  for (int k = 0; k < face->count; k++) {
+    const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
+    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
+    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
+    for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
+    count++;
+  }
+  return count;
 }
 
 static void reach_faces(Drawing *drawing, int d, const CwReportCells *cells) {
@@ -140,7 +153,8 @@ static void reach_faces(Drawing *drawing, int d, const CwReportCells *cells) {
 }
 
 // Flat shading by a light over the viewer's left shoulder; a face has no back.
-static double light_of(const CwCamera *camera, const Face *face) {
+// *outside becomes true where the viewer stands on the outer side of the face.
+static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
   double u[3], v[3], n[3], facing[3] = {0, 0, 0};
   for (int i = 0; i < 3; i++) {
@@ -152,12 +166,14 @@ static double light_of(const CwCamera *camera, const Face *face) {
   }
   for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  *outside = 0;
   if (!(length > 0)) return 1;
   for (int i = 0; i < 3; i++) {
     facing[0] += n[i] * camera->right[i] / length;
     facing[1] += n[i] * camera->up[i] / length;
     facing[2] += n[i] * camera->towards[i] / length;
   }
+  *outside = facing[2] > 0;
   double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
   for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];
   return 0.5 + 0.56 * fmax(cosine, 0);
@@ -169,18 +185,23 @@ static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int re
   for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
     Face face = face_at(cells, f);
     if (!face_shown(drawing, d, &face)) continue;
-    double p[4][3];
-    for (int k = 0; k < face.count; k++) cw_camera_project(&drawing->camera, face.x[k], p[k]);
+    double p[5][3], part[5][3];
+    int corners = face.count, outside;
+    double light = light_of(&drawing->camera, &face, &outside);
+    if (spec->upper_half && d == CW_REPORT_STATOR) corners = upper_part(&face, part);
+    else for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
+    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
     uint32_t colour = spec->colour == CW_COLOUR_REGION
                           ? cw_region_colour(region_index)
                           : cw_patch_colour(mesh->domain[d].patch[face.patch], face.patch);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region_index % 60000 : d * PATCHES + face.patch);
-    CwPaint paint = {.colour = cw_render_shade(colour, light_of(&drawing->camera, &face)),
+    if (spec->hollow_white && outside && d == CW_REPORT_ROTOR) group = METAL;
+    CwPaint paint = {.colour = cw_render_shade(colour, light),
                      .group = (uint16_t)group,
                      .edge_colour = ink,
                      .edge_width = spec->edges ? 0.9 : 0,
                      .edge_strength = spec->edges ? 0.75 : 0};
-    cw_render_polygon(&drawing->canvas, (const double(*)[3])p, face.count, &paint);
+    cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
     drawing->seen[d][face.patch] = 1;
   }
 }
@@ -298,6 +319,7 @@ static CwStatus finish(const CwReportMesh *mesh, Drawing *drawings, int index, C
   CwAnnotation annotation = {0};
   picture->lacking = drawing->lacking;
   if (drawing->lacking) goto done;
+  cw_render_erase(&drawing->canvas, METAL, background);
   if (drawing->spec->plane == CW_PLANE_NONE && !drawing->spec->edges)
     cw_render_occlusion(&drawing->canvas, 14, drawing->camera.metres_per_pixel);
   cw_render_outline(&drawing->canvas, ink, 3 * drawing->camera.metres_per_pixel);

@@ -132,32 +132,58 @@ void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step) {
   }
 }
 
+// Share of the surroundings of pixel (i, j) that stands over it, 0 to 1.
+static double hollow(const CwCanvas *canvas, long i, long j, double radius, double unit) {
+  enum { DIRECTIONS = 12, RINGS = 5 }; // each direction with its opposite
+  static const double turn[RINGS] = {0, 0.4, 0.8, 0.2, 0.6};
+  long columns = canvas->columns, rows = canvas->rows;
+  double here = canvas->depth[j * columns + i], sum = 0, weights = 0;
+  for (int ring = 0; ring < RINGS; ring++) {
+    double share = (ring + 1.0) / RINGS, length = radius * share, weight = 1.2 - share;
+    for (int k = 0; k < DIRECTIONS; k++) {
+      double angle = M_PI * (k + turn[ring]) / DIRECTIONS;
+      long du = lround(length * CW_RENDER_SAMPLES * cos(angle)), dv = lround(length * CW_RENDER_SAMPLES * sin(angle));
+      long u = i + du, v = j + dv, across_u = i - du, across_v = j - dv;
+      weights += weight;
+      if (fmin(u, across_u) < 0 || fmin(v, across_v) < 0 || fmax(u, across_u) >= columns || fmax(v, across_v) >= rows)
+        continue;
+      double there = canvas->depth[v * columns + u], across = canvas->depth[across_v * columns + across_u];
+      if (isinf(there) || isinf(across)) continue;
+      // The mean of two opposite samples: a slanted plane has no hollow. What stands far above is another thing.
+      double rise = (0.5 * (there + across) - here) / (unit * length);
+      if (rise > 0) sum += weight * fmin(rise, 1) / (1 + pow(rise / 4, 2));
+    }
+  }
+  return sum / weights;
+}
+
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
   if (!canvas->depth) return;
-  enum { DIRECTIONS = 8, RINGS = 3 };
-  long columns = canvas->columns, rows = canvas->rows;
-  for (long j = 0; j < rows; j++) {
-    for (long i = 0; i < columns; i++) {
-      size_t place = (size_t)(j * columns + i);
-      double here = canvas->depth[place], hidden = 0;
-      if (isinf(here)) continue;
-      for (int ring = 1; ring <= RINGS; ring++) {
-        double length = radius * CW_RENDER_SAMPLES * ring / RINGS;
-        for (int k = 0; k < DIRECTIONS; k++) {
-          double angle = 2 * M_PI * (k + 0.5 * (ring & 1)) / DIRECTIONS;
-          long u = i + lround(length * cos(angle)), v = j + lround(length * sin(angle));
-          long u2 = 2 * i - u, v2 = 2 * j - v;
-          if (u < 0 || v < 0 || u >= columns || v >= rows || u2 < 0 || v2 < 0 || u2 >= columns || v2 >= rows) continue;
-          double there = canvas->depth[v * columns + u], across = canvas->depth[v2 * columns + u2];
-          if (isinf(there) || isinf(across)) continue;
-          // The mean of two opposite samples: a slanted plane has no hollow.
-          double rise = (0.5 * (there + across) - here) / (unit * length / CW_RENDER_SAMPLES);
-          hidden += fmin(fmax(rise, 0), 1);
+  for (long j = 0; j < canvas->height; j++) {
+    for (long i = 0; i < canvas->width; i++) {
+      // One value a pixel, at the nearest of its samples that shows something.
+      for (int s = 0; s < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; s++) {
+        long u = i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES, v = j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES;
+        if (isinf(canvas->depth[v * canvas->columns + u])) continue;
+        double factor = 1 - 0.8 * hollow(canvas, u, v, radius, unit);
+        for (int t = s; t < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; t++) {
+          size_t place = (size_t)(j * CW_RENDER_SAMPLES + t / CW_RENDER_SAMPLES) * (size_t)canvas->columns +
+                         (size_t)(i * CW_RENDER_SAMPLES + t % CW_RENDER_SAMPLES);
+          if (!isinf(canvas->depth[place])) canvas->colour[place] = cw_render_shade(canvas->colour[place], factor);
         }
+        break;
       }
-      hidden /= DIRECTIONS * RINGS;
-      if (hidden > 0) canvas->colour[place] = cw_render_shade(canvas->colour[place], 1 - 0.75 * hidden);
     }
+  }
+}
+
+void cw_render_erase(CwCanvas *canvas, uint16_t group, uint32_t background) {
+  size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
+  for (size_t i = 0; i < samples; i++) {
+    if (canvas->group[i] != group) continue;
+    canvas->colour[i] = background;
+    canvas->group[i] = 0;
+    if (canvas->depth) canvas->depth[i] = -INFINITY;
   }
 }
 

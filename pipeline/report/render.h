@@ -44,6 +44,9 @@ void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step);
 // buffer; `unit` is the depth that is as long as one pixel.
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit);
 
+// Makes the samples of `group` background again.
+void cw_render_erase(CwCanvas *canvas, uint16_t group, uint32_t background);
+
 // 0xRRGGBB times a factor, limited to white.
 uint32_t cw_render_shade(uint32_t colour, double factor);
 

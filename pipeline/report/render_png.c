@@ -64,7 +64,7 @@ static void scale_bar(cairo_t *cr, const CwCanvas *canvas, double metres_per_pix
 }
 
 static void triad(cairo_t *cr, const CwCanvas *canvas, const CwAnnotation *annotation) {
-  const double size = 30, x = canvas->width - 46, y = canvas->height - 40;
+  const double size = 30, x = canvas->width - 62, y = canvas->height - 62;
   for (int k = 0; k < annotation->axis_count; k++) {
     const CwTriadAxis *axis = &annotation->axis[k];
     double length = hypot(axis->direction[0], axis->direction[1]);
@@ -98,7 +98,9 @@ static void frames(cairo_t *cr, const CwAnnotation *annotation) {
       cairo_rectangle(cr, frame->x, frame->y, frame->width, frame->height);
       cairo_stroke(cr);
     }
-    text_at(cr, frame->x + frame->width + 5, frame->y + 10, frame->text);
+    cairo_set_font_size(cr, 20);
+    text_at(cr, frame->x + frame->width + 6, frame->y + 14, frame->text);
+    cairo_set_font_size(cr, 13);
   }
 }
 
