@@ -35,8 +35,7 @@ typedef struct {
 
 typedef struct {
   int32_t region_count;     // at least 1
-  double clearance;         // m: no plane nearer than this to a CAD vertex, or along a CAD edge within it
-  double line_clearance;    // m: where two planes meet, their line ends no nearer than this to a CAD edge
+  const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and their lines keep room for it
   double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3)
   double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
