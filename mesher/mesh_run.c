@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/pass_state.h"
 #include "mesher/schedule.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
@@ -313,9 +314,15 @@ done:
   return status;
 }
 
+static double rounded(double value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.12g", value);
+  return strtod(text, NULL);
+}
+
 CwStatus cw_mesh_run(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  char path[4096];
+  char path[4096], fingerprint[33];
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_make_directory(path));
   CW_TRY(open_domains(run));
@@ -326,7 +333,16 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     scale = solve_scale(run);
   }
   CW_TRY(plan_domains(run, scale));
-  for (run->passes = 1;; run->passes++) {
+  CwPassState state = {.pass = 1};
+  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, fingerprint));
+  cw_pass_state_read(run->run_path, fingerprint, &state);
+  if (state.pass > 1) {
+    run->prism_factor = state.prism_factor;
+    run->tet_factor = state.tet_factor;
+    scale = solve_scale(run);
+    cw_log("going on with pass %d of an earlier run", state.pass);
+  }
+  for (run->passes = state.pass;; run->passes++) {
     CW_TRY(mesh_walls(run, &scale));
     CW_TRY(grow_layers(run));
     CW_TRY(mesh_inner(run));
@@ -340,6 +356,11 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
                   run->passes);
       break;
     }
+    // As many digits as the file keeps, so that a run that goes on from it has the same bits.
+    run->prism_factor = rounded(run->prism_factor);
+    run->tet_factor = rounded(run->tet_factor);
+    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor};
+    if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
     scale = solve_scale(run);
   }
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
