@@ -17,7 +17,7 @@ static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is
 // surface needs a few per cent more. A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front, a good
 // part of the whole in the narrow channels of a pump, come on top. The passes correct both.
 static const double PRISMS_PER_LAYER = 2.5;
-static const double TETS_PER_VOLUME = 11.5;
+static const double TETS_PER_VOLUME = 11.1;
 
 static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};
 

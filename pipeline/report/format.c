@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define DASH "\342\200\223"
@@ -31,6 +32,25 @@ char *cw_format_count(int64_t count, char text[CW_FORMAT_SIZE]) {
   return group(plain, text);
 }
 
+// 1.004 x 10 to the power of -6, with raised digits.
+static char *scientific(double value, int significant, char text[CW_FORMAT_SIZE]) {
+  static const char *const raised[] = {"\342\201\260", "\302\271",     "\302\262",     "\302\263",     "\342\201\264",
+                                       "\342\201\265", "\342\201\266", "\342\201\267", "\342\201\270", "\342\201\271"};
+  char plain[64], power[16];
+  snprintf(plain, sizeof plain, "%.*e", significant - 1, fabs(value));
+  char *mark = strchr(plain, 'e'), *end = mark;
+  snprintf(power, sizeof power, "%ld", strtol(mark + 1, NULL, 10));
+  if (memchr(plain, '.', (size_t)(end - plain))) {
+    while (end[-1] == '0') end--;
+    if (end[-1] == '.') end--;
+  }
+  size_t used = (size_t)snprintf(text, CW_FORMAT_SIZE, "%s%.*s" NARROW_SPACE "\303\227" NARROW_SPACE "10",
+                                 value < 0 ? MINUS : "", (int)(end - plain), plain);
+  for (const char *c = power; *c && used < CW_FORMAT_SIZE; c++)
+    used += (size_t)snprintf(text + used, CW_FORMAT_SIZE - used, "%s", *c == '-' ? "\342\201\273" : raised[*c - '0']);
+  return text;
+}
+
 char *cw_format_number(double value, int significant, char text[CW_FORMAT_SIZE]) {
   char plain[64];
   if (!isfinite(value)) {
@@ -42,10 +62,7 @@ char *cw_format_number(double value, int significant, char text[CW_FORMAT_SIZE])
   snprintf(plain, sizeof plain, "%.*e", significant - 1, value);
   int power = 0;
   sscanf(strchr(plain, 'e') + 1, "%d", &power);
-  if (power >= 15 || power < -6) {
-    snprintf(text, CW_FORMAT_SIZE, "%s", plain);
-    return text;
-  }
+  if (power >= 15 || power < -4) return scientific(value, significant, text);
   int decimals = significant - 1 - power;
   snprintf(plain, sizeof plain, "%.*f", decimals > 0 ? decimals : 0, value);
   if (strchr(plain, '.')) { // 74.000 says no more than 74

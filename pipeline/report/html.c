@@ -22,6 +22,11 @@ void cw_html_text(FILE *page, const char *text) {
 }
 
 void cw_html_label(FILE *page, const char *key) {
+  if (!strncmp(key, "y_plus", 6)) {
+    fputs("y<sup>+</sup>", page);
+    for (key += 6; *key; key++) escaped(page, *key == '_' ? ' ' : *key);
+    return;
+  }
   for (const char *c = key; *c; c++) escaped(page, *c == '_' ? ' ' : c == key ? (char)toupper((unsigned char)*c) : *c);
 }
 

@@ -10,7 +10,7 @@
 
 // Writes text with & < > " ' escaped.
 void cw_html_text(FILE *page, const char *text);
-// The same of a key: underscores become blanks, the first letter a capital.
+// The same of a key: underscores become blanks, the first letter a capital, y_plus the sign for it.
 void cw_html_label(FILE *page, const char *key);
 void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size);
 

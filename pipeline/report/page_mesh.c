@@ -51,7 +51,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   char where[4096];
   int64_t cells[2] = {0, 0}, points[2];
   CW_TRY(both_domains(data, domain));
-  fputs("<table class=\"plain\"><tr><th></th><th class=\"n\">Rotor</th><th class=\"n\">Stator</th>"
+  fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th><th class=\"n\">Rotor</th><th class=\"n\">Stator</th>"
         "<th class=\"n\">Together</th></tr>\n",
         page);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
@@ -95,7 +95,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   figure_row(page, "Of the solid", "cm&sup3;", domain, "solid_volume_m3", 1e6, 6);
   figure_row(page, "Difference", "%", domain, "volume_error", 100, 3);
   figure_row(page, "Least cell", "mm&sup3;", domain, "least_cell_volume_m3", 1e9, 3);
-  fputs("</table>\n<h3>Patches</h3>\n<table><tr><th>Domain</th><th>Patch</th><th>Kind</th><th class=\"n p\">Area, "
+  fputs("</table></div>\n<div><table><tr><th>Domain</th><th>Patch</th><th>Kind</th><th class=\"n p\">Area, "
         "cm&sup2;</th></tr>\n",
         page);
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
@@ -113,7 +113,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
       fputs("</tr>\n", page);
     }
   }
-  fputs("</table>\n", page);
+  fputs("</table></div>\n</div>\n", page);
 done:
   return status;
 }
@@ -222,9 +222,11 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
     CW_TRY(shares(data, domain[d], "least_dihedral_bins", DIHEDRAL_BINS, dihedral[d]));
     CW_TRY(shares(data, domain[d], "prism_scaled_jacobian_bins", JACOBIAN_BINS, jacobian[d]));
   }
-  fputs("<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th>Unit</th></tr>\n", page);
-  figure_row(page, "Tetrahedra: longest over shortest edge, mean", "", domain, "tetrahedron_aspect_mean", 1, 4);
-  figure_row(page, "Tetrahedra: longest over shortest edge, greatest", "", domain, "tetrahedron_aspect_max", 1, 4);
+  fputs("<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n", page);
+  figure_row(page, "Tetrahedra: longest over shortest edge, mean", "2.98 in the paper", domain,
+             "tetrahedron_aspect_mean", 1, 4);
+  figure_row(page, "Tetrahedra: longest over shortest edge, greatest", "8.8 in the paper", domain,
+             "tetrahedron_aspect_max", 1, 4);
   figure_row(page, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
   figure_row(page, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
   figure_row(page, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);

@@ -6,19 +6,20 @@
 
 #define OPEN_ROTOR "|shroud|suction_pipe|inlet|rotor_interface|"
 
-enum { MERIDIONAL = 10, Z0 = 13 }; // indices of the whole cuts in the list
+enum { MERIDIONAL = 11, Z0 = 14 }; // indices of the whole cuts in the list
 
 const CwPictureSpec cw_picture_list[] = {
     // 0
     {.section = CW_SECTION_TITLE, .title = "The pump as meshed",
-     .caption = "Seen from the suction side: the impeller's blades on the hub, shroud taken off, within the lower half of "
-                "the volute.",
+     .caption = "Seen from the suction side: the impeller's blades on the hub, shroud taken off, within the "
+                "hub's half of the volute.",
      .wide = 1, .width = 1180, .height = 760, .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
      .hidden = OPEN_ROTOR "stator_interface|", .upper_half = 1, .towards = {-0.95, 0.1, -1}, .hollow_white = 1,
      .up = {1, 0, 0}, .inset_of = -1},
     // 1
     {.section = CW_SECTION_GEOMETRY, .title = "Rotor from the suction side",
-     .caption = "Along the axis; shroud, suction pipe, inlet and interface taken off.",
+     .caption = "Along the axis; shroud, suction pipe, inlet and interface taken off. White: the metal of the "
+                "blades.",
      .width = 760, .height = 640, .sees = CW_SEES_ROTOR, .hidden = OPEN_ROTOR, .hollow_white = 1, .towards = {0, 0, -1}, .up = {0, 1, 0},
      .inset_of = -1},
     {.section = CW_SECTION_GEOMETRY, .title = "Rotor from above",
@@ -35,26 +36,31 @@ const CwPictureSpec cw_picture_list[] = {
      .up = {1, 0, 0}, .inset_of = -1},
     // 5
     {.section = CW_SECTION_SURFACE, .title = "Leading edge",
-     .caption = "Surface mesh of one blade's leading edge and the hub under it, seen from the eye.",
+     .caption = "One blade's leading edge and the hub under it, seen from the eye; the shroud is taken off.",
      .width = 760, .height = 600, .sees = CW_SEES_ROTOR, .hidden = OPEN_ROTOR, .hollow_white = 1, .edges = 1, .target = CW_TARGET_PLACE,
      .place = CW_PLACE_LEADING_EDGE, .span = 0.2, .towards = {-1, 0.35, -0.9}, .up = {0, 0, -1}, .inset_of = -1},
     {.section = CW_SECTION_SURFACE, .title = "Trailing edge",
-     .caption = "Surface mesh of one blade's bevelled trailing edge, seen from the volute.",
+     .caption = "One blade's bevelled trailing edge, seen from the volute; the shroud is taken off.",
      .width = 760, .height = 600, .sees = CW_SEES_ROTOR, .hidden = OPEN_ROTOR, .hollow_white = 1, .edges = 1, .target = CW_TARGET_PLACE,
      .place = CW_PLACE_TRAILING_EDGE, .span = 0.11, .towards = {1, 0.5, -0.7}, .up = {0, 0, -1}, .inset_of = -1},
     {.section = CW_SECTION_SURFACE, .title = "Tongue",
-     .caption = "Surface mesh of the tongue's lower half, seen from the impeller.",
+     .caption = "The tongue with the spiral and the diffuser, cut at z = 0, seen from the impeller over neck and step.",
      .width = 760, .height = 600, .sees = CW_SEES_STATOR, .hidden = "|stator_interface|", .upper_half = 1, .edges = 1,
      .target = CW_TARGET_PLACE, .place = CW_PLACE_TONGUE, .span = 0.17, .towards = {-1, 0.2, -1.1}, .up = {0, 0, -1},
      .inset_of = -1},
-    // 8
+    {.section = CW_SECTION_SURFACE, .title = "Blade and passage",
+     .caption = "The suction side of one blade on the hub, from its leading edge outwards.",
+     .width = 760, .height = 600, .sees = CW_SEES_ROTOR, .hidden = OPEN_ROTOR, .hollow_white = 1, .edges = 1,
+     .target = CW_TARGET_PLACE, .place = CW_PLACE_LEADING_EDGE, .span = 0.5, .towards = {-0.9, 0.5, -1},
+     .up = {0, 0, -1}, .inset_of = -1},
+    // 9
     {.section = CW_SECTION_DECOMPOSITION, .title = "Regions of the rotor", .caption = "Boundary coloured by region.",
      .width = 760, .height = 640, .colour = CW_COLOUR_REGION, .sees = CW_SEES_ROTOR, .hidden = OPEN_ROTOR,
      .hollow_white = 1, .towards = {0, -0.35, -1}, .up = {0, 1, -0.35}, .inset_of = -1},
     {.section = CW_SECTION_DECOMPOSITION, .title = "Regions of the stator", .caption = "Boundary coloured by region.",
      .width = 760, .height = 640, .colour = CW_COLOUR_REGION, .sees = CW_SEES_STATOR, .hidden = "",
      .towards = {-0.35, 0, -1}, .up = {1, 0, 0}, .inset_of = -1},
-    // 10
+    // 11
     {.section = CW_SECTION_CUT, .title = "Meridional cut",
      .caption = "Plane through the axis, midway between two blades at the outlet; horizontal the radius, vertical the "
                 "axis. Each cell that the plane cuts is drawn with its outline.",
@@ -68,10 +74,11 @@ const CwPictureSpec cw_picture_list[] = {
      .caption = "Prism layers at the wall and the passage to the tetrahedra.",
      .width = 760, .height = 600, .colour = CW_COLOUR_CUT, .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
      .plane = CW_PLANE_MERIDIONAL, .target = CW_TARGET_SHROUD, .span = 0.09, .inset_of = MERIDIONAL, .inset_name = "b"},
-    // 13
+    // 14
     {.section = CW_SECTION_CUT, .title = "Cut z = 0",
-     .caption = "The middle plane of the impeller's outlet, seen against the axis; blades are white.",
-     .wide = 1, .width = 1560, .height = 1240, .colour = CW_COLOUR_CUT, .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .caption = "The middle plane of the impeller's outlet, seen from the suction side; blades, hub and casing are "
+                "white.",
+     .wide = 1, .width = 1560, .height = 1010, .colour = CW_COLOUR_CUT, .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
      .plane = CW_PLANE_Z0, .inset_of = -1},
     {.section = CW_SECTION_CUT, .title = "c: trailing edge",
      .caption = "One blade's trailing edge, the interface behind it and the neck.",

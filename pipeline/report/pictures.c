@@ -63,8 +63,8 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
     memcpy(towards, (double[3]){sin(azimuth), -cos(azimuth), 0}, sizeof towards);
     memcpy(up, (double[3]){0, 0, 1}, sizeof up);
   } else if (spec->plane == CW_PLANE_Z0) {
-    memcpy(towards, (double[3]){0, 0, 1}, sizeof towards);
-    memcpy(up, (double[3]){0, 1, 0}, sizeof up);
+    memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
+    memcpy(up, (double[3]){1, 0, 0}, sizeof up);
   }
   radius *= 0.5;
   switch (spec->target) {
@@ -202,7 +202,6 @@ static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int re
                      .edge_width = spec->edges ? 0.9 : 0,
                      .edge_strength = spec->edges ? 0.75 : 0};
     cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
-    drawing->seen[d][face.patch] = 1;
   }
 }
 
@@ -256,6 +255,15 @@ done:
   return status;
 }
 
+// Which patches are to be seen in the finished picture.
+static void mark_seen(Drawing *drawing) {
+  size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
+  for (size_t i = 0; i < samples; i++) {
+    int group = drawing->canvas.group[i] - 1;
+    if (group >= 0 && group < CW_REPORT_DOMAINS * PATCHES) drawing->seen[group / PATCHES][group % PATCHES] = 1;
+  }
+}
+
 static void add_legend(CwReportPicture *picture, const char *label, uint32_t colour) {
   for (int k = 0; k < picture->legend_count; k++) {
     if (!strcmp(picture->legend[k].label, label)) return;
@@ -272,7 +280,7 @@ static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwRepo
   static const char *const cut_label[2][2] = {{"rotor tetrahedra", "rotor prisms"},
                                               {"stator tetrahedra", "stator prisms"}};
   int pyramids = 0;
-  if (drawing->spec->colour == CW_COLOUR_REGION) return;
+  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0) return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
       for (int k = 0; k < 2; k++) add_legend(picture, cut_label[d][k], cut_colour[d][k]);
@@ -323,6 +331,7 @@ static CwStatus finish(const CwReportMesh *mesh, Drawing *drawings, int index, C
   if (drawing->spec->plane == CW_PLANE_NONE && !drawing->spec->edges)
     cw_render_occlusion(&drawing->canvas, 14, drawing->camera.metres_per_pixel);
   cw_render_outline(&drawing->canvas, ink, 3 * drawing->camera.metres_per_pixel);
+  mark_seen(drawing);
   annotate(drawings, index, &annotation);
   CW_TRY(cw_render_png(&drawing->canvas, &annotation, &picture->png));
   make_legend(mesh, drawing, picture);

@@ -92,7 +92,8 @@ void cw_plot_columns(FILE *page, const CwPlot *plot) {
       if (!isfinite(value)) continue;
       box(page, x + 0.5, top + body - height, fmax(column - 1, 0.5), height, plot->series[s].colour);
       if (plot->decimals < 0 || value == 0) continue;
-      snprintf(words, sizeof words, "%.*f", plot->decimals, value);
+      double least = pow(10, -plot->decimals);
+      snprintf(words, sizeof words, value < 0.5 * least ? "<%.*f" : "%.*f", plot->decimals, value < 0.5 * least ? least : value);
       if (5.6 * letters(words) <= column + 3) text(page, x + 0.5 * column, top + body - height - 4, "middle", "v", words);
     }
     text(page, left + pitch * (c + 0.5), top + body + 17, "middle", "t", plot->label[c]);
@@ -120,6 +121,8 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
     tick_text(k * step, step, words, sizeof words);
     text(page, x, top + body + 15, "middle", "t", words);
   }
+  if (plot->mark > 0)
+    line(page, left + width * plot->mark / limit, top - 2, left + width * plot->mark / limit, top + body, "m");
   for (int c = 0; c < plot->count; c++) {
     double x = left, y = top + row * c + 0.5 * (row - thick);
     for (int s = 0; s < plot->series_count; s++) {
@@ -131,7 +134,6 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
     text(page, left - tick_gap, y + 11, "end", "c", plot->label[c]);
     if (plot->note) text(page, x + 5, y + 11, "start", "v", plot->note[c]);
   }
-  if (plot->mark > 0) line(page, left + width * plot->mark / limit, top - 2, left + width * plot->mark / limit, top + body, "m");
   text(page, left + 0.5 * width, top + body + 36, "middle", "x", plot->axis);
   fputs("</svg>\n", page);
 }
