@@ -22,9 +22,11 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
   double middle[2] = {0, 0}, angle[CW_CUT_CORNERS];
   for (int e = 0; e < edges; e++) {
     int a = edge[e][0], b = edge[e][1];
-    if ((s[a] >= 0) == (s[b] >= 0)) continue;
+    if ((s[a] >= 0) == (s[b] >= 0))
+      continue;
     double t = s[a] / (s[a] - s[b]), point[3];
-    for (int i = 0; i < 3; i++) point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
+    for (int i = 0; i < 3; i++)
+      point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
     polygon[corners][0] = along(point, plane->u);
     polygon[corners][1] = along(point, plane->v);
     middle[0] += polygon[corners][0];

@@ -21,7 +21,8 @@ static const CwPaint red = {.colour = RED, .group = 1}, blue = {.colour = BLUE, 
 
 static int count_colour(const CwCanvas *canvas, uint32_t colour) {
   int count = 0;
-  for (int i = 0; i < canvas->columns * canvas->rows; i++) count += canvas->colour[i] == colour;
+  for (int i = 0; i < canvas->columns * canvas->rows; i++)
+    count += canvas->colour[i] == colour;
   return count;
 }
 
@@ -56,13 +57,15 @@ static void neighbours_leave_no_gap_and_turn_does_not_matter(void **state) {
     cw_render_triangle(&canvas, p, &red);
   }
   for (double y = 6; y < 21; y += 0.5) {
-    for (double x = 6; x < 24; x += 0.5) assert_int_equal(sample(&canvas, x, y), RED);
+    for (double x = 6; x < 24; x += 0.5)
+      assert_int_equal(sample(&canvas, x, y), RED);
   }
   cw_render_free(&canvas);
 }
 
 static void nearer_triangle_wins_with_a_depth_buffer(void **state) {
-  const double near[3][3] = {{0, 0, 5}, {10, 0, 5}, {0, 10, 5}}, far[3][3] = {{0, 0, 1}, {10, 0, 1}, {0, 10, 1}};
+  const double near[3][3] = {{0, 0, 5}, {10, 0, 5}, {0, 10, 5}},
+               far[3][3] = {{0, 0, 1}, {10, 0, 1}, {0, 10, 1}};
   // Goes through the far one along the line x + y = 5.
   const double slant[3][3] = {{0, 0, -4}, {10, 0, 6}, {0, 10, 6}};
   for (int depth = 0; depth < 2; depth++) {
@@ -84,7 +87,8 @@ static void nearer_triangle_wins_with_a_depth_buffer(void **state) {
 
 static void only_the_asked_edges_are_drawn(void **state) {
   CwCanvas canvas;
-  CwPaint paint = {.colour = RED, .edge_colour = BLACK, .group = 1, .edges = 1, .edge_width = 1, .edge_strength = 1};
+  CwPaint paint = {
+      .colour = RED, .edge_colour = BLACK, .group = 1, .edges = 1, .edge_width = 1, .edge_strength = 1};
   const double p[3][3] = {{2, 2, 0}, {18, 2, 0}, {2, 18, 0}};
   assert_int_equal(cw_render_start(20, 20, WHITE, 0, &canvas), CW_OK);
   cw_render_triangle(&canvas, p, &paint);
@@ -98,7 +102,8 @@ static void only_the_asked_edges_are_drawn(void **state) {
   // A square drawn as a polygon has no diagonal.
   const double square[4][3] = {{2, 2, 0}, {18, 2, 0}, {18, 18, 0}, {2, 18, 0}};
   cw_render_polygon(&canvas, square, 4, &paint);
-  for (double t = 5; t < 16; t += 0.5) assert_int_equal(sample(&canvas, t, t), RED);
+  for (double t = 5; t < 16; t += 0.5)
+    assert_int_equal(sample(&canvas, t, t), RED);
   assert_int_equal(sample(&canvas, 10, 2), BLACK);
   assert_int_equal(sample(&canvas, 17.9, 10), BLACK);
   assert_int_equal(sample(&canvas, 10, 17.9), BLACK);
@@ -109,7 +114,8 @@ static void only_the_asked_edges_are_drawn(void **state) {
 static void what_lies_outside_is_left_out(void **state) {
   CwCanvas canvas;
   assert_int_equal(cw_render_start(10, 10, WHITE, 1, &canvas), CW_OK);
-  const double beside[3][3] = {{20, 0, 0}, {30, 0, 0}, {20, 10, 0}}, line[3][3] = {{0, 0, 0}, {5, 5, 0}, {9, 9, 0}};
+  const double beside[3][3] = {{20, 0, 0}, {30, 0, 0}, {20, 10, 0}},
+               line[3][3] = {{0, 0, 0}, {5, 5, 0}, {9, 9, 0}};
   const double nan[3][3] = {{NAN, 0, 0}, {30, 0, 0}, {20, 10, 0}};
   const double around[3][3] = {{-1e6, -1e6, 0}, {3e6, -1e6, 0}, {-1e6, 3e6, 0}};
   cw_render_triangle(&canvas, beside, &red);
@@ -168,7 +174,8 @@ typedef struct {
 
 static cairo_status_t take(void *closure, unsigned char *into, unsigned length) {
   Stream *stream = closure;
-  if (stream->at + length > stream->png->size) return CAIRO_STATUS_READ_ERROR;
+  if (stream->at + length > stream->png->size)
+    return CAIRO_STATUS_READ_ERROR;
   memcpy(into, stream->png->bytes + stream->at, length);
   stream->at += length;
   return CAIRO_STATUS_SUCCESS;
