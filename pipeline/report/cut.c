@@ -15,6 +15,24 @@ static const int tetrahedron_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}
 static const int pyramid_edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
 static const int prism_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
 
+// Where the plane goes through a corner of the cell, several edges give the same point: it is kept once.
+static int without_doubles(int corners, double polygon[CW_CUT_CORNERS][2]) {
+  double size = 0;
+  int kept = 0;
+  for (int k = 1; k < corners; k++)
+    size = fmax(size, hypot(polygon[k][0] - polygon[0][0], polygon[k][1] - polygon[0][1]));
+  for (int k = 0; k < corners; k++) {
+    const double *before = polygon[kept ? kept - 1 : 0], *first = polygon[0], *here = polygon[k];
+    if (kept && hypot(here[0] - before[0], here[1] - before[1]) <= 1e-9 * size)
+      continue;
+    if (kept && hypot(here[0] - first[0], here[1] - first[1]) <= 1e-9 * size)
+      continue;
+    polygon[kept][0] = here[0];
+    polygon[kept++][1] = here[1];
+  }
+  return kept < 3 ? 0 : kept;
+}
+
 int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, const double *s,
                 double polygon[CW_CUT_CORNERS][2]) {
   const int(*edge)[2] = count == 4 ? tetrahedron_edge : count == 5 ? pyramid_edge : prism_edge;
@@ -48,5 +66,5 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
       angle[m - 1] = swap;
     }
   }
-  return corners;
+  return without_doubles(corners, polygon);
 }

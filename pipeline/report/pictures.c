@@ -246,7 +246,7 @@ static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const do
     x[k] = cells->x[corner[k]];
   int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
   const CwCamera *camera = &drawing->camera;
-  double centre[2] = {0, 0}, area = 0, longest = 0;
+  double centre[2] = {0, 0}, area = 0;
   for (int i = 0; i < 3; i++) {
     centre[0] += camera->centre[i] * camera->right[i];
     centre[1] += camera->centre[i] * camera->up[i];
@@ -259,12 +259,9 @@ static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const do
   for (int k = 0; k < corners; k++) {
     int next = (k + 1) % corners;
     area += 0.5 * (p[next][0] * p[k][1] - p[k][0] * p[next][1]);
-    longest = fmax(longest, hypot(p[next][0] - p[k][0], p[next][1] - p[k][1]));
   }
   // Lines of cells of a few pixels are drawn paler, or they would be all that one sees.
   double size = sqrt(fmax(area, 0));
-  if (count == 4)
-    size = fmax(size, 0.6 * longest); // a sliver of a cut is a line between its neighbours
   double strength = fmin(fmax(0.12 + 0.09 * (size - 1), 0.12), 0.8);
   CwPaint paint = {.colour = colour,
                    .group = (uint16_t)group,

@@ -52,6 +52,15 @@ uint32_t cw_render_shade(uint32_t colour, double factor) {
   return shaded;
 }
 
+enum { POLYGON_MOST = 16 };
+
+// Paints one sample; `line` is how far it lies within a line, 1 and more: wholly.
+static void put(CwCanvas *canvas, size_t place, double line, const CwPaint *paint) {
+  line = fmin(fmax(line, 0), 1) * paint->edge_strength;
+  canvas->colour[place] = line > 0 ? mix(paint->colour, paint->edge_colour, line) : paint->colour;
+  canvas->group[place] = paint->group;
+}
+
 void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *paint) {
   double x[3], y[3];
   for (int k = 0; k < 3; k++) {
@@ -101,15 +110,59 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
         if (paint->edges & (1u << ((k + 1) % 3)))
           line = fmax(line, half + 0.5 - w[k] * reach[k]);
       }
-      line = fmin(line, 1) * paint->edge_strength;
-      canvas->colour[place] = line > 0 ? mix(paint->colour, paint->edge_colour, line) : paint->colour;
-      canvas->group[place] = paint->group;
+      put(canvas, place, line, paint);
+    }
+  }
+}
+
+// Without depth: each sample by its distances from all edges, so that an edge has its line however short its
+// neighbours are. Corners that coincide have no edge between them.
+static void flat_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint) {
+  double x[POLYGON_MOST], y[POLYGON_MOST], nx[POLYGON_MOST], ny[POLYGON_MOST], area = 0;
+  double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+  int edges = 0;
+  for (int k = 0; k < count; k++) {
+    const double *a = p[k], *b = p[(k + 1) % count];
+    if (!isfinite(a[0]) || !isfinite(a[1]))
+      return;
+    area += (a[0] - p[0][0]) * (b[1] - p[0][1]) - (b[0] - p[0][0]) * (a[1] - p[0][1]);
+  }
+  for (int k = 0; k < count; k++) {
+    const double *a = p[k], *b = p[(k + 1) % count];
+    double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy) * (area < 0 ? -1 : 1);
+    left = fmin(left, a[0] * CW_RENDER_SAMPLES);
+    right = fmax(right, a[0] * CW_RENDER_SAMPLES);
+    top = fmin(top, a[1] * CW_RENDER_SAMPLES);
+    bottom = fmax(bottom, a[1] * CW_RENDER_SAMPLES);
+    if (fabs(length) < 1e-4)
+      continue;
+    x[edges] = a[0] * CW_RENDER_SAMPLES;
+    y[edges] = a[1] * CW_RENDER_SAMPLES;
+    nx[edges] = -dy / length;
+    ny[edges++] = dx / length;
+  }
+  if (area == 0 || right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows)
+    return;
+  int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
+  int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
+  double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
+  for (int j = up; j <= down; j++) {
+    for (int i = first; i <= last; i++) {
+      double nearest = INFINITY;
+      for (int k = 0; k < edges && nearest >= -1e-6; k++)
+        nearest = fmin(nearest, nx[k] * (i + 0.5 - x[k]) + ny[k] * (j + 0.5 - y[k]));
+      if (nearest >= -1e-6)
+        put(canvas, (size_t)j * (size_t)canvas->columns + (size_t)i, half + 0.5 - nearest, paint);
     }
   }
 }
 
 void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint) {
   CwPaint part = *paint;
+  if (!canvas->depth && count <= POLYGON_MOST) {
+    flat_polygon(canvas, p, count, paint);
+    return;
+  }
   for (int k = 1; k + 1 < count; k++) {
     double corner[3][3];
     memcpy(corner[0], p[0], sizeof corner[0]);

@@ -34,7 +34,8 @@ typedef struct {
 
 // Draws the triangle with corners p[k] = (x, y, depth). Parts outside the canvas are left out.
 void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *paint);
-// Draws a convex polygon of `count` corners as a fan, its outer edges as lines (paint->edges is not read).
+// Draws a convex polygon of `count` corners, its edges as lines (paint->edges is not read); with a depth
+// buffer as a fan of triangles.
 void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint);
 
 // Darkens the borders between groups and, in pictures with a depth buffer, steps in depth of more than `step`

@@ -111,6 +111,31 @@ static void only_the_asked_edges_are_drawn(void **state) {
   cw_render_free(&canvas);
 }
 
+// Corners that all but coincide take no line from the edges beside them.
+static void short_edges_keep_their_neighbours(void **state) {
+  CwCanvas canvas;
+  const CwPaint paint = {
+      .colour = RED, .edge_colour = BLACK, .group = 1, .edge_width = 1, .edge_strength = 1};
+  const double p[6][3] = {{2, 2, 0},         {2 + 1e-7, 2, 0}, {18, 2, 0},
+                          {18, 2 + 1e-9, 0}, {18, 18, 0},      {2, 18, 0}};
+  for (int turn = 0; turn < 6; turn++) {
+    for (int back = 0; back < 2; back++) {
+      double corner[6][3];
+      for (int k = 0; k < 6; k++)
+        memcpy(corner[k], p[((back ? 5 - k : k) + turn) % 6], sizeof corner[k]);
+      assert_int_equal(cw_render_start(20, 20, WHITE, 0, &canvas), CW_OK);
+      cw_render_polygon(&canvas, (const double(*)[3])corner, 6, &paint);
+      assert_int_equal(sample(&canvas, 10, 2), BLACK);
+      assert_int_equal(sample(&canvas, 17.9, 10), BLACK);
+      assert_int_equal(sample(&canvas, 10, 17.9), BLACK);
+      assert_int_equal(sample(&canvas, 2, 10), BLACK);
+      assert_int_equal(sample(&canvas, 10, 10), RED);
+      assert_int_equal(sample(&canvas, 1, 10), WHITE);
+      cw_render_free(&canvas);
+    }
+  }
+}
+
 static void what_lies_outside_is_left_out(void **state) {
   CwCanvas canvas;
   assert_int_equal(cw_render_start(10, 10, WHITE, 1, &canvas), CW_OK);
@@ -251,6 +276,7 @@ int main(void) {
       cmocka_unit_test(neighbours_leave_no_gap_and_turn_does_not_matter),
       cmocka_unit_test(nearer_triangle_wins_with_a_depth_buffer),
       cmocka_unit_test(only_the_asked_edges_are_drawn),
+      cmocka_unit_test(short_edges_keep_their_neighbours),
       cmocka_unit_test(what_lies_outside_is_left_out),
       cmocka_unit_test(outlines_follow_groups_and_depth_steps),
       cmocka_unit_test(hollows_are_dark_and_slanted_planes_are_not),

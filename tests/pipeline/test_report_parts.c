@@ -163,6 +163,21 @@ static void a_face_in_the_plane_is_cut_once(void **state) {
   assert_near(area_of(3, polygon), 0.5, 1e-12);
 }
 
+// Where the plane goes through corners of a cell, no corner of the cut stands twice.
+static void corners_in_the_plane_stand_once(void **state) {
+  double polygon[CW_CUT_CORNERS][2];
+  const CwCutPlane across = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  // One corner behind, two in the plane, one before it.
+  const double tet[4][3] = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  assert_int_equal(cut(&across, 4, tet, polygon), 3);
+  assert_near(area_of(3, polygon), 0.5, 1e-12);
+  // Only an edge in the plane, or only a corner: no area, no cut.
+  const double edge[4][3] = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 1, 1}};
+  assert_int_equal(cut(&across, 4, edge, polygon), 0);
+  const double corner[4][3] = {{-1, 0, 0}, {-1, 1, 0}, {0, 0, 1}, {-1, 1, 1}};
+  assert_int_equal(cut(&across, 4, corner, polygon), 0);
+}
+
 // Two blades' trailing edges as one triangle each, on opposite sides; the far corner of a discharge at
 // azimuth 90 deg.
 static void survey_finds_places(void **state) {
@@ -204,6 +219,7 @@ int main(void) {
       cmocka_unit_test(drawings_are_embedded_alone),
       cmocka_unit_test(cuts_have_the_right_areas),
       cmocka_unit_test(a_face_in_the_plane_is_cut_once),
+      cmocka_unit_test(corners_in_the_plane_stand_once),
       cmocka_unit_test(survey_finds_places),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
