@@ -40,6 +40,9 @@ typedef struct {
   double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 
+// True where x lies in the closed cell of `region`, within `tolerance` (m).
+int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance);
+
 // True where `ancestor` lies on the way from `node` to the root (a node is not its own ancestor).
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
 

@@ -13,6 +13,7 @@ enum {
   STATIONS = 24,         // positions of planes across the axis, by place
   EDGE_POINTS = 40,      // samples along each CAD edge
   LINE_SAMPLES = 200,
+  RUN_SAMPLES = 12,
   SAMPLES_WANTED = 40000
 };
 static const double FIRST_SHARE = 0.2, LAST_SHARE = 0.8;
@@ -280,14 +281,15 @@ static int32_t grazed_edges(const CwPlanScorer *scorer, const CwPlan *plan, int3
   return count;
 }
 
-// Thickness of the layers on the surface nearest to x, m; 0 on a cap.
-static double thickness_near(const CwPlanScorer *scorer, const double x[3]) {
+// Thickness of the layers on the surface nearest to x, m; 0 on a cap. *distance (may be NULL): to that surface.
+static double thickness_near(const CwPlanScorer *scorer, const double x[3], double *distance_out) {
   double best = INFINITY;
   int32_t nearest = 0;
   for (int32_t t = 0; t < scorer->background->triangle_count; t++) {
     double distance = cw_distance(scorer->centre[t], x);
     if (distance < best) best = distance, nearest = t;
   }
+  if (distance_out) *distance_out = best;
   return scorer->options->thickness[cw_cad_face_patch(scorer->cad, scorer->background->face[nearest])];
 }
 
@@ -309,8 +311,21 @@ static int near_a_plane(const CwPlan *plan, int32_t node, int32_t above, const d
   return 0;
 }
 
+// True where the line runs inside or beside the layers of a wall between its ends, `taken` m of which are theirs.
+static int runs_in_layers(const CwPlanScorer *scorer, const double start[3], const double direction[3], double run,
+                          double taken) {
+  for (int i = 0; i < RUN_SAMPLES; i++) {
+    double s = run * (i + 0.5) / RUN_SAMPLES, x[3], distance;
+    if (s < ROOM * taken || s > run - ROOM * taken) continue;
+    for (int k = 0; k < 3; k++) x[k] = start[k] + s * direction[k];
+    double thickness = thickness_near(scorer, x, &distance);
+    if (distance < ROOM * thickness) return 1;
+  }
+  return 0;
+}
+
 // How the lines of the new plane with its ancestors fare: 0 fine; 1 cramped: a line leaves the domain too near to a CAD
-// edge, is hardly longer than the layers at its ends, or meets a third plane within them; 2: a line runs along a third
+// edge, is hardly longer than the layers at its ends, meets a third plane within them, or runs along a wall in its layers; 2: a line runs along a third
 // plane, so that two lines coincide on one interface.
 static int judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
                        double reach) {
@@ -319,12 +334,14 @@ static int judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t n
     double point[3], direction[3], step = 2 * reach / (LINE_SAMPLES - 1);
     if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) continue;
     double run = 0, along = 0, taken = 0; // lengths: inside so far, of that beside a third plane, of layers
+    double start[3];
     for (int i = 0; i < LINE_SAMPLES; i++) {
       double x[3], s = step * i - reach;
       for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
       int inside = cw_plan_in_cell(plan, node, x, 1e-9, NULL, 0) && cw_inside_test(scorer->inside, x);
       if (inside && run == 0) {
-        taken = thickness_near(scorer, x);
+        taken = thickness_near(scorer, x, NULL);
+        cw_copy(x, start);
         if (near_an_edge(scorer, x)) verdict = 1;
         if (near_a_plane(plan, node, a, x, ROOM * taken)) verdict = 1;
       }
@@ -334,10 +351,10 @@ static int judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t n
       } else if (run > 0) {
         double before[3];
         for (int k = 0; k < 3; k++) before[k] = x[k] - step * direction[k];
-        double end = thickness_near(scorer, before);
+        double end = thickness_near(scorer, before, NULL);
         taken += end;
         if (near_an_edge(scorer, before) || near_a_plane(plan, node, a, before, ROOM * end)) verdict = 1;
-        if (run < ROOM * taken) verdict = 1;
+        if (run < ROOM * taken || runs_in_layers(scorer, start, direction, run, fmax(taken - end, end))) verdict = 1;
         if (along > 0.3 * run && along > 4 * step) return 2;
         run = along = 0;
       }

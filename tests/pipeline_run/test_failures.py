@@ -52,7 +52,7 @@ class BadInput(unittest.TestCase):
                 self.assertIn(told, result.stdout)
 
     def test_every_stage_refuses_a_bad_case_before_it_works(self):
-        for name in ("geometry", "mesh", "export"):
+        for name in ("geometry", "mesh", "export", "report"):
             with self.subTest(name):
                 folder = fresh(f"bad-{name}")
                 case = folder / "case.yaml"
@@ -74,7 +74,7 @@ class BadInput(unittest.TestCase):
             self.assertIn("--cells", result.stdout)
 
     def test_a_stage_without_the_one_before(self):
-        for name in ("mesh", "export"):
+        for name in ("mesh", "export", "report"):
             with self.subTest(name):
                 folder = fresh(f"bad-order-{name}")
                 self.one_line(stage(name, folder / "run", ranks=2), name, folder / "run")

@@ -13,13 +13,14 @@ class Run(unittest.TestCase):
         done(self, "geometry", RUN)
         done(self, "mesh", RUN, cells=CELLS, ranks=2)
         done(self, "export", RUN, cells=CELLS, ranks=2)
+        done(self, "report", RUN, cells=CELLS)
         for name in ("geometry/rotor.brep", "geometry/stator.brep", "geometry/faces.csv", "geometry/pump.step",
                      "geometry/design.json", "mesh/manifest.json", "export/pump.cgns",
-                     "export/openfoam/constant/polyMesh/faces", "export/cfx/steady.ccl"):
+                     "export/openfoam/constant/polyMesh/faces", "export/cfx/steady.ccl", "report/index.html"):
             self.assertGreater((RUN / name).stat().st_size, 100, name)
 
     def test_2_records_tell_what_was_done(self):
-        for name in ("geometry", "mesh", "export"):
+        for name in ("geometry", "mesh", "export", "report"):
             told = record(RUN, name)
             self.assertEqual(told["stage"], name)
             self.assertGreater(told["seconds"], 0)
@@ -34,7 +35,7 @@ class Run(unittest.TestCase):
                 self.assertIn(path.suffix, known, path)
 
     def test_4_version_and_help(self):
-        for name in ("geometry", "mesh", "export"):
+        for name in ("geometry", "mesh", "export", "report"):
             help_text = subprocess.run([BIN / f"cutwater-{name}", "--help"], capture_output=True, text=True)
             self.assertEqual(help_text.returncode, 0, help_text.stderr)
             self.assertIn(f"usage: cutwater-{name} --case FILE --run DIR", help_text.stdout)
