@@ -10,14 +10,16 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3 };
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 30 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
-// Cells per unit of the integrals of the size field. Equilateral triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded
-// surface needs a few per cent more. A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front, a good
-// part of the whole in the narrow channels of a pump, come on top. The passes correct both.
-static const double PRISMS_PER_LAYER = 2.5;
-static const double TETS_PER_VOLUME = 11.1;
+// Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
+// triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
+// 8.2 per h^3; the cells that fit it to the front come on top, the more so the fewer there are across a channel.
+static const double PRISMS_PER_LAYER = 2.45;
+static double tets_per_volume(double scale) {
+  return 10.6 + 2.4 * fmax(0, scale - 1);
+}
 
 static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};
 
@@ -318,8 +320,11 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   CW_TRY(cw_make_directory(path));
   CW_TRY(open_domains(run));
   run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
-  run->tet_factor = TETS_PER_VOLUME;
-  double scale = solve_scale(run), asked = (double)run->table->mesh.cells;
+  double scale = 1, asked = (double)run->table->mesh.cells;
+  for (int step = 0; step < SCALE_STEPS; step++) {
+    run->tet_factor = tets_per_volume(scale);
+    scale = solve_scale(run);
+  }
   CW_TRY(plan_domains(run, scale));
   for (run->passes = 1;; run->passes++) {
     CW_TRY(mesh_walls(run, &scale));
