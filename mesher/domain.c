@@ -11,6 +11,8 @@
 #include "mesher/vec.h"
 
 enum { LEAST_REGIONS = 4 };
+static const double TALLEST_COLUMN = 2; // of the edge length on the wall
+static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -152,6 +154,11 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
+    // Columns much taller than their triangles are wide crowd together at noses and roots. They give up growth there,
+    // never the first height.
+    double even = EVEN_LAYERS * table->walls.layer_count * domain->first_height[v];
+    double fair = fmax(even, TALLEST_COLUMN * cw_size_at(domain->size, x));
+    domain->target[v] = fmin(domain->target[v], fair);
   }
 done:
   return status;

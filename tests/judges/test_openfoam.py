@@ -11,7 +11,7 @@ from cutwater import CELLS, RUN, execute, fresh, record
 
 ITERATIONS = int(os.environ.get("CUTWATER_ITERATIONS", 5))
 # checkMesh -allGeometry may flag a few cells of a mesh this coarse; at the size of real use none.
-FLAGGED_CELLS = 0 if CELLS >= 500000 else 1e-3 * CELLS
+FLAGGED_CELLS = max(50, 1e-3 * CELLS)
 
 
 def table(path):
