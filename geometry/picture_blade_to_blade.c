@@ -10,7 +10,7 @@ enum { SIDE = 120, NOSE = 24, OUTLINE = 2 * SIDE + NOSE + 3 };
 // The outline at mid-span from the bevel along the suction side round the nose to the pressure side; (r,
 // theta).
 static void outline(const CwMeridian *meridian, const CwBladeSection *section, double bevel, double (*x)[2]) {
-  const double begin = cw_blade_bevel_begin(section, bevel);
+  const double begin = cw_blade_bevel_begin(section, CW_EDGE_BEVELLED, bevel);
   for (int i = 0; i < OUTLINE; i++) {
     CwBladePoint point;
     if (i <= SIDE)

@@ -65,7 +65,7 @@ static double blade_volume(const CwDesign *design, const CwMeridian *meridian) {
   double volume = 0;
   CwBladeSection middle;
   assert_int_equal(cw_blade_section(design, meridian, 0.5, &middle), CW_OK);
-  const double q_bevel = cw_blade_bevel_begin(&middle, design->trailing_edge_bevel);
+  const double q_bevel = cw_blade_bevel_begin(&middle, CW_EDGE_BEVELLED, design->trailing_edge_bevel);
   const double theta_bevel = cw_blade_bevel_theta(&middle, q_bevel);
   for (int j = 0; j <= SPANS; j++) {
     CwBladeSection section;
