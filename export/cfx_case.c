@@ -10,10 +10,6 @@
 
 typedef int (*Wanted)(const CwMeshPatch *patch);
 
-static int is_turning_wall(const CwMeshPatch *patch) {
-  return cw_patch_rotates(patch);
-}
-
 static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_EXPORT_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
 }
@@ -22,16 +18,16 @@ static int is_stator_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_EXPORT_STATOR && patch->kind == CW_KIND_WALL;
 }
 
-// A CFX location list: names with commas between.
-static CwStatus set_locations(const CwMesh *mesh, Wanted wanted, const char *key, CwValues *values) {
+// A CFX location list: the patches with faces that `wanted` picks, with commas between.
+static CwStatus set_locations(const CwAssembly *a, Wanted wanted, const char *key, CwValues *values) {
   CwStatus status = CW_OK;
   char *text = NULL;
   size_t size = 0;
   FILE *out = open_memstream(&text, &size);
   CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
-  for (int p = 0, first = 1; p < mesh->patch_count; ++p)
-    if (wanted(&mesh->patches[p])) {
-      fprintf(out, "%s%s", first ? "" : ",", mesh->patches[p].name);
+  for (int p = 0, first = 1; p < a->mesh->patch_count; ++p)
+    if (wanted(&a->mesh->patches[p]) && a->patches[p].triangles + a->patches[p].quads > 0) {
+      fprintf(out, "%s%s", first ? "" : ",", a->mesh->patches[p].name);
       first = 0;
     }
   fclose(out);
@@ -41,13 +37,14 @@ done:
   return status;
 }
 
-CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwMesh *mesh) {
+CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
   const CwOperatingPoint *point = &table->operating_point;
-  CW_TRY(set_locations(mesh, is_turning_wall, "rotating_walls", &values));
-  CW_TRY(set_locations(mesh, is_fixed_rotor_wall, "rotor_fixed_walls", &values));
-  CW_TRY(set_locations(mesh, is_stator_wall, "stator_walls", &values));
+  const CwMesh *mesh = a->mesh;
+  CW_TRY(set_locations(a, cw_patch_rotates, "rotating_walls", &values));
+  CW_TRY(set_locations(a, is_fixed_rotor_wall, "rotor_fixed_walls", &values));
+  CW_TRY(set_locations(a, is_stator_wall, "stator_walls", &values));
   CW_TRY(cw_values_set(&values, "case", "%s", table->name));
   CW_TRY(cw_values_set(&values, "speed_rpm", "%.9g", point->speed * 30 / M_PI));
   CW_TRY(cw_values_set(&values, "mass_flow", "%.9g", point->flow_rate * table->fluid.density));

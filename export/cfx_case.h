@@ -3,10 +3,10 @@
 #ifndef CUTWATER_EXPORT_CFX_CASE_H
 #define CUTWATER_EXPORT_CFX_CASE_H
 
-#include "export/mesh_input.h"
+#include "export/assembly.h"
 #include "pipeline/case.h"
 
 // Writes the set-up into `folder`. One rank calls it. CW_ERR_IO.
-CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwMesh *mesh);
+CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAssembly *assembly);
 
 #endif

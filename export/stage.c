@@ -63,7 +63,7 @@ static CwStatus begin_files(const CwCase *table, const CwDesign *design, const C
   CW_TRY(cw_cgns_tree_write(paths->cgns, assembly, interface, table));
   CW_TRY(cw_foam_mesh_create(foam));
   CW_TRY(cw_foam_case_write(paths->foam, table, design, assembly));
-  CW_TRY(cw_cfx_case_write(paths->cfx, table, assembly->mesh));
+  CW_TRY(cw_cfx_case_write(paths->cfx, table, assembly));
 done:
   return status;
 }

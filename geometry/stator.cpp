@@ -29,25 +29,28 @@
 namespace {
 
 const double PI = 3.14159265358979323846;
-const int SECTORS = 5;           // round the axis; the last one holds the tongue and opens into the throat
+const int SECTORS = 5;             // round the axis; the last one holds the tongue and opens into the throat
 const double SECTOR = PI * 5 / 12; // angle of all but the last
-const int ALONG = 33, ACROSS = 49, SIDE = 25; // points of interpolation: along the flow, over the outer arc, other
-// Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4 by 1 %.
+const int ALONG = 33, ACROSS = 49,
+          SIDE = 25; // points of interpolation: along the flow, over the outer arc, other
+// Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4
+// by 1 %.
 const double TANGENT = 0.4;
-const double TONGUE_SIDE = 1.01; // least radius of the tongue's end at the side wall, in D3/2
-const double LEAST_WALL = 0.5; // mm, between diffuser and spiral
+const double TONGUE_SIDE = 1.01;       // least radius of the tongue's end at the side wall, in D3/2
+const double LEAST_WALL = 0.5;         // mm, between diffuser and spiral
 const double LARGEST_TOLERANCE = 1e-3; // mm
-const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
+const double U_MARGIN = 0.1;           // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
 
-// The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the start of
-// the kink line at the tongue. Names of the points as in volute_design.h.
+// The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the
+// start of the kink line at the tongue. Names of the points as in volute_design.h.
 class StatorMaker {
 public:
   explicit StatorMaker(const CwVolute &volute) : v_(volute) {}
 
   CwSolid *make() {
-    for (int j = 0; j <= SECTORS; j++) angle_[j] = v_.start_angle + SECTOR * j;
+    for (int j = 0; j <= SECTORS; j++)
+      angle_[j] = v_.start_angle + SECTOR * j;
     angle_[SECTORS] = v_.start_angle + 2 * PI;
     make_inner_rings();
     make_outer_wall();
@@ -62,10 +65,18 @@ public:
   }
 
 private:
-  static double sign(int side) { return side == TOP ? 1 : -1; }
-  double r3() const { return 500 * v_.input.base_diameter; }
-  double half_width(double r) const { return 1e3 * cw_volute_half_width(&v_, r * 1e-3); }
-  double psi(double t) const { return v_.arc_half_angle * (2 * t - 1); }
+  static double sign(int side) {
+    return side == TOP ? 1 : -1;
+  }
+  double r3() const {
+    return 500 * v_.input.base_diameter;
+  }
+  double half_width(double r) const {
+    return 1e3 * cw_volute_half_width(&v_, r * 1e-3);
+  }
+  double psi(double t) const {
+    return v_.arc_half_angle * (2 * t - 1);
+  }
 
   gp_Pnt wall(double phi, double psi) const {
     double x[3];
@@ -73,12 +84,16 @@ private:
     return gp_Pnt(x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
   }
 
-  static gp_Pnt polar(double r, double angle, double z) { return gp_Pnt(r * std::cos(angle), r * std::sin(angle), z); }
+  static gp_Pnt polar(double r, double angle, double z) {
+    return gp_Pnt(r * std::cos(angle), r * std::sin(angle), z);
+  }
 
-  // Frame about the axis in which the angles from `from` to `to` (rad) have positive u; z counts outward from `height`.
+  // Frame about the axis in which the angles from `from` to `to` (rad) have positive u; z counts outward from
+  // `height`.
   static gp_Ax3 frame(double from, double to, double height, int side) {
     double x = side == TOP ? from - U_MARGIN : to + U_MARGIN;
-    return gp_Ax3(gp_Pnt(0, 0, sign(side) * height), gp_Dir(0, 0, sign(side)), gp_Dir(std::cos(x), std::sin(x), 0));
+    return gp_Ax3(gp_Pnt(0, 0, sign(side) * height), gp_Dir(0, 0, sign(side)),
+                  gp_Dir(std::cos(x), std::sin(x), 0));
   }
 
   // Ring of vertices and arcs at one radius and level, one arc a sector.
@@ -87,23 +102,27 @@ private:
   };
   Ring ring(double r, double z) {
     Ring ring;
-    for (int j = 0; j < SECTORS; j++) ring.vertex[j] = b_.vertex(polar(r, angle_[j], z));
+    for (int j = 0; j < SECTORS; j++)
+      ring.vertex[j] = b_.vertex(polar(r, angle_[j], z));
     for (int j = 0; j < SECTORS; j++)
       ring.arc[j] = b_.arc(ring.vertex[j], ring.vertex[(j + 1) % SECTORS], angle_[j + 1] - angle_[j]);
     return ring;
   }
   std::array<int, SECTORS> joints(const Ring &a, const Ring &b) {
     std::array<int, SECTORS> lines;
-    for (int j = 0; j < SECTORS; j++) lines[j] = b_.line(a.vertex[j], b.vertex[j]);
+    for (int j = 0; j < SECTORS; j++)
+      lines[j] = b_.line(a.vertex[j], b.vertex[j]);
     return lines;
   }
-  static std::vector<LoopEdge> between(const Ring &a, const Ring &b, const std::array<int, SECTORS> &joint, int j) {
+  static std::vector<LoopEdge> between(const Ring &a, const Ring &b, const std::array<int, SECTORS> &joint,
+                                       int j) {
     return {a.arc[j], joint[(j + 1) % SECTORS], b.arc[j], joint[j]};
   }
 
   // Interface cylinder, neck, and the step from b2 to b3 at D3/2.
   void make_inner_rings() {
-    double r = 1e3 * v_.input.interface_radius, b2 = 500 * v_.input.neck_width, b3 = 500 * v_.input.inlet_width;
+    double r = 1e3 * v_.input.interface_radius, b2 = 500 * v_.input.neck_width,
+           b3 = 500 * v_.input.inlet_width;
     Ring interface[2], neck[2];
     std::array<int, SECTORS> neck_joint[2], step_joint[2];
     for (int side : {BOTTOM, TOP}) {
@@ -116,19 +135,20 @@ private:
     std::array<int, SECTORS> interface_joint = joints(interface[BOTTOM], interface[TOP]);
     for (int j = 0; j < SECTORS; j++) {
       gp_Ax3 upright = frame(angle_[j], angle_[j + 1], 0, TOP);
-      b_.face(new Geom_CylindricalSurface(upright, r), between(interface[BOTTOM], interface[TOP], interface_joint, j),
-              "stator_interface", "interface");
+      b_.face(new Geom_CylindricalSurface(upright, r),
+              between(interface[BOTTOM], interface[TOP], interface_joint, j), "stator_interface",
+              "interface");
       for (int side : {BOTTOM, TOP}) {
         b_.face(new Geom_Plane(frame(angle_[j], angle_[j + 1], b2, side)),
                 between(interface[side], neck[side], neck_joint[side], j), "neck");
-        b_.face(new Geom_CylindricalSurface(upright, r3()), between(neck[side], step_[side], step_joint[side], j),
-                "step");
+        b_.face(new Geom_CylindricalSurface(upright, r3()),
+                between(neck[side], step_[side], step_joint[side], j), "step");
       }
     }
   }
 
-  // u along the flow, v over the arc from below upward. The first sector begins where the nose touches the wall, the
-  // last one ends at the throat.
+  // u along the flow, v over the arc from below upward. The first sector begins where the nose touches the
+  // wall, the last one ends at the throat.
   void make_outer_wall() {
     std::array<Handle(Geom_BSplineSurface), SECTORS> surface;
     for (int j = 0; j < SECTORS; j++)
@@ -140,18 +160,23 @@ private:
     for (int j = 0; j <= SECTORS; j++) {
       Handle(Geom_BSplineSurface) at = surface[j < SECTORS ? j : SECTORS - 1];
       double u = j < SECTORS ? 0 : 1;
-      for (int side : {BOTTOM, TOP}) kink_vertex_[j][side] = b_.vertex(at->Value(u, side));
+      for (int side : {BOTTOM, TOP})
+        kink_vertex_[j][side] = b_.vertex(at->Value(u, side));
       section_[j] = b_.edge(at->UIso(u), 0, 1, kink_vertex_[j][BOTTOM], kink_vertex_[j][TOP]);
     }
     for (int j = 0; j < SECTORS; j++) {
       for (int side : {BOTTOM, TOP})
-        kink_[j][side] = b_.edge(surface[j]->VIso(side), 0, 1, kink_vertex_[j][side], kink_vertex_[j + 1][side]);
-      b_.face(surface[j], {LoopEdge(section_[j], 0, 0, 0, 1), LoopEdge(kink_[j][TOP], 0, 1, 1, 1),
-                           LoopEdge(section_[j + 1], 1, 0, 1, 1), LoopEdge(kink_[j][BOTTOM], 0, 0, 1, 0)}, "volute");
+        kink_[j][side] =
+            b_.edge(surface[j]->VIso(side), 0, 1, kink_vertex_[j][side], kink_vertex_[j + 1][side]);
+      b_.face(surface[j],
+              {LoopEdge(section_[j], 0, 0, 0, 1), LoopEdge(kink_[j][TOP], 0, 1, 1, 1),
+               LoopEdge(section_[j + 1], 1, 0, 1, 1), LoopEdge(kink_[j][BOTTOM], 0, 0, 1, 0)},
+              "volute");
     }
   }
 
-  // u round the nose from the outer wall to the flank, v from below upward; v = 0 and 1 lie on the side walls.
+  // u round the nose from the outer wall to the flank, v from below upward; v = 0 and 1 lie on the side
+  // walls.
   void make_nose() {
     double radius = v_.input.tongue_radius, k = v_.arc_half_angle, centre[2], normal[2];
     auto direction = [&](double psi) { // of the contact with the outer wall, from the nose's centre
@@ -161,7 +186,8 @@ private:
     double side_direction = direction(k);
     Handle(Geom_BSplineSurface) surface = spline_surface(SIDE, ACROSS, [&](double u, double v) {
       double height = cw_volute_nose_height(&v_, side_direction * (1 - u));
-      if (std::isnan(height)) throw std::runtime_error("the nose of the tongue does not reach the side walls");
+      if (std::isnan(height))
+        throw std::runtime_error("the nose of the tongue does not reach the side walls");
       double rho = cw_volute_section(&v_, cw_volute_contact_angle(&v_, psi(v))).arc_radius;
       double z = rho * std::sin(psi(v)) * (1 + u_share(u) * (height / v_.side_level - 1));
       double beta = direction(psi(v)) * (1 - u);
@@ -176,10 +202,14 @@ private:
       nose_side_[side] = b_.edge(surface->VIso(side), 0, 1, kink_vertex_[0][side], flank_vertex_[side]);
     }
     nose_flank_ = b_.edge(surface->UIso(1), 0, 1, flank_vertex_[BOTTOM], flank_vertex_[TOP]);
-    b_.face(surface, {LoopEdge(section_[0], 0, 0, 0, 1), LoopEdge(nose_side_[TOP], 0, 1, 1, 1),
-                      LoopEdge(nose_flank_, 1, 0, 1, 1), LoopEdge(nose_side_[BOTTOM], 0, 0, 1, 0)}, "tongue");
+    b_.face(surface,
+            {LoopEdge(section_[0], 0, 0, 0, 1), LoopEdge(nose_side_[TOP], 0, 1, 1, 1),
+             LoopEdge(nose_flank_, 1, 0, 1, 1), LoopEdge(nose_side_[BOTTOM], 0, 0, 1, 0)},
+            "tongue");
   }
-  static double u_share(double u) { return u > 0 ? 1 : 0; } // u = 0 lies on the outer wall's border exactly
+  static double u_share(double u) {
+    return u > 0 ? 1 : 0;
+  } // u = 0 lies on the outer wall's border exactly
 
   // The plane x = x_i from the nose to the throat.
   void make_flank() {
@@ -192,11 +222,12 @@ private:
         double at = from + t * (y - from);
         return gp_Pnt2d(at, sign(side) * half_width(std::hypot(x, at)));
       });
-      flank_side_[side] = b_.edge(GeomAPI::To3d(curve, plane), 0, 1, flank_vertex_[side], throat_vertex_[side]);
+      flank_side_[side] =
+          b_.edge(GeomAPI::To3d(curve, plane), 0, 1, flank_vertex_[side], throat_vertex_[side]);
     }
     throat_inner_ = b_.line(throat_vertex_[BOTTOM], throat_vertex_[TOP]);
-    b_.face(new Geom_Plane(plane),
-            {nose_flank_, flank_side_[TOP], throat_inner_, flank_side_[BOTTOM]}, "tongue");
+    b_.face(new Geom_Plane(plane), {nose_flank_, flank_side_[TOP], throat_inner_, flank_side_[BOTTOM]},
+            "tongue");
   }
 
   gp_Pnt throat_side(double t, int side) const {
@@ -209,28 +240,31 @@ private:
     double cone_angle = 0.5 * PI - v_.input.side_wall_angle, b3 = 500 * v_.input.inlet_width;
     for (int side : {BOTTOM, TOP}) {
       std::array<int, SECTORS> ray;
-      for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
-      gp_Pln throat(gp_Ax3(gp_Pnt(0, 1e3 * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
-      Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(SIDE, 0, 1, [&](double t) {
-        return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z());
-      });
+      for (int j = 0; j < SECTORS; j++)
+        ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
+      gp_Pln throat(
+          gp_Ax3(gp_Pnt(0, 1e3 * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
+      Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(
+          SIDE, 0, 1, [&](double t) { return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z()); });
       throat_side_[side] =
-        b_.edge(GeomAPI::To3d(curve, throat), 0, 1, throat_vertex_[side], kink_vertex_[SECTORS][side]);
+          b_.edge(GeomAPI::To3d(curve, throat), 0, 1, throat_vertex_[side], kink_vertex_[SECTORS][side]);
       for (int j = 0; j < SECTORS; j++) {
         std::vector<LoopEdge> loop = {step_[side].arc[j], ray[j], kink_[j][side]};
         if (j < SECTORS - 1)
           loop.push_back(ray[j + 1]);
         else
-          for (int edge : {throat_side_[side], flank_side_[side], nose_side_[side], ray[0]}) loop.push_back(edge);
+          for (int edge : {throat_side_[side], flank_side_[side], nose_side_[side], ray[0]})
+            loop.push_back(edge);
         double to = angle_[j + 1];
-        if (j == SECTORS - 1) to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
+        if (j == SECTORS - 1)
+          to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
         b_.face(new Geom_ConicalSurface(frame(angle_[j], to, b3, side), cone_angle, r3()), loop, "volute");
       }
     }
   }
 
-  // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave in the
-  // tangent planes of the walls before the throat and arrive along the pipe.
+  // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave
+  // in the tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
     double length = TANGENT * 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
@@ -254,18 +288,21 @@ private:
     // The contour's corners go to the circle by their share of its length.
     auto contour_length = [](const PointOfOne &f) {
       double sum = 0;
-      for (int i = 0; i < 64; i++) sum += f(i / 64.0).Distance(f((i + 1) / 64.0));
+      for (int i = 0; i < 64; i++)
+        sum += f(i / 64.0).Distance(f((i + 1) / 64.0));
       return sum;
     };
     double inner_length = contour_length(inner_start), outer_length = contour_length(outer_start);
     double side_length = contour_length([&](double t) { return throat_side(t, TOP); });
     double whole = inner_length + outer_length + 2 * side_length;
     double a = PI * outer_length / whole, b = PI * (1 - inner_length / whole);
-    // Corners counter-clockwise about minus the flow from the outer wall's lower one; the fourth arc ends where the first begins.
+    // Corners counter-clockwise about minus the flow from the outer wall's lower one; the fourth arc ends
+    // where the first begins.
     double corner[5] = {-a, a, b, 2 * PI - b, 2 * PI - a};
 
     double radius = 500 * v_.input.outlet_diameter;
-    for (int i = 0; i < 5; i++) corner_[i] = corner[i];
+    for (int i = 0; i < 5; i++)
+      corner_[i] = corner[i];
     circle_end_ = make_circle(outlet_centre(0));
     auto on_circle = [&](double angle) {
       return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
@@ -275,35 +312,45 @@ private:
       return [=](double t) { return on_circle(from + t * (to - from)); };
     };
     Handle(Geom_BSplineSurface) outer =
-      hermite_surface(ACROSS, outer_start, outer_direction, turn(corner[0], corner[1]), straight);
+        hermite_surface(ACROSS, outer_start, outer_direction, turn(corner[0], corner[1]), straight);
     Handle(Geom_BSplineSurface) inner_surface =
-      hermite_surface(SIDE, inner_start, inner_direction, turn(corner[3], corner[2]), straight);
+        hermite_surface(SIDE, inner_start, inner_direction, turn(corner[3], corner[2]), straight);
     std::array<Handle(Geom_BSplineSurface), 2> sides;
     for (int side : {BOTTOM, TOP})
       sides[side] = hermite_surface(
-        SIDE, [&](double t) { return throat_side(t, side); }, [&](double t) { return side_direction(t, side); },
-        side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]), straight);
+          SIDE, [&](double t) { return throat_side(t, side); },
+          [&](double t) { return side_direction(t, side); },
+          side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]), straight);
 
-    for (const Handle(Geom_BSplineSurface) &surface : {inner_surface, sides[BOTTOM], sides[TOP]}) keep_off_spiral(surface);
+    for (const Handle(Geom_BSplineSurface) & surface : {inner_surface, sides[BOTTOM], sides[TOP]})
+      keep_off_spiral(surface);
 
     const std::array<int, 4> &end = circle_end_.vertex, &arc = circle_end_.arc;
     int outer_edge[2], inner_edge[2];
     for (int side : {BOTTOM, TOP}) {
-      outer_edge[side] = b_.edge(outer->UIso(side), 0, 1, kink_vertex_[SECTORS][side], end[side == TOP ? 1 : 0]);
-      inner_edge[side] = b_.edge(inner_surface->UIso(side), 0, 1, throat_vertex_[side], end[side == TOP ? 2 : 3]);
+      outer_edge[side] =
+          b_.edge(outer->UIso(side), 0, 1, kink_vertex_[SECTORS][side], end[side == TOP ? 1 : 0]);
+      inner_edge[side] =
+          b_.edge(inner_surface->UIso(side), 0, 1, throat_vertex_[side], end[side == TOP ? 2 : 3]);
     }
-    b_.face(outer, {LoopEdge(section_[SECTORS], 0, 0, 1, 0), LoopEdge(outer_edge[TOP], 1, 0, 1, 1),
-                    LoopEdge(arc[0], 0, 1, 1, 1), LoopEdge(outer_edge[BOTTOM], 0, 0, 0, 1)}, "diffuser");
-    b_.face(inner_surface, {LoopEdge(throat_inner_, 0, 0, 1, 0), LoopEdge(inner_edge[TOP], 1, 0, 1, 1),
-                            LoopEdge(arc[2], 1, 1, 0, 1), LoopEdge(inner_edge[BOTTOM], 0, 0, 0, 1)}, "diffuser");
+    b_.face(outer,
+            {LoopEdge(section_[SECTORS], 0, 0, 1, 0), LoopEdge(outer_edge[TOP], 1, 0, 1, 1),
+             LoopEdge(arc[0], 0, 1, 1, 1), LoopEdge(outer_edge[BOTTOM], 0, 0, 0, 1)},
+            "diffuser");
+    b_.face(inner_surface,
+            {LoopEdge(throat_inner_, 0, 0, 1, 0), LoopEdge(inner_edge[TOP], 1, 0, 1, 1),
+             LoopEdge(arc[2], 1, 1, 0, 1), LoopEdge(inner_edge[BOTTOM], 0, 0, 0, 1)},
+            "diffuser");
     for (int side : {BOTTOM, TOP}) {
       LoopEdge circle = side == TOP ? LoopEdge(arc[1], 1, 1, 0, 1) : LoopEdge(arc[3], 0, 1, 1, 1);
-      b_.face(sides[side], {LoopEdge(throat_side_[side], 0, 0, 1, 0), LoopEdge(outer_edge[side], 1, 0, 1, 1), circle,
-                            LoopEdge(inner_edge[side], 0, 0, 0, 1)}, "diffuser");
+      b_.face(sides[side],
+              {LoopEdge(throat_side_[side], 0, 0, 1, 0), LoopEdge(outer_edge[side], 1, 0, 1, 1), circle,
+               LoopEdge(inner_edge[side], 0, 0, 0, 1)},
+              "diffuser");
     }
   }
 
-  void keep_off_spiral(const Handle(Geom_BSplineSurface) &surface) const {
+  void keep_off_spiral(const Handle(Geom_BSplineSurface) & surface) const {
     const int samples = 24;
     for (int i = 0; i <= samples; i++)
       for (int j = 1; j <= samples; j++) {
@@ -311,15 +358,21 @@ private:
         CwVoluteSection s = cw_volute_section(&v_, std::atan2(p.Y(), p.X()));
         double z = std::min(std::fabs(p.Z()) * 1e-3, s.kink_height);
         double wall = 1e3 * (s.arc_centre + std::sqrt(s.arc_radius * s.arc_radius - z * z));
-        if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL || std::hypot(p.X(), p.Y()) > wall + LEAST_WALL) continue;
+        if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL ||
+            std::hypot(p.X(), p.Y()) > wall + LEAST_WALL)
+          continue;
         char text[160];
-        snprintf(text, sizeof text, "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length or "
-                 "tongue_gap, or lower outlet_diameter", p.X(), p.Y(), p.Z());
+        snprintf(text, sizeof text,
+                 "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length or "
+                 "tongue_gap, or lower outlet_diameter",
+                 p.X(), p.Y(), p.Z());
         throw std::runtime_error(text);
       }
   }
 
-  gp_Dir downstream() const { return gp_Dir(-std::sin(v_.discharge_lean), std::cos(v_.discharge_lean), 0); }
+  gp_Dir downstream() const {
+    return gp_Dir(-std::sin(v_.discharge_lean), std::cos(v_.discharge_lean), 0);
+  }
   // Direction from the pipe's axis, by its angle about minus the flow.
   gp_Dir in_outlet_plane(double angle) const {
     double c = std::cos(angle);
@@ -338,8 +391,9 @@ private:
     for (int i = 0; i < 4; i++)
       circle.vertex[i] = b_.vertex(centre.XYZ() + radius * in_outlet_plane(corner_[i]).XYZ());
     for (int i = 0; i < 4; i++)
-      circle.arc[i] = b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
-                              corner_[i + 1] - corner_[i], circle.vertex[i], circle.vertex[(i + 1) % 4]);
+      circle.arc[i] =
+          b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
+                  corner_[i + 1] - corner_[i], circle.vertex[i], circle.vertex[(i + 1) % 4]);
     return circle;
   }
 
@@ -347,7 +401,8 @@ private:
     gp_Pnt centre = outlet_centre(1e3 * v_.input.discharge_pipe_length);
     Circle outlet = make_circle(centre);
     int line[4];
-    for (int i = 0; i < 4; i++) line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
+    for (int i = 0; i < 4; i++)
+      line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
     for (int i = 0; i < 4; i++) {
       gp_Ax3 at(outlet_centre(0), -downstream(), in_outlet_plane(corner_[i] - U_MARGIN));
       b_.face(new Geom_CylindricalSurface(at, 500 * v_.input.outlet_diameter),
@@ -362,7 +417,8 @@ private:
   double angle_[SECTORS + 1];
   Ring step_[2];
   int kink_vertex_[SECTORS + 1][2], kink_[SECTORS][2], section_[SECTORS + 1];
-  int flank_vertex_[2], nose_side_[2], nose_flank_, throat_vertex_[2], flank_side_[2], throat_inner_, throat_side_[2];
+  int flank_vertex_[2], nose_side_[2], nose_flank_, throat_vertex_[2], flank_side_[2], throat_inner_,
+      throat_side_[2];
   double corner_[5];
   Circle circle_end_;
 };
@@ -374,17 +430,20 @@ void check(const CwSolid &stator) {
   for (int i = 1; i <= vertices.Extent(); i++) {
     const TopoDS_Vertex &vertex = TopoDS::Vertex(vertices(i));
     double tolerance = BRep_Tool::Tolerance(vertex);
-    if (tolerance < LARGEST_TOLERANCE) continue;
+    if (tolerance < LARGEST_TOLERANCE)
+      continue;
     gp_Pnt p = BRep_Tool::Pnt(vertex);
     char text[200];
-    snprintf(text, sizeof text, "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm",
-             tolerance, p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
+    snprintf(text, sizeof text,
+             "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm", tolerance,
+             p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
     throw std::runtime_error(text);
   }
   for (const CwSolidFace &face : stator.faces)
     if (!BRepCheck_Analyzer(face.face).IsValid())
       throw std::runtime_error("face " + face.name + " crosses itself or its edges do not fit");
-  if (!BRepCheck_Analyzer(stator.solid).IsValid()) throw std::runtime_error("the solid is not valid");
+  if (!BRepCheck_Analyzer(stator.solid).IsValid())
+    throw std::runtime_error("the solid is not valid");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The stator's B-rep: interface cylinder, neck, step to b3, volute, tongue, diffuser and discharge pipe as one closed
-// solid, built directly from analytic and B-spline surfaces with shared edges; no booleans, no seams.
+// The stator's B-rep: interface cylinder, neck, step to b3, volute, tongue, diffuser and discharge pipe as
+// one closed solid, built directly from analytic and B-spline surfaces with shared edges; no booleans, no
+// seams.
 #ifndef CUTWATER_GEOMETRY_STATOR_H
 #define CUTWATER_GEOMETRY_STATOR_H
 
@@ -12,9 +13,9 @@
 extern "C" {
 #endif
 
-// Builds the solid and checks it: closed, valid by OpenCASCADE's check, largest tolerance below 1e-3 mm. Its patches:
-// stator_interface, neck, step, volute, tongue (nose and flank), diffuser, discharge, outlet. Fails with
-// CW_ERR_GEOMETRY and one line that says what does not fit, or CW_ERR_LIBRARY. Freed by cw_solid_free().
+// Builds the solid and checks it: closed, valid by OpenCASCADE's check, largest tolerance below 1e-3 mm. Its
+// patches: stator_interface, neck, step, volute, tongue (nose and flank), diffuser, discharge, outlet. Fails
+// with CW_ERR_GEOMETRY and one line that says what does not fit, or CW_ERR_LIBRARY. Freed by cw_solid_free().
 CwStatus cw_stator_build(const CwVolute *volute, CwSolid **stator);
 
 #ifdef __cplusplus

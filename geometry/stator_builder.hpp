@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A short hand over CwShellBuilder: faces are loops of edges in any order of run; their senses, curves in the parameter
-// plane and names are worked out here.
+// A short hand over CwShellBuilder: faces are loops of edges in any order of run; their senses, curves in the
+// parameter plane and names are worked out here.
 #ifndef CUTWATER_GEOMETRY_STATOR_BUILDER_HPP
 #define CUTWATER_GEOMETRY_STATOR_BUILDER_HPP
 
@@ -17,8 +17,9 @@
 
 #include "geometry/solid.hpp"
 
-// An edge in a face's loop. Where the edge is straight in the parameter plane, `border` holds the (u,v) of its two
-// ends, in the order of its curve; else its curve there is interpolated (only on planes, cylinders and cones).
+// An edge in a face's loop. Where the edge is straight in the parameter plane, `border` holds the (u,v) of
+// its two ends, in the order of its curve; else its curve there is interpolated (only on planes, cylinders
+// and cones).
 struct LoopEdge {
   int edge;
   std::optional<std::pair<gp_Pnt2d, gp_Pnt2d>> border;
@@ -31,19 +32,21 @@ class LoopBuilder {
 public:
   int vertex(const gp_Pnt &point);
   // The curve over [a, b] must run from vertex `start` to vertex `end`.
-  int edge(const Handle(Geom_Curve) &curve, double a, double b, int start, int end);
+  int edge(const Handle(Geom_Curve) & curve, double a, double b, int start, int end);
   int line(int start, int end);
   // Arc about the z axis in a plane of constant z, from `start` on to the angle `sweep`.
   int arc(int start, int end, double sweep);
-  // Each face needs a surface of its own. The loop may begin at any edge and run either way round. Faces of a patch
-  // are named by their order: "volute_1"; or "outlet" where a patch has a single face.
-  void face(const Handle(Geom_Surface) &surface, const std::vector<LoopEdge> &loop, const char *patch,
+  // Each face needs a surface of its own. The loop may begin at any edge and run either way round. Faces of a
+  // patch are named by their order: "volute_1"; or "outlet" where a patch has a single face.
+  void face(const Handle(Geom_Surface) & surface, const std::vector<LoopEdge> &loop, const char *patch,
             const char *kind = "wall");
 
-  gp_Pnt point(int vertex) const { return vertices_[vertex]; }
+  gp_Pnt point(int vertex) const {
+    return vertices_[vertex];
+  }
 
-  // Makes the solid, moved by `motion`. `first_outward`: the natural normal of the face given first points out of it. Throws
-  // Standard_Failure or std::exception with the reason. The caller frees the solid.
+  // Makes the solid, moved by `motion`. `first_outward`: the natural normal of the face given first points
+  // out of it. Throws Standard_Failure or std::exception with the reason. The caller frees the solid.
   CwSolid *build(const char *domain, const gp_Trsf &motion, bool first_outward) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Splines through functions at even parameters, on top of bspline_fit.hpp: faces that interpolate the same border with
-// the same count of points share it exactly.
+// Splines through functions at even parameters, on top of bspline_fit.hpp: faces that interpolate the same
+// border with the same count of points share it exactly.
 #ifndef CUTWATER_GEOMETRY_STATOR_SPLINE_HPP
 #define CUTWATER_GEOMETRY_STATOR_SPLINE_HPP
 
@@ -24,8 +24,10 @@ Handle(Geom2d_BSplineCurve) straight_plane_curve(double a, double b, const gp_Pn
 // Surface over [0,1] x [0,1] through f at u_count x v_count even parameters, both at least 4.
 Handle(Geom_BSplineSurface) spline_surface(int u_count, int v_count, const PointOfTwo &f);
 
-// Surface over [0,1] x [0,1]: splines in u; in v the cubic from start(u) to end(u) with the given derivatives there.
-Handle(Geom_BSplineSurface) hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
-                                            const PointOfOne &end, const PointOfOne &end_derivative);
+// Surface over [0,1] x [0,1]: splines in u; in v the cubic from start(u) to end(u) with the given derivatives
+// there.
+Handle(Geom_BSplineSurface)
+    hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
+                    const PointOfOne &end, const PointOfOne &end_derivative);
 
 #endif

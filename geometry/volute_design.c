@@ -8,33 +8,40 @@
 
 // The spiral begins this share of D3/2 outside it: a section that begins at nothing has no outer wall.
 static const double START_MARGIN = 0.003;
-// Half angle of the outer arc. A larger one sweeps the nose back more: with 70 degrees the wall's corner at the tongue
-// falls under 15 degrees; a smaller one sharpens the kink between outer and side walls (130 degrees with 60 and 20).
-static const double ARC_HALF_ANGLE = PI / 3;
-// Angle of the kink line to the tongue's flank where the nose begins, by default and at its limits. The smaller it is,
-// the further the nose lies along the side walls, and the sharper are the corners of the faces there.
-static const double DEFAULT_WEDGE = 20.5 * PI / 180, LEAST_WEDGE = 10.5 * PI / 180, LARGEST_WEDGE = 36.5 * PI / 180;
+// Half angle of the outer arc. A larger one sweeps the nose back more: with 60 degrees it leans so far that
+// its edge to the flank has a radius of 0.05 mm (0.4 mm with 35); a smaller one sharpens the kink between
+// outer and side walls (105 degrees with 35 and side walls at 20).
+static const double ARC_HALF_ANGLE = 35 * PI / 180;
+// Angle of the kink line to the tongue's flank where the nose begins, by default and at its limits. The
+// smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
+// there.
+static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 // Above the kink's level the nose's centre line levels out over this height, in nose radii.
-static const double LEVEL_OUT = 0.3;
+static const double LEVEL_OUT = 1.0;
 
 typedef double (*Function)(double x, const void *context);
 
 // Root of f in [a, b] by false position with the Illinois rule; NAN where f has one sign at both ends.
 static double find_root(Function f, const void *context, double a, double b) {
   double fa = f(a, context), fb = f(b, context);
-  if (fa == 0) return a;
-  if (fb == 0) return b;
-  if (!(fa * fb < 0)) return NAN;
+  if (fa == 0)
+    return a;
+  if (fb == 0)
+    return b;
+  if (!(fa * fb < 0))
+    return NAN;
   double x = a;
   for (int i = 0; i < 200; i++) {
     double next = b - fb * (b - a) / (fb - fa);
-    if (i % 8 == 7) next = 0.5 * (a + b);
+    if (i % 8 == 7)
+      next = 0.5 * (a + b);
     double moved = fabs(next - x);
     x = next;
     double fx = f(x, context);
-    if (fx == 0 || fabs(b - a) <= 4e-16 * (fabs(a) + fabs(b)) || (moved <= 1e-16 * fabs(x) && i % 8 != 7)) break;
+    if (fx == 0 || fabs(b - a) <= 4e-16 * (fabs(a) + fabs(b)) || (moved <= 1e-16 * fabs(x) && i % 8 != 7))
+      break;
     if (fx * fb < 0) {
       a = b;
       fa = fb;
@@ -83,9 +90,11 @@ static CwVoluteSection section_at(const CwVolute *volute, double r_k) {
   s.outer_radius = s.arc_centre + s.arc_radius;
   double c = s.arc_centre, rho = s.arc_radius;
   s.area = (0.5 * volute->input.inlet_width + s.kink_height) * (r_k - r3) + rho * rho * (k - sin(k) * cos(k));
-  // Integral of 2 rho^2 sin^2 psi / (c + rho cos psi) over 0..k in closed form.
-  double arc = c * k - rho * sin(k) - 2 * sqrt(c * c - rho * rho) * atan(sqrt((c - rho) / (c + rho)) * tan(k / 2));
-  s.integral = trapezoid_integral(r3, volute->input.inlet_width, tan(volute->input.side_wall_angle), r_k) + 2 * arc;
+  // Integral of rho^2 sin^2 psi / (c + rho cos psi) over 0..k, in closed form on either side of c = rho.
+  double d = (c - rho) * (c + rho), t = tan(k / 2) * sqrt(fabs((c - rho) / (c + rho)));
+  double arc = c * k - rho * sin(k) + 2 * sqrt(fabs(d)) * (d > 0 ? -atan(t) : atanh(t));
+  s.integral =
+      trapezoid_integral(r3, volute->input.inlet_width, tan(volute->input.side_wall_angle), r_k) + 2 * arc;
   return s;
 }
 
@@ -106,7 +115,8 @@ CwVoluteSection cw_volute_section(const CwVolute *volute, double phi) {
   double r_k = find_root(integral_excess, &context, r3, 3 * r3);
   CwVoluteSection s = section_at(volute, r_k);
   double step = 1e-4 * r3;
-  double slope = (section_at(volute, r_k + step).integral - section_at(volute, r_k - step).integral) / (2 * step);
+  double slope =
+      (section_at(volute, r_k + step).integral - section_at(volute, r_k - step).integral) / (2 * step);
   s.kink_slope = growth / slope;
   return s;
 }
@@ -134,14 +144,16 @@ void cw_volute_wall_point(const CwVolute *volute, double phi, double psi, double
   }
 }
 
-void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, double centre[2], double normal[2]) {
+void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, double centre[2],
+                              double normal[2]) {
   double x[3], a[3], b[3];
   cw_volute_wall_point(volute, phi, psi, x, a, b);
   // a x b points out of the fluid: phi runs with the flow, psi upward.
   double nx = a[1] * b[2] - a[2] * b[1], ny = a[2] * b[0] - a[0] * b[2], length = hypot(nx, ny);
   normal[0] = nx / length;
   normal[1] = ny / length;
-  for (int i = 0; i < 2; i++) centre[i] = x[i] + volute->input.tongue_radius * normal[i];
+  for (int i = 0; i < 2; i++)
+    centre[i] = x[i] + volute->input.tongue_radius * normal[i];
 }
 
 static double contact_excess(double phi, const void *context) {
@@ -159,7 +171,8 @@ static double contact_at_level_excess(double phi, const void *context) {
 }
 
 double cw_volute_contact_angle(const CwVolute *volute, double psi) {
-  if (fabs(psi) >= volute->arc_half_angle) return volute->start_angle;
+  if (fabs(psi) >= volute->arc_half_angle)
+    return volute->start_angle;
   Context context = {.volute = volute, .psi = fabs(psi)};
   return find_root(contact_excess, &context, volute->start_angle, 0.45 * PI);
 }
@@ -264,7 +277,7 @@ static double close_spiral(CwVolute *volute, double end) {
     context.value = volute->input.least_tongue_gap;
   if (!isnan(context.value)) {
     wedge = find_root(gap_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
-    if (isnan(wedge)) // answered for the nearest tongue; check_tongue() then says what is allowed
+    if (isnan(wedge)) // the nearest tongue; where the gap is given, check_tongue() then says what is allowed
       wedge = gap_excess(LEAST_WEDGE, &context) > 0 ? LEAST_WEDGE : LARGEST_WEDGE;
   }
   place_tongue(volute, wedge);
@@ -285,24 +298,25 @@ static CwStatus check_input(const CwVoluteInput *in) {
     const char *unit_name;
     int optional;
   } ranges[] = {
-    {"flow rate", in->flow_rate, 1e-6, 100, 1, "m3/s", 0},
-    {"angular momentum c_u2 r2", in->angular_momentum, 1e-4, 1e3, 1, "m2/s", 0},
-    {"base_diameter (D3)", in->base_diameter, 0.02, 5, 1e3, "mm", 0},
-    {"interface radius", in->interface_radius, 0.0095, 2.5, 1e3, "mm", 0},
-    {"outlet width of the impeller (b2)", in->neck_width, 1e-3, 1, 1e3, "mm", 0},
-    {"inlet_width (b3)", in->inlet_width, 1e-3, 1, 1e3, "mm", 0},
-    {"side_wall_angle", in->side_wall_angle, PI / 36, PI / 5, 180 / PI, "deg", 0},
-    {"throat_area", in->throat_area, 1e-6, 10, 1e6, "mm2", 1},
-    {"tongue_radius", in->tongue_radius, 0.2e-3, 0.02, 1e3, "mm", 0},
-    {"tongue_gap", in->tongue_gap, 0, 1, 1e3, "mm", 1},
-    {"least gap of the tongue", in->least_tongue_gap, 0, 1, 1e3, "mm", 1},
-    {"diffuser_length", in->diffuser_length, 5e-3, 10, 1e3, "mm", 1},
-    {"diffuser angle", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
-    {"outlet_diameter", in->outlet_diameter, 5e-3, 5, 1e3, "mm", 0},
-    {"discharge_pipe_length", in->discharge_pipe_length, 1e-3, 50, 1e3, "mm", 0},
+      {"flow rate", in->flow_rate, 1e-6, 100, 1, "m3/s", 0},
+      {"angular momentum c_u2 r2", in->angular_momentum, 1e-4, 1e3, 1, "m2/s", 0},
+      {"base_diameter (D3)", in->base_diameter, 0.02, 5, 1e3, "mm", 0},
+      {"interface radius", in->interface_radius, 0.0095, 2.5, 1e3, "mm", 0},
+      {"outlet width of the impeller (b2)", in->neck_width, 1e-3, 1, 1e3, "mm", 0},
+      {"inlet_width (b3)", in->inlet_width, 1e-3, 1, 1e3, "mm", 0},
+      {"side_wall_angle", in->side_wall_angle, PI / 36, PI / 5, 180 / PI, "deg", 0},
+      {"throat_area", in->throat_area, 1e-6, 10, 1e6, "mm2", 1},
+      {"tongue_radius", in->tongue_radius, 0.2e-3, 0.02, 1e3, "mm", 0},
+      {"tongue_gap", in->tongue_gap, 0, 1, 1e3, "mm", 1},
+      {"least gap of the tongue", in->least_tongue_gap, 0, 1, 1e3, "mm", 1},
+      {"diffuser_length", in->diffuser_length, 5e-3, 10, 1e3, "mm", 1},
+      {"diffuser angle", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
+      {"outlet_diameter", in->outlet_diameter, 5e-3, 5, 1e3, "mm", 0},
+      {"discharge_pipe_length", in->discharge_pipe_length, 1e-3, 50, 1e3, "mm", 0},
   };
   for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
-    if (ranges[i].optional && isnan(ranges[i].value)) continue;
+    if (ranges[i].optional && isnan(ranges[i].value))
+      continue;
     CW_REQUIRE(ranges[i].value >= ranges[i].least && ranges[i].value <= ranges[i].largest, CW_ERR_DESIGN,
                "volute: %s is %g %s; allowed: %g to %g %s", ranges[i].name, ranges[i].value * ranges[i].unit,
                ranges[i].unit_name, ranges[i].least * ranges[i].unit, ranges[i].largest * ranges[i].unit,
@@ -312,7 +326,8 @@ static CwStatus check_input(const CwVoluteInput *in) {
              "volute: inlet_width (b3) is %g mm; allowed: at least b2 + 1 mm = %g mm", in->inlet_width * 1e3,
              in->neck_width * 1e3 + 1);
   CW_REQUIRE(0.5 * in->base_diameter >= in->interface_radius + 0.25e-3, CW_ERR_DESIGN,
-             "volute: base_diameter (D3) is %g mm; allowed: at least %g mm, so that the neck between the interface at "
+             "volute: base_diameter (D3) is %g mm; allowed: at least %g mm, so that the neck between the "
+             "interface at "
              "r = %g mm and D3/2 has 0.25 mm",
              in->base_diameter * 1e3, 2e3 * in->interface_radius + 0.5, in->interface_radius * 1e3);
   CW_REQUIRE(in->inlet_width <= 0.4 * in->base_diameter, CW_ERR_DESIGN,
@@ -329,16 +344,20 @@ static CwStatus solve_spiral(CwVolute *volute) {
   double end = volute->integral_start + in->flow_rate / in->angular_momentum, r3 = base_radius(volute);
   double largest = section_at(volute, 1.9 * r3).integral;
   CW_REQUIRE(end < largest, CW_ERR_DESIGN,
-             "volute: Q / (c_u2 r2) = %g mm needs an outer wall beyond 1.9 D3/2; allowed: at most %g mm (raise the head "
+             "volute: Q / (c_u2 r2) = %g mm needs an outer wall beyond 1.9 D3/2; allowed: at most %g mm "
+             "(raise the head "
              "or b3, or lower the flow rate)",
              1e3 * in->flow_rate / in->angular_momentum, 1e3 * (largest - volute->integral_start));
   if (!isnan(in->throat_area)) {
     Context context = {.volute = volute};
     double low = volute->integral_start + 0.02 * (largest - volute->integral_start);
-    double least_excess = throat_area_excess(low, &context), largest_excess = throat_area_excess(largest, &context);
+    double least_excess = throat_area_excess(low, &context),
+           largest_excess = throat_area_excess(largest, &context);
     end = find_root(throat_area_excess, &context, low, largest);
-    CW_REQUIRE(!isnan(end), CW_ERR_DESIGN, "volute: throat_area is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
-               "%.0f mm2", in->throat_area * 1e6, (least_excess + in->throat_area) * 1e6,
+    CW_REQUIRE(!isnan(end), CW_ERR_DESIGN,
+               "volute: throat_area is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
+               "%.0f mm2",
+               in->throat_area * 1e6, (least_excess + in->throat_area) * 1e6,
                (largest_excess + in->throat_area) * 1e6);
   }
   close_spiral(volute, end);
@@ -355,12 +374,12 @@ static CwStatus check_tongue(const CwVolute *volute) {
   CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap - in->tongue_gap) < 1e-7, CW_ERR_DESIGN,
              "volute: tongue_gap is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
              in->tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
-  CW_REQUIRE(!(gap < in->least_tongue_gap - 1e-7), CW_ERR_DESIGN,
-             "volute: the tongue needs a gap of %g mm to D3/2, but this spiral allows %.2f to %.2f mm; lower b3 or "
-             "give tongue_gap", in->least_tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
-  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && volute->throat_width > 4 * in->tongue_radius,
-             CW_ERR_DESIGN, "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius or raise "
-             "throat_area", in->tongue_radius * 1e3);
+  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) &&
+                 volute->throat_width > 4 * in->tongue_radius,
+             CW_ERR_DESIGN,
+             "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius or raise "
+             "throat_area",
+             in->tongue_radius * 1e3);
 done:
   return status;
 }
@@ -371,20 +390,24 @@ static CwStatus solve_diffuser(CwVolute *volute) {
   const CwVoluteInput *in = &volute->input;
   double x[3], x_phi[3], radius = 0.5 * in->outlet_diameter, throat_radius = sqrt(volute->throat_area / PI);
   CW_REQUIRE(radius > throat_radius, CW_ERR_DESIGN,
-             "volute: outlet_diameter is %g mm, less than the throat's equal-area diameter %.2f mm; raise it, or lower "
-             "throat_area (%.0f mm2)", 2e3 * radius, 2e3 * throat_radius, volute->throat_area * 1e6);
+             "volute: outlet_diameter is %g mm, less than the throat's equal-area diameter %.2f mm; raise "
+             "it, or lower "
+             "throat_area (%.0f mm2)",
+             2e3 * radius, 2e3 * throat_radius, volute->throat_area * 1e6);
   volute->diffuser_length = in->diffuser_length;
   if (isnan(in->diffuser_length))
     volute->diffuser_length = fmax((radius - throat_radius) / tan(0.5 * in->diffuser_angle), 0.5 * radius);
   volute->diffuser_angle = 2 * atan((radius - throat_radius) / volute->diffuser_length);
   CW_REQUIRE(volute->diffuser_angle < PI / 6, CW_ERR_DESIGN,
-             "volute: diffuser_length %g mm opens the diffuser by %.1f deg; allowed: at most 30 deg (at least %.1f mm)",
+             "volute: diffuser_length %g mm opens the diffuser by %.1f deg; allowed: at most 30 deg (at "
+             "least %.1f mm)",
              volute->diffuser_length * 1e3, volute->diffuser_angle * 180 / PI,
              1e3 * (radius - throat_radius) / tan(PI / 12));
   // Midway between the walls at the throat, along the mean of their directions there.
   cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, x, x_phi, NULL);
   volute->discharge_lean = 0.5 * atan2(-x_phi[0], x_phi[1]);
-  volute->outlet_x = 0.5 * (volute->inner_wall_x + x[0]) - volute->diffuser_length * sin(volute->discharge_lean);
+  volute->outlet_x =
+      0.5 * (volute->inner_wall_x + x[0]) - volute->diffuser_length * sin(volute->discharge_lean);
   volute->outlet_y = volute->throat_y + volute->diffuser_length * cos(volute->discharge_lean);
 done:
   return status;

@@ -8,15 +8,17 @@
 
 #include "mesher/quality.h"
 
-// One side of one cell's face. Faces with the same points stand together after sorting by (bucket of least point, rest).
+// One side of one cell's face. Faces with the same points stand together after sorting by (bucket of least
+// point, rest).
 typedef struct {
-  int32_t rest[3];  // the other points, ascending; the third of a triangle is -1
-  int32_t cell;     // cell of the region, or -1 - listed face
-  int8_t turn;      // direction of the face: which of the rest follows, and which precedes, the least point
+  int32_t rest[3]; // the other points, ascending; the third of a triangle is -1
+  int32_t cell;    // cell of the region, or -1 - listed face
+  int8_t turn;     // direction of the face: which of the rest follows, and which precedes, the least point
 } Side;
 
 static const int tet_face[4][4] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
-static const int pyramid_face[5][4] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
+static const int pyramid_face[5][4] = {
+    {0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
 static const int prism_face[5][4] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
 
 static int64_t cell_count(const CwRegionMesh *r) {
@@ -42,24 +44,27 @@ static const char *cell_name(int corners) {
   return corners == 4 ? "tetrahedron" : corners == 5 ? "pyramid" : "prism";
 }
 
-static CwStatus fail_at_points(const CwRegionMesh *r, const char *what, int count, const int32_t *point, int64_t cell,
-                               const char *fault) {
+static CwStatus fail_at_points(const CwRegionMesh *r, const char *what, int count, const int32_t *point,
+                               int64_t cell, const char *fault) {
   double mean[3] = {0, 0, 0};
   for (int k = 0; k < count; k++) {
-    for (int i = 0; i < 3; i++) mean[i] += 1e3 * r->x[point[k]][i] / count;
+    for (int i = 0; i < 3; i++)
+      mean[i] += 1e3 * r->x[point[k]][i] / count;
   }
-  return CW_FAIL(CW_ERR_MESH, "%s region %d: %s of cell %lld at (%.6g, %.6g, %.6g) mm %s", r->domain, r->region, what,
-                 (long long)cell, mean[0], mean[1], mean[2], fault);
+  return CW_FAIL(CW_ERR_MESH, "%s region %d: %s of cell %lld at (%.6g, %.6g, %.6g) mm %s", r->domain,
+                 r->region, what, (long long)cell, mean[0], mean[1], mean[2], fault);
 }
 
 // The face in the form that sorting compares; returns its least point.
 static int32_t side_of(int count, const int32_t *point, int64_t cell, Side *side) {
   int least = 0;
   for (int k = 1; k < count; k++) {
-    if (point[k] < point[least]) least = k;
+    if (point[k] < point[least])
+      least = k;
   }
   int32_t follow[3] = {-1, -1, -1};
-  for (int k = 1; k < count; k++) follow[k - 1] = point[(least + k) % count];
+  for (int k = 1; k < count; k++)
+    follow[k - 1] = point[(least + k) % count];
   int place[3] = {0, 1, 2}; // place[k]: which of follow stands at rest[k]
   for (int i = 1; i < count - 1; i++) {
     for (int j = i; j > 0 && follow[place[j]] < follow[place[j - 1]]; j--) {
@@ -71,10 +76,13 @@ static int32_t side_of(int count, const int32_t *point, int64_t cell, Side *side
   int first = 0, last = 0;
   for (int k = 0; k < count - 1; k++) {
     side->rest[k] = follow[place[k]];
-    if (place[k] == 0) first = k;
-    if (place[k] == count - 2) last = k;
+    if (place[k] == 0)
+      first = k;
+    if (place[k] == count - 2)
+      last = k;
   }
-  if (count == 3) side->rest[2] = -1;
+  if (count == 3)
+    side->rest[2] = -1;
   side->cell = (int32_t)cell;
   side->turn = (int8_t)(4 * first + last);
   return point[least];
@@ -82,7 +90,8 @@ static int32_t side_of(int count, const int32_t *point, int64_t cell, Side *side
 
 static int compare_rest(const Side *a, const Side *b) {
   for (int k = 0; k < 3; k++) {
-    if (a->rest[k] != b->rest[k]) return a->rest[k] < b->rest[k] ? -1 : 1;
+    if (a->rest[k] != b->rest[k])
+      return a->rest[k] < b->rest[k] ? -1 : 1;
   }
   return 0;
 }
@@ -90,7 +99,8 @@ static int compare_rest(const Side *a, const Side *b) {
 static int compare_sides(const void *left, const void *right) {
   const Side *a = left, *b = right;
   int order = compare_rest(a, b);
-  if (order) return order;
+  if (order)
+    return order;
   return a->cell < b->cell ? 1 : a->cell > b->cell ? -1 : 0; // cells before listed faces
 }
 
@@ -109,16 +119,19 @@ static void visit_sides(const CwRegionMesh *r, int64_t *start, Side *side) {
     for (int f = 0; f < (corners == 4 ? 4 : 5); f++) {
       int32_t point[4];
       int count = face[f][3] < 0 ? 3 : 4;
-      for (int k = 0; k < count; k++) point[k] = corner[face[f][k]];
+      for (int k = 0; k < count; k++)
+        point[k] = corner[face[f][k]];
       int64_t at = start[side_of(count, point, c, &one)]++;
-      if (side) side[at] = one;
+      if (side)
+        side[at] = one;
     }
   }
   for (int64_t k = 0; k < (int64_t)r->triangle_count + r->quad_count; k++) {
     int quad = k >= r->triangle_count;
     const int32_t *point = quad ? r->quad[k - r->triangle_count] : r->triangle[k];
     int64_t at = start[side_of(quad ? 4 : 3, point, -1 - k, &one)]++;
-    if (side) side[at] = one;
+    if (side)
+      side[at] = one;
   }
 }
 
@@ -128,27 +141,36 @@ static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, cons
   int32_t point[4] = {least, side->rest[0], side->rest[1], side->rest[2]};
   int corners = side->rest[2] < 0 ? 3 : 4, of_cells = 0;
   const char *what = corners == 3 ? "triangle" : "quadrilateral", *fault = NULL;
-  while (of_cells < count && side[of_cells].cell >= 0) of_cells++;
+  while (of_cells < count && side[of_cells].cell >= 0)
+    of_cells++;
   int listed = count - of_cells;
-  if (of_cells == 0) fault = "is listed as boundary but is no face of a cell";
-  else if (of_cells > 2) fault = "belongs to more than two cells";
-  else if (of_cells == 2 && listed) fault = "is listed as boundary but lies between two cells";
+  if (of_cells == 0)
+    fault = "is listed as boundary but is no face of a cell";
+  else if (of_cells > 2)
+    fault = "belongs to more than two cells";
+  else if (of_cells == 2 && listed)
+    fault = "is listed as boundary but lies between two cells";
   else if (of_cells == 2 && side[1].turn != opposite_turn(side[0].turn))
     fault = "has both of its cells on one side or is seen twisted by one of them";
-  else if (listed > 1) fault = "is listed as boundary more than once";
+  else if (listed > 1)
+    fault = "is listed as boundary more than once";
   else if (listed == 1) {
     int32_t k = -1 - side[1].cell;
     int32_t cell = corners == 3 ? r->triangle_cell[k] : r->quad_cell[k - r->triangle_count];
-    if (side[1].turn != side[0].turn) fault = "is listed as boundary with its normal into the domain";
-    else if (cell != side[0].cell) fault = "is listed as boundary with the wrong cell";
+    if (side[1].turn != side[0].turn)
+      fault = "is listed as boundary with its normal into the domain";
+    else if (cell != side[0].cell)
+      fault = "is listed as boundary with the wrong cell";
   } else if (of_cells == 1) {
     for (int k = 0; k < corners; k++) {
-      if (point[k] >= r->shared_count) fault = "is open: not listed as boundary and not on a dividing plane";
+      if (point[k] >= r->shared_count)
+        fault = "is open: not listed as boundary and not on a dividing plane";
     }
   }
   if (fault) {
     int64_t cell = side->cell;
-    if (cell < 0) cell = corners == 3 ? r->triangle_cell[-1 - cell] : r->quad_cell[-1 - cell - r->triangle_count];
+    if (cell < 0)
+      cell = corners == 3 ? r->triangle_cell[-1 - cell] : r->quad_cell[-1 - cell - r->triangle_count];
     status = fail_at_points(r, what, corners, point, cell, fault);
   }
   return status;
@@ -172,10 +194,12 @@ static CwStatus check_faces(const CwRegionMesh *r) {
   int64_t from = 0;
   for (int32_t p = 0; p < r->point_count; p++) {
     int64_t to = start[p];
-    if (to - from > 1) qsort(side + from, (size_t)(to - from), sizeof *side, compare_sides);
+    if (to - from > 1)
+      qsort(side + from, (size_t)(to - from), sizeof *side, compare_sides);
     while (from < to) {
       int64_t end = from + 1;
-      while (end < to && compare_rest(&side[from], &side[end]) == 0) end++;
+      while (end < to && compare_rest(&side[from], &side[end]) == 0)
+        end++;
       CW_TRY(check_face(r, p, (int)(end - from), &side[from]));
       from = end;
     }
@@ -196,8 +220,8 @@ static CwStatus check_indices(const CwRegionMesh *r) {
     int corners = cell_corners(r, c, &corner);
     for (int k = 0; k < corners; k++) {
       CW_REQUIRE(corner[k] >= 0 && corner[k] < r->point_count, CW_ERR_MESH,
-                 "%s region %d: cell %lld names point %d; 0 to %d are allowed", r->domain, r->region, (long long)c,
-                 corner[k], r->point_count - 1);
+                 "%s region %d: cell %lld names point %d; 0 to %d are allowed", r->domain, r->region,
+                 (long long)c, corner[k], r->point_count - 1);
       used[corner[k]] = 1;
     }
   }
@@ -211,8 +235,8 @@ static CwStatus check_indices(const CwRegionMesh *r) {
     }
   }
   for (int32_t p = 0; p < r->point_count; p++) {
-    CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell", r->domain,
-               r->region, p, 1e3 * r->x[p][0], 1e3 * r->x[p][1], 1e3 * r->x[p][2]);
+    CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell",
+               r->domain, r->region, p, 1e3 * r->x[p][0], 1e3 * r->x[p][1], 1e3 * r->x[p][2]);
   }
 done:
   free(used);
@@ -234,7 +258,8 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
     const int32_t *corner;
     const double *x[6];
     int corners = cell_corners(r, c, &corner);
-    for (int k = 0; k < corners; k++) x[k] = r->x[corner[k]];
+    for (int k = 0; k < corners; k++)
+      x[k] = r->x[corner[k]];
     double volume = cw_cell_volume(corners, x);
     double doubt = corners == 4 ? cw_tet_volume6_error(x[0], x[1], x[2], x[3]) / 6.0 : 0.0;
     if (!(volume > doubt)) {
@@ -252,7 +277,8 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       aspects += aspect;
       quality->aspect_max = fmax(quality->aspect_max, aspect);
       int class = 0;
-      while (class < 7 && aspect > limit[class]) class++;
+      while (class < 7 && aspect > limit[class])
+        class ++;
       quality->aspect_class[class]++;
       quality->dihedral_least = fmin(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = fmax(quality->dihedral_greatest, shape.dihedral_greatest);
@@ -263,7 +289,8 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       quality->prism_jacobian_bin[bin_of(jacobian, 1.0 / CW_QUALITY_BINS, CW_QUALITY_BINS)]++;
     }
   }
-  if (r->tetrahedron_count) quality->aspect_mean = aspects / r->tetrahedron_count;
+  if (r->tetrahedron_count)
+    quality->aspect_mean = aspects / r->tetrahedron_count;
 done:
   return status;
 }
@@ -287,7 +314,8 @@ void cw_quality_start(CwQuality *sum) {
 
 void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   int64_t before = 0;
-  for (int k = 0; k < 8; k++) before += sum->aspect_class[k];
+  for (int k = 0; k < 8; k++)
+    before += sum->aspect_class[k];
   if (before + tetrahedra > 0) {
     sum->aspect_mean = (sum->aspect_mean * (double)before + more->aspect_mean * (double)tetrahedra) /
                        (double)(before + tetrahedra);
@@ -296,11 +324,15 @@ void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   sum->least_volume = fmin(sum->least_volume, more->least_volume);
   sum->cells += more->cells;
   sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
-  for (int k = 0; k < 8; k++) sum->aspect_class[k] += more->aspect_class[k];
+  for (int k = 0; k < 8; k++)
+    sum->aspect_class[k] += more->aspect_class[k];
   sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
   sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);
-  for (int k = 0; k < 18; k++) sum->dihedral_bin[k] += more->dihedral_bin[k];
+  for (int k = 0; k < 18; k++)
+    sum->dihedral_bin[k] += more->dihedral_bin[k];
   sum->prism_count += more->prism_count;
-  sum->prism_least_scaled_jacobian = fmin(sum->prism_least_scaled_jacobian, more->prism_least_scaled_jacobian);
-  for (int k = 0; k < CW_QUALITY_BINS; k++) sum->prism_jacobian_bin[k] += more->prism_jacobian_bin[k];
+  sum->prism_least_scaled_jacobian =
+      fmin(sum->prism_least_scaled_jacobian, more->prism_least_scaled_jacobian);
+  for (int k = 0; k < CW_QUALITY_BINS; k++)
+    sum->prism_jacobian_bin[k] += more->prism_jacobian_bin[k];
 }

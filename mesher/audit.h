@@ -16,27 +16,27 @@ extern "C" {
 enum { CW_QUALITY_BINS = 20 };
 
 typedef struct {
-  double volume;                 // m3, all cells
-  double least_volume;           // m3
+  double volume;       // m3, all cells
+  double least_volume; // m3
   int64_t cells;
   // tetrahedra
-  double aspect_mean, aspect_max;       // longest / shortest edge; 0 without tetrahedra
-  int64_t aspect_class[8];              // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
+  double aspect_mean, aspect_max;           // longest / shortest edge; 0 without tetrahedra
+  int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
-  int64_t dihedral_bin[18];             // of the least angle of each tetrahedron, 10 degrees wide up to 180
+  int64_t dihedral_bin[18]; // of the least angle of each tetrahedron, 10 degrees wide up to 180
   // prisms
   int64_t prism_count;
   double prism_least_scaled_jacobian;
   int64_t prism_jacobian_bin[CW_QUALITY_BINS]; // scaled Jacobian from 0 to 1; negative ones in the first
 } CwQuality;
 
-// Fails with CW_ERR_MESH, naming region, cell and place (mm), where a cell has no positive volume, a face belongs to
-// more than two cells (or has both of its two on one side), a point belongs to no cell, a listed face has the wrong cell or
-// its normal into the domain, or an open face is neither listed as boundary exactly once nor has all its points shared (on a
-// dividing plane). Where it passes fills *quality.
+// Fails with CW_ERR_MESH, naming region, cell and place (mm), where a cell has no positive volume, a face
+// belongs to more than two cells (or has both of its two on one side), a point belongs to no cell, a listed
+// face has the wrong cell or its normal into the domain, or an open face is neither listed as boundary
+// exactly once nor has all its points shared (on a dividing plane). Where it passes fills *quality.
 CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality);
-// Adds figures of one region, which holds `tetrahedra`, to those of others. Starts by cw_quality_start: no cells, volume
-// 0, least volume infinite, dihedral angles 180 and 0 degrees, scaled Jacobian 1.
+// Adds figures of one region, which holds `tetrahedra`, to those of others. Starts by cw_quality_start: no
+// cells, volume 0, least volume infinite, dihedral angles 180 and 0 degrees, scaled Jacobian 1.
 void cw_quality_start(CwQuality *sum);
 void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra);
 

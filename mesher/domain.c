@@ -14,8 +14,6 @@ enum { LEAST_REGIONS = 4 };
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
-// The columns of a dividing plane and those of an edge beside it want room for two layers and a cell between them.
-static const double CLEARANCE_THICKNESSES = 2;
 
 double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch) {
   if (cw_case_given(table->walls.total_thickness)) return table->walls.total_thickness;
@@ -84,17 +82,18 @@ done:
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
   CwStatus status = CW_OK;
   double regions = ceil(cells / (double)table->mesh.cells_per_region);
-  double thickness = domain->layer_volume / domain->wall_area, thickest = 0;
+  double *thickness = NULL;
+  CW_NEW(thickness, cw_cad_patch_count(domain->cad));
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickest = fmax(thickest, cw_domain_thickness(domain, table, p));
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickness[p] = cw_domain_thickness(domain, table, p);
   }
   CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
-                           .clearance = CLEARANCE_THICKNESSES * thickness,
-                           .line_clearance = CLEARANCE_THICKNESSES * thickest,
+                           .thickness = thickness,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
   CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &domain->plan));
 done:
+  free(thickness);
   return status;
 }
 

@@ -4,9 +4,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-// TetGen's own terminatetetgen frees its mesh and then throws, and the mesh frees itself again on the way up: any failure
-// ends in a crash. It is an exported function of the library, so the one below takes its place there; the header's is
-// put out of the way.
+// TetGen's own terminatetetgen frees its mesh and then throws, and the mesh frees itself again on the way up:
+// any failure ends in a crash. It is an exported function of the library, so the one below takes its place
+// there; the header's is put out of the way.
 #define terminatetetgen tetgen_terminate_that_frees_twice
 #include <tetgen.h>
 #undef terminatetetgen
@@ -37,8 +37,10 @@ public:
     fflush(stdout);
     kept = dup(STDOUT_FILENO);
     int nowhere = open("/dev/null", O_WRONLY);
-    if (kept >= 0 && nowhere >= 0) dup2(nowhere, STDOUT_FILENO);
-    if (nowhere >= 0) close(nowhere);
+    if (kept >= 0 && nowhere >= 0)
+      dup2(nowhere, STDOUT_FILENO);
+    if (nowhere >= 0)
+      close(nowhere);
   }
   ~Silence() {
     fflush(stdout);
@@ -56,13 +58,15 @@ void give_points(const CwFillInput *input, int32_t inner_count, const double (*i
   io.numberofpoints = input->point_count + inner_count;
   io.pointlist = new REAL[3 * (size_t)io.numberofpoints];
   memcpy(io.pointlist, input->x, (size_t)input->point_count * sizeof *input->x);
-  if (inner_count) memcpy(io.pointlist + 3 * (size_t)input->point_count, inner, (size_t)inner_count * sizeof *inner);
+  if (inner_count)
+    memcpy(io.pointlist + 3 * (size_t)input->point_count, inner, (size_t)inner_count * sizeof *inner);
 }
 
 void give_triangles(const CwFillInput *input, tetgenio &io) {
   io.facetlist = new tetgenio::facet[input->triangle_count];
   io.numberoffacets = input->triangle_count;
-  for (int32_t t = 0; t < input->triangle_count; t++) tetgenio::init(&io.facetlist[t]);
+  for (int32_t t = 0; t < input->triangle_count; t++)
+    tetgenio::init(&io.facetlist[t]);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     tetgenio::facet *facet = &io.facetlist[t];
     facet->polygonlist = new tetgenio::polygon[1];
@@ -70,11 +74,13 @@ void give_triangles(const CwFillInput *input, tetgenio &io) {
     tetgenio::init(facet->polygonlist);
     facet->polygonlist->vertexlist = new int[3];
     facet->polygonlist->numberofvertices = 3;
-    for (int k = 0; k < 3; k++) facet->polygonlist->vertexlist[k] = input->triangle[t][k];
+    for (int k = 0; k < 3; k++)
+      facet->polygonlist->vertexlist[k] = input->triangle[t][k];
   }
 }
 
-// Runs TetGen; 0, or the number it throws (1 memory, 3 self-intersection, 4 and 5 very close features, others inner).
+// Runs TetGen; 0, or the number it throws (1 memory, 3 self-intersection, 4 and 5 very close features, others
+// inner).
 int run(const char *switches, tetgenio &in, tetgenio &out) {
   char text[64];
   snprintf(text, sizeof text, "%s", switches);
@@ -89,15 +95,18 @@ int run(const char *switches, tetgenio &in, tetgenio &out) {
   return 0;
 }
 
-// Fails where the boundary crosses itself, and names a place: TetGen's diagnosis gives the triangles that take part.
+// Fails where the boundary crosses itself, and names a place: TetGen's diagnosis gives the triangles that
+// take part.
 CwStatus check_crossing(const CwFillInput *input) {
   tetgenio in, out;
   give_points(input, 0, nullptr, in);
   give_triangles(input, in);
-  if (run("pdQ", in, out) != 0 || out.numberoftrifaces == 0) return CW_OK;
+  if (run("pdQ", in, out) != 0 || out.numberoftrifaces == 0)
+    return CW_OK;
   double mean[3] = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 3; i++) mean[i] += 1e3 / 3.0 * out.pointlist[3 * out.trifacelist[k] + i];
+    for (int i = 0; i < 3; i++)
+      mean[i] += 1e3 / 3.0 * out.pointlist[3 * out.trifacelist[k] + i];
   }
   return CW_FAIL(CW_ERR_MESH,
                  "%s: the boundary crosses itself: %d triangles, the first at (%.6g, %.6g, %.6g) mm; "
@@ -105,20 +114,26 @@ CwStatus check_crossing(const CwFillInput *input) {
                  input->name, out.numberoftrifaces, mean[0], mean[1], mean[2]);
 }
 
-// One Delaunay tetrahedralisation of all points, in which TetGen then recovers the few triangles that are missing.
-CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3], CwFill *fill) {
+// One Delaunay tetrahedralisation of all points, in which TetGen then recovers the few triangles that are
+// missing.
+CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
+                        CwFill *fill) {
   tetgenio in, out;
   give_points(input, inner_count, inner, in);
   give_triangles(input, in);
   // p: keep the boundary; Y: without points on it; O0: the optimisation is ours.
   int code = run("pYQO0", in, out);
-  if (code == 1) return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory in TetGen", input->name);
-  if (code) return CW_FAIL(CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)", input->name, code);
+  if (code == 1)
+    return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory in TetGen", input->name);
+  if (code)
+    return CW_FAIL(CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)", input->name, code);
   if (out.numberofpoints < in.numberofpoints)
     return CW_FAIL(CW_ERR_MESH, "%s: TetGen takes points of the boundary for one", input->name);
   fill->x = static_cast<double(*)[3]>(malloc((size_t)out.numberofpoints * sizeof *fill->x));
-  fill->tetrahedron = static_cast<int32_t(*)[4]>(malloc((size_t)out.numberoftetrahedra * sizeof *fill->tetrahedron));
-  if (!fill->x || !fill->tetrahedron) return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory", input->name);
+  fill->tetrahedron =
+      static_cast<int32_t(*)[4]>(malloc((size_t)out.numberoftetrahedra * sizeof *fill->tetrahedron));
+  if (!fill->x || !fill->tetrahedron)
+    return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory", input->name);
   fill->point_count = out.numberofpoints;
   fill->tetrahedron_count = out.numberoftetrahedra;
   memcpy(fill->x, out.pointlist, (size_t)out.numberofpoints * sizeof *fill->x);
@@ -142,7 +157,8 @@ CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   CW_TRY(cw_fill_keep_inside(input, fill));
 done:
   free(inner);
-  if (status != CW_OK) cw_fill_free(fill);
+  if (status != CW_OK)
+    cw_fill_free(fill);
   return status;
 }
 
@@ -160,15 +176,19 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     CW_TRY(check_crossing(input));
     // Points further away are less in the way of recovery.
     status = try_fill(input, 2.0, fill);
-    if (status == CW_ERR_MESH) status = CW_FAIL(CW_ERR_MESH, "%s", first);
+    if (status == CW_ERR_MESH)
+      status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }
-  if (status != CW_OK) goto done;
+  if (status != CW_OK)
+    goto done;
   CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
-  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
-               input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
-               improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+  cw_log_debug(
+      "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+      input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
+      improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
 done:
-  if (status != CW_OK) cw_fill_free(fill);
+  if (status != CW_OK)
+    cw_fill_free(fill);
   return status;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Fills a closed triangulated boundary with tetrahedra; the boundary is kept as it is. The one bridge to TetGen.
+// Fills a closed triangulated boundary with tetrahedra; the boundary is kept as it is. The one bridge to
+// TetGen.
 #ifndef CUTWATER_MESHER_FILL_H
 #define CUTWATER_MESHER_FILL_H
 
@@ -20,14 +21,14 @@ typedef struct {
   const int32_t (*triangle)[3]; // closed, normal out of the region
   CwSizeAt size;
   const void *size_context;
-  const char *name;             // for messages: "rotor region 3"
+  const char *name; // for messages: "rotor region 3"
 } CwFillInput;
 
 typedef struct {
-  int32_t point_count;          // the given points first, in their order
+  int32_t point_count; // the given points first, in their order
   double (*x)[3];
   int32_t tetrahedron_count;
-  int32_t (*tetrahedron)[4];    // (x1 - x0) x (x2 - x0) points towards x3: positive volume
+  int32_t (*tetrahedron)[4]; // (x1 - x0) x (x2 - x0) points towards x3: positive volume
 } CwFill;
 
 // Fails with CW_ERR_MESH naming the region and a place (mm) where the boundary is open or crosses itself.

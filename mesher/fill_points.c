@@ -11,9 +11,9 @@
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
 static const double distance_factor = 0.62;               // of h, least distance to the boundary
-static const double sphere_factor = 1.05;                 // of the radius of a triangle's smallest circumscribed sphere
-static const double jitter = 1e-3;                        // of the cell: breaks the lattice's cospherical points
-enum { DEPTH = 19 };
+static const double sphere_factor = 1.05; // of the radius of a triangle's smallest circumscribed sphere
+static const double jitter = 1e-3;        // of the cell: breaks the lattice's cospherical points
+enum { DEPTH = 19, LEAVES = 40000000 };   // LEAVES: as many tetrahedra as 32-bit face numbers hold
 
 typedef struct {
   double centre[3], radius; // equatorial sphere
@@ -21,11 +21,11 @@ typedef struct {
 } Reach;
 
 typedef struct {
-  int32_t at[3];   // corner, in units of the finest cell
-  int32_t level;   // edge: 1 << level units
-  int64_t list;    // its triangles: list[0 .. list_count)
+  int32_t at[3]; // corner, in units of the finest cell
+  int32_t level; // edge: 1 << level units
+  int64_t list;  // its triangles: list[0 .. list_count)
   int32_t list_count;
-  int8_t inside;   // where it has no triangles: all of it is inside, or outside
+  int8_t inside; // where it has no triangles: all of it is inside, or outside
 } Leaf;
 
 typedef struct {
@@ -44,7 +44,7 @@ typedef struct {
   int64_t leaf_count, leaf_space;
   int32_t *list;
   int64_t list_count, list_space;
-  double wanted, found;   // cells that the size field asks for, and cells found, inside
+  double wanted, found; // cells that the size field asks for, and cells found, inside
 } Tree;
 
 static double size_at(const CwFillInput *input, const double x[3]) {
@@ -52,7 +52,8 @@ static double size_at(const CwFillInput *input, const double x[3]) {
 }
 
 static void subtract(const double a[3], const double b[3], double d[3]) {
-  for (int i = 0; i < 3; i++) d[i] = a[i] - b[i];
+  for (int i = 0; i < 3; i++)
+    d[i] = a[i] - b[i];
 }
 
 static double dot(const double a[3], const double b[3]) {
@@ -98,7 +99,8 @@ static double distance_square(const double x[3], const double a[3], const double
   double det = uu * vv - uv * uv, s = vv * wu - uv * wv, t = uu * wv - uv * wu;
   if (s >= 0.0 && t >= 0.0 && s + t <= det && det > 0.0) {
     double d[3];
-    for (int i = 0; i < 3; i++) d[i] = w[i] - (s * u[i] + t * v[i]) / det;
+    for (int i = 0; i < 3; i++)
+      d[i] = w[i] - (s * u[i] + t * v[i]) / det;
     return dot(d, d);
   }
   const double *corner[3] = {a, b, c};
@@ -108,7 +110,8 @@ static double distance_square(const double x[3], const double a[3], const double
     subtract(corner[(k + 1) % 3], corner[k], e);
     subtract(x, corner[k], f);
     double ee = dot(e, e), along = ee > 0.0 ? fmin(fmax(dot(e, f) / ee, 0.0), 1.0) : 0.0;
-    for (int i = 0; i < 3; i++) f[i] -= along * e[i];
+    for (int i = 0; i < 3; i++)
+      f[i] -= along * e[i];
     least = fmin(least, dot(f, f));
   }
   return least;
@@ -125,14 +128,17 @@ static int is_forbidden(const Tree *tree, const Leaf *leaf, const double x[3]) {
       continue;
     double d[3];
     subtract(x, reach->centre, d);
-    if (dot(d, d) < reach->radius * reach->radius) return 1;
+    if (dot(d, d) < reach->radius * reach->radius)
+      return 1;
     const int32_t *p = input->triangle[t];
-    if (distance_square(x, input->x[p[0]], input->x[p[1]], input->x[p[2]]) < nearest * nearest) return 1;
+    if (distance_square(x, input->x[p[0]], input->x[p[1]], input->x[p[2]]) < nearest * nearest)
+      return 1;
   }
   return 0;
 }
 
-static CwStatus add_leaf(Tree *tree, const int32_t at[3], int level, int inside, int32_t count, const int32_t *list) {
+static CwStatus add_leaf(Tree *tree, const int32_t at[3], int level, int inside, int32_t count,
+                         const int32_t *list) {
   CwStatus status = CW_OK;
   if (tree->leaf_count == tree->leaf_space) {
     tree->leaf_space = 2 * tree->leaf_space + 1024;
@@ -146,27 +152,39 @@ static CwStatus add_leaf(Tree *tree, const int32_t at[3], int level, int inside,
     CW_REQUIRE(grown, CW_ERR_MEMORY, "%s: out of memory: octree", tree->input->name);
     tree->list = grown;
   }
-  CW_REQUIRE(tree->leaf_count < INT32_MAX / 16, CW_ERR_MESH,
-             "%s: the size field asks for more than 100 million points in one region", tree->input->name);
+  CW_REQUIRE(tree->leaf_count < LEAVES, CW_ERR_MESH,
+             "%s: the size field asks for more than %d million points in one region", tree->input->name,
+             2 * LEAVES / 1000000);
   Leaf *leaf = &tree->leaf[tree->leaf_count++];
-  *leaf = (Leaf){.at = {at[0], at[1], at[2]}, .level = level, .list = tree->list_count, .list_count = count,
+  *leaf = (Leaf){.at = {at[0], at[1], at[2]},
+                 .level = level,
+                 .list = tree->list_count,
+                 .list_count = count,
                  .inside = (int8_t)inside};
-  if (count) memcpy(tree->list + tree->list_count, list, (size_t)count * sizeof *list);
+  if (count)
+    memcpy(tree->list + tree->list_count, list, (size_t)count * sizeof *list);
   tree->list_count += count;
 done:
   return status;
 }
 
-// Splits down to the wanted spacing. `known` is 1 or 0 where a cell without triangles is known to be inside or outside,
-// -1 where it is not known.
-static CwStatus split(Tree *tree, const int32_t at[3], int level, int known, int32_t count, const int32_t *list) {
+// Splits down to the wanted spacing. `known` is 1 or 0 where a cell without triangles is known to be inside
+// or outside, -1 where it is not known.
+static CwStatus split(Tree *tree, const int32_t at[3], int level, int known, int32_t count,
+                      const int32_t *list) {
   CwStatus status = CW_OK;
   int32_t *part = NULL;
   double edge = tree->unit * (double)(1 << level), centre[3];
-  for (int i = 0; i < 3; i++) centre[i] = tree->origin[i] + tree->unit * at[i] + 0.5 * edge;
-  if (count == 0 && known < 0) known = cw_inside_test(tree->inside, centre);
-  if (count == 0 && known == 0) goto done;
-  double wanted = tree->fit * lattice_constant * size_at(tree->input, centre);
+  for (int i = 0; i < 3; i++)
+    centre[i] = tree->origin[i] + tree->unit * at[i] + 0.5 * edge;
+  if (count == 0 && known < 0)
+    known = cw_inside_test(tree->inside, centre);
+  if (count == 0 && known == 0)
+    goto done;
+  double size = size_at(tree->input, centre);
+  CW_REQUIRE(size > 0.0, CW_ERR_MESH, "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm",
+             tree->input->name, size, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2]);
+  double wanted = tree->fit * lattice_constant * size;
   if (level == 0 || edge <= 1.4142135623730951 * wanted) {
     // Near the boundary half the cells are inside: count by the centre.
     if (known < 0 ? cw_inside_test(tree->inside, centre) : known) {
@@ -176,7 +194,8 @@ static CwStatus split(Tree *tree, const int32_t at[3], int level, int known, int
     CW_TRY(add_leaf(tree, at, level, known, count, list));
     goto done;
   }
-  if (count) CW_NEW(part, count);
+  if (count)
+    CW_NEW(part, count);
   for (int child = 0; child < 8; child++) {
     int32_t corner[3], kept = 0;
     double low[3], high[3];
@@ -208,7 +227,8 @@ static uint64_t spread(uint64_t v) { // 21 bits to every third
 
 static int compare_places(const void *left, const void *right) {
   const Place *a = left, *b = right;
-  if (a->key != b->key) return a->key < b->key ? -1 : 1;
+  if (a->key != b->key)
+    return a->key < b->key ? -1 : 1;
   return a->leaf < b->leaf ? -1 : a->leaf > b->leaf;
 }
 
@@ -242,22 +262,27 @@ static CwStatus collect(const Tree *tree, int32_t *count, double (**x)[3]) {
   qsort(place, (size_t)places, sizeof *place, compare_places);
   int64_t unique = 0;
   for (int64_t k = 0; k < places; k++) {
-    if (k == 0 || place[k].key != place[k - 1].key) unique++;
+    if (k == 0 || place[k].key != place[k - 1].key)
+      unique++;
   }
   CW_NEW(points, unique);
   for (int64_t k = 0; k < places; k++) {
-    if (k && place[k].key == place[k - 1].key) continue;
+    if (k && place[k].key == place[k - 1].key)
+      continue;
     const Leaf *leaf = &tree->leaf[place[k].leaf];
     double p[3];
     for (int i = 0; i < 3; i++) {
       int32_t half = 0;
-      for (int bit = 0; bit < 21; bit++) half |= (int32_t)(place[k].key >> (3 * bit + i) & 1) << bit;
+      for (int bit = 0; bit < 21; bit++)
+        half |= (int32_t)(place[k].key >> (3 * bit + i) & 1) << bit;
       p[i] = tree->origin[i] +
              tree->unit * (0.5 * half + jitter * (double)(1 << leaf->level) * shake(place[k].key, i));
     }
     if (leaf->list_count) {
-      if (is_forbidden(tree, leaf, p) || !cw_inside_test(tree->inside, p)) continue;
-    } else if (!leaf->inside) continue;
+      if (is_forbidden(tree, leaf, p) || !cw_inside_test(tree->inside, p))
+        continue;
+    } else if (!leaf->inside)
+      continue;
     memcpy(points[kept++], p, sizeof p);
   }
   *count = kept;
@@ -321,8 +346,10 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
     tree.leaf_count = tree.list_count = 0;
     tree.wanted = tree.found = 0.0;
     CW_TRY(split(&tree, (int32_t[3]){0, 0, 0}, above + below, -1, input->triangle_count, all));
-    if (!(tree.wanted > 0.0) || fabs(tree.found / tree.wanted - 1.0) < 0.01) break;
-    if (round < 3) tree.fit *= cbrt(tree.found / tree.wanted);
+    if (!(tree.wanted > 0.0) || fabs(tree.found / tree.wanted - 1.0) < 0.01)
+      break;
+    if (round < 3)
+      tree.fit *= cbrt(tree.found / tree.wanted);
   }
   CW_TRY(collect(&tree, count, x));
 done:

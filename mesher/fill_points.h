@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Inner points of a region before it is filled: a body-centred cubic lattice on an octree that follows the size field. Its
-// tetrahedra have edges in the ratio 1.155 and dihedral angles of 60 and 90 degrees; only the shell between it and
-// the boundary is left to optimise.
+// Inner points of a region before it is filled: a body-centred cubic lattice on an octree that follows the
+// size field. Its tetrahedra have edges in the ratio 1.155 and dihedral angles of 60 and 90 degrees; only the
+// shell between it and the boundary is left to optimise.
 #ifndef CUTWATER_MESHER_FILL_POINTS_H
 #define CUTWATER_MESHER_FILL_POINTS_H
 
@@ -15,10 +15,11 @@
 extern "C" {
 #endif
 
-// Points inside the closed boundary that keep a distance from it: none nearer than about 0.6 h, none in the smallest
-// sphere through the corners of a boundary triangle, so that the Delaunay tetrahedra of all points hold the boundary.
-// The octree's spacing is fitted so that there are as many points as the size field asks for, whatever powers of two
-// are near it. `clearance` (1 as a rule) multiplies the distances. Deterministic. Caller frees *x.
+// Points inside the closed boundary that keep a distance from it: none nearer than about 0.6 h, none in the
+// smallest sphere through the corners of a boundary triangle, so that the Delaunay tetrahedra of all points
+// hold the boundary. The octree's spacing is fitted so that there are as many points as the size field asks
+// for, whatever powers of two are near it. `clearance` (1 as a rule) multiplies the distances. Deterministic.
+// Caller frees *x.
 CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3]);
 
 #ifdef __cplusplus

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre) {
+double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity,
+                       int at_centre) {
   double reynolds = velocity * length / kinematic_viscosity;
   double friction = 0.026 * pow(reynolds, -1.0 / 7.0);
   double friction_velocity = velocity * sqrt(0.5 * friction);
@@ -18,7 +19,8 @@ static double geometric_sum(int count, double growth, double *derivative) {
     slope = slope * growth + sum;
     sum = sum * growth + 1.0;
   }
-  if (derivative) *derivative = slope;
+  if (derivative)
+    *derivative = slope;
   return sum;
 }
 
@@ -32,9 +34,12 @@ static double solve_growth(int count, double wanted, double growth_max) {
   double low = 1.0, high = growth_max, growth = growth_max;
   for (int round = 0; round < 200; round++) {
     double slope, excess = geometric_sum(count, growth, &slope) - wanted;
-    if (excess > 0.0) high = growth;
-    else low = growth;
-    if (fabs(excess) <= 1e-14 * wanted || high - low <= 1e-15) break;
+    if (excess > 0.0)
+      high = growth;
+    else
+      low = growth;
+    if (fabs(excess) <= 1e-14 * wanted || high - low <= 1e-15)
+      break;
     double next = slope > 0.0 ? growth - excess / slope : low;
     growth = next > low && next < high ? next : 0.5 * (low + high);
   }
@@ -43,7 +48,8 @@ static double solve_growth(int count, double wanted, double growth_max) {
 
 double cw_layer_fractions(double height, double first, int count, double growth_max, double *fraction) {
   double growth = 1.0, start = height / count;
-  if (growth_max < 1.0) growth_max = 1.0;
+  if (growth_max < 1.0)
+    growth_max = 1.0;
   if (height > count * first) {
     double most = geometric_sum(count, growth_max, NULL);
     if (first * most < height) {
@@ -55,7 +61,8 @@ double cw_layer_fractions(double height, double first, int count, double growth_
     }
   }
   fraction[0] = 0.0;
-  for (int k = 1; k < count; k++) fraction[k] = start * geometric_sum(k, growth, NULL) / height;
+  for (int k = 1; k < count; k++)
+    fraction[k] = start * geometric_sum(k, growth, NULL) / height;
   fraction[count] = 1.0;
   return count == 1 ? height : start;
 }

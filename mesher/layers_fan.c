@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Beside a concave crease the column of the crease leans along both walls by about t cot(alpha/2); where the mesh is finer than
-// that its neighbours would be overrun. The lean is spread over them as the solution of a screened Poisson problem
+// Beside a concave crease the column of the crease leans along both walls by about t cot(alpha/2); where the
+// mesh is finer than
+// that its neighbours would be overrun. The lean is spread over them as the solution of a screened Poisson
+// problem
 //   U - L^2 laplace U = 0 on the wall, U = column of the crease on the crease, U tangential elsewhere,
-// which leaves the normal height as asked. Columns that a guide tilts (an oblique dividing plane) are treated alike.
-// A column on an edge, concave or convex, leans along the edge only: so the fan of a corner runs down its edges too.
+// which leaves the normal height as asked. Columns that a guide tilts (an oblique dividing plane) are
+// treated alike.
+// A column on an edge, concave or convex, leans along the edge only: so the fan of a corner runs down its
+// edges too.
 #include <stdlib.h>
 
 #include "mesher/layers_inner.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6 };
-static const double REACH = 8;         // the fan ends at this many heights from its crease
+static const double REACH = 6;         // the fan ends at this many heights from its crease
 static const double FADE = 6;          // the opening of the crease is forgotten at this many
 static const double LEAST_COSINE = 0.3;
 static const double POOR = 0.2;       // prism quality under which a fan is widened
 static const double WIDEST = 5;
+static const double SETTLED = 1e-3;   // change in one sweep, in heights, that is none
 
 typedef struct {
   double distance, opening, height; // to the nearest source, its cot(alpha/2) and height
@@ -53,7 +58,8 @@ static int is_source(const CwLayerWork *work, int32_t v, Fan *fan) {
   return 1;
 }
 
-// The one direction in which the column of a source may still lean: along its concave edge, or along the line that wall and
+// The one direction in which the column of a source may still lean: along its concave edge, or along the
+// line that wall and
 // guide share; zero where its column is wholly given.
 static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]) {
   int guides = work->in->guide_count ? work->in->guide_count[v] : 0;
@@ -63,7 +69,8 @@ static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]
   unit3(line);
 }
 
-// Projects u onto the directions in which the column of v may lean without changing its normal height or leaving its guides.
+// Projects u onto the directions in which the column of v may lean without changing its normal height or
+// leaving its guides.
 static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
   const CwLayerInput *in = work->in;
   int guides = in->guide_count ? in->guide_count[v] : 0;
@@ -129,7 +136,8 @@ static double range(const CwLayerWork *work, int32_t v, const Fan *fan) {
   return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade) * fan->widen;
 }
 
-static void relax(const CwLayerWork *work, Fan *fan, int32_t v) {
+// One step of the solution at v; returns how far its displacement moved, in heights.
+static double relax(const CwLayerWork *work, Fan *fan, int32_t v) {
   double reach = range(work, v, &fan[v]), l2 = reach * reach, sum[3] = {0}, weights = 0, u[3];
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
@@ -149,10 +157,23 @@ static void relax(const CwLayerWork *work, Fan *fan, int32_t v) {
   } else {
     allow(work, v, u);
   }
+  double moved = distance3(fan[v].u, u) / work->t[v];
   memcpy(fan[v].u, u, sizeof u);
+  return moved;
 }
 
-// Leans the column of v as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal height.
+// Relaxes the vertices of `order` outward and inward by turns: news of a source crosses the whole reach in
+// one sweep.
+static void solve(const CwLayerWork *work, Fan *fan, const int32_t *order, int32_t count, int sweeps) {
+  for (int i = 0; i < sweeps; i++) {
+    double most = 0;
+    for (int32_t k = 0; k < count; k++) most = fmax(most, relax(work, fan, order[i % 2 ? count - 1 - k : k]));
+    if (most < SETTLED) break;
+  }
+}
+
+// Leans the column of v as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal
+// height.
 static void lean(CwLayerWork *work, int32_t v, const Fan *fan) {
   double least = fmin(LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1;
   double height = cw_layers_least_cosine(work, v, work->column[v]);
@@ -169,12 +190,14 @@ static void lean(CwLayerWork *work, int32_t v, const Fan *fan) {
   }
 }
 
-// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's bevel on the
+// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a
+// blade's bevel on the
 // hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
 static int32_t widen(const CwLayerWork *work, Fan *fan, const int32_t *order, int32_t count, double (*front)[3]) {
   const CwLayerInput *in = work->in;
   int32_t poor = 0;
-  for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, front[v]);
+  for (int32_t v = 0; v < work->n; v++) // the snap changes too little to matter here
+    for (int k = 0; k < 3; k++) front[v][k] = in->x[v][k] + work->t[v] * work->column[v][k];
   for (int32_t f = 0; f < in->triangle_count; f++) {
     const int32_t *v = in->triangle[f];
     if (fan[v[0]].source < 0 && fan[v[1]].source < 0 && fan[v[2]].source < 0) continue;
@@ -197,10 +220,11 @@ static int32_t widen(const CwLayerWork *work, Fan *fan, const int32_t *order, in
 CwStatus cw_layers_fan(CwLayerWork *work) {
   CwStatus status = CW_OK;
   Fan *fan = NULL;
-  int32_t *order = NULL, count = 0;
+  int32_t *order = NULL, *wide = NULL, count = 0;
   double (*front)[3] = NULL;
   CW_NEW(fan, work->n);
   CW_NEW(order, work->n);
+  CW_NEW(wide, work->n);
   CW_NEW(front, work->n);
   CW_TRY(spread(work, fan, order, &count));
   for (int32_t i = 0; i < count; i++) {
@@ -211,9 +235,14 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
     allow(work, order[i], at->u);
   }
   for (int round = 0; round <= WIDENINGS; round++) {
-    // Outward and inward by turns: news of a source crosses the whole reach in one sweep.
-    for (int i = 0; i < (round ? MORE_SWEEPS : SWEEPS); i++)
-      for (int32_t k = 0; k < count; k++) relax(work, fan, order[i % 2 ? count - 1 - k : k]);
+    if (round == 0) {
+      solve(work, fan, order, count, SWEEPS);
+    } else { // where nothing was widened the solution stands
+      int32_t active = 0;
+      for (int32_t i = 0; i < count; i++)
+        if (fan[order[i]].widen > 1.05) wide[active++] = order[i];
+      solve(work, fan, wide, active, MORE_SWEEPS);
+    }
     for (int32_t v = 0; v < work->n; v++) cw_layers_set_column(work, v, work->base[v], cw_layers_floor(work, v));
     for (int32_t i = 0; i < count; i++) lean(work, order[i], &fan[order[i]]);
     if (round == WIDENINGS || widen(work, fan, order, count, front) == 0) break;
@@ -221,6 +250,7 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
 done:
   free(fan);
   free(order);
+  free(wide);
   free(front);
   return status;
 }

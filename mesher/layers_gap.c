@@ -24,7 +24,8 @@ static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) 
                                        : in->obstacle_x[in->obstacle_triangle[f - in->triangle_count][i]];
 }
 
-// Puts the items with the smaller middles along `axis` before `nth` (quickselect; ties by number, so the same each run).
+// Puts the items with the smaller middles along `axis` before `nth` (quickselect; ties by number, so the
+// same each run).
 static void divide(CwGapTree *tree, int32_t low, int32_t high, int32_t nth, int axis) {
   while (low < high) {
     int32_t pivot = tree->item[(low + high) / 2], i = low, j = high;
@@ -112,7 +113,8 @@ void cw_gap_tree_free(CwGapTree *tree) {
   free(tree);
 }
 
-// Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the normal that points
+// Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the
+// normal that points
 // out of the domain.
 static double hit(const CwLayerInput *in, int32_t f, const double x[3], const double g[3], double *facing) {
   const double *corner[3];
@@ -127,7 +129,8 @@ static double hit(const CwLayerInput *in, int32_t f, const double x[3], const do
   double det = dot3(e1, p);
   if (det == 0) return INFINITY;
   sub3(x, corner[0], s);
-  // Rays often aim at vertices and edges of the other side: a hair of tolerance lets none slip between two triangles.
+  // Rays often aim at vertices and edges of the other side: a hair of tolerance lets none slip between two
+  // triangles.
   const double hair = 1e-9;
   double u = dot3(s, p) / det;
   if (u < -hair || u > 1 + hair) return INFINITY;
@@ -152,7 +155,8 @@ static int in_box(const Node *node, const double x[3], const double g[3], double
   return enter <= leave * (1 + 1e-12);
 }
 
-// Walls around v, and walls at a concave crease next to v, bound no gap: the fan keeps columns clear of those.
+// Walls around v, and walls at a concave crease next to v, bound no gap: the fan keeps columns clear of
+// those.
 static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
   for (int i = 0; i < 3; i++) {
     int32_t w = work->in->triangle[f][i];

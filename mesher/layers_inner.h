@@ -11,7 +11,8 @@
 
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
 
-// All normals point into the fluid. A column is t[v] * column[v]: `column` is the displacement for a unit normal height.
+// All normals point into the fluid. A column is t[v] * column[v]: `column` is the displacement for a unit
+// normal height.
 typedef struct {
   const CwLayerInput *in;
   int32_t n;                           // vertices
@@ -64,8 +65,10 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
 void cw_layers_work_free(CwLayerWork *work);
 
 // layers_normal.c
-// Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the best of the single
-// normals, the bisectors of pairs and the circumcentres of triples. With one guide g is held in the plane normal to it, with
+// Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the
+// best of the single
+// normals, the bisectors of pairs and the circumcentres of triples. With one guide g is held in the plane
+// normal to it, with
 // two on the line of both. Returns the least cosine; negative where no direction sees all faces.
 double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
                              double g[3]);
@@ -81,7 +84,8 @@ double cw_layers_floor(const CwLayerWork *work, int32_t v);
 // Outer end of the column of v at height t[v], put back on its guides.
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 
-// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. Sets every column.
+// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. Sets every
+// column.
 CwStatus cw_layers_fan(CwLayerWork *work);
 
 // layers_gap.c: a tree of triangles, and the free way along a ray.
@@ -107,7 +111,8 @@ CwHeapItem cw_heap_pop(CwHeap *heap);
 void cw_heap_free(CwHeap *heap);
 
 // layers_repair.c: makes prisms and front valid; fills `front`.
-// Quality of the prism over triangle f with column ends `front`: the least corner Jacobian at any layer between wall and front,
+// Quality of the prism over triangle f with column ends `front`: the least corner Jacobian at any layer
+// between wall and front,
 // scaled to 1 for a right prism over the same wall triangle.
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
 CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds);

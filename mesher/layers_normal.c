@@ -46,7 +46,8 @@ static void search_free(Search *search) {
       }
 }
 
-// In the plane normal to m the cosine to n[i] is a cosine wave of the angle: the best is a crest or a crossing of two.
+// In the plane normal to m the cosine to n[i] is a cosine wave of the angle: the best is a crest or a
+// crossing of two.
 static void search_plane(Search *search, const double m[3]) {
   const double (*n)[3] = search->normal;
   for (int i = 0; i < search->count; i++) {

@@ -4,7 +4,7 @@
 #include "mesher/intersect.h"
 #include "mesher/layers_inner.h"
 
-enum { ROUNDS = 40, TURNS = 4 };
+enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
 static const double GOOD = 0.05;         // least prism quality
 static const double THIN = 0.8;          // what a thinned column keeps
 static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
@@ -227,6 +227,11 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
       if (crossing == 0) goto done;
     }
     CW_TRY(thin_marked(&repair));
+    // What is bad still leans as the old heights asked; less height needs less lean. Once only: the turned columns are
+    // lost by it, and only thinning is sure to come to an end.
+    if (*rounds != REFAN) continue;
+    CW_TRY(cw_layers_fan(work));
+    for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, front[v]);
   }
   find_bad(&repair);
   int32_t first = repair.bad_count ? in->triangle[repair.bad[0]][0] : 0;

@@ -114,7 +114,8 @@ static CwStatus measures(CwLayerWork *work) {
       int32_t v = corner[i], a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
       sub3(in->x[a], in->x[v], e1);
       sub3(in->x[b], in->x[v], e2);
-      // Half the cotangent of the angle at v belongs to the opposite edge; clamped so that obtuse corners keep the
+      // Half the cotangent of the angle at v belongs to the opposite edge; clamped so that obtuse corners
+      // keep the
       // system monotone.
       double cotangent = fmin(fmax(dot3(e1, e2) / twice, 0.05), 5.0);
       work->weight[find_near(work, a, b)] += 0.5 * cotangent;

@@ -122,6 +122,18 @@ int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double 
   return 1;
 }
 
+int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
+  for (int32_t node = 0; node < plan->node_count; node++) {
+    for (int side = 0; side < 2; side++) {
+      if (plan->node[node].child[side] != -1 - region) continue;
+      double distance = cw_plane_distance(&plan->node[node].plane, x);
+      if (side ? distance < -tolerance : distance > tolerance) return 0;
+      return cw_plan_in_cell(plan, node, x, tolerance, NULL, 0);
+    }
+  }
+  return 1; // the only region
+}
+
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node) {
   while ((node = plan->node[node].parent) >= 0) {
     if (node == ancestor) return 1;

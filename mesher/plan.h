@@ -35,11 +35,13 @@ typedef struct {
 
 typedef struct {
   int32_t region_count;     // at least 1
-  double clearance;         // m: no plane nearer than this to a CAD vertex, or along a CAD edge within it
-  double line_clearance;    // m: where two planes meet, their line ends no nearer than this to a CAD edge
+  const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and their lines keep room for it
   double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3)
   double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
+
+// True where x lies in the closed cell of `region`, within `tolerance` (m).
+int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance);
 
 // True where `ancestor` lies on the way from `node` to the root (a node is not its own ancestor).
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);

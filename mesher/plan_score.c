@@ -13,9 +13,14 @@ enum {
   STATIONS = 24,         // positions of planes across the axis, by place
   EDGE_POINTS = 40,      // samples along each CAD edge
   LINE_SAMPLES = 200,
+  RUN_SAMPLES = 12,
   SAMPLES_WANTED = 40000
 };
 static const double FIRST_SHARE = 0.2, LAST_SHARE = 0.8;
+static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
+// Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
+// want a cell between them; beside a smooth edge only the surface triangles do. Lines of two planes start behind the layers.
+static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5, ROOM = 1.5;
 static const double ALONG_EDGE = 0.35;     // sine of the least angle between a plane and a CAD edge that it crosses
 static const double SHARP_PLANE = 0.7;     // least plane-to-wall measure of a plane that is not penalised
 
@@ -89,6 +94,25 @@ static double polygon_area(int32_t corners, const double (*corner)[3]) {
   return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / 2;
 }
 
+// True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
+static int is_smooth(const CwCad *cad, int edge) {
+  int face[2];
+  double range[2], normal[2][3];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_faces(cad, edge, face);
+  for (int s = 0; s < 2; s++) {
+    double uv[2], x[3], xu[3], xv[3];
+    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
+    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
+    cw_cross(xu, xv, normal[s]);
+    cw_unit(normal[s]);
+    if (cw_cad_face_reversed(cad, face[s])) {
+      for (int k = 0; k < 3; k++) normal[s][k] = -normal[s][k];
+    }
+  }
+  return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
+}
+
 // Keeps every n-th sample, which then stands for n times its volume: planes need no finer picture.
 static void thin_samples(CwPlanScorer *scorer) {
   int32_t stride = scorer->sample_count / SAMPLES_WANTED + 1, kept = 0;
@@ -117,25 +141,32 @@ CwStatus cw_plan_scorer_make(const CwCad *cad, const CwBackground *background, c
   }
   CW_NEW(scorer->density, background->triangle_count);
   CW_NEW(scorer->normal, background->triangle_count);
+  CW_NEW(scorer->centre, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     double area, centre[3] = {0, 0, 0};
     triangle_normal(background, t, scorer->normal[t], &area);
     for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
+    cw_copy(centre, scorer->centre[t]);
     int patch = cw_cad_face_patch(cad, background->face[t]);
     double h = cw_size_at(size, centre);
     if (cw_cad_patch_kind(cad, patch) == CW_PATCH_WALL) scorer->density[t] = options->prism_factor / (h * h);
   }
   CW_NEW(scorer->edge_x, (size_t)cw_cad_edge_count(cad) * EDGE_POINTS);
   CW_NEW(scorer->edge_t, (size_t)cw_cad_edge_count(cad) * EDGE_POINTS);
+  CW_NEW(scorer->edge_room, (size_t)cw_cad_edge_count(cad) * EDGE_POINTS);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
-    double range[2];
+    double range[2], room = 0;
+    int faces[2];
     cw_cad_edge_range(cad, e, range);
+    cw_cad_edge_faces(cad, e, faces);
+    for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
+    room *= is_smooth(cad, e) ? SMOOTH_ROOM : EDGE_ROOM;
     for (int i = 0; i < EDGE_POINTS; i++) {
       double t = range[0] + (range[1] - range[0]) * i / (EDGE_POINTS - 1), *tangent = scorer->edge_t[scorer->edge_point_count];
       cw_cad_edge_point(cad, e, t, scorer->edge_x[scorer->edge_point_count], tangent);
       double length = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1] + tangent[2] * tangent[2]);
       for (int k = 0; k < 3; k++) tangent[k] /= length > 0 ? length : 1;
-      scorer->edge_point_count++;
+      scorer->edge_room[scorer->edge_point_count++] = room;
     }
   }
 done:
@@ -149,8 +180,10 @@ void cw_plan_scorer_free(CwPlanScorer *scorer) {
   free(scorer->sample_work);
   free(scorer->density);
   free(scorer->normal);
+  free(scorer->centre);
   free(scorer->edge_x);
   free(scorer->edge_t);
+  free(scorer->edge_room);
   memset(scorer, 0, sizeof *scorer);
 }
 
@@ -235,8 +268,8 @@ static double plane_to_wall(const CwPlanScorer *scorer, const CwPieces *pieces, 
 // How many points of CAD edges in the cell the plane runs along or grazes.
 static int32_t grazed_edges(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane) {
   int32_t count = 0;
-  double clearance = scorer->options->clearance;
   for (int32_t i = 0; i < scorer->edge_point_count; i++) {
+    double clearance = scorer->edge_room[i];
     double distance = fabs(cw_plane_distance(plane, scorer->edge_x[i]));
     if (distance > clearance) continue;
     const double *n = plane->normal, *t = scorer->edge_t[i];
@@ -248,53 +281,86 @@ static int32_t grazed_edges(const CwPlanScorer *scorer, const CwPlan *plan, int3
   return count;
 }
 
-// True where the new plane meets an ancestor along a line that another plane already runs along: two coincident
-// lines on one interface.
-static int shares_a_line(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
-                         double reach) {
-  for (int32_t a = plan->node[node].parent; a >= 0; a = plan->node[a].parent) {
-    double point[3], direction[3];
-    if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) continue;
-    for (int32_t c = 0; c < node; c++) {
-      if (c == a) continue;
-      int32_t near = 0;
-      for (int i = 0; i < LINE_SAMPLES; i++) {
-        double x[3], s = reach * (2.0 * i / (LINE_SAMPLES - 1) - 1);
-        for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
-        if (fabs(cw_plane_distance(&plan->node[c].plane, x)) > scorer->options->clearance) continue;
-        near += cw_plan_in_cell(plan, node, x, 1e-9, NULL, 0) && cw_inside_test(scorer->inside, x);
-      }
-      // A plane that merely crosses the line is near it at a few samples only.
-      if (near * 2 * reach / LINE_SAMPLES > 4 * scorer->options->clearance) return 1;
+// Thickness of the layers on the surface nearest to x, m; 0 on a cap. *distance (may be NULL): to that surface.
+static double thickness_near(const CwPlanScorer *scorer, const double x[3], double *distance_out) {
+  double best = INFINITY;
+  int32_t nearest = 0;
+  for (int32_t t = 0; t < scorer->background->triangle_count; t++) {
+    double distance = cw_distance(scorer->centre[t], x);
+    if (distance < best) best = distance, nearest = t;
+  }
+  if (distance_out) *distance_out = best;
+  return scorer->options->thickness[cw_cad_face_patch(scorer->cad, scorer->background->face[nearest])];
+}
+
+static int near_an_edge(const CwPlanScorer *scorer, const double x[3]) {
+  for (int32_t e = 0; e < scorer->edge_point_count; e++) {
+    if (cw_distance(scorer->edge_x[e], x) < scorer->edge_room[e]) return 1;
+  }
+  return 0;
+}
+
+// True where another plane (not `above`) comes within `room` of x inside its own cell.
+static int near_a_plane(const CwPlan *plan, int32_t node, int32_t above, const double x[3], double room) {
+  for (int32_t c = 0; c < node; c++) {
+    if (c != above && fabs(cw_plane_distance(&plan->node[c].plane, x)) < room &&
+        cw_plan_in_cell(plan, c, x, room, NULL, 0)) {
+      return 1;
     }
   }
   return 0;
 }
 
-// True where the line of the new plane and an ancestor leaves the domain nearer to a CAD edge than the layers there are
-// thick: the layers would fill the line.
-static int line_ends_at_an_edge(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
-                                double reach) {
-  for (int32_t a = plan->node[node].parent; a >= 0; a = plan->node[a].parent) {
-    double point[3], direction[3], before[3] = {0, 0, 0};
-    int was_inside = 0;
-    if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) continue;
-    for (int i = 0; i < LINE_SAMPLES; i++) {
-      double x[3], s = reach * (2.0 * i / (LINE_SAMPLES - 1) - 1);
-      for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
-      int inside = cw_inside_test(scorer->inside, x);
-      const double *exit = inside ? x : before; // the sample just inside of the surface
-      if (inside != was_inside && cw_plan_in_cell(plan, node, exit, 1e-9, NULL, 0)) {
-        double room = scorer->options->line_clearance;
-        for (int32_t e = 0; e < scorer->edge_point_count; e++) {
-          if (cw_distance(scorer->edge_x[e], exit) < room) return 1;
-        }
-      }
-      was_inside = inside;
-      cw_copy(x, before);
-    }
+// True where the line runs inside or beside the layers of a wall between its ends, `taken` m of which are theirs.
+static int runs_in_layers(const CwPlanScorer *scorer, const double start[3], const double direction[3], double run,
+                          double taken) {
+  for (int i = 0; i < RUN_SAMPLES; i++) {
+    double s = run * (i + 0.5) / RUN_SAMPLES, x[3], distance;
+    if (s < ROOM * taken || s > run - ROOM * taken) continue;
+    for (int k = 0; k < 3; k++) x[k] = start[k] + s * direction[k];
+    double thickness = thickness_near(scorer, x, &distance);
+    if (distance < ROOM * thickness) return 1;
   }
   return 0;
+}
+
+// How the lines of the new plane with its ancestors fare: 0 fine; 1 cramped: a line leaves the domain too near to a CAD
+// edge, is hardly longer than the layers at its ends, meets a third plane within them, or runs along a wall in its layers; 2: a line runs along a third
+// plane, so that two lines coincide on one interface.
+static int judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
+                       double reach) {
+  int verdict = 0;
+  for (int32_t a = plan->node[node].parent; a >= 0; a = plan->node[a].parent) {
+    double point[3], direction[3], step = 2 * reach / (LINE_SAMPLES - 1);
+    if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) continue;
+    double run = 0, along = 0, taken = 0; // lengths: inside so far, of that beside a third plane, of layers
+    double start[3];
+    for (int i = 0; i < LINE_SAMPLES; i++) {
+      double x[3], s = step * i - reach;
+      for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
+      int inside = cw_plan_in_cell(plan, node, x, 1e-9, NULL, 0) && cw_inside_test(scorer->inside, x);
+      if (inside && run == 0) {
+        taken = thickness_near(scorer, x, NULL);
+        cw_copy(x, start);
+        if (near_an_edge(scorer, x)) verdict = 1;
+        if (near_a_plane(plan, node, a, x, ROOM * taken)) verdict = 1;
+      }
+      if (inside) {
+        run += step;
+        along += near_a_plane(plan, node, a, x, step) ? step : 0;
+      } else if (run > 0) {
+        double before[3];
+        for (int k = 0; k < 3; k++) before[k] = x[k] - step * direction[k];
+        double end = thickness_near(scorer, before, NULL);
+        taken += end;
+        if (near_an_edge(scorer, before) || near_a_plane(plan, node, a, before, ROOM * end)) verdict = 1;
+        if (run < ROOM * taken || runs_in_layers(scorer, start, direction, run, fmax(taken - end, end))) verdict = 1;
+        if (along > 0.3 * run && along > 4 * step) return 2;
+        run = along = 0;
+      }
+    }
+  }
+  return verdict;
 }
 
 // Area of the interface, from the samples in a slab about the plane, m2.
@@ -356,9 +422,10 @@ CwStatus cw_plan_best_plane(const CwPlanScorer *scorer, const CwPlan *plan, int3
       if (score >= least_score) continue;
       int32_t grazed = grazed_edges(scorer, plan, node, &plane);
       score += grazed ? 3 + 0.02 * grazed : 0;
-      if (score >= least_score || shares_a_line(scorer, plan, node, &plane, reach)) continue;
-      score += line_ends_at_an_edge(scorer, plan, node, &plane, reach) ? 4 : 0;
       if (score >= least_score) continue;
+      int lines = judge_lines(scorer, plan, node, &plane, reach);
+      score += lines ? 4 : 0;
+      if (score >= least_score || lines == 2) continue;
       least_score = score;
       *best = plane;
       *first = below_regions;

@@ -22,9 +22,10 @@ typedef struct {
   double *sample_volume, *sample_work; // m3; predicted tetrahedra
   double spacing;                      // m, typical distance of samples
   double *density;                     // predicted prisms per m2 of each background triangle (0 on caps)
-  double (*normal)[3];                 // of each background triangle
+  double (*normal)[3], (*centre)[3];   // of each background triangle
   int32_t edge_point_count;            // points along CAD edges that bound a wall, with tangents
   double (*edge_x)[3], (*edge_t)[3];
+  double *edge_room;                   // m: how near a plane may come to each of them
 } CwPlanScorer;
 
 CwStatus cw_pieces_from_background(const CwBackground *background, CwPieces *pieces);

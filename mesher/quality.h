@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Shape of single cells: volumes, angles, edge ratios. Shared by the audit and by the optimisation of the tetrahedra.
+// Shape of single cells: volumes, angles, edge ratios. Shared by the audit and by the optimisation of the
+// tetrahedra.
 #ifndef CUTWATER_MESHER_QUALITY_H
 #define CUTWATER_MESHER_QUALITY_H
 
@@ -8,9 +9,9 @@ extern "C" {
 #endif
 
 typedef struct {
-  double volume;                               // m3, signed
-  double edge_shortest, edge_longest;          // m
-  double dihedral_least, dihedral_greatest;    // degrees; 0 and 180 where the volume is not positive
+  double volume;                            // m3, signed
+  double edge_shortest, edge_longest;       // m
+  double dihedral_least, dihedral_greatest; // degrees; 0 and 180 where the volume is not positive
 } CwTetShape;
 
 // Six times the signed volume, m3: positive where (b - a) x (c - a) points towards d.
@@ -19,13 +20,13 @@ double cw_tet_volume6(const double a[3], const double b[3], const double c[3], c
 double cw_tet_volume6_error(const double a[3], const double b[3], const double c[3], const double d[3]);
 void cw_tet_shape(const double *const x[4], CwTetShape *shape);
 
-// Signed volume of a cell with `count` corners (4 tetrahedron, 5 pyramid, 6 prism; CGNS order, the prism with 4, 5, 6 over
-// 1, 2, 3 and positive upwards), m3. A quadrilateral face is the fan of four triangles about its mean point, which both of its
-// cells see alike, so that volumes of cells add up to the volume enclosed.
+// Signed volume of a cell with `count` corners (4 tetrahedron, 5 pyramid, 6 prism; CGNS order, the prism with
+// 4, 5, 6 over 1, 2, 3 and positive upwards), m3. A quadrilateral face is the fan of four triangles about its
+// mean point, which both of its cells see alike, so that volumes of cells add up to the volume enclosed.
 double cw_cell_volume(int count, const double *const *x);
 
-// Least over the six corners of a prism of the triple product of its unit edges, over that of the right prism on an equilateral
-// triangle: 1 is best, not above 0 is inverted at a corner.
+// Least over the six corners of a prism of the triple product of its unit edges, over that of the right prism
+// on an equilateral triangle: 1 is best, not above 0 is inverted at a corner.
 double cw_prism_scaled_jacobian(const double *const x[6]);
 
 #ifdef __cplusplus

@@ -27,8 +27,8 @@ static void quiet_end(Quiet quiet) {
   H5Eset_auto2(H5E_DEFAULT, quiet.print, quiet.data);
 }
 
-static CwStatus write_data(hid_t file, hid_t properties, const char *name, hid_t type, hsize_t rows, hsize_t columns,
-                           const void *data) {
+static CwStatus write_data(hid_t file, hid_t properties, const char *name, hid_t type, hsize_t rows,
+                           hsize_t columns, const void *data) {
   CwStatus status = CW_OK;
   hsize_t shape[2] = {rows, columns};
   hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, shape, NULL);
@@ -39,8 +39,10 @@ static CwStatus write_data(hid_t file, hid_t properties, const char *name, hid_t
                "%s: cannot be written", name);
   }
 done:
-  if (set >= 0) H5Dclose(set);
-  if (space >= 0) H5Sclose(space);
+  if (set >= 0)
+    H5Dclose(set);
+  if (space >= 0)
+    H5Sclose(space);
   return status;
 }
 
@@ -48,11 +50,13 @@ static CwStatus write_attribute(hid_t file, const char *name, hid_t type, const 
   CwStatus status = CW_OK;
   hid_t space = H5Screate(H5S_SCALAR);
   hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, data) >= 0, CW_ERR_IO, "attribute %s: cannot be written",
-             name);
+  CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, data) >= 0, CW_ERR_IO,
+             "attribute %s: cannot be written", name);
 done:
-  if (attribute >= 0) H5Aclose(attribute);
-  if (space >= 0) H5Sclose(space);
+  if (attribute >= 0)
+    H5Aclose(attribute);
+  if (space >= 0)
+    H5Sclose(space);
   return status;
 }
 
@@ -119,11 +123,16 @@ CwStatus cw_region_write(const char *path, const CwRegionMesh *region) {
   CW_REQUIRE(rename(temporary, path) == 0, CW_ERR_IO, "%s: cannot be renamed to %s", temporary, path);
   made = 0;
 done:
-  if (file >= 0) H5Fclose(file);
-  if (made) unlink(temporary);
-  if (properties >= 0) H5Pclose(properties);
-  if (creation >= 0) H5Pclose(creation);
-  if (access >= 0) H5Pclose(access);
+  if (file >= 0)
+    H5Fclose(file);
+  if (made)
+    unlink(temporary);
+  if (properties >= 0)
+    H5Pclose(properties);
+  if (creation >= 0)
+    H5Pclose(creation);
+  if (access >= 0)
+    H5Pclose(access);
   free(temporary);
   quiet_end(quiet);
   return status;
@@ -134,11 +143,13 @@ static CwStatus read_attribute(hid_t file, const char *path, const char *name, i
   hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
   hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
   CW_REQUIRE(space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
-               H5Aread(attribute, H5T_NATIVE_INT32, value) >= 0,
+                 H5Aread(attribute, H5T_NATIVE_INT32, value) >= 0,
              CW_ERR_INPUT, "%s: attribute %s: missing or not one integer", path, name);
 done:
-  if (space >= 0) H5Sclose(space);
-  if (attribute >= 0) H5Aclose(attribute);
+  if (space >= 0)
+    H5Sclose(space);
+  if (attribute >= 0)
+    H5Aclose(attribute);
   return status;
 }
 
@@ -148,35 +159,39 @@ static CwStatus read_text(hid_t file, const char *path, const char *name, char *
   hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
   CW_REQUIRE(type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type), CW_ERR_INPUT,
              "%s: attribute %s: missing or not a string of fixed size", path, name);
-  CW_REQUIRE(H5Tget_size(type) <= size, CW_ERR_INPUT, "%s: attribute %s: at most %zu characters are allowed", path,
-             name, size - 1);
+  CW_REQUIRE(H5Tget_size(type) <= size, CW_ERR_INPUT, "%s: attribute %s: at most %zu characters are allowed",
+             path, name, size - 1);
   memset(text, 0, size);
-  CW_REQUIRE(H5Aread(attribute, type, text) >= 0, CW_ERR_INPUT, "%s: attribute %s: cannot be read", path, name);
+  CW_REQUIRE(H5Aread(attribute, type, text) >= 0, CW_ERR_INPUT, "%s: attribute %s: cannot be read", path,
+             name);
   text[size - 1] = '\0';
 done:
-  if (type >= 0) H5Tclose(type);
-  if (attribute >= 0) H5Aclose(attribute);
+  if (type >= 0)
+    H5Tclose(type);
+  if (attribute >= 0)
+    H5Aclose(attribute);
   return status;
 }
 
-// Reads a dataset of `columns` columns into fresh memory. Where *rows is not negative the rows must be as many.
-static CwStatus read_data(hid_t file, const char *path, const char *name, hid_t type, size_t item, hsize_t columns,
-                          int32_t *rows, void **data) {
+// Reads a dataset of `columns` columns into fresh memory. Where *rows is not negative the rows must be as
+// many.
+static CwStatus read_data(hid_t file, const char *path, const char *name, hid_t type, size_t item,
+                          hsize_t columns, int32_t *rows, void **data) {
   CwStatus status = CW_OK;
   hsize_t shape[2] = {0, 1};
   hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
   hid_t space = set >= 0 ? H5Dget_space(set) : -1;
   CW_REQUIRE(space >= 0, CW_ERR_INPUT, "%s: %s: missing", path, name);
   int rank = H5Sget_simple_extent_ndims(space);
-  CW_REQUIRE(rank == (columns > 1 ? 2 : 1), CW_ERR_INPUT, "%s: %s: has %d dimensions; %d are allowed", path, name,
-             rank, columns > 1 ? 2 : 1);
+  CW_REQUIRE(rank == (columns > 1 ? 2 : 1), CW_ERR_INPUT, "%s: %s: has %d dimensions; %d are allowed", path,
+             name, rank, columns > 1 ? 2 : 1);
   H5Sget_simple_extent_dims(space, shape, NULL);
-  CW_REQUIRE(columns == 1 || shape[1] == columns, CW_ERR_INPUT, "%s: %s: has %llu columns; %llu are allowed", path,
-             name, (unsigned long long)shape[1], (unsigned long long)columns);
+  CW_REQUIRE(columns == 1 || shape[1] == columns, CW_ERR_INPUT, "%s: %s: has %llu columns; %llu are allowed",
+             path, name, (unsigned long long)shape[1], (unsigned long long)columns);
   CW_REQUIRE(shape[0] <= INT32_MAX, CW_ERR_INPUT, "%s: %s: has %llu rows; at most %d are allowed", path, name,
              (unsigned long long)shape[0], INT32_MAX);
-  CW_REQUIRE(*rows < 0 || shape[0] == (hsize_t)*rows, CW_ERR_INPUT, "%s: %s: has %llu rows; %d are allowed", path,
-             name, (unsigned long long)shape[0], *rows);
+  CW_REQUIRE(*rows < 0 || shape[0] == (hsize_t)*rows, CW_ERR_INPUT, "%s: %s: has %llu rows; %d are allowed",
+             path, name, (unsigned long long)shape[0], *rows);
   *rows = (int32_t)shape[0];
   *data = malloc(shape[0] ? shape[0] * columns * item : 1);
   CW_REQUIRE(*data, CW_ERR_MEMORY, "%s: %s: out of memory", path, name);
@@ -185,17 +200,20 @@ static CwStatus read_data(hid_t file, const char *path, const char *name, hid_t 
                "%s: %s: cannot be read", path, name);
   }
 done:
-  if (space >= 0) H5Sclose(space);
-  if (set >= 0) H5Dclose(set);
+  if (space >= 0)
+    H5Sclose(space);
+  if (set >= 0)
+    H5Dclose(set);
   return status;
 }
 
-static CwStatus check_range(const char *path, const char *name, const int32_t *value, int64_t count, int columns,
-                            int64_t limit) {
+static CwStatus check_range(const char *path, const char *name, const int32_t *value, int64_t count,
+                            int columns, int64_t limit) {
   CwStatus status = CW_OK;
   for (int64_t i = 0; i < count * columns; i++) {
-    CW_REQUIRE(value[i] >= 0 && value[i] < limit, CW_ERR_INPUT, "%s: %s: row %lld holds %d; 0 to %lld are allowed",
-               path, name, (long long)(i / columns), value[i], (long long)limit - 1);
+    CW_REQUIRE(value[i] >= 0 && value[i] < limit, CW_ERR_INPUT,
+               "%s: %s: row %lld holds %d; 0 to %lld are allowed", path, name, (long long)(i / columns),
+               value[i], (long long)limit - 1);
   }
 done:
   return status;
@@ -204,16 +222,16 @@ done:
 static CwStatus check_ranges(const char *path, const CwRegionMesh *r) {
   CwStatus status = CW_OK;
   int64_t cells = (int64_t)r->tetrahedron_count + r->pyramid_count + r->prism_count;
-  CW_REQUIRE(r->shared_count <= r->point_count, CW_ERR_INPUT, "%s: shared_id: has %d rows; points has only %d", path,
-             r->shared_count, r->point_count);
+  CW_REQUIRE(r->shared_count <= r->point_count, CW_ERR_INPUT,
+             "%s: shared_id: has %d rows; points has only %d", path, r->shared_count, r->point_count);
   for (int32_t i = 0; i < r->point_count; i++) {
     const double *x = r->x[i];
-    CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT, "%s: points: row %d is not finite",
-               path, i);
+    CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
+               "%s: points: row %d is not finite", path, i);
   }
   for (int32_t i = 0; i < r->shared_count; i++) {
-    CW_REQUIRE(r->shared_id[i] >= 0, CW_ERR_INPUT, "%s: shared_id: row %d holds %lld; 0 or more is allowed", path, i,
-               (long long)r->shared_id[i]);
+    CW_REQUIRE(r->shared_id[i] >= 0, CW_ERR_INPUT, "%s: shared_id: row %d holds %lld; 0 or more is allowed",
+               path, i, (long long)r->shared_id[i]);
   }
   CW_TRY(check_range(path, "tetrahedra", *r->tetrahedron, r->tetrahedron_count, 4, r->point_count));
   CW_TRY(check_range(path, "pyramids", *r->pyramid, r->pyramid_count, 5, r->point_count));
@@ -233,7 +251,8 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   int32_t format = 0;
   void *data = NULL;
   CW_TRY(read_attribute(file, path, "format", &format));
-  CW_REQUIRE(format == FORMAT, CW_ERR_INPUT, "%s: attribute format: is %d; %d is allowed", path, format, FORMAT);
+  CW_REQUIRE(format == FORMAT, CW_ERR_INPUT, "%s: attribute format: is %d; %d is allowed", path, format,
+             FORMAT);
   CW_TRY(read_text(file, path, "domain", r->domain, sizeof r->domain));
   CW_TRY(read_attribute(file, path, "region", &r->region));
   CW_TRY(read_attribute(file, path, "number", &r->number));
@@ -246,7 +265,8 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
     data = NULL;                                                                                             \
     status = read_data(file, path, name, type, sizeof *(field) / (columns), columns, &(rows), &data);        \
     (field) = data;                                                                                          \
-    if (status != CW_OK) goto done;                                                                          \
+    if (status != CW_OK)                                                                                     \
+      goto done;                                                                                             \
   } while (0)
   READ("points", H5T_NATIVE_DOUBLE, 3, r->point_count, r->x);
   READ("shared_id", H5T_NATIVE_INT64, 1, r->shared_count, r->shared_id);
@@ -273,26 +293,31 @@ CwStatus cw_region_read(const char *path, CwRegionMesh *region) {
   CW_TRY(read_items(file, path, region));
   CW_TRY(check_ranges(path, region));
 done:
-  if (file >= 0) H5Fclose(file);
-  if (status != CW_OK) cw_region_free(region);
+  if (file >= 0)
+    H5Fclose(file);
+  if (status != CW_OK)
+    cw_region_free(region);
   quiet_end(quiet);
   return status;
 }
 
 int cw_region_is_current(const char *path, const char *fingerprint) {
-  if (access(path, R_OK) != 0) return 0;
+  if (access(path, R_OK) != 0)
+    return 0;
   Quiet quiet = quiet_start();
   int current = 0;
-  char found[sizeof ((CwRegionMesh *)0)->fingerprint];
+  char found[sizeof((CwRegionMesh *)0)->fingerprint];
   int32_t format = 0;
   // A file cut short does not open: its superblock holds its length.
   hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file >= 0) {
     current = read_attribute(file, path, "format", &format) == CW_OK && format == FORMAT &&
-              read_text(file, path, "fingerprint", found, sizeof found) == CW_OK && strcmp(found, fingerprint) == 0;
+              read_text(file, path, "fingerprint", found, sizeof found) == CW_OK &&
+              strcmp(found, fingerprint) == 0;
     H5Fclose(file);
   }
-  if (!current) cw_fail_clear();
+  if (!current)
+    cw_fail_clear();
   quiet_end(quiet);
   return current;
 }

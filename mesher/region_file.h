@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// One region of the finished mesh and its file (docs/file-formats.md). The file is also the checkpoint of a run.
+// One region of the finished mesh and its file (docs/file-formats.md). The file is also the checkpoint of a
+// run.
 #ifndef CUTWATER_MESHER_REGION_FILE_H
 #define CUTWATER_MESHER_REGION_FILE_H
 
@@ -13,11 +14,11 @@ extern "C" {
 
 typedef struct {
   char domain[16];
-  int32_t region;              // 1-based
+  int32_t region; // 1-based
   int32_t number;
-  char fingerprint[33];        // hex of all that the region follows from
+  char fingerprint[33]; // hex of all that the region follows from
   int32_t point_count, shared_count;
-  double (*x)[3];              // shared points first
+  double (*x)[3]; // shared points first
   int64_t *shared_id;
   int32_t tetrahedron_count, pyramid_count, prism_count;
   int32_t (*tetrahedron)[4], (*pyramid)[5], (*prism)[6];

@@ -40,8 +40,10 @@ static void quiet_barrier(int progress) {
   MPI_Ibarrier(MPI_COMM_WORLD, &request);
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
     sleep_seconds(pause);
-    if (pause < 2e-3) pause *= 1.5;
-    if (progress) cw_progress(counter_add(SLOT_DONE, 0));
+    if (pause < 2e-3)
+      pause *= 1.5;
+    if (progress)
+      cw_progress(counter_add(SLOT_DONE, 0));
   }
 }
 
@@ -54,10 +56,11 @@ CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
   MPI_Comm_size(MPI_COMM_WORLD, &world.ranks);
   if (world.ranks > 1) {
     MPI_Aint bytes = world.rank == 0 ? SLOT_COUNT * (MPI_Aint)sizeof(int64_t) : 0;
-    CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot, &world.window) ==
-                 MPI_SUCCESS,
+    CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot,
+                                &world.window) == MPI_SUCCESS,
                CW_ERR_LIBRARY, "MPI gives no shared counter");
-    if (world.rank == 0) memset(world.slot, 0, (size_t)bytes);
+    if (world.rank == 0)
+      memset(world.slot, 0, (size_t)bytes);
     MPI_Barrier(MPI_COMM_WORLD);
     MPI_Win_lock_all(MPI_MODE_NOCHECK, world.window);
   }
@@ -70,7 +73,8 @@ done:
 void cw_mpi_end(void) {
   int started = 0;
   MPI_Initialized(&started);
-  if (!started) return;
+  if (!started)
+    return;
   if (world.ranks > 1) {
     quiet_barrier(0);
     MPI_Win_unlock_all(world.window);
@@ -82,9 +86,11 @@ void cw_mpi_end(void) {
 }
 
 int cw_mpi_fail(CwStatus status) {
-  if (world.ranks == 1) return cw_log_error(status);
+  if (world.ranks == 1)
+    return cw_log_error(status);
   // The second to fail leaves the line to the first, and time to print it.
-  if (counter_add(SLOT_FAILED, 1) > 0) sleep_seconds(5.0);
+  if (counter_add(SLOT_FAILED, 1) > 0)
+    sleep_seconds(5.0);
   int code = cw_log_error(status);
   MPI_Abort(MPI_COMM_WORLD, code);
   _exit(code);
@@ -97,7 +103,8 @@ typedef struct {
 
 static int compare_cost(const void *left, const void *right) {
   const Ordered *a = left, *b = right;
-  if (a->cost != b->cost) return a->cost > b->cost ? -1 : 1;
+  if (a->cost != b->cost)
+    return a->cost > b->cost ? -1 : 1;
   return a->task < b->task ? -1 : 1;
 }
 
@@ -108,7 +115,8 @@ static void broadcast(void *bytes, int64_t size, int owner) {
   }
 }
 
-// Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few broadcasts.
+// Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few
+// broadcasts.
 static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   char *pack = NULL;
@@ -116,20 +124,24 @@ static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes
   for (int rank = 0; rank < world.ranks; rank++) {
     int64_t total = 0, at = 0;
     for (int32_t task = 0; task < count; task++) {
-      if (owner[task] == rank) total += size[task];
+      if (owner[task] == rank)
+        total += size[task];
     }
-    if (total == 0) continue;
+    if (total == 0)
+      continue;
     pack = malloc((size_t)total);
     CW_REQUIRE(pack, CW_ERR_MEMORY, "out of memory: %lld bytes of results", (long long)total);
     for (int32_t task = 0; rank == world.rank && task < count; task++) {
-      if (owner[task] != rank || size[task] == 0) continue;
+      if (owner[task] != rank || size[task] == 0)
+        continue;
       memcpy(pack + at, bytes[task], (size_t)size[task]);
       at += size[task];
     }
     broadcast(pack, total, rank);
     at = 0;
     for (int32_t task = 0; rank != world.rank && task < count; task++) {
-      if (owner[task] != rank || size[task] == 0) continue;
+      if (owner[task] != rank || size[task] == 0)
+        continue;
       bytes[task] = malloc((size_t)size[task]);
       CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %lld bytes", (long long)size[task]);
       memcpy(bytes[task], pack + at, (size_t)size[task]);
@@ -169,7 +181,8 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   cw_progress_start(schedule->step, schedule->count, schedule->unit);
   for (;;) {
     int64_t place = world.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
-    if (place >= schedule->count) break;
+    if (place >= schedule->count)
+      break;
     int32_t task = order[place].task;
     void *result = NULL;
     int64_t result_size = 0;
@@ -177,9 +190,12 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
     time[task] = cw_seconds() - start;
     owner[task] = world.rank;
-    if (bytes) bytes[task] = result;
-    else free(result);
-    if (size) size[task] = result_size;
+    if (bytes)
+      bytes[task] = result;
+    else
+      free(result);
+    if (size)
+      size[task] = result_size;
     finished = world.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
     cw_progress(finished);
   }
@@ -187,14 +203,17 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     quiet_barrier(world.rank == 0);
     MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    if (schedule->gather) CW_TRY(gather_results(schedule->count, owner, bytes, size));
+    if (schedule->gather)
+      CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }
-  if (seconds) memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
+  if (seconds)
+    memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
   cw_progress_end();
 done:
   free(time);
   free(owner);
   free(order);
-  if (status != CW_OK && world.ranks > 1) cw_mpi_fail(status);
+  if (status != CW_OK && world.ranks > 1)
+    cw_mpi_fail(status);
   return status;
 }

@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/front_flip.h"
 #include "mesher/layers.h"
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
+#include "pipeline/log.h"
 
 static const double DIRECTION_LENGTH = 1e-5; // m
 
@@ -148,6 +150,7 @@ done:
 
 CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes) {
   CwStatus status = CW_OK;
+  int64_t *group = NULL;
   size_t n = (size_t)skeleton->wall_count;
   CW_NEW(skeleton->front, n);
   CW_NEW(skeleton->height, n);
@@ -155,6 +158,16 @@ CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes) {
   memcpy(skeleton->front, bytes, n * 24);
   memcpy(skeleton->height, (const char *)bytes + n * 24, n * 8);
   memcpy(skeleton->reason, (const char *)bytes + n * 32, n);
+  // Only inside one CAD face and one region: curves stay.
+  CW_NEW(group, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    group[t] = (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
+  }
+  int32_t flips;
+  CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
+                       skeleton->wall_triangle_count, skeleton->wall_triangle, group, &flips));
+  cw_log_debug("%d edges of wall and front flipped", flips);
 done:
+  free(group);
   return status;
 }

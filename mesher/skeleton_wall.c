@@ -10,6 +10,7 @@
 #include "mesher/vec.h"
 
 enum { SIZE_STEPS = 400 };
+static const double ON_PLANE = 1e-8; // m
 
 int cw_face_is_wall(const CwCad *cad, int32_t face) {
   return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
@@ -198,6 +199,22 @@ done:
   return status;
 }
 
+// No triangle may reach over a dividing plane: then a cut curve is missing.
+static CwStatus check_regions(const CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    for (int k = 0; k < 3; k++) {
+      const double *x = skeleton->wall_x[skeleton->wall_triangle[t][k]];
+      CW_REQUIRE(cw_plan_in_region(skeleton->plan, skeleton->wall_region[t], x, ON_PLANE), CW_ERR_MESH,
+                 "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
+                 cw_cad_face_name(skeleton->cad, skeleton->wall_face[t]), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
+                 skeleton->wall_region[t] + 1);
+    }
+  }
+done:
+  return status;
+}
+
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
@@ -231,6 +248,7 @@ CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
     }
     cw_outline_free(&outline);
   }
+  CW_TRY(check_regions(skeleton));
 done:
   cw_outline_free(&outline);
   return status;

@@ -6,7 +6,8 @@
 
 #include "mesher/tet_improve_mesh.h"
 
-// Sines: tetrahedra with an angle below 27 (or above 153) degrees are improved, below 18 also with new points.
+// Sines: tetrahedra with an angle below 27 (or above 153) degrees are improved, below 18 also with new
+// points.
 static const double limit_improve = 0.454, limit_insert = 0.31;
 static const double gain = 1e-6; // least improvement, so that no two changes undo one another for ever
 enum { PASSES = 6, RING = 8 };
@@ -18,15 +19,17 @@ static double quality_of(const CwTetMesh *mesh, int32_t a, int32_t b, int32_t c,
   return cw_tet_quality(mesh->x[a], mesh->x[b], mesh->x[c], mesh->x[d]);
 }
 
-// Triangulations of the ring by dynamic programming (Klincsek): best[i][j] is the best least quality over the part i..j.
+// Triangulations of the ring by dynamic programming (Klincsek): best[i][j] is the best least quality over the
+// part i..j.
 typedef struct {
   double best[RING][RING];
   int8_t cut[RING][RING];
 } RingTable;
 
-static int ring_tets(const RingTable *table, const int32_t *ring, int32_t a, int32_t b, int i, int j, int32_t (*tet)[4],
-                     int count) {
-  if (j - i < 2) return count;
+static int ring_tets(const RingTable *table, const int32_t *ring, int32_t a, int32_t b, int i, int j,
+                     int32_t (*tet)[4], int count) {
+  if (j - i < 2)
+    return count;
   int k = table->cut[i][j];
   count = ring_tets(table, ring, a, b, i, k, tet, count);
   count = ring_tets(table, ring, a, b, k, j, tet, count);
@@ -44,9 +47,12 @@ static CwStatus remove_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_
   RingTable table;
   *done_it = 0;
   int n = cw_tet_mesh_ring(mesh, t, i, j, RING, old, ring);
-  if (n < 3) goto done;
-  for (int k = 0; k < n; k++) least = fmin(least, mesh->quality[old[k]]);
-  for (int k = 0; k + 1 < n; k++) table.best[k][k + 1] = INFINITY;
+  if (n < 3)
+    goto done;
+  for (int k = 0; k < n; k++)
+    least = fmin(least, mesh->quality[old[k]]);
+  for (int k = 0; k + 1 < n; k++)
+    table.best[k][k + 1] = INFINITY;
   for (int span = 2; span < n; span++) {
     for (int from = 0; from + span < n; from++) {
       int to = from + span;
@@ -54,19 +60,24 @@ static CwStatus remove_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_
       table.cut[from][to] = (int8_t)(from + 1);
       for (int k = from + 1; k < to; k++) {
         double worst = fmin(table.best[from][k], table.best[k][to]);
-        if (worst <= least + gain || worst <= table.best[from][to]) continue;
+        if (worst <= least + gain || worst <= table.best[from][to])
+          continue;
         worst = fmin(worst, quality_of(mesh, ring[from], ring[k], ring[to], b));
-        if (worst <= least + gain || worst <= table.best[from][to]) continue;
+        if (worst <= least + gain || worst <= table.best[from][to])
+          continue;
         worst = fmin(worst, quality_of(mesh, ring[from], ring[to], ring[k], a));
-        if (worst <= table.best[from][to]) continue;
+        if (worst <= table.best[from][to])
+          continue;
         table.best[from][to] = worst;
         table.cut[from][to] = (int8_t)k;
       }
     }
   }
-  if (!(table.best[0][n - 1] > least + gain)) goto done;
+  if (!(table.best[0][n - 1] > least + gain))
+    goto done;
   int count = ring_tets(&table, ring, a, b, 0, n - 1, tet, 0);
-  for (int k = 0; k < count; k++) quality[k] = quality_of(mesh, tet[k][0], tet[k][1], tet[k][2], tet[k][3]);
+  for (int k = 0; k < count; k++)
+    quality[k] = quality_of(mesh, tet[k][0], tet[k][1], tet[k][2], tet[k][3]);
   CW_TRY(cw_tet_mesh_replace(mesh, n, old, count, (const int32_t(*)[4])tet, quality));
   *done_it = 1;
 done:
@@ -79,15 +90,18 @@ static CwStatus remove_face(CwTetMesh *mesh, int32_t t, int i, int *done_it) {
   int32_t tet[3][4], other = mesh->neighbour[t][i];
   double quality[3];
   *done_it = 0;
-  if (other < 0) goto done;
+  if (other < 0)
+    goto done;
   const int32_t old[2] = {t, other / 4};
   int32_t below = mesh->corner[t][i], above = mesh->corner[old[1]][other % 4];
   double least = fmin(mesh->quality[old[0]], mesh->quality[old[1]]);
   for (int k = 0; k < 3; k++) {
     // The face turns counter-clockwise seen from `above`.
-    const int32_t one[4] = {mesh->corner[t][tet_face[i][k]], mesh->corner[t][tet_face[i][(k + 1) % 3]], below, above};
+    const int32_t one[4] = {mesh->corner[t][tet_face[i][k]], mesh->corner[t][tet_face[i][(k + 1) % 3]], below,
+                            above};
     quality[k] = quality_of(mesh, one[0], one[1], one[2], one[3]);
-    if (quality[k] <= least + gain) goto done;
+    if (quality[k] <= least + gain)
+      goto done;
     memcpy(tet[k], one, sizeof one);
   }
   CW_TRY(cw_tet_mesh_replace(mesh, 2, old, 3, (const int32_t(*)[4])tet, quality));
@@ -102,8 +116,8 @@ typedef struct {
   int32_t face[2 * CW_CAVITY][3];
 } Hollow;
 
-// Least quality of the hollow's tetrahedra for the point at p; stops below `enough` and moves the worst face forward,
-// so that the next trial finds it first.
+// Least quality of the hollow's tetrahedra for the point at p; stops below `enough` and moves the worst face
+// forward, so that the next trial finds it first.
 static double hollow_quality(const CwTetMesh *mesh, Hollow *hollow, const double p[3], double enough) {
   double least = INFINITY;
   int worst = 0;
@@ -113,7 +127,8 @@ static double hollow_quality(const CwTetMesh *mesh, Hollow *hollow, const double
     if (q < least) {
       least = q;
       worst = k;
-      if (least <= enough) break;
+      if (least <= enough)
+        break;
     }
   }
   if (worst > 0) {
@@ -127,16 +142,19 @@ static double hollow_quality(const CwTetMesh *mesh, Hollow *hollow, const double
 
 // Pattern search for the point of best least quality from p, which it moves; returns that quality.
 static double best_place(const CwTetMesh *mesh, Hollow *hollow, double p[3], double start) {
-  static const double way[14][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},   {0, -1, 0},  {0, 0, 1},   {0, 0, -1},  {1, 1, 1},
-                                    {-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}, {1, 1, -1},  {-1, 1, -1}, {1, -1, -1}, {-1, -1, -1}};
+  static const double way[14][3] = {{1, 0, 0},  {-1, 0, 0},  {0, 1, 0},   {0, -1, 0},  {0, 0, 1},
+                                    {0, 0, -1}, {1, 1, 1},   {-1, 1, 1},  {1, -1, 1},  {-1, -1, 1},
+                                    {1, 1, -1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, -1}};
   double best = start, mean[3] = {0, 0, 0}, square = 0.0;
   for (int k = 0; k < hollow->count; k++) {
     for (int c = 0; c < 3; c++) {
-      for (int i = 0; i < 3; i++) mean[i] += mesh->x[hollow->face[k][c]][i] / (3.0 * hollow->count);
+      for (int i = 0; i < 3; i++)
+        mean[i] += mesh->x[hollow->face[k][c]][i] / (3.0 * hollow->count);
     }
   }
   const double *corner = mesh->x[hollow->face[0][0]];
-  for (int i = 0; i < 3; i++) square += (corner[i] - p[i]) * (corner[i] - p[i]);
+  for (int i = 0; i < 3; i++)
+    square += (corner[i] - p[i]) * (corner[i] - p[i]);
   double q = hollow_quality(mesh, hollow, mean, best);
   if (q > best) {
     best = q;
@@ -146,9 +164,11 @@ static double best_place(const CwTetMesh *mesh, Hollow *hollow, double p[3], dou
   for (double step = 0.2 * sqrt(square), end = 0.05 * step; step > end; step *= 0.5) {
     for (int tries = 0, w = last < 0 ? 0 : last; tries < 14; tries++, w = (w + 1) % 14) {
       double scale = w < 6 ? step : step * 0.57735026918962573, there[3];
-      for (int i = 0; i < 3; i++) there[i] = p[i] + scale * way[w][i];
+      for (int i = 0; i < 3; i++)
+        there[i] = p[i] + scale * way[w][i];
       q = hollow_quality(mesh, hollow, there, best + gain);
-      if (q <= best + gain) continue;
+      if (q <= best + gain)
+        continue;
       best = q;
       memcpy(p, there, sizeof there);
       last = w;
@@ -166,17 +186,20 @@ static CwStatus smooth(CwTetMesh *mesh, int32_t point, int *done_it) {
   double p[3], least = INFINITY;
   *done_it = 0;
   int n = cw_tet_mesh_star(mesh, point, star);
-  if (n == 0) goto done;
+  if (n == 0)
+    goto done;
   hollow.count = n;
   for (int k = 0; k < n; k++) {
     const int32_t *c = mesh->corner[star[k]];
     int at = c[0] == point ? 0 : c[1] == point ? 1 : c[2] == point ? 2 : 3;
     // Inward: (face, point) positive.
-    for (int i = 0; i < 3; i++) hollow.face[k][i] = c[tet_face[at][2 - i]];
+    for (int i = 0; i < 3; i++)
+      hollow.face[k][i] = c[tet_face[at][2 - i]];
     least = fmin(least, mesh->quality[star[k]]);
   }
   memcpy(p, mesh->x[point], sizeof p);
-  if (!(best_place(mesh, &hollow, p, least) > least + gain)) goto done;
+  if (!(best_place(mesh, &hollow, p, least) > least + gain))
+    goto done;
   memcpy(mesh->x[point], p, sizeof p);
   for (int k = 0; k < n; k++) {
     const int32_t *c = mesh->corner[star[k]];
@@ -187,8 +210,8 @@ done:
   return status;
 }
 
-// A new point on an inner edge of t, moved to its best place. Flat tetrahedra with all corners on the boundary, which no flip
-// and no smoothing can raise, are cut from below this way.
+// A new point on an inner edge of t, moved to its best place. Flat tetrahedra with all corners on the
+// boundary, which no flip and no smoothing can raise, are cut from below this way.
 static CwStatus split_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_it) {
   CwStatus status = CW_OK;
   enum { MOST = 16 };
@@ -197,7 +220,8 @@ static CwStatus split_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_i
   Hollow hollow;
   *done_it = 0;
   int n = cw_tet_mesh_ring(mesh, t, i, j, MOST, old, ring);
-  if (n < 3) goto done;
+  if (n < 3)
+    goto done;
   hollow.count = 2 * n;
   for (int k = 0; k < n; k++) {
     least = fmin(least, mesh->quality[old[k]]);
@@ -206,9 +230,11 @@ static CwStatus split_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_i
     memcpy(hollow.face[2 * k], one, sizeof one);
     memcpy(hollow.face[2 * k + 1], two, sizeof two);
   }
-  for (int k = 0; k < 3; k++) p[k] = 0.5 * (mesh->x[a][k] + mesh->x[b][k]);
+  for (int k = 0; k < 3; k++)
+    p[k] = 0.5 * (mesh->x[a][k] + mesh->x[b][k]);
   double best = best_place(mesh, &hollow, p, hollow_quality(mesh, &hollow, p, -2.0));
-  if (!(best > least + 0.02)) goto done;
+  if (!(best > least + 0.02))
+    goto done;
   CW_TRY(cw_tet_mesh_add_point(mesh, p, &point));
   for (int k = 0; k < hollow.count; k++) {
     memcpy(tet[k], hollow.face[k], sizeof hollow.face[k]);
@@ -244,7 +270,8 @@ static CwStatus improve_one(CwTetMesh *mesh, int32_t t, int insert, CwTetImprove
     count->points_moved += moved;
     *done_it |= moved;
   }
-  if (*done_it || !insert || mesh->quality[t] >= limit_insert) goto done;
+  if (*done_it || !insert || mesh->quality[t] >= limit_insert)
+    goto done;
   for (int e = 0; e < 6; e++) {
     CW_TRY(split_edge(mesh, t, tet_edge[e][0], tet_edge[e][1], done_it));
     if (*done_it) {
@@ -259,7 +286,8 @@ done:
 static double least_quality(const CwTetMesh *mesh) {
   double least = INFINITY;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (mesh->corner[t][0] >= 0) least = fmin(least, mesh->quality[t]);
+    if (mesh->corner[t][0] >= 0)
+      least = fmin(least, mesh->quality[t]);
   }
   return least;
 }
@@ -268,7 +296,8 @@ CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improv
   CwStatus status = CW_OK;
   CwTetMesh mesh;
   CwTetImproved count = {0};
-  CW_TRY(cw_tet_mesh_make(fixed_count, fill->point_count, fill->x, fill->tetrahedron_count, fill->tetrahedron, &mesh));
+  CW_TRY(cw_tet_mesh_make(fixed_count, fill->point_count, fill->x, fill->tetrahedron_count, fill->tetrahedron,
+                          &mesh));
   count.least_before = least_quality(&mesh);
   for (int pass = 0; pass < PASSES; pass++) {
     int changes = 0;
@@ -276,17 +305,21 @@ CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improv
       // A change leaves other tetrahedra in this place: go on with them a few times.
       for (int again = 0; again < 4; again++) {
         int done_it = 0;
-        if (mesh.corner[t][0] < 0 || mesh.quality[t] >= limit_improve) break;
+        if (mesh.corner[t][0] < 0 || mesh.quality[t] >= limit_improve)
+          break;
         CW_TRY(improve_one(&mesh, t, pass >= 1, &count, &done_it));
-        if (!done_it) break;
+        if (!done_it)
+          break;
         changes++;
       }
     }
-    if (changes == 0) break;
+    if (changes == 0)
+      break;
   }
   count.least_after = least_quality(&mesh);
   CW_TRY(cw_tet_mesh_squeeze(&mesh));
-  if (improved) *improved = count;
+  if (improved)
+    *improved = count;
 done:
   // Arrays may have moved, and counts changed, also on failure.
   fill->x = mesh.x;

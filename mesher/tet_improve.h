@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Improves tetrahedra with the boundary fixed: edge removal (3-2, 4-4 and larger), face removal (2-3), smoothing of
-// inner points, and new points under flat tetrahedra that hang on the boundary. Only tetrahedra below a limit of
-// shape are touched.
+// Improves tetrahedra with the boundary fixed: edge removal (3-2, 4-4 and larger), face removal (2-3),
+// smoothing of inner points, and new points under flat tetrahedra that hang on the boundary. Only tetrahedra
+// below a limit of shape are touched.
 #ifndef CUTWATER_MESHER_TET_IMPROVE_H
 #define CUTWATER_MESHER_TET_IMPROVE_H
 
@@ -20,8 +20,8 @@ typedef struct {
   double least_before, least_after; // least sine of a dihedral angle
 } CwTetImproved;
 
-// The first `fixed_count` points of *fill keep their numbers and places, and all faces on the boundary stay. The least quality round
-// any place never falls. Deterministic. `improved` may be NULL.
+// The first `fixed_count` points of *fill keep their numbers and places, and all faces on the boundary stay.
+// The least quality round any place never falls. Deterministic. `improved` may be NULL.
 CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improved);
 
 #ifdef __cplusplus

@@ -30,7 +30,8 @@ double cw_tet_quality(const double a[3], const double b[3], const double c[3], c
   difference(d, a, ad);
   cross(ab, ac, nd);
   double six = dot(nd, ad);
-  if (!(six > 0.0)) return -1.0;
+  if (!(six > 0.0))
+    return -1.0;
   difference(c, b, bc);
   difference(d, b, bd);
   difference(d, c, cd);
@@ -54,16 +55,23 @@ static double quality_of(const CwTetMesh *mesh, const int32_t p[4]) {
 CwStatus cw_tet_mesh_make(int32_t fixed_count, int32_t point_count, double (*x)[3], int32_t tet_count,
                           int32_t (*corner)[4], CwTetMesh *mesh) {
   CwStatus status = CW_OK;
-  *mesh = (CwTetMesh){.fixed_count = fixed_count, .point_count = point_count, .point_space = point_count, .x = x,
-                      .tet_count = tet_count, .tet_space = tet_count, .corner = corner};
+  *mesh = (CwTetMesh){.fixed_count = fixed_count,
+                      .point_count = point_count,
+                      .point_space = point_count,
+                      .x = x,
+                      .tet_count = tet_count,
+                      .tet_space = tet_count,
+                      .corner = corner};
   CW_NEW(mesh->neighbour, tet_count);
   CW_NEW(mesh->quality, tet_count);
   CW_NEW(mesh->tet_at, point_count);
   CW_TRY(cw_tet_neighbours(point_count, tet_count, (const int32_t(*)[4])corner, mesh->neighbour));
-  for (int32_t p = 0; p < point_count; p++) mesh->tet_at[p] = -1;
+  for (int32_t p = 0; p < point_count; p++)
+    mesh->tet_at[p] = -1;
   for (int32_t t = 0; t < tet_count; t++) {
     mesh->quality[t] = quality_of(mesh, corner[t]);
-    for (int i = 0; i < 4; i++) mesh->tet_at[corner[t][i]] = t;
+    for (int i = 0; i < 4; i++)
+      mesh->tet_at[corner[t][i]] = t;
   }
 done:
   return status;
@@ -84,19 +92,23 @@ CwStatus cw_tet_mesh_squeeze(CwTetMesh *mesh) {
   int32_t *number = NULL, tets = 0, points = mesh->fixed_count;
   CW_NEW(number, mesh->point_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (mesh->corner[t][0] < 0) continue;
-    for (int i = 0; i < 4; i++) number[mesh->corner[t][i]] = 1;
+    if (mesh->corner[t][0] < 0)
+      continue;
+    for (int i = 0; i < 4; i++)
+      number[mesh->corner[t][i]] = 1;
     memmove(mesh->corner[tets], mesh->corner[t], sizeof *mesh->corner);
     mesh->quality[tets++] = mesh->quality[t];
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    if (p >= mesh->fixed_count && !number[p]) continue;
+    if (p >= mesh->fixed_count && !number[p])
+      continue;
     int32_t to = p < mesh->fixed_count ? p : points++;
     number[p] = to;
     memmove(mesh->x[to], mesh->x[p], sizeof *mesh->x);
   }
   for (int32_t t = 0; t < tets; t++) {
-    for (int i = 0; i < 4; i++) mesh->corner[t][i] = number[mesh->corner[t][i]];
+    for (int i = 0; i < 4; i++)
+      mesh->corner[t][i] = number[mesh->corner[t][i]];
   }
   mesh->tet_count = tets;
   mesh->point_count = points;
@@ -167,14 +179,17 @@ int cw_tet_mesh_ring(const CwTetMesh *mesh, int32_t t, int i, int j, int most, i
   int first = first_of[i][j], second = 6 - i - j - first, count = 0;
   int32_t from = mesh->corner[t][first], to = mesh->corner[t][second];
   do {
-    if (count == most) return 0;
+    if (count == most)
+      return 0;
     tet[count] = t;
     ring[count++] = from;
     // Over the face a, b, to, which lies opposite `from`.
     int at = 0;
-    while (mesh->corner[t][at] != from) at++;
+    while (mesh->corner[t][at] != from)
+      at++;
     int32_t next = mesh->neighbour[t][at];
-    if (next < 0) return 0;
+    if (next < 0)
+      return 0;
     t = next / 4;
     from = to;
     to = mesh->corner[t][next % 4];
@@ -184,17 +199,22 @@ int cw_tet_mesh_ring(const CwTetMesh *mesh, int32_t t, int i, int j, int most, i
 
 int cw_tet_mesh_star(const CwTetMesh *mesh, int32_t point, int32_t tet[CW_CAVITY]) {
   int count = 1;
-  if (point < mesh->fixed_count) return 0;
+  if (point < mesh->fixed_count)
+    return 0;
   tet[0] = mesh->tet_at[point];
   for (int head = 0; head < count; head++) {
     int32_t t = tet[head];
     for (int i = 0; i < 4; i++) {
-      if (mesh->corner[t][i] == point) continue;
+      if (mesh->corner[t][i] == point)
+        continue;
       int32_t next = mesh->neighbour[t][i] / 4;
       int known = mesh->neighbour[t][i] < 0;
-      for (int k = 0; k < count && !known; k++) known = tet[k] == next;
-      if (known) continue;
-      if (count == CW_CAVITY) return 0;
+      for (int k = 0; k < count && !known; k++)
+        known = tet[k] == next;
+      if (known)
+        continue;
+      if (count == CW_CAVITY)
+        return 0;
       tet[count++] = next;
     }
   }
@@ -209,9 +229,12 @@ typedef struct {
 
 static void sort_three(int32_t p[3]) {
   int32_t swap;
-  if (p[0] > p[1]) swap = p[0], p[0] = p[1], p[1] = swap;
-  if (p[1] > p[2]) swap = p[1], p[1] = p[2], p[2] = swap;
-  if (p[0] > p[1]) swap = p[0], p[0] = p[1], p[1] = swap;
+  if (p[0] > p[1])
+    swap = p[0], p[0] = p[1], p[1] = swap;
+  if (p[1] > p[2])
+    swap = p[1], p[1] = p[2], p[2] = swap;
+  if (p[0] > p[1])
+    swap = p[0], p[0] = p[1], p[1] = swap;
 }
 
 CwStatus cw_tet_mesh_replace(CwTetMesh *mesh, int old_count, const int32_t *old, int count,
@@ -220,25 +243,32 @@ CwStatus cw_tet_mesh_replace(CwTetMesh *mesh, int old_count, const int32_t *old,
   Side side[4 * 3 * CW_CAVITY];
   int32_t slot[2 * CW_CAVITY];
   int sides = 0;
-  CW_REQUIRE(old_count <= CW_CAVITY && count <= 2 * CW_CAVITY, CW_ERR_MESH, "a cavity of %d tetrahedra", old_count);
+  CW_REQUIRE(old_count <= CW_CAVITY && count <= 2 * CW_CAVITY, CW_ERR_MESH, "a cavity of %d tetrahedra",
+             old_count);
   for (int k = 0; k < old_count; k++) {
     for (int i = 0; i < 4; i++) {
       int32_t other = mesh->neighbour[old[k]][i];
       int within = 0;
-      for (int m = 0; m < old_count && other >= 0; m++) within |= other / 4 == old[m];
-      if (within) continue;
+      for (int m = 0; m < old_count && other >= 0; m++)
+        within |= other / 4 == old[m];
+      if (within)
+        continue;
       Side *s = &side[sides++];
-      for (int n = 0; n < 3; n++) s->p[n] = mesh->corner[old[k]][tet_face[i][n]];
+      for (int n = 0; n < 3; n++)
+        s->p[n] = mesh->corner[old[k]][tet_face[i][n]];
       sort_three(s->p);
       s->owner = other;
       s->outer = 1;
     }
   }
   for (int k = 0; k < count; k++) {
-    if (k < old_count) slot[k] = old[k];
-    else CW_TRY(new_slot(mesh, &slot[k]));
+    if (k < old_count)
+      slot[k] = old[k];
+    else
+      CW_TRY(new_slot(mesh, &slot[k]));
   }
-  for (int k = count; k < old_count; k++) CW_TRY(bury(mesh, old[k]));
+  for (int k = count; k < old_count; k++)
+    CW_TRY(bury(mesh, old[k]));
   for (int k = 0; k < count; k++) {
     int32_t t = slot[k];
     memcpy(mesh->corner[t], corner[k], sizeof *mesh->corner);
@@ -246,20 +276,24 @@ CwStatus cw_tet_mesh_replace(CwTetMesh *mesh, int old_count, const int32_t *old,
     for (int i = 0; i < 4; i++) {
       mesh->tet_at[corner[k][i]] = t;
       Side one = {.owner = 4 * t + i, .outer = 0};
-      for (int n = 0; n < 3; n++) one.p[n] = corner[k][tet_face[i][n]];
+      for (int n = 0; n < 3; n++)
+        one.p[n] = corner[k][tet_face[i][n]];
       sort_three(one.p);
       int m = 0;
-      while (m < sides && memcmp(side[m].p, one.p, sizeof one.p)) m++;
+      while (m < sides && memcmp(side[m].p, one.p, sizeof one.p))
+        m++;
       if (m == sides) {
         side[sides++] = one;
         continue;
       }
       mesh->neighbour[t][i] = side[m].owner;
-      if (side[m].owner >= 0) mesh->neighbour[side[m].owner / 4][side[m].owner % 4] = one.owner;
+      if (side[m].owner >= 0)
+        mesh->neighbour[side[m].owner / 4][side[m].owner % 4] = one.owner;
       side[m] = side[--sides];
     }
   }
-  CW_REQUIRE(sides == 0, CW_ERR_MESH, "a cavity of %d tetrahedra was not filled by its %d new ones", old_count, count);
+  CW_REQUIRE(sides == 0, CW_ERR_MESH, "a cavity of %d tetrahedra was not filled by its %d new ones",
+             old_count, count);
 done:
   return status;
 }

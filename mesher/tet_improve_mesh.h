@@ -15,15 +15,15 @@ extern "C" {
 enum { CW_CAVITY = 96 }; // tetrahedra in one cavity
 
 typedef struct {
-  int32_t fixed_count;    // the first points lie on the boundary and stay
+  int32_t fixed_count; // the first points lie on the boundary and stay
   int32_t point_count, point_space;
   double (*x)[3];
   int32_t tet_count, tet_space; // with dead ones, whose first corner is -1
   int32_t (*corner)[4];
   int32_t (*neighbour)[4]; // 4 * tetrahedron + face at the face opposite each corner, -1 at the boundary
   double *quality;
-  int32_t *tet_at;         // one tetrahedron of each point, -1 for none
-  int32_t *dead;           // stack of dead tetrahedra
+  int32_t *tet_at; // one tetrahedron of each point, -1 for none
+  int32_t *dead;   // stack of dead tetrahedra
   int32_t dead_count, dead_space;
 } CwTetMesh;
 
@@ -36,13 +36,13 @@ void cw_tet_mesh_free(CwTetMesh *mesh);
 CwStatus cw_tet_mesh_squeeze(CwTetMesh *mesh);
 CwStatus cw_tet_mesh_add_point(CwTetMesh *mesh, const double x[3], int32_t *point);
 
-// Shape of a tetrahedron: least sine of its dihedral angles, and not above 1.35 times shortest over longest edge. 0.943 for
-// the regular one, <= 0 where it is not positive.
+// Shape of a tetrahedron: least sine of its dihedral angles, and not above 1.35 times shortest over longest
+// edge. 0.943 for the regular one, <= 0 where it is not positive.
 double cw_tet_quality(const double a[3], const double b[3], const double c[3], const double d[3]);
 
-// Tetrahedra round the inner edge of corners i and j of t: tet[k] has the edge a-b (a = corner i, b = corner j) and
-// the points ring[k], ring[k + 1]; (a, b, ring[k], ring[k + 1]) is positive. Returns their number; 0 for an edge
-// of the boundary or one with more than `most`.
+// Tetrahedra round the inner edge of corners i and j of t: tet[k] has the edge a-b (a = corner i, b = corner
+// j) and the points ring[k], ring[k + 1]; (a, b, ring[k], ring[k + 1]) is positive. Returns their number; 0
+// for an edge of the boundary or one with more than `most`.
 int cw_tet_mesh_ring(const CwTetMesh *mesh, int32_t t, int i, int j, int most, int32_t *tet, int32_t *ring);
 // Tetrahedra of an inner point; 0 where there are more than CW_CAVITY or the point lies on the boundary.
 int cw_tet_mesh_star(const CwTetMesh *mesh, int32_t point, int32_t tet[CW_CAVITY]);

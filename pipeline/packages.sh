@@ -8,7 +8,7 @@ build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmoc
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libhdf5-dev libcgns-dev libcgal-dev libtet1.5-dev
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev
   libocct-data-exchange-dev"
-judges="cgns-convert gmsh openfoam tetgen valgrind"
+judges="cgns-convert gmsh python3-gmsh openfoam tetgen valgrind"
 
 case "${1:-}" in
 build) wanted=$build ;;

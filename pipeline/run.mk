@@ -13,7 +13,7 @@ MPIRUN ?= env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA
 # be empty: the number of the case file.
 define cutwater_run
 .PHONY: $(1)
-$(1): $(3)/report/index.html
+$(1): $(3)/report/record.json
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 
 $(3)/geometry/record.json: $(2) $(BIN)/cutwater-geometry
@@ -29,6 +29,6 @@ $(3)/mesh/record.json: $(2) $(3)/log/cells $(3)/geometry/record.json $(BIN)/cutw
 $(3)/export/record.json: $(2) $(3)/mesh/record.json $(BIN)/cutwater-export
 	@$(MPIRUN) $(BIN)/cutwater-export --case $(2) --run $(3) $(if $(4),--cells $(4))
 
-$(3)/report/index.html: $(2) $(3)/export/record.json $(BIN)/cutwater-report
+$(3)/report/record.json: $(2) $(3)/export/record.json $(BIN)/cutwater-report
 	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 endef

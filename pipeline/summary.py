@@ -72,13 +72,13 @@ def main():
         sys.exit("usage: summary.py RUN")
     run = sys.argv[1]
     try:
-        record = {stage: read(run, stage) for stage in ("geometry", "mesh", "export")}
+        record = {stage: read(run, stage) for stage in ("geometry", "mesh", "export", "report")}
         lines = [("head", f"{record['geometry']['results']['predicted_head_m']:.2f} m predicted by the design")]
         lines += mesh_lines(record["mesh"]["results"])
         seconds = {stage: record[stage]["seconds"] for stage in record}
-        whole = sum(seconds.values())
+        whole = sum(seconds[stage] for stage in ("geometry", "mesh", "export"))
         lines.append(("time", ", ".join(f"{stage} {shown_time(value)}" for stage, value in seconds.items()) +
-                      f": {record['mesh']['results']['cells'] / whole:,.0f} cells a second with "
+                      f"; {record['mesh']['results']['cells'] / whole:,.0f} cells a second to CGNS with "
                       f"{record['mesh']['results']['ranks']} ranks"))
         lines.append(("memory", ", ".join(f"{stage} {shown_size(record[stage]['peak_memory_bytes'])}"
                                           for stage in record)))

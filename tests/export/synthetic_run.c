@@ -51,9 +51,9 @@ typedef struct {
 typedef struct {
   double (*points)[3];
   int64_t *shared_id;
-  int32_t (*tetrahedra)[4], (*prisms)[6], (*triangles)[3], (*quads)[4];
+  int32_t (*tetrahedra)[4], (*pyramids)[5], (*prisms)[6], (*triangles)[3], (*quads)[4];
   int32_t *triangle_patch, *triangle_cell, *quad_patch, *quad_cell;
-  int point_count, shared_count, tetrahedron_count, prism_count, triangle_count, quad_count;
+  int point_count, shared_count, tetrahedron_count, pyramid_count, prism_count, triangle_count, quad_count;
   int *local; // by node: place in the region or -1
 } Region;
 
@@ -159,6 +159,16 @@ static double tetrahedron_volume(const Region *r, int a, int b, int c, int e) {
   return dot_cross(r->points[a], r->points[b], r->points[c], r->points[e]) / 6;
 }
 
+// Cells of a type by their place, before it is known how many of the earlier types there are.
+static int32_t cell_code(int nodes, int place_of_type) {
+  return (nodes - 4) << 28 | place_of_type;
+}
+
+static int32_t cell_number(const Region *r, int32_t code) {
+  const int before[] = {0, r->tetrahedron_count, r->tetrahedron_count + r->pyramid_count};
+  return before[code >> 28] + (code & 0xfffffff);
+}
+
 // Adds a boundary face of one of the cells first, ..., first + count - 1 with `nodes` nodes each: finds the
 // cell that has all its corners and turns the normal outward.
 static void add_boundary(Region *r, const int32_t *cells, int first, int count, int nodes, const int *corners,
@@ -179,8 +189,7 @@ static void add_boundary(Region *r, const int32_t *cells, int first, int count, 
     int32_t *out = corner_count == 3 ? r->triangles[r->triangle_count] : r->quads[r->quad_count];
     for (int m = 0; m < corner_count; ++m)
       out[m] = corners[inward ? corner_count - 1 - m : m];
-    // Prisms are counted after the tetrahedra, whose number is not known yet.
-    int32_t number = nodes == 6 ? -1 - c : c;
+    int32_t number = cell_code(nodes, c);
     if (corner_count == 3) {
       r->triangle_patch[r->triangle_count] = patch;
       r->triangle_cell[r->triangle_count++] = number;
@@ -191,6 +200,45 @@ static void add_boundary(Region *r, const int32_t *cells, int first, int count, 
     return;
   }
   abort();
+}
+
+// A few cells on the lower wall of the stator have a point in their middle: pyramids on four sides and on the
+// wall, two tetrahedra under the tetrahedra above.
+static int has_middle(const Domain *d, int i, int j, int k) {
+  return d->pump->pyramids && !d->is_rotor && k == 0 && i == d->annulus->radial / 2 && j % 9 == 4;
+}
+
+static void add_cell_with_middle(Domain *d, Region *r, int i, int j, int k) {
+  int v[8], middle = r->point_count++;
+  memset(r->points[middle], 0, sizeof *r->points);
+  for (int b = 0; b < 8; ++b) {
+    v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
+    for (int x = 0; x < 3; ++x)
+      r->points[middle][x] += r->points[v[b]][x] / 8;
+  }
+  for (int side = 0; side < 6; ++side) {
+    int axis = side / 2, up = side % 2;
+    int s = axis == 0 ? 2 : 1, t = axis == 2 ? 2 : 4, o = up ? 1 << axis : 0;
+    int c[4] = {v[o], v[o + s], v[o + s + t], v[o + t]};
+    if (tetrahedron_volume(r, c[0], c[1], c[2], middle) < 0) {
+      int swap = c[1];
+      c[1] = c[3];
+      c[3] = swap;
+    }
+    d->volume +=
+        tetrahedron_volume(r, c[0], c[1], c[2], middle) + tetrahedron_volume(r, c[0], c[2], c[3], middle);
+    if (axis == 2 && up) {
+      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[1], c[2], middle},
+             4 * sizeof(int32_t));
+      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[2], c[3], middle},
+             4 * sizeof(int32_t));
+      continue;
+    }
+    int place_of_type = r->pyramid_count++;
+    memcpy(r->pyramids[place_of_type], (int32_t[]){c[0], c[1], c[2], c[3], middle}, 5 * sizeof(int32_t));
+    if (axis == 2)
+      add_boundary(r, *r->pyramids, place_of_type, 1, 5, c, 4, patch_of(d, i, j, axis, up));
+  }
 }
 
 static void add_cell(Domain *d, Region *r, int i, int j, int k) {
@@ -291,7 +339,7 @@ static int write_region_file(const char *path, const Domain *d, int region, cons
   int failed = put(file, "points", H5T_NATIVE_DOUBLE, r->point_count, 3, r->points);
   failed |= put(file, "shared_id", H5T_NATIVE_INT64, r->shared_count, 0, r->shared_id);
   failed |= put(file, "tetrahedra", H5T_NATIVE_INT32, r->tetrahedron_count, 4, r->tetrahedra);
-  failed |= put(file, "pyramids", H5T_NATIVE_INT32, 0, 5, NULL);
+  failed |= put(file, "pyramids", H5T_NATIVE_INT32, r->pyramid_count, 5, r->pyramids);
   failed |= put(file, "prisms", H5T_NATIVE_INT32, r->prism_count, 6, r->prisms);
   failed |= put(file, "triangles", H5T_NATIVE_INT32, r->triangle_count, 3, r->triangles);
   failed |= put(file, "triangle_patch", H5T_NATIVE_INT32, r->triangle_count, 0, r->triangle_patch);
@@ -326,9 +374,10 @@ static json_t *write_region(const char *run, Domain *d, int region) {
   const SyntheticAnnulus *a = d->annulus;
   size_t cells = (size_t)a->radial * (size_t)(a->around / a->regions + 1) * (size_t)a->axial;
   Region r = {0};
-  r.points = malloc((size_t)d->node_count * sizeof *r.points);
+  r.points = malloc(2 * (size_t)d->node_count * sizeof *r.points);
   r.shared_id = malloc((size_t)(d->shared_count + 1) * sizeof *r.shared_id);
   r.tetrahedra = malloc(6 * cells * sizeof *r.tetrahedra);
+  r.pyramids = malloc(5 * cells * sizeof *r.pyramids);
   r.prisms = malloc(2 * cells * sizeof *r.prisms);
   r.triangles = malloc(12 * cells * sizeof *r.triangles);
   r.quads = malloc(6 * cells * sizeof *r.quads);
@@ -346,6 +395,10 @@ static json_t *write_region(const char *run, Domain *d, int region) {
         for (int i = 0; i < a->radial; ++i) {
           if (!is_cell(d, i, j, k))
             continue;
+          if (pass && has_middle(d, i, j, k)) {
+            add_cell_with_middle(d, &r, i, j, k);
+            continue;
+          }
           if (pass) {
             add_cell(d, &r, i, j, k);
             continue;
@@ -360,25 +413,25 @@ static json_t *write_region(const char *run, Domain *d, int region) {
         }
   }
   for (int t = 0; t < r.triangle_count; ++t)
-    if (r.triangle_cell[t] < 0)
-      r.triangle_cell[t] = r.tetrahedron_count - 1 - r.triangle_cell[t];
+    r.triangle_cell[t] = cell_number(&r, r.triangle_cell[t]);
   for (int q = 0; q < r.quad_count; ++q)
-    if (r.quad_cell[q] < 0)
-      r.quad_cell[q] = r.tetrahedron_count - 1 - r.quad_cell[q];
+    r.quad_cell[q] = cell_number(&r, r.quad_cell[q]);
   char path[4000], name[40];
   snprintf(name, sizeof name, "%s-%04d.h5", d->name, region + 1);
   snprintf(path, sizeof path, "%s/mesh/%s", run, name);
   json_t *line = NULL;
   if (write_region_file(path, d, region, &r) == 0)
-    line = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1,
-                     "number", region + 1, "points", r.point_count, "own_points",
-                     r.point_count - r.shared_count, "tetrahedra", r.tetrahedron_count, "pyramids", 0,
-                     "prisms", r.prism_count, "triangles", r.triangle_count, "quads", r.quad_count);
+    line =
+        json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1,
+                  "number", region + 1, "points", r.point_count, "own_points", r.point_count - r.shared_count,
+                  "tetrahedra", r.tetrahedron_count, "pyramids", r.pyramid_count, "prisms", r.prism_count,
+                  "triangles", r.triangle_count, "quads", r.quad_count);
   else
     fprintf(stderr, "%s: cannot be written\n", path);
   free(r.points);
   free(r.shared_id);
   free(r.tetrahedra);
+  free(r.pyramids);
   free(r.prisms);
   free(r.triangles);
   free(r.quads);

@@ -14,7 +14,8 @@ typedef struct {
 typedef struct {
   double bottom, top; // m
   SyntheticAnnulus rotor, stator;
-  int blades; // in the rotor, each one cell thick
+  int blades;   // in the rotor, each one cell thick
+  int pyramids; // 1: a few cells on the lower wall of the stator are cut into pyramids; they are flat
 } SyntheticPump;
 
 // A small pump of about 20000 cells in 3 + 2 regions.

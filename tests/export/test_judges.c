@@ -68,6 +68,23 @@ static void checkmesh_finds_a_sound_mesh(void **state) {
   assert_non_null(strstr(output, "Upper triangular ordering OK"));
 }
 
+// With pyramids: sound but for their flatness, which gives cells of small determinant.
+static void checkmesh_takes_pyramids(void **state) {
+  (void)state;
+  char run[STAGE_PATH_SIZE + 40];
+  SyntheticPump pump = synthetic_pump();
+  if (!stage_has_program("checkMesh"))
+    skip();
+  snprintf(run, sizeof run, "%s/pyramids", folder);
+  pump.pyramids = 1;
+  assert_int_equal(synthetic_run_write(run, &pump), 0);
+  assert_int_equal(stage_export(run, 2, output), 0);
+  stage_shell(output, "cd '%s/export/openfoam' && checkMesh", run);
+  if (!strstr(output, "Mesh OK"))
+    fail_msg("%s", output);
+  assert_float_equal(number_after("pyramids:"), 50, 0);
+}
+
 // Weights are the area of the other side over each face, by its own area.
 static void interface_weights_are_about_one(void **state) {
   (void)state;
@@ -133,6 +150,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cgnscheck_has_nothing_to_say),
       cmocka_unit_test(checkmesh_finds_a_sound_mesh),
+      cmocka_unit_test(checkmesh_takes_pyramids),
       cmocka_unit_test(interface_weights_are_about_one),
       cmocka_unit_test(steady_run_starts_and_reports),
       cmocka_unit_test(transient_run_starts_from_the_steady_one),

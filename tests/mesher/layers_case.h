@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A wall with its layers, and what must hold for every one: told apart from the module's own judgement by other formulas.
+// A wall with its layers, and what must hold for every one: told apart from the module's own judgement by
+// other formulas.
 #ifndef CUTWATER_TESTS_MESHER_LAYERS_CASE_H
 #define CUTWATER_TESTS_MESHER_LAYERS_CASE_H
 
@@ -92,7 +93,8 @@ static inline void case_check_prisms(const Case *c) {
   }
 }
 
-// Wall and front together cross nowhere, nor does the front cross a cap except with the columns that run inside one.
+// Wall and front together cross nowhere, nor does the front cross a cap except with the columns that run
+// inside one.
 static inline void case_check_front(const Case *c) {
   int32_t n = c->wall.point_count, m = c->wall.triangle_count, caps = c->cap.triangle_count, count, (*pair)[2];
   int32_t points = 2 * n + c->cap.point_count;
@@ -139,7 +141,8 @@ static inline void case_run(Case *c, const char *name) {
                 reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
   case_check_prisms(c);
   case_check_front(c);
-  // Guided columns stay in the surfaces that hold them, to first order where those are curved and not put back.
+  // Guided columns stay in the surfaces that hold them, to first order where those are curved and not put
+  // back.
   for (int32_t v = 0; v < n && !c->snap; v++)
     for (int i = 0; i < c->in.guide_count[v]; i++) {
       double away = 0;

@@ -68,7 +68,8 @@ static inline void surface_quad(Surface *s, const double p[4][3], int nu, int nv
   surface_grid(s, surface_bilinear, p, nu, nv, 0);
 }
 
-// Box from `low` to `high`, normals outward, or inward with `flip`; sides: bits 0..5 = x-, x+, y-, y+, z-, z+.
+// Box from `low` to `high`, normals outward, or inward with `flip`; sides: bits 0..5 = x-, x+, y-, y+, z-,
+// z+.
 static inline void surface_box(Surface *s, const double low[3], const double high[3], double h, int sides, int flip) {
   for (int side = 0; side < 6; side++) {
     if (!(sides >> side & 1)) continue;
@@ -84,7 +85,8 @@ static inline void surface_box(Surface *s, const double low[3], const double hig
   }
 }
 
-// Wall over a polygon of the (x,z) plane, extruded along y from 0 to `depth`; fluid to the left of the polygon's edges
+// Wall over a polygon of the (x,z) plane, extruded along y from 0 to `depth`; fluid to the left of the
+// polygon's edges
 // when looking along +y from... see `flip`: without it the outward normal is edge x y.
 static inline void surface_extrude(Surface *s, int count, const double (*p)[2], int closed, double depth, double h,
                                    int flip) {

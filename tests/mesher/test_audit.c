@@ -12,8 +12,8 @@
 
 // A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
 static double x[8][3];
-static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4], quad_patch[4],
-  quad_cell[4];
+static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4],
+    quad_patch[4], quad_cell[4];
 
 static CwRegionMesh prism_and_tet(void) {
   static const double points[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
@@ -27,12 +27,14 @@ static CwRegionMesh prism_and_tet(void) {
   memcpy(triangle, triangles, sizeof triangles);
   memcpy(triangle_cell, cells, sizeof cells);
   memcpy(quad, quads, sizeof quads);
-  for (int k = 0; k < 3; k++) quad_cell[k] = 1;
+  for (int k = 0; k < 3; k++)
+    quad_cell[k] = 1;
   CwRegionMesh r = {.domain = "rotor", .region = 3, .number = 1};
   r.point_count = 7, r.x = x;
   r.tetrahedron_count = 1, r.tetrahedron = tet;
   r.prism_count = 1, r.prism = prism;
-  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch, r.triangle_cell = triangle_cell;
+  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch,
+  r.triangle_cell = triangle_cell;
   r.quad_count = 3, r.quad = quad, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
   return r;
 }
@@ -42,7 +44,8 @@ static void fails_with(const CwRegionMesh *r, const char *part) {
   cw_fail_clear();
   assert_int_equal(cw_audit_region(r, &q), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
-  if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
+  if (!strstr(cw_fail_message(), part))
+    fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
 }
 
 static void good_region_passes_with_its_figures(void **state) {
@@ -104,7 +107,8 @@ static void two_cells_on_one_side(void **state) {
   // Points 3..7 alone, renumbered 0..4.
   memmove(x, x + 3, 5 * sizeof x[0]);
   for (int k = 0; k < 2; k++) {
-    for (int i = 0; i < 4; i++) tet[k][i] -= 3;
+    for (int i = 0; i < 4; i++)
+      tet[k][i] -= 3;
   }
   fails_with(&r, "has both of its cells on one side");
 }
@@ -174,15 +178,15 @@ static void sums_of_two_regions(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(good_region_passes_with_its_figures),
-    cmocka_unit_test(single_tetrahedron),
-    cmocka_unit_test(inverted_cells_are_named_with_their_place),
-    cmocka_unit_test(face_of_three_cells),
-    cmocka_unit_test(two_cells_on_one_side),
-    cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
-    cmocka_unit_test(wrong_lists_are_found),
-    cmocka_unit_test(points_and_indices_are_checked),
-    cmocka_unit_test(sums_of_two_regions),
+      cmocka_unit_test(good_region_passes_with_its_figures),
+      cmocka_unit_test(single_tetrahedron),
+      cmocka_unit_test(inverted_cells_are_named_with_their_place),
+      cmocka_unit_test(face_of_three_cells),
+      cmocka_unit_test(two_cells_on_one_side),
+      cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
+      cmocka_unit_test(wrong_lists_are_found),
+      cmocka_unit_test(points_and_indices_are_checked),
+      cmocka_unit_test(sums_of_two_regions),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,9 +51,11 @@ static void growth_at_its_limit_raises_the_first_height(void **state) {
 static void a_thin_column_gets_even_layers(void **state) {
   double f[5];
   NEAR(cw_layer_fractions(2.0, 1.0, 4, 1.2, f), 0.5, 0.0);
-  for (int k = 0; k <= 4; k++) NEAR(f[k], 0.25 * k, 1e-15);
+  for (int k = 0; k <= 4; k++)
+    NEAR(f[k], 0.25 * k, 1e-15);
   NEAR(cw_layer_fractions(4.0, 1.0, 4, 1.2, f), 1.0, 0.0); // just even
-  for (int k = 0; k <= 4; k++) NEAR(f[k], 0.25 * k, 1e-15);
+  for (int k = 0; k <= 4; k++)
+    NEAR(f[k], 0.25 * k, 1e-15);
 }
 
 static void one_layer_is_the_whole_column(void **state) {
@@ -63,7 +65,8 @@ static void one_layer_is_the_whole_column(void **state) {
   NEAR(f[1], 1.0, 0.0);
 }
 
-// Over many heights: strictly growing, first height as returned, ratio of successive layers one number <= limit.
+// Over many heights: strictly growing, first height as returned, ratio of successive layers one number <=
+// limit.
 static void fractions_hold_their_rules_at_all_heights(void **state) {
   double f[31];
   for (int count = 2; count <= 30; count += 7) {
@@ -76,21 +79,22 @@ static void fractions_hold_their_rules_at_all_heights(void **state) {
         assert_true(f[k + 1] > f[k]);
         NEAR((f[k + 1] - f[k]) / (f[k] - f[k - 1]), ratio, 1e-6);
       }
-      if (ratio < 1.25 * (1 - 1e-9) && height > count * 3e-6) NEAR(first, 3e-6, 1e-20);
+      if (ratio < 1.25 * (1 - 1e-9) && height > count * 3e-6)
+        NEAR(first, 3e-6, 1e-20);
     }
   }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(first_heights_of_the_walls_of_a_pump),
-    cmocka_unit_test(cell_centred_is_twice_and_y_plus_is_linear),
-    cmocka_unit_test(thickness_by_hand),
-    cmocka_unit_test(holds_the_first_height_and_solves_growth),
-    cmocka_unit_test(growth_at_its_limit_raises_the_first_height),
-    cmocka_unit_test(a_thin_column_gets_even_layers),
-    cmocka_unit_test(one_layer_is_the_whole_column),
-    cmocka_unit_test(fractions_hold_their_rules_at_all_heights),
+      cmocka_unit_test(first_heights_of_the_walls_of_a_pump),
+      cmocka_unit_test(cell_centred_is_twice_and_y_plus_is_linear),
+      cmocka_unit_test(thickness_by_hand),
+      cmocka_unit_test(holds_the_first_height_and_solves_growth),
+      cmocka_unit_test(growth_at_its_limit_raises_the_first_height),
+      cmocka_unit_test(a_thin_column_gets_even_layers),
+      cmocka_unit_test(one_layer_is_the_whole_column),
+      cmocka_unit_test(fractions_hold_their_rules_at_all_heights),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

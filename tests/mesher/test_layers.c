@@ -224,7 +224,8 @@ static void sheared(const void *context, double u, double v, double x[3]) {
   x[0] += p[12] * bump * (x[2] - 0.005);
 }
 
-// A box 20 x 10 x 10 mm cut by a plane through its middle, square and oblique: columns on the plane stay in it on all four walls.
+// A box 20 x 10 x 10 mm cut by a plane through its middle, square and oblique: columns on the plane stay in
+// it on all four walls.
 static void plane_through_box(void **state) {
   const double angle[4] = {0, 20, 33, 45}, h[2] = {1 * MM, 0.4 * MM};
   for (int i = 0; i < 4; i++)

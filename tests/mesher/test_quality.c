@@ -36,7 +36,8 @@ static void corner_of_a_cube(void **state) {
 }
 
 static void volumes_of_the_three_shapes(void **state) {
-  const double p[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}};
+  const double p[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0},
+                          {0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}};
   const double top[3] = {0.3, 0.4, 5};
   const double *prism[6] = {p[0], p[1], p[2], p[4], p[5], p[6]};
   const double *pyramid[5] = {p[0], p[1], p[2], p[3], top};
@@ -44,10 +45,12 @@ static void volumes_of_the_three_shapes(void **state) {
   NEAR(cw_cell_volume(6, prism), 15.0, 1e-14);
   NEAR(cw_cell_volume(5, pyramid), 10.0, 1e-14);
   NEAR(cw_cell_volume(6, down), -15.0, 1e-14);
-  // A bent quadrilateral is the fan about its mean point, from both sides: what one prism gains the other loses.
+  // A bent quadrilateral is the fan about its mean point, from both sides: what one prism gains the other
+  // loses.
   const double bent[3] = {2, 3, 6};
   const double *one[6] = {p[0], p[1], p[2], p[4], p[5], bent}, *two[6] = {p[0], p[2], p[3], p[4], bent, p[7]};
-  // By hand: the box, and on its top two triangles that rise to 1 at the corner: 3 * 1/3 each; the outer sides stay flat.
+  // By hand: the box, and on its top two triangles that rise to 1 at the corner: 3 * 1/3 each; the outer
+  // sides stay flat.
   NEAR(cw_cell_volume(6, one) + cw_cell_volume(6, two), 30.0 + 2.0, 1e-13);
 }
 
@@ -56,7 +59,8 @@ static void scaled_jacobian_of_prisms(void **state) {
   double p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1e-3}, {1, 0, 1e-3}, {0.5, h, 1e-3}};
   const double *x[6] = {p[0], p[1], p[2], p[3], p[4], p[5]};
   NEAR(cw_prism_scaled_jacobian(x), 1.0, 1e-14); // thin is not bad
-  for (int k = 3; k < 6; k++) p[k][0] += 1e-3;   // sheared by 45 degrees
+  for (int k = 3; k < 6; k++)
+    p[k][0] += 1e-3; // sheared by 45 degrees
   NEAR(cw_prism_scaled_jacobian(x), sqrt(0.5), 1e-12);
   p[5][2] = -1e-3;
   assert_true(cw_prism_scaled_jacobian(x) < 0.0);
@@ -65,7 +69,8 @@ static void scaled_jacobian_of_prisms(void **state) {
 static void error_bound_covers_flat_tetrahedra(void **state) {
   const double a[3] = {0.1, 0.2, 0.3}, b[3] = {1.1, 0.7, 0.4}, c[3] = {0.3, 0.9, 0.7};
   double d[3];
-  for (int i = 0; i < 3; i++) d[i] = a[i] + 0.3 * (b[i] - a[i]) + 0.4 * (c[i] - a[i]);
+  for (int i = 0; i < 3; i++)
+    d[i] = a[i] + 0.3 * (b[i] - a[i]) + 0.4 * (c[i] - a[i]);
   assert_true(fabs(cw_tet_volume6(a, b, c, d)) < 1e-15);
   double error = cw_tet_volume6_error(a, b, c, d);
   assert_true(error > 0.0 && error < 1e-15);
@@ -73,9 +78,11 @@ static void error_bound_covers_flat_tetrahedra(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(regular_tetrahedron),        cmocka_unit_test(corner_of_a_cube),
-    cmocka_unit_test(volumes_of_the_three_shapes), cmocka_unit_test(scaled_jacobian_of_prisms),
-    cmocka_unit_test(error_bound_covers_flat_tetrahedra),
+      cmocka_unit_test(regular_tetrahedron),
+      cmocka_unit_test(corner_of_a_cube),
+      cmocka_unit_test(volumes_of_the_three_shapes),
+      cmocka_unit_test(scaled_jacobian_of_prisms),
+      cmocka_unit_test(error_bound_covers_flat_tetrahedra),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,10 +30,13 @@ static double least_of(const CwFill *fill, double *volume) {
   for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
     const double *x[4];
     double u[3], v[3], w[3];
-    for (int i = 0; i < 4; i++) x[i] = fill->x[fill->tetrahedron[t][i]];
-    for (int i = 0; i < 3; i++) u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
+    for (int i = 0; i < 4; i++)
+      x[i] = fill->x[fill->tetrahedron[t][i]];
+    for (int i = 0; i < 3; i++)
+      u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
     *volume += ((u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] +
-                (u[0] * v[1] - u[1] * v[0]) * w[2]) / 6.0;
+                (u[0] * v[1] - u[1] * v[0]) * w[2]) /
+               6.0;
     least = fmin(least, cw_tet_quality(x[0], x[1], x[2], x[3]));
   }
   return least;
@@ -49,7 +52,8 @@ static void quality_by_hand(void **state) {
   NEAR(cw_tet_quality(a, b, c, far_up), 1.35 / sqrt(81.0 + 1.0 / 3.0), 1e-14);
 }
 
-// An octahedron can be cut along each of its three diagonals; the boundary is the same. Started from the worst, the best is found.
+// An octahedron can be cut along each of its three diagonals; the boundary is the same. Started from the
+// worst, the best is found.
 static void octahedron_gets_its_best_diagonal(void **state) {
   const double x[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0.05, -1, 0}, {0, 1, 0.1}, {0, 0, -0.3}, {0, 0.02, 0.3}};
   double least[3], volume[3];
@@ -66,7 +70,8 @@ static void octahedron_gets_its_best_diagonal(void **state) {
     free_fill(&fill);
   }
   int worst = least[0] < least[1] ? 0 : 1;
-  if (least[2] < least[worst]) worst = 2;
+  if (least[2] < least[worst])
+    worst = 2;
   double best = fmax(fmax(least[0], least[1]), least[2]), got_volume;
   assert_true(least[worst] < 0.4 && best > least[worst] + 0.1);
   CwFill fill = fill_of(6, x, 4, (const int32_t(*)[4])tets[worst]);
@@ -81,7 +86,8 @@ static void octahedron_gets_its_best_diagonal(void **state) {
   free_fill(&fill);
 }
 
-// Two tall tetrahedra on a common flat face become three round the long axis, and back from three flat ones to two.
+// Two tall tetrahedra on a common flat face become three round the long axis, and back from three flat ones
+// to two.
 static void two_become_three_and_three_two(void **state) {
   const double h = sqrt(0.75);
   double x[5][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3.0, 0.14}, {0.5, h / 3.0, -0.14}};
@@ -128,7 +134,8 @@ static void inner_point_is_smoothed(void **state) {
   x = malloc(13 * sizeof *x);
   memcpy(x, s.x, 12 * sizeof *x);
   const int32_t *f = s.triangle[0];
-  for (int i = 0; i < 3; i++) x[12][i] = 0.31 * (s.x[f[0]][i] + s.x[f[1]][i] + s.x[f[2]][i]);
+  for (int i = 0; i < 3; i++)
+    x[12][i] = 0.31 * (s.x[f[0]][i] + s.x[f[1]][i] + s.x[f[2]][i]);
   int32_t tet[20][4];
   for (int t = 0; t < 20; t++) {
     const int32_t one[4] = {s.triangle[t][0], s.triangle[t][2], s.triangle[t][1], 12};
@@ -151,10 +158,10 @@ static void inner_point_is_smoothed(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(quality_by_hand),
-    cmocka_unit_test(octahedron_gets_its_best_diagonal),
-    cmocka_unit_test(two_become_three_and_three_two),
-    cmocka_unit_test(inner_point_is_smoothed),
+      cmocka_unit_test(quality_by_hand),
+      cmocka_unit_test(octahedron_gets_its_best_diagonal),
+      cmocka_unit_test(two_become_three_and_three_two),
+      cmocka_unit_test(inner_point_is_smoothed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

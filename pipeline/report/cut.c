@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/cut.h"
+
+#include <math.h>
+
+static double along(const double *a, const double *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double cw_cut_distance(const CwCutPlane *plane, const double x[3]) {
+  return along(plane->normal, x) - along(plane->normal, plane->origin);
+}
+
+static const int tetrahedron_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+static const int pyramid_edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+static const int prism_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+
+int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, const double *s,
+                double polygon[CW_CUT_CORNERS][2]) {
+  const int(*edge)[2] = count == 4 ? tetrahedron_edge : count == 5 ? pyramid_edge : prism_edge;
+  int edges = count == 4 ? 6 : count == 5 ? 8 : 9, corners = 0;
+  double middle[2] = {0, 0}, angle[CW_CUT_CORNERS];
+  for (int e = 0; e < edges; e++) {
+    int a = edge[e][0], b = edge[e][1];
+    if ((s[a] >= 0) == (s[b] >= 0)) continue;
+    double t = s[a] / (s[a] - s[b]), point[3];
+    for (int i = 0; i < 3; i++) point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
+    polygon[corners][0] = along(point, plane->u);
+    polygon[corners][1] = along(point, plane->v);
+    middle[0] += polygon[corners][0];
+    middle[1] += polygon[corners][1];
+    corners++;
+  }
+  // The cut is convex (nearly, where a quadrilateral is warped): the corners stand in order about their mean.
+  for (int k = 0; k < corners; k++)
+    angle[k] = atan2(polygon[k][1] - middle[1] / corners, polygon[k][0] - middle[0] / corners);
+  for (int k = 1; k < corners; k++) {
+    for (int m = k; m > 0 && angle[m] < angle[m - 1]; m--) {
+      for (int i = 0; i < 2; i++) {
+        double swap = polygon[m][i];
+        polygon[m][i] = polygon[m - 1][i];
+        polygon[m - 1][i] = swap;
+      }
+      double swap = angle[m];
+      angle[m] = angle[m - 1];
+      angle[m - 1] = swap;
+    }
+  }
+  return corners;
+}

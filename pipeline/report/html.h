@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Small pieces of an HTML page. Errors of the stream are found when the file is committed.
+#ifndef CUTWATER_PIPELINE_REPORT_HTML_H
+#define CUTWATER_PIPELINE_REPORT_HTML_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "pipeline/status.h"
+
+// Writes text with & < > " ' escaped.
+void cw_html_text(FILE *page, const char *text);
+// The same of a key: underscores become blanks, the first letter a capital, y_plus the sign for it.
+void cw_html_label(FILE *page, const char *key);
+void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size);
+
+// A right-aligned table cell with the decimal points of a column in line.
+void cw_html_number_cell(FILE *page, const char *number);
+
+// Writes the <svg> element of a file, without what stands before it. CW_ERR_INPUT where there is none, or it is not
+// whole, or holds scripts or references.
+CwStatus cw_html_svg_file(FILE *page, const char *path);
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "pipeline/report/json_read.h"
+#include "pipeline/report/page.h"
+
+const char *const cw_report_stage[CW_STAGES] = {"geometry", "mesh", "export"};
+
+static CwStatus read_record(const char *run, int stage, json_t **record) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  const char *name;
+  json_t *value;
+  snprintf(path, sizeof path, "%s/%s/record.json", run, cw_report_stage[stage]);
+  if (!strcmp(cw_report_stage[stage], "export") && access(path, F_OK) != 0) goto done; // not exported yet
+  CW_TRY(cw_json_read(path, record));
+  CW_TRY(cw_json_text(*record, path, "stage", &name));
+  CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path, name,
+             cw_report_stage[stage]);
+  CW_REQUIRE(cw_json_real(*record, "seconds") >= 0, CW_ERR_INPUT, "%s: 'seconds' must be a number from 0", path);
+  CW_REQUIRE(cw_json_real(*record, "peak_memory_bytes") >= 0, CW_ERR_INPUT,
+             "%s: 'peak_memory_bytes' must be a number from 0", path);
+  CW_TRY(cw_json_array(*record, path, "steps", &value));
+  for (size_t k = 0; k < json_array_size(value); k++) {
+    json_t *step = json_array_get(value, k);
+    CW_TRY(cw_json_text(step, path, "name", &name));
+    CW_REQUIRE(cw_json_real(step, "seconds") >= 0, CW_ERR_INPUT,
+               "%s: 'seconds' of step '%s' must be a number from 0", path, name);
+  }
+  CW_TRY(cw_json_array(*record, path, "warnings", &value));
+  CW_TRY(cw_json_object(*record, path, "results", &value));
+done:
+  return status;
+}
+
+CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  *data = (CwReportData){.table = table};
+  data->run = strdup(run);
+  CW_REQUIRE(data->run, CW_ERR_MEMORY, "out of memory: a path");
+  snprintf(path, sizeof path, "%s/geometry/design.json", run);
+  CW_TRY(cw_json_read(path, &data->design));
+  for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, s, &data->record[s]));
+  CW_TRY(cw_report_mesh_read(run, &data->mesh));
+  CW_REQUIRE(!strcmp(data->mesh.case_name, table->name), CW_ERR_INPUT,
+             "%s/manifest.json: the mesh is of case '%s', the case file is '%s'", data->mesh.folder,
+             data->mesh.case_name, table->name);
+done:
+  return status;
+}
+
+void cw_report_data_free(CwReportData *data) {
+  free(data->run);
+  json_decref(data->design);
+  for (int s = 0; s < CW_STAGES; s++) json_decref(data->record[s]);
+  cw_report_mesh_free(&data->mesh);
+  cw_report_pictures_free(&data->pictures);
+  *data = (CwReportData){0};
+}
+
+CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
+  CwStatus status = CW_OK;
+  *sizes = (CwPumpSizes){.blade_count = data->table->impeller.blade_count,
+                         .outlet_radius = 0.5 * data->table->impeller.outlet_diameter,
+                         .interface_radius = cw_json_real(data->design, "interface_radius_m"),
+                         .base_radius = 0.5 * data->table->volute.base_diameter};
+  CW_REQUIRE(sizes->interface_radius > 0, CW_ERR_INPUT,
+             "%s/geometry/design.json: 'interface_radius_m' must be a number above 0", data->run);
+done:
+  return status;
+}
+
+CwStatus cw_page_mesh_results(const CwReportData *data, json_t **results) {
+  char where[4096];
+  snprintf(where, sizeof where, "%s/mesh/record.json", data->run);
+  return cw_json_object(data->record[1], where, "results", results);
+}
+
+CwStatus cw_page_mesh_domain(const CwReportData *data, int d, json_t **domain) {
+  CwStatus status = CW_OK;
+  char where[4096];
+  const char *name;
+  json_t *results, *domains;
+  snprintf(where, sizeof where, "%s/mesh/record.json: results", data->run);
+  CW_TRY(cw_page_mesh_results(data, &results));
+  CW_TRY(cw_json_array(results, where, "domains", &domains));
+  *domain = json_array_get(domains, (size_t)d);
+  CW_TRY(cw_json_text(*domain, where, "name", &name));
+  CW_REQUIRE(!strcmp(name, data->mesh.domain[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'", where,
+             d + 1, name, data->mesh.domain[d].name);
+done:
+  return status;
+}

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the mesher made: counts, regions, quality, layers.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/report/format.h"
+#include "pipeline/report/html.h"
+#include "pipeline/report/json_read.h"
+#include "pipeline/report/page.h"
+#include "pipeline/report/plot.h"
+
+enum { ASPECT_CLASSES = 8, DIHEDRAL_BINS = 18, JACOBIAN_BINS = 20 };
+static const uint32_t rotor_colour = 0x4f8fc0, stator_colour = 0xd9a24e, paper_colour = 0x9aa5b1;
+
+static void count_cell(FILE *page, int64_t count) {
+  char text[CW_FORMAT_SIZE];
+  fprintf(page, "<td class=\"n\">%s</td>", cw_format_count(count, text));
+}
+
+static void number_cell(FILE *page, double value, int significant) {
+  char text[CW_FORMAT_SIZE];
+  cw_html_number_cell(page, cw_format_number(value, significant, text));
+}
+
+static void figure_row(FILE *page, const char *label, const char *unit, json_t *const domain[2], const char *key,
+                       double scale, int significant) {
+  fprintf(page, "<tr><td>%s</td>", label);
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) number_cell(page, cw_json_real(domain[d], key) * scale, significant);
+  fprintf(page, "<td>%s</td></tr>\n", unit);
+}
+
+static CwStatus both_domains(const CwReportData *data, json_t *domain[2]) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
+done:
+  return status;
+}
+
+CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  static const struct {
+    const char *label;
+    size_t member;
+  } rows[] = {{"Tetrahedra", offsetof(CwReportRegion, tetrahedra)},
+              {"Prisms", offsetof(CwReportRegion, prisms)},
+              {"Pyramids", offsetof(CwReportRegion, pyramids)},
+              {"Boundary triangles", offsetof(CwReportRegion, triangles)},
+              {"Boundary quadrilaterals", offsetof(CwReportRegion, quads)}};
+  json_t *domain[2];
+  char where[4096];
+  int64_t cells[2] = {0, 0}, points[2];
+  CW_TRY(both_domains(data, domain));
+  fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th><th class=\"n\">Rotor</th><th class=\"n\">Stator</th>"
+        "<th class=\"n\">Together</th></tr>\n",
+        page);
+  for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+    int64_t sum[2] = {0, 0};
+    for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+      for (int r = 0; r < data->mesh.domain[d].region_count; r++) {
+        int64_t count;
+        memcpy(&count, (const char *)&data->mesh.domain[d].region[r] + rows[k].member, sizeof count);
+        sum[d] += count;
+      }
+      if (k < 3) cells[d] += sum[d];
+    }
+    fprintf(page, "<tr><td>%s</td>", rows[k].label);
+    count_cell(page, sum[0]);
+    count_cell(page, sum[1]);
+    count_cell(page, sum[0] + sum[1]);
+    fputs("</tr>\n", page);
+    if (k != 2) continue;
+    fputs("<tr class=\"t\"><td>Cells</td>", page);
+    count_cell(page, cells[0]);
+    count_cell(page, cells[1]);
+    count_cell(page, cells[0] + cells[1]);
+    fputs("</tr>\n", page);
+  }
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domain[d].name);
+    CW_TRY(cw_json_count(domain[d], where, "points", &points[d]));
+  }
+  fputs("<tr><td>Points</td>", page);
+  count_cell(page, points[0]);
+  count_cell(page, points[1]);
+  count_cell(page, points[0] + points[1]);
+  fputs("</tr>\n<tr><td>Regions</td>", page);
+  count_cell(page, data->mesh.domain[0].region_count);
+  count_cell(page, data->mesh.domain[1].region_count);
+  count_cell(page, data->mesh.domain[0].region_count + data->mesh.domain[1].region_count);
+  fputs("</tr>\n</table>\n<h3>Volume</h3>\n<table><tr><th></th><th class=\"n p\">Rotor</th>"
+        "<th class=\"n p\">Stator</th><th>Unit</th></tr>\n",
+        page);
+  figure_row(page, "Of all cells", "cm&sup3;", domain, "mesh_volume_m3", 1e6, 6);
+  figure_row(page, "Of the solid", "cm&sup3;", domain, "solid_volume_m3", 1e6, 6);
+  figure_row(page, "Difference", "%", domain, "volume_error", 100, 3);
+  figure_row(page, "Least cell", "mm&sup3;", domain, "least_cell_volume_m3", 1e9, 3);
+  fputs("</table></div>\n<div><table><tr><th>Domain</th><th>Patch</th><th>Kind</th><th class=\"n p\">Area, "
+        "cm&sup2;</th></tr>\n",
+        page);
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    size_t k;
+    json_t *patch, *patches = json_object_get(domain[d], "patches");
+    json_array_foreach(patches, k, patch) {
+      const char *name = json_string_value(json_object_get(patch, "name"));
+      const char *kind = json_string_value(json_object_get(patch, "kind"));
+      fprintf(page, "<tr><td>%s</td><td>", k ? "" : data->mesh.domain[d].name);
+      cw_html_label(page, name ? name : "");
+      fputs("</td><td class=\"q\">", page);
+      cw_html_text(page, kind ? kind : "");
+      fputs("</td>", page);
+      number_cell(page, cw_json_real(patch, "area_m2") * 1e4, 4);
+      fputs("</tr>\n", page);
+    }
+  }
+  fputs("</table></div>\n</div>\n", page);
+done:
+  return status;
+}
+
+// One bar a region: tetrahedra and prisms; the mean as a line.
+static CwStatus balance_chart(FILE *page, const CwReportData *data, int d, json_t *domain) {
+  CwStatus status = CW_OK;
+  const CwReportDomain *mesh = &data->mesh.domain[d];
+  int count = mesh->region_count;
+  double *tets = NULL, *prisms = NULL, sum = 0;
+  char(*label)[32] = NULL, (*note)[CW_FORMAT_SIZE] = NULL, text[CW_FORMAT_SIZE];
+  const char **labels = NULL, **notes = NULL;
+  json_t *list = json_object_get(domain, "region_list");
+  CW_NEW(tets, count);
+  CW_NEW(prisms, count);
+  CW_NEW(label, count);
+  CW_NEW(note, count);
+  CW_NEW(labels, count);
+  CW_NEW(notes, count);
+  for (int r = 0; r < count; r++) {
+    const CwReportRegion *region = &mesh->region[r];
+    double cells = (double)(region->tetrahedra + region->prisms + region->pyramids);
+    tets[r] = (double)(region->tetrahedra + region->pyramids) * 1e-3;
+    prisms[r] = (double)region->prisms * 1e-3;
+    sum += cells;
+    snprintf(label[r], sizeof label[r], "%s %d", mesh->name, region->region);
+    snprintf(note[r], sizeof note[r], "%s", cw_format_si(cells, 3, text));
+    double seconds = cw_json_real(json_array_get(list, (size_t)r), "seconds");
+    if (isfinite(seconds)) {
+      size_t used = strlen(note[r]);
+      snprintf(note[r] + used, sizeof note[r] - used, ", %.30s", cw_format_seconds(seconds, text));
+    }
+    labels[r] = label[r];
+    notes[r] = note[r];
+  }
+  CwPlotSeries series[2] = {{"prisms", d ? stator_colour : rotor_colour, prisms},
+                            {"tetrahedra", d ? 0xecd3a6 : 0xb4d0e6, tets}};
+  CwPlot plot = {.axis = "thousand cells; dashed: mean of the domain", .label = labels, .count = count,
+                 .series = series, .series_count = 2, .note = notes, .mark = sum / count * 1e-3, .width = 560};
+  cw_plot_bars(page, &plot);
+done:
+  free(tets);
+  free(prisms);
+  free(label);
+  free(note);
+  free(labels);
+  free(notes);
+  return status;
+}
+
+CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  json_t *domain[2];
+  CW_TRY(both_domains(data, domain));
+  fputs("<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
+        "colours; the mesh is the same for any number of ranks.</p>\n",
+        page);
+  cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
+  fputs("<h3>Balance</h3>\n<div class=\"grid\">\n", page);
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    fputs("<figure>", page);
+    CW_TRY(balance_chart(page, data, d, domain[d]));
+    fprintf(page, "<figcaption>Cells and meshing time of each region of the %s.</figcaption></figure>\n",
+            data->mesh.domain[d].name);
+  }
+  fputs("</div>\n<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n", page);
+  figure_row(page, "Largest region over mean", "", domain, "region_balance", 1, 3);
+  figure_row(page, "Largest error of the predicted share", "%", domain, "region_prediction_error", 100, 2);
+  figure_row(page, "Interface polygons", "", domain, "interfaces", 1, 9);
+  figure_row(page, "Colours (longest chain)", "", domain, "colours", 1, 9);
+  fputs("</table>\n", page);
+done:
+  return status;
+}
+
+// Reads `count` counts of an array and turns them into shares of their sum, in percent.
+static CwStatus shares(const CwReportData *data, json_t *domain, const char *key, int count, double *share) {
+  CwStatus status = CW_OK;
+  json_t *array = json_object_get(domain, key);
+  double sum = 0;
+  CW_REQUIRE(json_is_array(array) && json_array_size(array) == (size_t)count, CW_ERR_INPUT,
+             "%s/mesh/record.json: '%s' of a domain must be an array of %d counts", data->run, key, count);
+  for (int k = 0; k < count; k++) {
+    share[k] = json_number_value(json_array_get(array, (size_t)k));
+    sum += share[k];
+  }
+  for (int k = 0; k < count; k++) share[k] = sum > 0 ? 100 * share[k] / sum : NAN;
+done:
+  return status;
+}
+
+CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  static const char *const aspect_label[ASPECT_CLASSES] = {
+      "1\342\200\2231.5", "1.5\342\200\2232", "2\342\200\2233", "3\342\200\2234",
+      "4\342\200\2235",   "5\342\200\2237",   "7\342\200\22310", "> 10"};
+  // The paper's Table 1, proposed algorithm.
+  static const double paper[ASPECT_CLASSES] = {4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1, NAN};
+  double aspect[2][ASPECT_CLASSES], dihedral[2][DIHEDRAL_BINS], jacobian[2][JACOBIAN_BINS];
+  char label[JACOBIAN_BINS][16];
+  const char *labels[JACOBIAN_BINS];
+  json_t *domain[2];
+  CW_TRY(both_domains(data, domain));
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    CW_TRY(shares(data, domain[d], "tetrahedron_aspect_class", ASPECT_CLASSES, aspect[d]));
+    CW_TRY(shares(data, domain[d], "least_dihedral_bins", DIHEDRAL_BINS, dihedral[d]));
+    CW_TRY(shares(data, domain[d], "prism_scaled_jacobian_bins", JACOBIAN_BINS, jacobian[d]));
+  }
+  fputs("<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n", page);
+  figure_row(page, "Tetrahedra: longest over shortest edge, mean", "2.98 in the paper", domain,
+             "tetrahedron_aspect_mean", 1, 4);
+  figure_row(page, "Tetrahedra: longest over shortest edge, greatest", "8.8 in the paper", domain,
+             "tetrahedron_aspect_max", 1, 4);
+  figure_row(page, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
+  figure_row(page, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
+  figure_row(page, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
+  fputs("</table>\n<figure>", page);
+  CwPlotSeries series[3] = {{"rotor", rotor_colour, aspect[0]},
+                            {"stator", stator_colour, aspect[1]},
+                            {"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper}};
+  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra", .category_axis = "longest edge over shortest edge",
+                                  .label = aspect_label, .count = ASPECT_CLASSES, .series = series, .series_count = 3,
+                                  .decimals = 1, .width = 980});
+  fputs("<figcaption><b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the regular "
+        "tetrahedron.</figcaption></figure>\n<div class=\"grid\">\n<figure>",
+        page);
+  // Least dihedral angles end at that of the regular tetrahedron, 70.5 degrees.
+  int bins = 8;
+  for (int k = 0; k < bins; k++) {
+    snprintf(label[k], sizeof label[k], "%d\342\200\223%d", 10 * k, 10 * k + 10);
+    labels[k] = label[k];
+  }
+  series[0].value = dihedral[0];
+  series[1].value = dihedral[1];
+  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra", .category_axis = "least dihedral angle, degrees",
+                                  .label = labels, .count = bins, .series = series, .series_count = 2, .decimals = 1,
+                                  .width = 560});
+  fputs("<figcaption><b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular one.</figcaption>"
+        "</figure>\n<figure>",
+        page);
+  for (int k = 0; k < JACOBIAN_BINS; k++) {
+    snprintf(label[k], sizeof label[k], k % 4 == 0 ? "%.1f" : "", k / 20.0);
+    labels[k] = label[k];
+  }
+  series[0].value = jacobian[0];
+  series[1].value = jacobian[1];
+  cw_plot_columns(page, &(CwPlot){.axis = "% of the prisms", .category_axis = "scaled Jacobian, from", .label = labels,
+                                  .count = JACOBIAN_BINS, .series = series, .series_count = 2, .decimals = -1,
+                                  .width = 560});
+  fputs("<figcaption><b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right prism on an "
+        "equilateral triangle, 0 and below is inverted.</figcaption></figure>\n</div>\n",
+        page);
+done:
+  return status;
+}
+
+static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces", "thinned_by_gradation_faces",
+                                           "thinned_by_repair_faces"};
+
+static CwStatus coverage_chart(FILE *page, json_t *const list[2]) {
+  CwStatus status = CW_OK;
+  static const char *const names[] = {"full thickness", "thinned by a gap", "thinned by gradation",
+                                      "thinned by repair"};
+  static const uint32_t colours[] = {0x5f9e7c, 0xe0b653, 0x8db4da, 0xc8665a};
+  size_t count = json_array_size(list[0]) + json_array_size(list[1]), row = 0;
+  double *share[4] = {NULL};
+  const char **label = NULL;
+  char(*words)[64] = NULL;
+  CwPlotSeries series[4];
+  CW_NEW(label, count);
+  CW_NEW(words, count);
+  for (int s = 0; s < 4; s++) {
+    CW_NEW(share[s], count);
+    series[s] = (CwPlotSeries){names[s], colours[s], share[s]};
+  }
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    size_t k;
+    json_t *patch;
+    json_array_foreach(list[d], k, patch) {
+      const char *name = json_string_value(json_object_get(patch, "patch"));
+      double faces = cw_json_real(patch, "wall_faces");
+      for (int s = 0; s < 4; s++) share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
+      snprintf(words[row], sizeof words[row], "%s", name ? name : "");
+      for (char *c = words[row]; *c; c++) {
+        if (*c == '_') *c = ' ';
+      }
+      label[row] = words[row];
+      row++;
+    }
+  }
+  CwPlot plot = {.axis = "% of the wall faces", .label = label, .count = (int)count, .series = series,
+                 .series_count = 4, .limit = 100, .width = 980};
+  cw_plot_bars(page, &plot);
+done:
+  for (int s = 0; s < 4; s++) free(share[s]);
+  free(label);
+  free(words);
+  return status;
+}
+
+CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  json_t *domain[2], *list[2];
+  char where[4096], text[CW_FORMAT_SIZE];
+  double all = 0, met = 0;
+  CW_TRY(both_domains(data, domain));
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domain[d].name);
+    CW_TRY(cw_json_array(domain[d], where, "layer_coverage", &list[d]));
+    for (size_t k = 0; k < json_array_size(list[d]); k++) {
+      all += fmax(cw_json_real(json_array_get(list[d], k), "wall_faces"), 0);
+      met += fmax(cw_json_real(json_array_get(list[d], k), "first_height_met_faces"), 0);
+    }
+  }
+  fprintf(page, "<p>%d layers with a growth ratio of at most %s on every wall face. The first height comes from the "
+                "y<sup>+</sup> target of the wall; ",
+          data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
+  fprintf(page, "it is met within 10&#8239;%% on %s of the wall faces.</p>\n<figure>", cw_format_percent(met / all, text));
+  CW_TRY(coverage_chart(page, list));
+  fputs("<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and why the "
+        "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
+        "<th class=\"n\">Full<br>thickness</th><th class=\"n\">First height<br>met</th><th class=\"n p\">First height,"
+        "<br>target, &micro;m</th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
+        "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th></tr>\n",
+        page);
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    size_t k;
+    json_t *patch;
+    fprintf(page, "<tr class=\"s\"><td colspan=\"10\">%s</td></tr>\n", d ? "Stator" : "Rotor");
+    json_array_foreach(list[d], k, patch) {
+      const char *name = json_string_value(json_object_get(patch, "patch"));
+      double faces = cw_json_real(patch, "wall_faces");
+      fputs("<tr><td>", page);
+      cw_html_label(page, name ? name : "");
+      fputs("</td>", page);
+      count_cell(page, json_integer_value(json_object_get(patch, "wall_faces")));
+      fprintf(page, "<td class=\"n\">%s</td>", cw_format_percent(cw_json_real(patch, coverage_key[0]) / faces, text));
+      fprintf(page, "<td class=\"n\">%s</td>",
+              cw_format_percent(cw_json_real(patch, "first_height_met_faces") / faces, text));
+      number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
+      number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
+      number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
+      for (int s = 1; s < 4; s++) count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+      fputs("</tr>\n", page);
+    }
+  }
+  fputs("</table>\n", page);
+done:
+  return status;
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How the run went: export, times, memory, warnings.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/report/format.h"
+#include "pipeline/report/html.h"
+#include "pipeline/report/json_read.h"
+#include "pipeline/report/page.h"
+#include "pipeline/report/plot.h"
+
+static void value_text(FILE *page, json_t *value) {
+  char text[CW_FORMAT_SIZE];
+  if (json_is_integer(value)) fputs(cw_format_count(json_integer_value(value), text), page);
+  else if (json_is_real(value)) fputs(cw_format_number(json_real_value(value), 5, text), page);
+  else if (json_is_string(value)) cw_html_text(page, json_string_value(value));
+  else if (json_is_boolean(value)) fputs(json_is_true(value) ? "yes" : "no", page);
+  else fputs("\342\200\223", page);
+}
+
+static int is_table(json_t *value) {
+  return json_is_array(value) && json_array_size(value) && json_is_object(json_array_get(value, 0));
+}
+
+// An array of alike objects as a table.
+static void object_table(FILE *page, const char *heading, json_t *array) {
+  const char *key;
+  json_t *member, *row;
+  size_t k;
+  fputs("<h3>", page);
+  cw_html_label(page, heading);
+  fputs("</h3>\n<table class=\"plain\"><tr>", page);
+  json_object_foreach(json_array_get(array, 0), key, member) {
+    fprintf(page, "<th%s>", json_is_number(member) ? " class=\"n\"" : "");
+    cw_html_label(page, key);
+    fputs("</th>", page);
+  }
+  fputs("</tr>\n", page);
+  json_array_foreach(array, k, row) {
+    fputs("<tr>", page);
+    json_object_foreach(json_array_get(array, 0), key, member) {
+      json_t *value = json_object_get(row, key);
+      fprintf(page, "<td%s>", json_is_number(value) ? " class=\"n\"" : "");
+      value_text(page, value);
+      fputs("</td>", page);
+    }
+    fputs("</tr>\n", page);
+  }
+  fputs("</table>\n", page);
+}
+
+// Objects of plain values with the same keys stand side by side; the rest of the results one under the other.
+static void result_tables(FILE *page, json_t *results) {
+  const char *key, *inner;
+  json_t *value, *member;
+  fputs("<table class=\"plain\">", page);
+  json_object_foreach(results, key, value) {
+    if (json_is_object(value) || json_is_array(value)) continue;
+    fputs("<tr><td>", page);
+    cw_html_label(page, key);
+    fputs("</td><td class=\"n\">", page);
+    value_text(page, value);
+    fputs("</td></tr>\n", page);
+  }
+  fputs("</table>\n", page);
+  json_object_foreach(results, key, value) {
+    if (is_table(value)) object_table(page, key, value);
+    if (!json_is_object(value)) continue;
+    fputs("<h3>", page);
+    cw_html_label(page, key);
+    fputs("</h3>\n<table class=\"plain\">", page);
+    json_object_foreach(value, inner, member) {
+      if (json_is_object(member) || json_is_array(member)) continue;
+      fputs("<tr><td>", page);
+      cw_html_label(page, inner);
+      fputs("</td><td class=\"n\">", page);
+      value_text(page, member);
+      fputs("</td></tr>\n", page);
+    }
+    fputs("</table>\n", page);
+  }
+}
+
+CwStatus cw_page_export(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  json_t *results;
+  char where[4096];
+  if (!data->record[2]) {
+    fputs("<p>This run has not been exported: <code>export/record.json</code> is not there.</p>\n", page);
+    goto done;
+  }
+  snprintf(where, sizeof where, "%s/export/record.json", data->run);
+  CW_TRY(cw_json_object(data->record[2], where, "results", &results));
+  fputs("<p>What the exporter counted and measured while it wrote CGNS, OpenFOAM and CFX files from the same mesh.</p>\n",
+        page);
+  result_tables(page, results);
+done:
+  return status;
+}
+
+// Steps that bear the same name (the passes of the mesher) become one.
+typedef struct {
+  const char *name;
+  char label[96], note[160];
+  double seconds[CW_STAGES], items;
+  int times;
+} Step;
+
+static size_t gather_steps(const CwReportData *data, Step *step) {
+  size_t count = 0;
+  for (int s = 0; s < CW_STAGES; s++) {
+    json_t *list = json_object_get(data->record[s], "steps"), *item;
+    size_t first = count, k;
+    json_array_foreach(list, k, item) {
+      const char *name = json_string_value(json_object_get(item, "name"));
+      const char *unit = json_string_value(json_object_get(item, "unit"));
+      char seconds[CW_FORMAT_SIZE], items[CW_FORMAT_SIZE];
+      size_t at = first;
+      while (at < count && strcmp(step[at].name, name)) at++;
+      if (at == count) {
+        step[count++] = (Step){.name = name, .seconds = {NAN, NAN, NAN}};
+        step[at].seconds[s] = 0;
+        snprintf(step[at].label, sizeof step[at].label, "%s: %s", cw_report_stage[s], name);
+      }
+      step[at].times++;
+      step[at].seconds[s] += cw_json_real(item, "seconds");
+      double number = cw_json_real(item, "items");
+      snprintf(step[at].note, sizeof step[at].note, "%s", cw_format_seconds(step[at].seconds[s], seconds));
+      size_t used = strlen(step[at].note);
+      if (isfinite(number) && unit)
+        used += (size_t)snprintf(step[at].note + used, sizeof step[at].note - used, ", %s %s",
+                                 cw_format_count((int64_t)number, items), unit);
+      if (step[at].times > 1 && used < sizeof step[at].note)
+        snprintf(step[at].note + used, sizeof step[at].note - used, ", %d passes", step[at].times);
+    }
+  }
+  return count;
+}
+
+CwStatus cw_page_times(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  static const uint32_t colours[CW_STAGES] = {0x7a9e87, 0x4f8fc0, 0xd9a24e};
+  Step *step = NULL;
+  double *value[CW_STAGES] = {NULL}, sum = 0;
+  const char **label = NULL, **note = NULL;
+  char text[CW_FORMAT_SIZE];
+  size_t most = 0, count;
+  CwPlotSeries series[CW_STAGES];
+  for (int s = 0; s < CW_STAGES; s++) most += json_array_size(json_object_get(data->record[s], "steps"));
+  CW_NEW(step, most);
+  CW_NEW(label, most);
+  CW_NEW(note, most);
+  count = gather_steps(data, step);
+  for (int s = 0; s < CW_STAGES; s++) {
+    CW_NEW(value[s], count);
+    for (size_t k = 0; k < count; k++) value[s][k] = step[k].seconds[s];
+    series[s] = (CwPlotSeries){cw_report_stage[s], colours[s], value[s]};
+  }
+  for (size_t k = 0; k < count; k++) {
+    label[k] = step[k].label;
+    note[k] = step[k].note;
+  }
+  fputs("<table class=\"plain\"><tr><th>Stage</th><th class=\"n\">Time</th><th class=\"n\">Peak memory</th>"
+        "<th class=\"n\">Warnings</th></tr>\n",
+        page);
+  for (int s = 0; s < CW_STAGES; s++) {
+    if (!data->record[s]) {
+      fprintf(page, "<tr><td>%s</td><td class=\"n\">not run</td><td></td><td></td></tr>\n", cw_report_stage[s]);
+      continue;
+    }
+    double seconds = cw_json_real(data->record[s], "seconds");
+    sum += seconds;
+    fprintf(page, "<tr><td>%s</td><td class=\"n\">%s</td>", cw_report_stage[s], cw_format_seconds(seconds, text));
+    fprintf(page, "<td class=\"n\">%s</td>",
+            cw_format_bytes(cw_json_real(data->record[s], "peak_memory_bytes"), text));
+    fprintf(page, "<td class=\"n\">%zu</td></tr>\n", json_array_size(json_object_get(data->record[s], "warnings")));
+  }
+  fprintf(page, "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n<figure>",
+          cw_format_seconds(sum, text));
+  cw_plot_bars(page, &(CwPlot){.axis = "seconds", .label = label, .count = (int)count, .series = series,
+                               .series_count = data->record[2] ? 3 : 2, .note = note, .width = 980});
+  fputs("<figcaption><b>Time of each step.</b> Steps that the mesher repeats to meet the asked number of cells are added "
+        "up.</figcaption></figure>\n",
+        page);
+done:
+  free(step);
+  free(label);
+  free(note);
+  for (int s = 0; s < CW_STAGES; s++) free(value[s]);
+  return status;
+}
+
+CwStatus cw_page_warnings(FILE *page, const CwReportData *data) {
+  int count = 0;
+  for (int s = 0; s < CW_STAGES; s++) {
+    size_t k;
+    json_t *warning, *list = json_object_get(data->record[s], "warnings");
+    json_array_foreach(list, k, warning) {
+      const char *text = json_string_value(warning);
+      fprintf(page, "<div class=\"warn\"><b>%s:</b> ", cw_report_stage[s]);
+      cw_html_text(page, text ? text : "");
+      fputs("</div>\n", page);
+      count++;
+    }
+  }
+  if (!count) fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
+  return CW_OK;
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Which pictures there are: what each shows, from where, how large.
+#ifndef CUTWATER_PIPELINE_REPORT_PICTURE_LIST_H
+#define CUTWATER_PIPELINE_REPORT_PICTURE_LIST_H
+
+#include "pipeline/report/pictures.h"
+
+enum { CW_SEES_ROTOR = 1, CW_SEES_STATOR = 2 };
+
+typedef enum { CW_COLOUR_PATCH, CW_COLOUR_REGION, CW_COLOUR_CUT } CwPictureColour;
+typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0 } CwPicturePlane;
+
+typedef enum {
+  CW_TARGET_ALL,      // all that is seen
+  CW_TARGET_PLACE,    // around one of the survey's places
+  CW_TARGET_NECK,     // at the interface radius, in the meridional plane
+  CW_TARGET_SHROUD,   // at the shroud, in the meridional plane
+} CwPictureTarget;
+
+typedef struct {
+  CwPictureSection section;
+  const char *title, *caption;
+  int wide, width, height;
+  CwPictureColour colour;
+  unsigned sees;
+  const char *hidden;       // names of patches that are left out, "|a|b|"
+  int upper_half;           // of the stator, what lies at z < 0 is cut off
+  int hollow_white;         // faces of the rotor seen from within the metal are left white
+  int edges;                // with the edges of the faces
+  CwPicturePlane plane;
+  CwPictureTarget target;
+  CwPlace place;
+  double span;              // width of the picture over the outlet diameter; 0: all
+  // Towards the viewer and upwards: x, y, z; of a place: along the radius, the direction of rotation, the axis.
+  double towards[3], up[3];
+  int inset_of;             // index of the picture in which this one is framed, or -1
+  const char *inset_name;
+} CwPictureSpec;
+
+extern const CwPictureSpec cw_picture_list[];
+extern const int cw_picture_list_count;
+
+// Colour of a patch by its name; of an unknown one by its index.
+uint32_t cw_patch_colour(const char *name, int index);
+uint32_t cw_region_colour(int index);
+
+#endif

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/pictures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pipeline/log.h"
+#include "pipeline/report/camera.h"
+#include "pipeline/report/cut.h"
+#include "pipeline/report/picture_list.h"
+
+static const uint32_t background = 0xffffff, ink = 0x27313c;
+static const uint32_t cut_colour[2][2] = {{0xdbe7f2, 0x8db4da}, {0xf6ecd6, 0xe2bb78}}; // domain; tetrahedra, prisms
+static const uint32_t pyramid_colour = 0xb98fc0;
+enum { PATCHES = CW_REPORT_PATCHES, FIT_MARGIN = 28, METAL = 65000 };
+
+// A picture while it is drawn.
+typedef struct {
+  const CwPictureSpec *spec;
+  CwCamera camera;
+  CwCameraReach reach;
+  CwCutPlane plane;
+  CwCanvas canvas;
+  const char *lacking; // what is not there; then nothing is drawn
+  char hidden[CW_REPORT_DOMAINS][PATCHES];
+  char seen[CW_REPORT_DOMAINS][PATCHES];
+} Drawing;
+
+static int sees(const CwPictureSpec *spec, int d) {
+  return (spec->sees & (d == CW_REPORT_ROTOR ? CW_SEES_ROTOR : CW_SEES_STATOR)) != 0;
+}
+
+static void mark_hidden(const CwReportMesh *mesh, Drawing *drawing) {
+  char name[80];
+  if (!drawing->spec->hidden) return;
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    for (int p = 0; p < mesh->domain[d].patch_count; p++) {
+      snprintf(name, sizeof name, "|%s|", mesh->domain[d].patch[p]);
+      drawing->hidden[d][p] = strstr(drawing->spec->hidden, name) != NULL;
+    }
+  }
+}
+
+// From directions along radius, rotation and axis at `middle` to x, y, z.
+static void turn_with(const double middle[3], const double local[3], double x[3]) {
+  double radius = hypot(middle[0], middle[1]);
+  double c = radius > 0 ? middle[0] / radius : 1, s = radius > 0 ? middle[1] / radius : 0;
+  x[0] = c * local[0] - s * local[1];
+  x[1] = s * local[0] + c * local[1];
+  x[2] = local[2];
+}
+
+static void aim(const CwSurvey *survey, Drawing *drawing) {
+  const CwPictureSpec *spec = drawing->spec;
+  CwCamera *camera = &drawing->camera;
+  double towards[3], up[3], middle[3] = {0, 0, 0}, azimuth = cw_survey_meridional_azimuth(survey), z = 0;
+  double radius = survey->sizes.interface_radius + survey->sizes.base_radius;
+  memcpy(towards, spec->towards, sizeof towards);
+  memcpy(up, spec->up, sizeof up);
+  if (spec->plane == CW_PLANE_MERIDIONAL) {
+    memcpy(towards, (double[3]){sin(azimuth), -cos(azimuth), 0}, sizeof towards);
+    memcpy(up, (double[3]){0, 0, 1}, sizeof up);
+  } else if (spec->plane == CW_PLANE_Z0) {
+    memcpy(towards, (double[3]){0, 0, -1}, sizeof towards);
+    memcpy(up, (double[3]){1, 0, 0}, sizeof up);
+  }
+  radius *= 0.5;
+  switch (spec->target) {
+  case CW_TARGET_ALL:
+    break;
+  case CW_TARGET_PLACE:
+    if (!cw_survey_place(survey, spec->place, middle)) drawing->lacking = "the mesh has no such patch";
+    if (spec->plane == CW_PLANE_NONE) {
+      turn_with(middle, spec->towards, towards);
+      turn_with(middle, spec->up, up);
+    }
+    break;
+  case CW_TARGET_SHROUD:
+    radius = 0.43 * survey->sizes.outlet_radius;
+    if (!cw_survey_shroud(survey, radius, &z)) drawing->lacking = "the mesh has no shroud";
+    // fall through
+  case CW_TARGET_NECK:
+    memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
+    break;
+  }
+  cw_camera_turn(camera, towards, up);
+  memcpy(camera->centre, middle, sizeof middle);
+  camera->width = spec->width;
+  camera->height = spec->height;
+  camera->metres_per_pixel = spec->span * 2 * survey->sizes.outlet_radius / spec->width;
+  memcpy(drawing->plane.u, camera->right, sizeof camera->right);
+  memcpy(drawing->plane.v, camera->up, sizeof camera->up);
+  memcpy(drawing->plane.normal, camera->towards, sizeof camera->towards);
+  if (spec->target == CW_TARGET_ALL && spec->plane == CW_PLANE_MERIDIONAL) {
+    double z_least, z_most;
+    if (!cw_survey_meridional_reach(survey, azimuth, &radius, &z_least, &z_most)) {
+      drawing->lacking = "the mesh has no boundary near the plane";
+      return;
+    }
+    for (int side = -1; side <= 1; side += 2) {
+      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
+                      &drawing->reach);
+      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_most},
+                      &drawing->reach);
+    }
+  }
+}
+
+// Faces as corners: triangles with four equal to three.
+typedef struct {
+  const double *x[4];
+  int count, patch;
+} Face;
+
+static Face face_at(const CwReportCells *cells, int32_t index) {
+  Face face = {.count = index < cells->triangles ? 3 : 4};
+  const int32_t *corner = face.count == 3 ? cells->triangle[index] : cells->quad[index - cells->triangles];
+  face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangles];
+  for (int k = 0; k < face.count; k++) face.x[k] = cells->x[corner[k]];
+  return face;
+}
+
+static int face_shown(const Drawing *drawing, int d, const Face *face) {
+  if (drawing->hidden[d][face->patch]) return 0;
+  if (!drawing->spec->upper_half || d == CW_REPORT_ROTOR) return 1;
+  double z = 0;
+  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
+  return z > 0;
+}
+
+// Cuts off what lies at z < 0: the corners that are left, in order; at most one more than before.
+static int upper_part(const Face *face, double part[5][3]) {
+  int count = 0;
+  for (int k = 0; k < face->count; k++) {
+    const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
+    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
+    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
+    for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
+    count++;
+  }
+  return count;
+}
+
+static void reach_faces(Drawing *drawing, int d, const CwReportCells *cells) {
+  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
+  for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
+    Face face = face_at(cells, f);
+    if (!face_shown(drawing, d, &face)) continue;
+    for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
+  }
+}
+
+// Flat shading by a light over the viewer's left shoulder; a face has no back.
+// *outside becomes true where the viewer stands on the outer side of the face.
+static double light_of(const CwCamera *camera, const Face *face, int *outside) {
+  static const double light[3] = {-0.37, 0.46, 0.81}; // right, up, towards
+  double u[3], v[3], n[3], facing[3] = {0, 0, 0};
+  for (int i = 0; i < 3; i++) {
+    u[i] = face->x[face->count - 2][i] - face->x[0][i];
+    v[i] = face->x[face->count - 1][i] - face->x[face->count - 3][i];
+  }
+  if (face->count == 3) {
+    for (int i = 0; i < 3; i++) v[i] = face->x[2][i] - face->x[0][i];
+  }
+  for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  *outside = 0;
+  if (!(length > 0)) return 1;
+  for (int i = 0; i < 3; i++) {
+    facing[0] += n[i] * camera->right[i] / length;
+    facing[1] += n[i] * camera->up[i] / length;
+    facing[2] += n[i] * camera->towards[i] / length;
+  }
+  *outside = facing[2] > 0;
+  double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
+  for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];
+  return 0.5 + 0.56 * fmax(cosine, 0);
+}
+
+static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int region, const CwReportCells *cells) {
+  const CwPictureSpec *spec = drawing->spec;
+  int region_index = region + (d == CW_REPORT_STATOR ? mesh->domain[0].region_count : 0);
+  for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
+    Face face = face_at(cells, f);
+    if (!face_shown(drawing, d, &face)) continue;
+    double p[5][3], part[5][3];
+    int corners = face.count, outside;
+    double light = light_of(&drawing->camera, &face, &outside);
+    if (spec->upper_half && d == CW_REPORT_STATOR) corners = upper_part(&face, part);
+    else for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
+    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
+    uint32_t colour = spec->colour == CW_COLOUR_REGION
+                          ? cw_region_colour(region_index)
+                          : cw_patch_colour(mesh->domain[d].patch[face.patch], face.patch);
+    int group = 1 + (spec->colour == CW_COLOUR_REGION ? region_index % 60000 : d * PATCHES + face.patch);
+    if (spec->hollow_white && outside && d == CW_REPORT_ROTOR) group = METAL;
+    CwPaint paint = {.colour = cw_render_shade(colour, light),
+                     .group = (uint16_t)group,
+                     .edge_colour = ink,
+                     .edge_width = spec->edges ? 0.9 : 0,
+                     .edge_strength = spec->edges ? 0.75 : 0};
+    cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
+  }
+}
+
+static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const double *distance, int count,
+                          const int32_t *corner, uint32_t colour, int group) {
+  const double *x[6];
+  double s[6], polygon[CW_CUT_CORNERS][2], p[CW_CUT_CORNERS][3];
+  int above = 0;
+  for (int k = 0; k < count; k++) {
+    s[k] = distance[corner[k]];
+    above += s[k] >= 0;
+  }
+  if (above == 0 || above == count) return;
+  for (int k = 0; k < count; k++) x[k] = cells->x[corner[k]];
+  int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
+  const CwCamera *camera = &drawing->camera;
+  double centre[2] = {0, 0}, area = 0;
+  for (int i = 0; i < 3; i++) {
+    centre[0] += camera->centre[i] * camera->right[i];
+    centre[1] += camera->centre[i] * camera->up[i];
+  }
+  for (int k = 0; k < corners; k++) {
+    p[k][0] = 0.5 * camera->width + (polygon[k][0] - centre[0]) / camera->metres_per_pixel;
+    p[k][1] = 0.5 * camera->height - (polygon[k][1] - centre[1]) / camera->metres_per_pixel;
+    p[k][2] = 0;
+  }
+  for (int k = 0; k < corners; k++) {
+    int next = (k + 1) % corners;
+    area += 0.5 * (p[next][0] * p[k][1] - p[k][0] * p[next][1]);
+  }
+  // Lines of cells of a few pixels are drawn paler, or they would be all that one sees.
+  double size = sqrt(fmax(area, 0)), strength = fmin(fmax(0.12 + 0.09 * (size - 1), 0.12), 0.8);
+  CwPaint paint = {.colour = colour, .group = (uint16_t)group, .edge_colour = ink, .edge_width = size > 12 ? 0.9 : 0.6,
+                   .edge_strength = strength};
+  cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
+}
+
+static CwStatus draw_cut(Drawing *drawing, int d, const CwReportCells *cells) {
+  CwStatus status = CW_OK;
+  double *distance = NULL;
+  CW_NEW(distance, cells->points);
+  for (int32_t i = 0; i < cells->points; i++) distance[i] = cw_cut_distance(&drawing->plane, cells->x[i]);
+  for (int32_t c = 0; c < cells->tetrahedra; c++)
+    draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedron[c], cut_colour[d][0], d + 1);
+  for (int32_t c = 0; c < cells->pyramids; c++)
+    draw_cut_cell(drawing, cells, distance, 5, cells->pyramid[c], pyramid_colour, d + 1);
+  for (int32_t c = 0; c < cells->prisms; c++)
+    draw_cut_cell(drawing, cells, distance, 6, cells->prism[c], cut_colour[d][1], d + 1);
+done:
+  free(distance);
+  return status;
+}
+
+// Which patches are to be seen in the finished picture.
+static void mark_seen(Drawing *drawing) {
+  size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
+  for (size_t i = 0; i < samples; i++) {
+    int group = drawing->canvas.group[i] - 1;
+    if (group >= 0 && group < CW_REPORT_DOMAINS * PATCHES) drawing->seen[group / PATCHES][group % PATCHES] = 1;
+  }
+}
+
+static void add_legend(CwReportPicture *picture, const char *label, uint32_t colour) {
+  for (int k = 0; k < picture->legend_count; k++) {
+    if (!strcmp(picture->legend[k].label, label)) return;
+  }
+  CwLegendItem *item = &picture->legend[picture->legend_count++];
+  snprintf(item->label, sizeof item->label, "%s", label);
+  for (char *c = item->label; *c; c++) {
+    if (*c == '_') *c = ' ';
+  }
+  item->colour = colour;
+}
+
+static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
+  static const char *const cut_label[2][2] = {{"rotor tetrahedra", "rotor prisms"},
+                                              {"stator tetrahedra", "stator prisms"}};
+  int pyramids = 0;
+  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0) return;
+  if (drawing->spec->colour == CW_COLOUR_CUT) {
+    for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+      for (int k = 0; k < 2; k++) add_legend(picture, cut_label[d][k], cut_colour[d][k]);
+      for (int r = 0; r < mesh->domain[d].region_count; r++) pyramids |= mesh->domain[d].region[r].pyramids > 0;
+    }
+    if (pyramids) add_legend(picture, "pyramids", pyramid_colour);
+    return;
+  }
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    for (int p = 0; p < mesh->domain[d].patch_count; p++) {
+      const char *name = mesh->domain[d].patch[p];
+      if (drawing->seen[d][p]) add_legend(picture, name, cw_patch_colour(name, p));
+    }
+  }
+}
+
+static void annotate(const Drawing *drawings, int index, CwAnnotation *annotation) {
+  static const char *const names[] = {"x", "y", "z"};
+  const Drawing *drawing = &drawings[index];
+  const CwCamera *camera = &drawing->camera;
+  annotation->metres_per_pixel = camera->metres_per_pixel;
+  annotation->axis_count = 3;
+  for (int i = 0; i < 3; i++)
+    annotation->axis[i] = (CwTriadAxis){names[i], {camera->right[i], -camera->up[i]}};
+  if (drawing->spec->plane == CW_PLANE_MERIDIONAL) {
+    annotation->axis_count = 2;
+    annotation->axis[0] = (CwTriadAxis){"r", {1, 0}};
+    annotation->axis[1] = (CwTriadAxis){"z", {0, -1}};
+  }
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    const CwCamera *inset = &drawings[k].camera;
+    double at[3], share = inset->metres_per_pixel / camera->metres_per_pixel;
+    if (drawings[k].spec->inset_of != index || drawings[k].lacking) continue;
+    cw_camera_project(camera, inset->centre, at);
+    double width = inset->width * share, height = inset->height * share;
+    annotation->frame[annotation->frame_count++] =
+        (CwInsetFrame){drawings[k].spec->inset_name, at[0] - 0.5 * width, at[1] - 0.5 * height, width, height};
+  }
+}
+
+static CwStatus finish(const CwReportMesh *mesh, Drawing *drawings, int index, CwReportPicture *picture) {
+  CwStatus status = CW_OK;
+  Drawing *drawing = &drawings[index];
+  CwAnnotation annotation = {0};
+  picture->lacking = drawing->lacking;
+  if (drawing->lacking) goto done;
+  cw_render_erase(&drawing->canvas, METAL, background);
+  if (drawing->spec->plane == CW_PLANE_NONE && !drawing->spec->edges)
+    cw_render_occlusion(&drawing->canvas, 14, drawing->camera.metres_per_pixel);
+  cw_render_outline(&drawing->canvas, ink, 3 * drawing->camera.metres_per_pixel);
+  mark_seen(drawing);
+  annotate(drawings, index, &annotation);
+  CW_TRY(cw_render_png(&drawing->canvas, &annotation, &picture->png));
+  make_legend(mesh, drawing, picture);
+done:
+  cw_render_free(&drawing->canvas);
+  return status;
+}
+
+static CwStatus survey_all(const CwReportMesh *mesh, Drawing *drawings, CwSurvey *survey) {
+  CwStatus status = CW_OK;
+  CwReportCells cells = {0};
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    for (int r = 0; r < mesh->domain[d].region_count; r++) {
+      CW_TRY(cw_report_cells_read(mesh, d, r, 0, &cells));
+      cw_survey_add(survey, &mesh->domain[d], &cells);
+      for (int k = 0; k < cw_picture_list_count; k++) {
+        if (sees(drawings[k].spec, d)) reach_faces(&drawings[k], d, &cells);
+      }
+      cw_report_cells_free(&cells);
+    }
+  }
+done:
+  cw_report_cells_free(&cells);
+  return status;
+}
+
+static CwStatus draw_all(const CwReportMesh *mesh, Drawing *drawings) {
+  CwStatus status = CW_OK;
+  CwReportCells cells = {0};
+  int64_t drawn = 0;
+  cw_progress_start("pictures", mesh->domain[0].region_count + mesh->domain[1].region_count, "regions");
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    for (int r = 0; r < mesh->domain[d].region_count; r++) {
+      CW_TRY(cw_report_cells_read(mesh, d, r, 1, &cells));
+      for (int k = 0; k < cw_picture_list_count; k++) {
+        if (!sees(drawings[k].spec, d) || drawings[k].lacking) continue;
+        if (drawings[k].spec->plane == CW_PLANE_NONE) draw_faces(&drawings[k], mesh, d, r, &cells);
+        else CW_TRY(draw_cut(&drawings[k], d, &cells));
+      }
+      cw_report_cells_free(&cells);
+      cw_progress(++drawn);
+    }
+  }
+  cw_progress_end();
+done:
+  cw_report_cells_free(&cells);
+  return status;
+}
+
+CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures) {
+  CwStatus status = CW_OK;
+  Drawing *drawings = NULL;
+  CwSurvey *survey = NULL;
+  *pictures = (CwReportPictures){0};
+  CW_NEW(drawings, cw_picture_list_count);
+  CW_NEW(survey, 1);
+  CW_NEW(pictures->picture, cw_picture_list_count);
+  pictures->count = cw_picture_list_count;
+  cw_survey_start(survey, sizes);
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    drawings[k].spec = &cw_picture_list[k];
+    mark_hidden(mesh, &drawings[k]);
+    aim(survey, &drawings[k]); // the directions of views of all; the places are not known yet
+    drawings[k].reach = (CwCameraReach){0};
+  }
+  CW_TRY(survey_all(mesh, drawings, survey));
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    const CwPictureSpec *spec = drawings[k].spec;
+    drawings[k].lacking = NULL;
+    aim(survey, &drawings[k]);
+    if (spec->target == CW_TARGET_ALL && !drawings[k].lacking) {
+      if (drawings[k].reach.started) cw_camera_fit(&drawings[k].camera, &drawings[k].reach, FIT_MARGIN);
+      else drawings[k].lacking = "the mesh has no such faces";
+    }
+    if (!drawings[k].lacking)
+      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
+  }
+  CW_TRY(draw_all(mesh, drawings));
+  for (int k = 0; k < cw_picture_list_count; k++) {
+    const CwPictureSpec *spec = drawings[k].spec;
+    CwReportPicture *picture = &pictures->picture[k];
+    picture->section = spec->section;
+    picture->title = spec->title;
+    picture->caption = spec->caption;
+    picture->wide = spec->wide;
+    picture->width = spec->width;
+    picture->height = spec->height;
+    CW_TRY(finish(mesh, drawings, k, picture));
+  }
+done:
+  for (int k = 0; drawings && k < cw_picture_list_count; k++) cw_render_free(&drawings[k].canvas);
+  free(drawings);
+  free(survey);
+  return status;
+}
+
+void cw_report_pictures_free(CwReportPictures *pictures) {
+  for (int k = 0; k < pictures->count; k++) cw_png_free(&pictures->picture[k].png);
+  free(pictures->picture);
+  *pictures = (CwReportPictures){0};
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The pictures of geometry and mesh, drawn from the region files, one region in memory at a time.
+#ifndef CUTWATER_PIPELINE_REPORT_PICTURES_H
+#define CUTWATER_PIPELINE_REPORT_PICTURES_H
+
+#include "pipeline/report/mesh_file.h"
+#include "pipeline/report/render.h"
+#include "pipeline/report/survey.h"
+
+typedef enum {
+  CW_SECTION_TITLE,
+  CW_SECTION_GEOMETRY,
+  CW_SECTION_SURFACE,
+  CW_SECTION_DECOMPOSITION,
+  CW_SECTION_CUT,
+} CwPictureSection;
+
+typedef struct {
+  char label[40];
+  uint32_t colour;
+} CwLegendItem;
+
+typedef struct {
+  CwPictureSection section;
+  const char *title, *caption;
+  int wide;              // takes the width of the page
+  int width, height;     // px
+  CwPng png;             // no bytes: the mesh lacks what the picture shows
+  const char *lacking;   // then: what
+  CwLegendItem legend[2 * CW_REPORT_PATCHES];
+  int legend_count;
+} CwReportPicture;
+
+typedef struct {
+  CwReportPicture *picture;
+  int count;
+} CwReportPictures;
+
+// Reads every region twice and draws. Free with cw_report_pictures_free, also after a failure.
+CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures);
+void cw_report_pictures_free(CwReportPictures *pictures);
+
+#endif

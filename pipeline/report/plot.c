@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/plot.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "pipeline/report/html.h"
+
+static const double key_height = 26, tick_gap = 6;
+
+double cw_plot_step(double most) {
+  if (!(most > 0) || !isfinite(most)) return 1;
+  double power = pow(10, floor(log10(most)));
+  double first = most / power; // 1 to 10
+  return first < 2 ? 0.2 * power : first < 5 ? 0.5 * power : power;
+}
+
+static void text(FILE *page, double x, double y, const char *anchor, const char *class, const char *words) {
+  fprintf(page, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" class=\"%s\">", x, y, anchor, class);
+  cw_html_text(page, words);
+  fputs("</text>\n", page);
+}
+
+static void line(FILE *page, double x0, double y0, double x1, double y1, const char *class) {
+  fprintf(page, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"%s\"/>\n", x0, y0, x1, y1, class);
+}
+
+static void box(FILE *page, double x, double y, double width, double height, uint32_t colour) {
+  fprintf(page, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#%06x\"/>\n", x, y, width, height,
+          (unsigned)colour);
+}
+
+static void tick_text(double value, double step, char *words, size_t size) {
+  int decimals = (int)fmax(0, -floor(log10(step) + 1e-9));
+  snprintf(words, size, "%.*f", decimals, value);
+}
+
+static double letters(const char *words) { // width in letters: UTF-8 continuation bytes are none
+  double count = 0;
+  for (; *words; words++) count += (*words & 0xC0) != 0x80;
+  return count;
+}
+
+static double begin(FILE *page, const CwPlot *plot, double height) {
+  double x = 0;
+  int named = 0;
+  for (int s = 0; s < plot->series_count; s++) named |= plot->series[s].name != NULL;
+  fprintf(page, "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %.0f\" width=\"%d\" "
+                "height=\"%.0f\" role=\"img\">\n",
+          plot->width, height + (named ? key_height : 0), plot->width, height + (named ? key_height : 0));
+  for (int s = 0; s < plot->series_count; s++) {
+    if (!plot->series[s].name) continue;
+    box(page, x, 4, 12, 12, plot->series[s].colour);
+    text(page, x + 18, 14.5, "start", "k", plot->series[s].name);
+    x += 18 + 7.2 * letters(plot->series[s].name) + 22;
+  }
+  return named ? key_height : 0;
+}
+
+static double largest(const CwPlot *plot, int stacked) {
+  double most = plot->mark;
+  for (int c = 0; c < plot->count; c++) {
+    double sum = 0;
+    for (int s = 0; s < plot->series_count; s++) {
+      double value = plot->series[s].value[c];
+      if (isnan(value)) continue;
+      sum = stacked ? sum + value : fmax(sum, value);
+    }
+    most = fmax(most, sum);
+  }
+  return most;
+}
+
+void cw_plot_columns(FILE *page, const CwPlot *plot) {
+  const double left = 52, right = 8, above = 18, below = plot->category_axis ? 44 : 26, body = 200;
+  double top = begin(page, plot, above + body + below) + above, width = plot->width - left - right;
+  double most = plot->limit > 0 ? plot->limit : largest(plot, 0), step = cw_plot_step(most);
+  double limit = plot->limit > 0 ? plot->limit : fmax(ceil(most / step - 1e-9), 1) * step;
+  char words[40];
+  for (int k = 0; k * step <= limit * (1 + 1e-9); k++) {
+    double y = top + body * (1 - k * step / limit);
+    line(page, left, y, left + width, y, k ? "g" : "a");
+    tick_text(k * step, step, words, sizeof words);
+    text(page, left - tick_gap, y + 4, "end", "t", words);
+  }
+  double pitch = width / fmax(plot->count, 1), share = plot->series_count > 1 ? 0.8 : 0.66;
+  double column = pitch * share / fmax(plot->series_count, 1);
+  for (int c = 0; c < plot->count; c++) {
+    double x = left + pitch * (c + 0.5 * (1 - share));
+    for (int s = 0; s < plot->series_count; s++, x += column) {
+      double value = plot->series[s].value[c], height = body * value / limit;
+      if (!isfinite(value)) continue;
+      box(page, x + 0.5, top + body - height, fmax(column - 1, 0.5), height, plot->series[s].colour);
+      if (plot->decimals < 0 || value == 0) continue;
+      double least = pow(10, -plot->decimals);
+      snprintf(words, sizeof words, value < 0.5 * least ? "<%.*f" : "%.*f", plot->decimals, value < 0.5 * least ? least : value);
+      if (5.6 * letters(words) <= column + 3) text(page, x + 0.5 * column, top + body - height - 4, "middle", "v", words);
+    }
+    text(page, left + pitch * (c + 0.5), top + body + 17, "middle", "t", plot->label[c]);
+  }
+  if (plot->category_axis) text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->category_axis);
+  fprintf(page, "<text transform=\"translate(12 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"x\">", top + 0.5 * body);
+  cw_html_text(page, plot->axis);
+  fputs("</text>\n</svg>\n", page);
+}
+
+void cw_plot_bars(FILE *page, const CwPlot *plot) {
+  const double row = 22, thick = 14, below = 42;
+  double left = 40, right = 16;
+  for (int c = 0; c < plot->count; c++) {
+    left = fmax(left, 7.0 * letters(plot->label[c]) + 14);
+    if (plot->note) right = fmax(right, 6.8 * letters(plot->note[c]) + 14);
+  }
+  double body = row * plot->count, top = begin(page, plot, body + below), width = plot->width - left - right;
+  double most = plot->limit > 0 ? plot->limit : largest(plot, 1), step = cw_plot_step(most);
+  double limit = plot->limit > 0 ? plot->limit : fmax(ceil(most / step - 1e-9), 1) * step;
+  char words[40];
+  for (int k = 0; k * step <= limit * (1 + 1e-9); k++) {
+    double x = left + width * k * step / limit;
+    line(page, x, top, x, top + body, k ? "g" : "a");
+    tick_text(k * step, step, words, sizeof words);
+    text(page, x, top + body + 15, "middle", "t", words);
+  }
+  if (plot->mark > 0)
+    line(page, left + width * plot->mark / limit, top - 2, left + width * plot->mark / limit, top + body, "m");
+  for (int c = 0; c < plot->count; c++) {
+    double x = left, y = top + row * c + 0.5 * (row - thick);
+    for (int s = 0; s < plot->series_count; s++) {
+      double value = plot->series[s].value[c];
+      if (!isfinite(value)) continue;
+      box(page, x, y, width * value / limit, thick, plot->series[s].colour);
+      x += width * value / limit;
+    }
+    text(page, left - tick_gap, y + 11, "end", "c", plot->label[c]);
+    if (plot->note) text(page, x + 5, y + 11, "start", "v", plot->note[c]);
+  }
+  text(page, left + 0.5 * width, top + body + 36, "middle", "x", plot->axis);
+  fputs("</svg>\n", page);
+}

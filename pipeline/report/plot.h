@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Charts as SVG text: columns side by side, and stacked bars.
+#ifndef CUTWATER_PIPELINE_REPORT_PLOT_H
+#define CUTWATER_PIPELINE_REPORT_PLOT_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct {
+  const char *name;    // for the key; NULL: none
+  uint32_t colour;     // 0xRRGGBB
+  const double *value; // one a category, from 0; NAN: none
+} CwPlotSeries;
+
+typedef struct {
+  const char *axis;         // what the values are, with unit
+  const char *category_axis; // what the categories are; may be NULL
+  const char *const *label; // one a category
+  int count;                // categories
+  const CwPlotSeries *series;
+  int series_count;
+  const char *const *note;  // of bars: written behind each; may be NULL
+  int decimals;             // of columns: digits after the point of the values over them; below 0: no values
+  double limit;             // end of the axis; 0: from the values
+  double mark;              // a line across at this value, in the unit of the axis; 0: none
+  int width;                // px
+} CwPlot;
+
+// Step of 1, 2 or 5 times a power of ten that gives 4 to 10 ticks up to `most`; 1 where `most` is not above 0.
+double cw_plot_step(double most);
+
+// Columns side by side, one group a category.
+void cw_plot_columns(FILE *page, const CwPlot *plot);
+// Bars from left to right, the series stacked, one bar a category.
+void cw_plot_bars(FILE *page, const CwPlot *plot);
+
+#endif

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/report/render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+CwStatus cw_render_start(int width, int height, uint32_t background, int depth_buffer, CwCanvas *canvas) {
+  CwStatus status = CW_OK;
+  *canvas = (CwCanvas){.width = width,
+                       .height = height,
+                       .columns = width * CW_RENDER_SAMPLES,
+                       .rows = height * CW_RENDER_SAMPLES};
+  size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
+  CW_NEW(canvas->colour, samples);
+  CW_NEW(canvas->group, samples);
+  for (size_t i = 0; i < samples; i++) canvas->colour[i] = background;
+  if (depth_buffer) {
+    CW_NEW(canvas->depth, samples);
+    for (size_t i = 0; i < samples; i++) canvas->depth[i] = -INFINITY;
+  }
+done:
+  if (status != CW_OK) cw_render_free(canvas);
+  return status;
+}
+
+void cw_render_free(CwCanvas *canvas) {
+  free(canvas->colour);
+  free(canvas->depth);
+  free(canvas->group);
+  *canvas = (CwCanvas){0};
+}
+
+static uint32_t mix(uint32_t a, uint32_t b, double share) {
+  uint32_t mixed = 0;
+  for (int shift = 0; shift < 24; shift += 8) {
+    double from = (a >> shift) & 255, to = (b >> shift) & 255;
+    mixed |= (uint32_t)(from + (to - from) * share + 0.5) << shift;
+  }
+  return mixed;
+}
+
+uint32_t cw_render_shade(uint32_t colour, double factor) {
+  uint32_t shaded = 0;
+  for (int shift = 0; shift < 24; shift += 8) {
+    double value = ((colour >> shift) & 255) * factor + 0.5;
+    shaded |= (uint32_t)fmin(fmax(value, 0), 255) << shift;
+  }
+  return shaded;
+}
+
+void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *paint) {
+  double x[3], y[3];
+  for (int k = 0; k < 3; k++) {
+    x[k] = p[k][0] * CW_RENDER_SAMPLES;
+    y[k] = p[k][1] * CW_RENDER_SAMPLES;
+    if (!isfinite(x[k]) || !isfinite(y[k])) return;
+  }
+  double left = fmin(fmin(x[0], x[1]), x[2]), right = fmax(fmax(x[0], x[1]), x[2]);
+  double top = fmin(fmin(y[0], y[1]), y[2]), bottom = fmax(fmax(y[0], y[1]), y[2]);
+  if (right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows) return;
+  double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+  if (area == 0) return;
+  // Sample (i, j) has its centre at (i + 0.5, j + 0.5).
+  int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
+  int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
+  // weight[k] is 1 at corner k and 0 on the edge k+1, k+2 opposite to it; reach[k] is the height over that edge.
+  double gx[3], gy[3], at[3], reach[3];
+  for (int k = 0; k < 3; k++) {
+    int a = (k + 1) % 3, b = (k + 2) % 3;
+    double dx = x[b] - x[a], dy = y[b] - y[a];
+    gx[k] = -dy / area;
+    gy[k] = dx / area;
+    at[k] = (dx * (up + 0.5 - y[a]) - dy * (first + 0.5 - x[a])) / area;
+    reach[k] = fabs(area) / fmax(hypot(dx, dy), 1e-30);
+  }
+  double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
+  for (int j = up; j <= down; j++) {
+    double w[3];
+    for (int k = 0; k < 3; k++) w[k] = at[k] + gy[k] * (j - up);
+    size_t place = (size_t)j * (size_t)canvas->columns + (size_t)first;
+    for (int i = first; i <= last; i++, place++, w[0] += gx[0], w[1] += gx[1], w[2] += gx[2]) {
+      if (w[0] < -1e-9 || w[1] < -1e-9 || w[2] < -1e-9) continue;
+      if (canvas->depth) {
+        float depth = (float)(w[0] * p[0][2] + w[1] * p[1][2] + w[2] * p[2][2]);
+        if (depth < canvas->depth[place]) continue;
+        canvas->depth[place] = depth;
+      }
+      double line = 0;
+      for (int k = 0; k < 3; k++) {
+        if (paint->edges & (1u << ((k + 1) % 3))) line = fmax(line, half + 0.5 - w[k] * reach[k]);
+      }
+      line = fmin(line, 1) * paint->edge_strength;
+      canvas->colour[place] = line > 0 ? mix(paint->colour, paint->edge_colour, line) : paint->colour;
+      canvas->group[place] = paint->group;
+    }
+  }
+}
+
+void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint) {
+  CwPaint part = *paint;
+  for (int k = 1; k + 1 < count; k++) {
+    double corner[3][3];
+    memcpy(corner[0], p[0], sizeof corner[0]);
+    memcpy(corner[1], p[k], sizeof corner[1]);
+    memcpy(corner[2], p[k + 1], sizeof corner[2]);
+    part.edges = 2u | (k == 1 ? 1u : 0u) | (k + 2 == count ? 4u : 0u);
+    cw_render_triangle(canvas, corner, &part);
+  }
+}
+
+// A step in depth is a bend of the depth along a line of samples, so that slanted faces have none.
+static int steps(const float *depth, size_t place, size_t stride, double step) {
+  double before = depth[place - stride], here = depth[place], behind = depth[place + stride];
+  if (isinf(here)) return 0;
+  if (isinf(before) || isinf(behind)) return 1;
+  return 2 * here - before - behind > step;
+}
+
+void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step) {
+  size_t columns = (size_t)canvas->columns, rows = (size_t)canvas->rows;
+  for (size_t j = 1; j + 1 < rows; j++) {
+    for (size_t i = 1; i + 1 < columns; i++) {
+      size_t place = j * columns + i;
+      uint16_t group = canvas->group[place];
+      int border = group && (group != canvas->group[place + 1] || group != canvas->group[place + columns] ||
+                             group != canvas->group[place - 1] || group != canvas->group[place - columns]);
+      if (canvas->depth && !border)
+        border = steps(canvas->depth, place, 1, step) || steps(canvas->depth, place, columns, step);
+      if (border) canvas->colour[place] = mix(canvas->colour[place], colour, 0.75);
+    }
+  }
+}
+
+// Share of the surroundings of pixel (i, j) that stands over it, 0 to 1.
+static double hollow(const CwCanvas *canvas, long i, long j, double radius, double unit) {
+  enum { DIRECTIONS = 12, RINGS = 5 }; // each direction with its opposite
+  static const double turn[RINGS] = {0, 0.4, 0.8, 0.2, 0.6};
+  long columns = canvas->columns, rows = canvas->rows;
+  double here = canvas->depth[j * columns + i], sum = 0, weights = 0;
+  for (int ring = 0; ring < RINGS; ring++) {
+    double share = (ring + 1.0) / RINGS, length = radius * share, weight = 1.2 - share;
+    for (int k = 0; k < DIRECTIONS; k++) {
+      double angle = M_PI * (k + turn[ring]) / DIRECTIONS;
+      long du = lround(length * CW_RENDER_SAMPLES * cos(angle)), dv = lround(length * CW_RENDER_SAMPLES * sin(angle));
+      long u = i + du, v = j + dv, across_u = i - du, across_v = j - dv;
+      weights += weight;
+      if (fmin(u, across_u) < 0 || fmin(v, across_v) < 0 || fmax(u, across_u) >= columns || fmax(v, across_v) >= rows)
+        continue;
+      double there = canvas->depth[v * columns + u], across = canvas->depth[across_v * columns + across_u];
+      if (isinf(there) || isinf(across)) continue;
+      // The mean of two opposite samples: a slanted plane has no hollow. What stands far above is another thing.
+      double rise = (0.5 * (there + across) - here) / (unit * length);
+      if (rise > 0) sum += weight * fmin(rise, 1) / (1 + pow(rise / 4, 2));
+    }
+  }
+  return sum / weights;
+}
+
+void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
+  if (!canvas->depth) return;
+  for (long j = 0; j < canvas->height; j++) {
+    for (long i = 0; i < canvas->width; i++) {
+      // One value a pixel, at the nearest of its samples that shows something.
+      for (int s = 0; s < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; s++) {
+        long u = i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES, v = j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES;
+        if (isinf(canvas->depth[v * canvas->columns + u])) continue;
+        double factor = 1 - 0.8 * hollow(canvas, u, v, radius, unit);
+        for (int t = s; t < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; t++) {
+          size_t place = (size_t)(j * CW_RENDER_SAMPLES + t / CW_RENDER_SAMPLES) * (size_t)canvas->columns +
+                         (size_t)(i * CW_RENDER_SAMPLES + t % CW_RENDER_SAMPLES);
+          if (!isinf(canvas->depth[place])) canvas->colour[place] = cw_render_shade(canvas->colour[place], factor);
+        }
+        break;
+      }
+    }
+  }
+}
+
+void cw_render_erase(CwCanvas *canvas, uint16_t group, uint32_t background) {
+  size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
+  for (size_t i = 0; i < samples; i++) {
+    if (canvas->group[i] != group) continue;
+    canvas->colour[i] = background;
+    canvas->group[i] = 0;
+    if (canvas->depth) canvas->depth[i] = -INFINITY;
+  }
+}
+
+double cw_render_round_length(double limit) {
+  double power = pow(10, floor(log10(limit)));
+  double factor = limit / power * (1 + 1e-12);
+  return power * (factor >= 5 ? 5 : factor >= 2 ? 2 : 1);
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A first look at the boundary of the mesh, region by region: where the places are that the pictures show, and how far
+// each view reaches.
+#ifndef CUTWATER_PIPELINE_REPORT_SURVEY_H
+#define CUTWATER_PIPELINE_REPORT_SURVEY_H
+
+#include "pipeline/report/mesh_file.h"
+
+enum { CW_SURVEY_BINS = 360, CW_SURVEY_RADII = 64 };
+
+// Places with a patch of their own.
+typedef enum { CW_PLACE_LEADING_EDGE, CW_PLACE_TRAILING_EDGE, CW_PLACE_TONGUE, CW_PLACE_COUNT } CwPlace;
+
+// What the pictures take from case and design, m.
+typedef struct {
+  int blade_count;
+  double outlet_radius, interface_radius, base_radius;
+} CwPumpSizes;
+
+typedef struct {
+  CwPumpSizes sizes;
+  // Faces of each place by their azimuth: sums of area and of area times centroid.
+  double place_sum[CW_PLACE_COUNT][CW_SURVEY_BINS][4];
+  // Extent of the boundary by azimuth.
+  double radius_most[CW_SURVEY_BINS], z_least[CW_SURVEY_BINS], z_most[CW_SURVEY_BINS];
+  // Sums of area and of area times z of the shroud, by radius up to the outlet.
+  double shroud_sum[CW_SURVEY_RADII][2];
+} CwSurvey;
+
+void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes);
+void cw_survey_add(CwSurvey *survey, const CwReportDomain *domain, const CwReportCells *cells);
+
+// The middle of a place: of the tongue, or of one blade's edge. Returns 0 where the mesh has no such patch.
+int cw_survey_place(const CwSurvey *survey, CwPlace place, double middle[3]);
+
+// Azimuth of a plane through the axis that lies midway between two blades at the outlet and cuts the least of the
+// discharge. 0 where no trailing edge was found.
+double cw_survey_meridional_azimuth(const CwSurvey *survey);
+
+// Reach of the boundary in that plane on both sides of the axis: largest radius, least and greatest z. Returns 0 where
+// there is none.
+int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *radius, double *z_least, double *z_most);
+
+// z of the shroud at `radius`. Returns 0 where there is none.
+int cw_survey_shroud(const CwSurvey *survey, double radius, double *z);
+
+#endif

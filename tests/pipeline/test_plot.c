@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "pipeline/report/plot.h"
+
+#define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
+
+static char *drawn(void (*draw)(FILE *, const CwPlot *), const CwPlot *plot) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *page = open_memstream(&text, &size);
+  draw(page, plot);
+  fclose(page);
+  return text;
+}
+
+// The boxes of one colour, keys of the legend (12 x 12) left out.
+static int boxes(const char *text, const char *colour, double box[][4]) {
+  int count = 0;
+  for (const char *at = text; (at = strstr(at, "<rect ")); at++) {
+    char fill[16];
+    double b[4];
+    assert_int_equal(sscanf(at, "<rect x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\" fill=\"%7s", &b[0], &b[1], &b[2],
+                            &b[3], fill),
+                     5);
+    if (!strcmp(fill, colour) && !(b[2] == 12 && b[3] == 12)) memcpy(box[count++], b, sizeof b);
+  }
+  return count;
+}
+
+static void steps_are_round(void **state) {
+  assert_near(cw_plot_step(1), 0.2, 1e-12);
+  assert_near(cw_plot_step(19), 2, 1e-12);
+  assert_near(cw_plot_step(47), 5, 1e-12);
+  assert_near(cw_plot_step(0.08), 0.01, 1e-12);
+  assert_near(cw_plot_step(0), 1, 0);
+  assert_near(cw_plot_step(NAN), 1, 0);
+  for (double most = 1e-4; most < 1e6; most *= 1.37) {
+    double ticks = most / cw_plot_step(most);
+    assert_true(ticks > 3.999 && ticks < 10.001);
+  }
+}
+
+static void columns_are_as_high_as_their_values(void **state) {
+  static const char *const label[] = {"a < b", "c"};
+  const double first[] = {10, 35}, second[] = {20, NAN};
+  const CwPlotSeries series[] = {{"first & last", 0x112233, first}, {"second", 0x445566, second}};
+  CwPlot plot = {.axis = "% of all", .label = label, .count = 2, .series = series, .series_count = 2, .decimals = 1,
+                 .width = 400};
+  double box[8][4];
+  char *text = drawn(cw_plot_columns, &plot);
+  assert_int_equal(boxes(text, "#112233", box), 2);
+  assert_near(box[1][3] / box[0][3], 3.5, 1e-3);
+  assert_near(box[0][1] + box[0][3], box[1][1] + box[1][3], 0.02); // on one base line
+  double height = box[0][3];
+  assert_int_equal(boxes(text, "#445566", box), 1); // no value, no column
+  assert_near(box[0][3], 2 * height, 0.02);
+  assert_near(height, 200 * 10 / 35.0, 0.01); // the axis ends at 35 = 7 steps of 5
+  assert_non_null(strstr(text, ">a &lt; b<"));
+  assert_non_null(strstr(text, ">first &amp; last<"));
+  assert_non_null(strstr(text, ">35.0<"));
+  assert_non_null(strstr(text, ">% of all<"));
+  assert_null(strstr(text, "nan"));
+  free(text);
+}
+
+static void bars_are_stacked_and_noted(void **state) {
+  static const char *const label[] = {"one", "two"}, *const note[] = {"30 s", "60 s"};
+  const double first[] = {10, 20}, second[] = {20, 40};
+  const CwPlotSeries series[] = {{"p", 0x112233, first}, {"q", 0x445566, second}};
+  CwPlot plot = {.axis = "s", .label = label, .count = 2, .series = series, .series_count = 2, .note = note, .mark = 45,
+                 .width = 500};
+  double p[4][4], q[4][4];
+  char *text = drawn(cw_plot_bars, &plot);
+  assert_int_equal(boxes(text, "#112233", p), 2);
+  assert_int_equal(boxes(text, "#445566", q), 2);
+  for (int k = 0; k < 2; k++) {
+    assert_near(q[k][2], 2 * p[k][2], 0.02);
+    assert_near(q[k][0], p[k][0] + p[k][2], 0.02);
+    assert_near(q[k][1], p[k][1], 0);
+  }
+  assert_near(p[1][2], 2 * p[0][2], 0.02);
+  // The line at 45 stands at three quarters of the longest bar, which is 60.
+  double at = 0;
+  for (const char *line = text; (line = strstr(line, "<line ")); line++) {
+    const char *class = strstr(line, "class=\"");
+    if (class && !strncmp(class, "class=\"m\"", 9)) at = atof(line + strlen("<line x1=\""));
+  }
+  assert_near(at, p[1][0] + 0.75 * (p[1][2] + q[1][2]), 0.06);
+  assert_non_null(strstr(text, ">60 s<"));
+  free(text);
+}
+
+static void an_empty_plot_is_a_plot(void **state) {
+  const CwPlotSeries series[] = {{"none", 0x112233, NULL}};
+  CwPlot plot = {.axis = "s", .count = 0, .series = series, .series_count = 1, .width = 300};
+  for (int k = 0; k < 2; k++) {
+    char *text = drawn(k ? cw_plot_bars : cw_plot_columns, &plot);
+    assert_int_equal(strncmp(text, "<svg ", 5), 0);
+    assert_non_null(strstr(text, "</svg>"));
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf"));
+    free(text);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(steps_are_round),
+      cmocka_unit_test(columns_are_as_high_as_their_values),
+      cmocka_unit_test(bars_are_stacked_and_noted),
+      cmocka_unit_test(an_empty_plot_is_a_plot),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

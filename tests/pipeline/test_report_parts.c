@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Numbers, pieces of HTML, cuts through cells and the survey of the boundary.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "pipeline/report/cut.h"
+#include "pipeline/report/format.h"
+#include "pipeline/report/html.h"
+#include "pipeline/report/survey.h"
+
+#define assert_near(a, b, off) assert_true(fabs((a) - (b)) <= (off))
+
+#define GAP "\342\200\257"
+#define MINUS "\342\210\222"
+
+static void numbers_read_well(void **state) {
+  char text[CW_FORMAT_SIZE];
+  assert_string_equal(cw_format_count(0, text), "0");
+  assert_string_equal(cw_format_count(9999, text), "9999");
+  assert_string_equal(cw_format_count(145000000, text), "145" GAP "000" GAP "000");
+  assert_string_equal(cw_format_count(-12345, text), MINUS "12" GAP "345");
+  assert_string_equal(cw_format_number(12.8692, 4, text), "12.87");
+  assert_string_equal(cw_format_number(74, 5, text), "74");
+  assert_string_equal(cw_format_number(0.00218, 2, text), "0.0022");
+  assert_string_equal(cw_format_number(-0.5, 3, text), MINUS "0.5");
+  assert_string_equal(cw_format_number(123456.7, 3, text), "123" GAP "457"); // no digit before the point is lost
+  assert_string_equal(cw_format_number(1.004e-6, 5, text), "1.004" GAP "\303\227" GAP "10\342\201\273\342\201\266");
+  assert_string_equal(cw_format_number(9.9996, 4, text), "10");
+  assert_string_equal(cw_format_number(NAN, 4, text), "\342\200\223");
+  assert_string_equal(cw_format_si(301551, 3, text), "302" GAP "k");
+  assert_string_equal(cw_format_si(999700, 3, text), "1" GAP "M");
+  assert_string_equal(cw_format_si(42, 3, text), "42");
+  assert_string_equal(cw_format_si(2.2e-4, 3, text), "220" GAP "\302\265");
+  assert_string_equal(cw_format_seconds(0.0123, text), "0.012 s");
+  assert_string_equal(cw_format_seconds(58.42, text), "58.4 s");
+  assert_string_equal(cw_format_seconds(245, text), "4 min 05 s");
+  assert_string_equal(cw_format_seconds(11220, text), "3 h 07 min");
+  assert_string_equal(cw_format_bytes(107495424, text), "103 MiB");
+  assert_string_equal(cw_format_bytes(1e9, text), "954 MiB");
+  assert_string_equal(cw_format_bytes(1020.0 * 1024 * 1024, text), "0.996 GiB");
+  assert_string_equal(cw_format_percent(1, text), "100 %");
+  assert_string_equal(cw_format_percent(0.999999, text), "99.99 %"); // not all
+  assert_string_equal(cw_format_percent(0.316, text), "31.6 %");
+  assert_string_equal(cw_format_percent(0, text), "0 %");
+  assert_string_equal(cw_format_percent(NAN, text), "\342\200\223");
+}
+
+static void html_is_escaped_and_encoded(void **state) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *page = open_memstream(&text, &size);
+  cw_html_text(page, "<a & \"b\">");
+  cw_html_label(page, "|outlet_width");
+  cw_html_label(page, "outlet_width");
+  cw_html_label(page, "y_plus_blade");
+  cw_html_number_cell(page, "12.87");
+  cw_html_number_cell(page, "74");
+  for (size_t n = 0; n < 4; n++) cw_html_base64(page, (const unsigned char *)"Man", n);
+  cw_html_base64(page, (const unsigned char *)"\377\373\360", 3);
+  fclose(page);
+  assert_string_equal(text, "&lt;a &amp; &quot;b&quot;&gt;|outlet widthOutlet widthy<sup>+</sup> blade"
+                            "<td class=\"n\">12<span>.87</span></td><td class=\"n\">74<span></span></td>"
+                            "TQ==TWE=TWFu//vw");
+  free(text);
+}
+
+static CwStatus embed(const char *content, char **text) {
+  char path[] = "/tmp/cutwater-svg-XXXXXX";
+  size_t size = 0;
+  int handle = mkstemp(path);
+  assert_int_equal(write(handle, content, strlen(content)), (ssize_t)strlen(content));
+  close(handle);
+  FILE *page = open_memstream(text, &size);
+  CwStatus status = cw_html_svg_file(page, path);
+  fclose(page);
+  unlink(path);
+  return status;
+}
+
+static void drawings_are_embedded_alone(void **state) {
+  char *text;
+  assert_int_equal(embed("<?xml version=\"1.0\"?>\n<svg width=\"3\"><rect/></svg>\n<!-- end -->", &text), CW_OK);
+  assert_string_equal(text, "<svg width=\"3\"><rect/></svg>\n");
+  free(text);
+  static const char *const refused[] = {"", "<html></html>", "<svg width=\"3\"><rect/>",
+                                        "<svg><script>x</script></svg>",
+                                        "<svg><image href=\"http://a.b/c.png\"/></svg>"};
+  for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
+    assert_int_equal(embed(refused[k], &text), CW_ERR_INPUT);
+    assert_string_equal(text, "");
+    free(text);
+  }
+}
+
+static const CwCutPlane plane_z = {{0, 0, 0.25}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+static double area_of(int count, double polygon[][2]) {
+  double area = 0;
+  for (int k = 0; k < count; k++) {
+    const double *a = polygon[k], *b = polygon[(k + 1) % count];
+    area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
+  }
+  return area;
+}
+
+static int cut(const CwCutPlane *plane, int count, const double (*x)[3], double polygon[CW_CUT_CORNERS][2]) {
+  const double *corner[6];
+  double s[6];
+  for (int k = 0; k < count; k++) {
+    corner[k] = x[k];
+    s[k] = cw_cut_distance(plane, x[k]);
+  }
+  return cw_cut_cell(plane, count, corner, s, polygon);
+}
+
+static void cuts_have_the_right_areas(void **state) {
+  double polygon[CW_CUT_CORNERS][2];
+  // The unit tetrahedron at z = 1/4: a triangle of legs 3/4. All corners' areas are counter-clockwise, so positive.
+  const double tet[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  assert_int_equal(cut(&plane_z, 4, tet, polygon), 3);
+  assert_near(area_of(3, polygon), 9.0 / 32, 1e-12);
+  // Through the middles of four edges of a regular tetrahedron in a cube: a square.
+  const double regular[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  const CwCutPlane middle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  assert_int_equal(cut(&middle, 4, regular, polygon), 4);
+  assert_near(area_of(4, polygon), 2, 1e-12);
+  // A pyramid of base 1 and height 1 at z = 1/4: a square of side 3/4.
+  const double pyramid[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+  assert_int_equal(cut(&plane_z, 5, pyramid, polygon), 4);
+  assert_near(area_of(4, polygon), 9.0 / 16, 1e-12);
+  // A prism along and across its axis.
+  const double prism[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  assert_int_equal(cut(&plane_z, 6, prism, polygon), 3);
+  assert_near(area_of(3, polygon), 0.5, 1e-12);
+  const CwCutPlane across = {{0.25, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  assert_int_equal(cut(&across, 6, prism, polygon), 4);
+  assert_near(area_of(4, polygon), 0.75, 1e-12);
+  const CwCutPlane beside = {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  assert_int_equal(cut(&beside, 6, prism, polygon), 0);
+}
+
+static void a_face_in_the_plane_is_cut_once(void **state) {
+  double polygon[CW_CUT_CORNERS][2];
+  const CwCutPlane floor = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const double over[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const double under[4][3] = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+  assert_int_equal(cut(&floor, 4, over, polygon), 0);
+  assert_int_equal(cut(&floor, 4, under, polygon), 3);
+  assert_near(area_of(3, polygon), 0.5, 1e-12);
+}
+
+// Two blades' trailing edges as one triangle each, on opposite sides; the far corner of a discharge at azimuth 90 deg.
+static void survey_finds_places(void **state) {
+  double x[][3] = {{0.1, 0, -0.004},  {0.1, 0.003, 0.004},   {0.1, -0.003, 0.004}, {-0.1, 0, -0.004},
+                   {-0.1, -0.003, 0.004}, {-0.1, 0.003, 0.004}, {0, 0.3, 0.02},       {0.001, 0.3, -0.02},
+                   {-0.001, 0.29, 0},   {0.05, 0, -0.01},       {0, 0.05, -0.01},     {0.0, -0.05, -0.01}};
+  int32_t triangle[][3] = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, patch[] = {0, 0, 1, 2};
+  char *names[] = {"blade_trailing_edge", "outlet", "shroud"};
+  CwReportDomain domain = {.patch = {names[0], names[1], names[2]}, .patch_count = 3};
+  CwReportCells cells = {.points = 12, .triangles = 4, .x = x, .triangle = triangle, .triangle_patch = patch};
+  CwPumpSizes sizes = {2, 0.1, 0.101, 0.102};
+  CwSurvey *survey = malloc(sizeof *survey);
+  double middle[3], radius, z_least, z_most, z;
+  cw_survey_start(survey, &sizes);
+  assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 0);
+  assert_int_equal(cw_survey_shroud(survey, 0.02, &z), 0);
+  cw_survey_add(survey, &domain, &cells);
+  assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 1); // one blade, not the mean of both
+  assert_near(fabs(middle[0]), 0.1, 1e-9);
+  assert_near(middle[1], 0, 1e-9);
+  assert_near(middle[2], 0.004 / 3, 1e-9);
+  assert_int_equal(cw_survey_place(survey, CW_PLACE_TONGUE, middle), 0);
+  // Midway between two blades is at 90 deg from both.
+  assert_near(fabs(sin(cw_survey_meridional_azimuth(survey))), 1, 1e-9);
+  assert_int_equal(cw_survey_meridional_reach(survey, M_PI / 2, &radius, &z_least, &z_most), 1);
+  assert_near(radius, hypot(0.001, 0.3), 1e-9);
+  assert_near(z_least, -0.02, 1e-12);
+  assert_near(z_most, 0.02, 1e-12);
+  assert_int_equal(cw_survey_shroud(survey, 0.05 / 3, &z), 1);
+  assert_near(z, -0.01, 1e-12);
+  free(survey);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(numbers_read_well),          cmocka_unit_test(html_is_escaped_and_encoded),
+      cmocka_unit_test(drawings_are_embedded_alone), cmocka_unit_test(cuts_have_the_right_areas),
+      cmocka_unit_test(a_face_in_the_plane_is_cut_once), cmocka_unit_test(survey_finds_places),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// cutwater-report on a run of two boxes: one page, whole or not at all, and one line where something is wrong.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+#include <hdf5.h>
+
+#include "pipeline/atomic_file.h"
+
+#define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
+
+static char run[64];
+
+static void path_in_run(const char *name, char path[200]) {
+  snprintf(path, 200, "%s/%s", run, name);
+}
+
+static void write_text(const char *name, const char *text) {
+  char path[200];
+  path_in_run(name, path);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(text, file);
+  fclose(file);
+}
+
+static char *read_text(const char *name) {
+  char path[200], *text = NULL;
+  size_t size = 0;
+  path_in_run(name, path);
+  FILE *file = fopen(path, "r");
+  if (!file) return NULL;
+  FILE *copy = open_memstream(&text, &size);
+  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
+  fclose(file);
+  fclose(copy);
+  return text;
+}
+
+static int there(const char *name) {
+  char path[200];
+  path_in_run(name, path);
+  return access(path, F_OK) == 0;
+}
+
+static void dataset(hid_t file, const char *name, hid_t type, int rows, int columns, const void *data) {
+  hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
+  hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, size, NULL);
+  hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(set >= 0);
+  if (rows) assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+  H5Dclose(set);
+  H5Sclose(space);
+}
+
+// A box from (x0, -0.02, -0.004) to (x1, 0.02, 0.004) m of two prisms standing on z; patches by side: 0 below, 1 above,
+// 2 around. `corner` is the highest index used.
+static void write_region(const char *name, double x0, double x1, int corner) {
+  double x[8][3];
+  for (int k = 0; k < 8; k++) {
+    x[k][0] = k & 1 ? x1 : x0;
+    x[k][1] = k & 2 ? 0.02 : -0.02;
+    x[k][2] = k & 4 ? 0.004 : -0.004;
+  }
+  const int32_t prism[2][6] = {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 5, corner, 6}};
+  const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}}, triangle_patch[4] = {0, 0, 1, 1};
+  const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}, quad_patch[4] = {2, 2, 2, 2};
+  char path[200];
+  path_in_run(name, path);
+  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(file >= 0);
+  dataset(file, "points", H5T_NATIVE_DOUBLE, 8, 3, x);
+  dataset(file, "tetrahedra", H5T_NATIVE_INT32, 0, 4, NULL);
+  dataset(file, "prisms", H5T_NATIVE_INT32, 2, 6, prism);
+  dataset(file, "triangles", H5T_NATIVE_INT32, 4, 3, triangle);
+  dataset(file, "triangle_patch", H5T_NATIVE_INT32, 4, 1, triangle_patch);
+  dataset(file, "quads", H5T_NATIVE_INT32, 4, 4, quad);
+  dataset(file, "quad_patch", H5T_NATIVE_INT32, 4, 1, quad_patch);
+  H5Fclose(file);
+}
+
+#define REGION(file)                                                                                         \
+  "{\"file\":\"" file "\",\"region\":1,\"number\":1,\"points\":8,\"own_points\":8,\"tetrahedra\":0,"          \
+  "\"pyramids\":0,\"prisms\":2,\"triangles\":4,\"quads\":4}"
+#define PATCH(name, kind) "{\"name\":\"" name "\",\"kind\":\"" kind "\"}"
+#define MANIFEST(name)                                                                                       \
+  "{\"format\":1,\"case\":\"" name "\",\"domains\":["                                                        \
+  "{\"name\":\"rotor\",\"shared_points\":0,\"solid_volume_m3\":1,\"patches\":["                              \
+  PATCH("shroud", "wall") "," PATCH("hub", "wall") "," PATCH("rotor_interface", "interface")                 \
+  "],\"regions\":[" REGION("rotor-0001.h5") "]},"                                                           \
+  "{\"name\":\"stator\",\"shared_points\":0,\"solid_volume_m3\":1,\"patches\":["                             \
+  PATCH("volute", "wall") "," PATCH("tongue", "wall") "," PATCH("stator_interface", "interface")             \
+  "],\"regions\":[" REGION("stator-0001.h5") "]}]}"
+#define DOMAIN(name, patch)                                                                                  \
+  "{\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5,"              \
+  "\"tetrahedron_aspect_class\":[0,0,0,0,0,0,0,0],"                                                          \
+  "\"least_dihedral_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],"                                           \
+  "\"prism_scaled_jacobian_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,2,0],"                                \
+  "\"layer_coverage\":[{\"patch\":\"" patch "\",\"wall_faces\":40,\"full_thickness_faces\":30,"              \
+  "\"first_height_met_faces\":39,\"first_height_target_m\":2.2e-4,\"mean_thickness_m\":1.5e-3,"              \
+  "\"least_thickness_m\":1e-3,\"thinned_by_gap_faces\":10,\"thinned_by_gradation_faces\":0,"                 \
+  "\"thinned_by_repair_faces\":0}],\"region_list\":[{\"region\":1,\"seconds\":0.5}]}"
+
+static int make_run(void **state) {
+  char path[200];
+  strcpy(run, "/tmp/cutwater-report-XXXXXX");
+  assert_non_null(mkdtemp(run));
+  path_in_run("geometry", path);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  path_in_run("mesh", path);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  write_text("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,"
+                                     "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
+                                     "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
+  write_text("geometry/record.json", "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
+                                     "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
+                                     "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
+  write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
+  write_text("mesh/record.json", "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
+                                 "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
+                                 "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
+                                 "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":["
+                                 DOMAIN("rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
+  write_text("mesh/manifest.json", MANIFEST("paper"));
+  write_region("mesh/rotor-0001.h5", 0.03, 0.101, 7);
+  write_region("mesh/stator-0001.h5", 0.101, 0.14, 7);
+  return 0;
+}
+
+static int remove_run(void **state) {
+  char command[100];
+  snprintf(command, sizeof command, "rm -r %s", run);
+  return system(command);
+}
+
+// Runs the program; returns its exit status and what it said.
+static int report(char said[4000]) {
+  char command[600];
+  snprintf(command, sizeof command, "%s/cutwater-report --case %s --run %s 2>&1", CUTWATER_BIN_DIR, CASE, run);
+  FILE *pipe = popen(command, "r");
+  assert_non_null(pipe);
+  size_t length = fread(said, 1, 3999, pipe);
+  said[length] = '\0';
+  int status = pclose(pipe);
+  assert_true(WIFEXITED(status));
+  return WEXITSTATUS(status);
+}
+
+static void fails(int code, const char *message) {
+  char said[4000];
+  int status = report(said);
+  if (status != code || !strstr(said, message)) fail_msg("exit status %d and: %s", status, said);
+  const char *error = strstr(said, "cutwater-report: error: "); // one line, the last
+  assert_non_null(error);
+  assert_ptr_equal(strchr(error, '\n'), said + strlen(said) - 1);
+  assert_false(there("report/index.html"));
+  assert_false(there("report/.part-index.html"));
+}
+
+static void holds(const char *page, const char *text) {
+  if (!strstr(page, text)) fail_msg("not in the page: %s", text);
+}
+
+// Wherever `page` holds `start`, it goes on as `whole`; and it does so somewhere.
+static void every(const char *page, const char *start, const char *whole) {
+  int count = 0;
+  for (const char *at = page; (at = strstr(at, start)); at++, count++) {
+    if (strncmp(at, whole, strlen(whole))) fail_msg("in the page: %.60s", at);
+  }
+  assert_true(count > 0);
+}
+
+static void page_tells_all_and_stands_alone(void **state) {
+  char said[4000];
+  if (report(said) != 0) fail_msg("%s", said);
+  char *page = read_text("report/index.html");
+  assert_non_null(page);
+  assert_true(there("report/record.json"));
+  assert_false(there("report/.part-index.html"));
+  holds(page, "<b>4</b><span>cells; 5 asked, -20.00");
+  holds(page, "12.87&#8239;m");
+  holds(page, ">866<span>.47</span>");         // throat area in mm2
+  holds(page, "constant &lt;K&gt;");           // its source
+  holds(page, "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
+  holds(page, ">97.5 %<");                      // first heights met
+  holds(page, "mesh: surface</text>");
+  holds(page, "2.25 s, 9 faces, 2 passes");     // two passes added up
+  holds(page, "geometry:</b> skewed &amp; sharp");
+  holds(page, "has not been exported");
+  holds(page, "Not drawn: the mesh has no such patch."); // no leading edge
+  // Nothing outside: all sources are data, all links lead into the page, the one address is the name of SVG.
+  every(page, "src=\"", "src=\"data:image/png;base64,iVBORw0KGgo");
+  every(page, "href=\"", "href=\"#");
+  every(page, "http", "http://www.w3.org/2000/svg");
+  assert_null(strstr(page, "<script"));
+  assert_null(strstr(page, "nan"));
+  // The same bytes each time.
+  assert_int_equal(report(said), 0);
+  char *again = read_text("report/index.html");
+  assert_string_equal(page, again);
+  free(page);
+  free(again);
+}
+
+static void export_figures_are_shown(void **state) {
+  char said[4000];
+  char path[200];
+  path_in_run("export", path);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  write_text("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
+                                   "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.25},"
+                                   "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
+  if (report(said) != 0) fail_msg("%s", said);
+  char *page = read_text("report/index.html");
+  holds(page, "<h3>Patches</h3>");
+  holds(page, "12\342\200\257345");
+  assert_null(strstr(page, "has not been exported"));
+  free(page);
+}
+
+static void missing_files_are_named(void **state) {
+  static const char *const names[] = {"geometry/design.json", "geometry/record.json", "mesh/record.json",
+                                      "mesh/manifest.json", "mesh/stator-0001.h5"};
+  char path[200], aside[200];
+  path_in_run("aside", aside);
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    path_in_run(names[k], path);
+    assert_int_equal(rename(path, aside), 0);
+    fails(CW_ERR_IO, names[k]);
+    assert_int_equal(rename(aside, path), 0);
+  }
+}
+
+static void wrong_content_is_named(void **state) {
+  static const struct {
+    const char *file, *text, *message;
+  } wrong[] = {
+      {"mesh/manifest.json", "{\"format\":1,", "mesh/manifest.json:1:"},
+      {"mesh/manifest.json", "{\"format\":2}", "format 2"},
+      {"mesh/manifest.json", MANIFEST("other"), "of case 'other'"},
+      {"mesh/manifest.json", "{\"format\":1,\"case\":\"paper\",\"domains\":[]}", "0 domains"},
+      {"geometry/design.json", "[]", "object"},
+      {"geometry/design.json", "{}", "interface_radius_m"},
+      {"geometry/record.json", "{\"stage\":\"mesh\"}", "'stage' is mesh"},
+      {"mesh/record.json", "{\"stage\":\"mesh\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],\"warnings\":[],"
+                           "\"results\":{}}", "'asked_cells'"},
+      {"geometry/velocity_triangles.svg", "<svg>", "not a whole SVG"},
+      {"mesh/rotor-0001.h5", "no HDF5", "not a whole HDF5 file"},
+  };
+  char path[200], aside[200];
+  path_in_run("aside", aside);
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    path_in_run(wrong[k].file, path);
+    assert_int_equal(rename(path, aside), 0);
+    write_text(wrong[k].file, wrong[k].text);
+    fails(CW_ERR_INPUT, wrong[k].message);
+    assert_int_equal(rename(aside, path), 0);
+  }
+  write_region("mesh/rotor-0001.h5", 0.03, 0.101, 8);
+  fails(CW_ERR_INPUT, "'prisms', row 1 holds 8; allowed: 0 to 7");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(missing_files_are_named, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(wrong_content_is_named, make_run, remove_run),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""What the tests of whole runs share: where things lie, how a stage is started, what its files say.
+
+The environment names the folders: CUTWATER_BIN (the programs), CUTWATER_SOURCE (top of the source), CUTWATER_WORK
+(where the tests write) and CUTWATER_CELLS (asked number of cells of the run that they share)."""
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+BIN = Path(os.environ["CUTWATER_BIN"])
+SOURCE = Path(os.environ["CUTWATER_SOURCE"])
+WORK = Path(os.environ["CUTWATER_WORK"])
+CELLS = int(os.environ.get("CUTWATER_CELLS", 200000))
+PAPER = SOURCE / "cases/paper/case.yaml"
+RUN = WORK / f"paper-{CELLS}"  # the run that the tests share
+
+MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                   "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+ENVIRONMENT = {**os.environ, **MPI_ENVIRONMENT, "WM_PROJECT_DIR": "/usr/share/openfoam"}
+MPI_STAGES = ("mesh", "export")
+
+
+def command(stage, run, case=PAPER, cells=None, ranks=1):
+    """The command line of a stage, as pipeline/run.mk has it."""
+    line = [str(BIN / f"cutwater-{stage}"), "--case", str(case), "--run", str(run)]
+    if cells:
+        line += ["--cells", str(cells)]
+    if stage in MPI_STAGES:
+        line = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n", str(ranks)] + line
+    return line
+
+
+def start(stage, run, **options):
+    """Starts a stage in a process group of its own; its standard error can be read."""
+    return subprocess.Popen(command(stage, run, **options), env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+
+def execute(line, folder=None, timeout=1500):
+    return subprocess.run([str(word) for word in line], cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=timeout)
+
+
+def stage(name, run, **options):
+    """Runs a stage to its end; gives what it returned, its lines in .stdout."""
+    return execute(command(name, run, **options))
+
+
+def done(test, name, run, **options):
+    """Runs a stage that must succeed."""
+    result = stage(name, run, **options)
+    test.assertEqual(result.returncode, 0, f"cutwater-{name}:\n{result.stdout}")
+    return result
+
+
+def record(run, name):
+    return json.loads((Path(run) / name / "record.json").read_text())
+
+
+def fresh(name):
+    """An empty folder of the test."""
+    folder = WORK / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    return folder
+
+
+def with_geometry(name):
+    """A run folder with the geometry of the shared run and nothing else."""
+    folder = fresh(name)
+    shutil.copytree(RUN / "geometry", folder / "geometry")
+    return folder
+
+
+def digests(folder, pattern="*", leave_out=("record.json",)):
+    """SHA-256 of every file of a folder, by its path in it."""
+    folder = Path(folder)
+    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(folder.rglob(pattern)) if path.is_file() and path.name not in leave_out}
+
+
+def error_lines(text, name):
+    return [line for line in text.splitlines() if line.startswith(f"cutwater-{name}: error: ")]

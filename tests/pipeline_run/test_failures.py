@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""Bad input and failing runs through the real programs: one line, an exit status, nothing half-written."""
+import os
+import signal
+import time
+import unittest
+from pathlib import Path
+
+from cutwater import CELLS, PAPER, error_lines, fresh, stage, start, with_geometry
+
+# What is changed in the case of the paper, and what the one line must hold.
+BAD = [
+    ("outlet_diameter_mm: 200", "outlet_diameter_m: 0.2", "outlet_diameter_m"),
+    ("outlet_diameter_mm: 200", "outlet_diameter_mm: 20000", "out of range"),
+    ("outlet_diameter_mm: 200", "outlet_diameter_mm: two", "outlet_diameter_mm"),
+    ("outlet_diameter_mm: 200", "outlet_diameter_mm: 200\n  outlet_diameter_mm: 201", "outlet_diameter_mm"),
+    ("outlet_diameter_mm: 200", "outlet_diametre_mm: 200", "outlet_diametre_mm"),
+    ("outlet_diameter_mm: 200", "outlet_diameter_mm: .nan", "outlet_diameter_mm"),
+    ("inlet_diameter_mm: 74", "inlet_diameter_mm: 220", "contradicts impeller.outlet_diameter_mm"),
+    ("blade_count: 6", "blade_count: 6.5", "blade_count"),
+    ("base_diameter_mm: 204", "base_diameter_mm: 190", "contradicts impeller.outlet_diameter_mm"),
+    ("name: paper", "name: ../paper", "name"),
+    ("impeller:", "impeler:", "impeler"),
+    ("walls:", "walls: {", "case.yaml"),
+]
+
+
+def files_of(folder):
+    """All but the log, which tells of the failure."""
+    return [str(path) for path in Path(folder).rglob("*") if path.is_file() and path.parent.name != "log"]
+
+
+class BadInput(unittest.TestCase):
+    def one_line(self, result, name, run):
+        self.assertNotEqual(result.returncode, 0)
+        self.assertLess(result.returncode, 128, result.stdout)
+        self.assertEqual(len(error_lines(result.stdout, name)), 1, result.stdout)
+        self.assertEqual(len(result.stdout.strip().splitlines()), 1, result.stdout)
+        self.assertEqual(files_of(run), [])
+
+    def test_case_files(self):
+        good = PAPER.read_text()
+        for number, (old, new, told) in enumerate(BAD):
+            with self.subTest(new):
+                self.assertIn(old, good)
+                folder = fresh(f"bad-{number}")
+                case = folder / "case.yaml"
+                case.write_text(good.replace(old, new, 1))
+                result = stage("geometry", folder / "run", case=case)
+                self.one_line(result, "geometry", folder / "run")
+                self.assertIn("case.yaml", result.stdout)
+                self.assertIn(told, result.stdout)
+
+    def test_every_stage_refuses_a_bad_case_before_it_works(self):
+        for name in ("geometry", "mesh", "export", "report"):
+            with self.subTest(name):
+                folder = fresh(f"bad-{name}")
+                case = folder / "case.yaml"
+                case.write_text(PAPER.read_text().replace("blade_count: 6", "blade_count: 60", 1))
+                result = stage(name, folder / "run", case=case, ranks=3)
+                self.one_line(result, name, folder / "run")
+                self.assertIn("blade_count", result.stdout)
+
+    def test_no_case_file(self):
+        folder = fresh("bad-none")
+        self.one_line(stage("geometry", folder / "run", case=folder / "no.yaml"), "geometry", folder / "run")
+        self.one_line(stage("geometry", folder / "run", case=folder), "geometry", folder / "run")
+
+    def test_cells(self):
+        for cells in ("many", "-5", "12", "1e99", "1.5"):
+            folder = fresh("bad-cells")
+            result = stage("mesh", folder / "run", cells=cells, ranks=2)
+            self.one_line(result, "mesh", folder / "run")
+            self.assertIn("--cells", result.stdout)
+
+    def test_a_stage_without_the_one_before(self):
+        for name in ("mesh", "export", "report"):
+            with self.subTest(name):
+                folder = fresh(f"bad-order-{name}")
+                self.one_line(stage(name, folder / "run", ranks=2), name, folder / "run")
+
+    def test_a_broken_solid(self):
+        for file, old, new in (("rotor.brep", None, ""), ("stator.brep", None, "DBRep_DrawableShape\n\n7\n"),
+                               ("faces.csv", "rotor,1,", "rotor,999,"), ("faces.csv", ",wall,", ",wal,")):
+            with self.subTest(f"{file} {new}"):
+                run = with_geometry("bad-solid")
+                path = run / "geometry" / file
+                path.write_text(new if old is None else path.read_text().replace(old, new, 1))
+                result = stage("mesh", run, cells=CELLS, ranks=2)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertEqual(len(error_lines(result.stdout, "mesh")), 1, result.stdout)
+                self.assertFalse((run / "mesh/manifest.json").exists())
+
+
+class Failures(unittest.TestCase):
+    def test_a_folder_that_cannot_be_written(self):
+        # A file where the folder should be: also root cannot write there.
+        for name in ("geometry", "mesh"):
+            with self.subTest(name):
+                run = with_geometry(f"blocked-{name}") if name == "mesh" else fresh(f"blocked-{name}")
+                (run / name).write_text("")
+                began = time.monotonic()
+                result = stage(name, run, cells=CELLS, ranks=3)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertEqual(len(error_lines(result.stdout, name)), 1, result.stdout)
+                self.assertIn(str(run / name), result.stdout)
+                self.assertLess(time.monotonic() - began, 120)
+
+    def test_a_killed_rank_ends_the_run(self):
+        run = with_geometry("killed")
+        process = start("mesh", run, cells=CELLS, ranks=3)
+        victim = None
+        deadline = time.monotonic() + 60
+        while victim is None and time.monotonic() < deadline:
+            time.sleep(0.1)
+            ranks = ranks_of(process.pid)
+            victim = ranks[-1] if len(ranks) == 3 else None
+        self.assertIsNotNone(victim, "three ranks did not start")
+        time.sleep(2)
+        os.kill(victim, signal.SIGKILL)
+        killed = time.monotonic()
+        _, text = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - killed, 10)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertFalse((run / "mesh/manifest.json").exists())
+        self.assertFalse((run / "mesh/record.json").exists())
+        left = [pid for pid in ranks if Path(f"/proc/{pid}").exists() and state(pid) != "Z"]
+        self.assertEqual(left, [], "ranks are left behind")
+
+
+def state(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return "Z"
+
+
+def ranks_of(mpirun):
+    """The ranks that an mpirun has started."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
+            program = (entry / "comm").read_text().strip()
+        except OSError:
+            continue
+        if parent == mpirun and program.startswith("cutwater"):
+            found.append(int(entry.name))
+    return sorted(found)
+
+
+if __name__ == "__main__":
+    unittest.main()

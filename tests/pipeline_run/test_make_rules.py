@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""The make rules with stages that only note their call: what runs when, and what a failing stage does."""
+import json
+import os
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["CUTWATER_SOURCE"])
+STAGES = ("geometry", "mesh", "export", "report")
+STAGE = """#!/bin/sh
+# NAME ARGUMENTS...: notes its call and writes what the stage would write last.
+name=${0##*/cutwater-}
+echo "$name $*" >> %(calls)s
+if [ -e %(fail)s ] && [ "$(cat %(fail)s)" = "$name" ]; then echo "cutwater-$name: error: asked to fail" >&2; exit 8; fi
+while [ "$1" != --run ]; do shift; done
+mkdir -p "$2/$name"
+case $name in
+geometry) results='"predicted_head_m": 12' ;;
+mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "layers": 1, "domains": [%(domain)s]' ;;
+*) results= ;;
+esac
+echo "{\\"seconds\\": 1, \\"peak_memory_bytes\\": 1, \\"warnings\\": [], \\"results\\": {$results}}" > "$2/$name/record.json"
+echo > "$2/$name/index.html"
+"""
+DOMAIN = json.dumps({"name": "rotor", "regions": 4, "tetrahedra": 0, "prisms": 5, "layer_coverage": [],
+                     "volume_error": -0.001, "least_cell_volume_m3": 1e-12})
+MAKEFILE = """
+ROOT := %(source)s
+BIN := %(bin)s
+MPIRUN := env NP=$(NP)
+include $(ROOT)/pipeline/run.mk
+FORCE:
+$(eval $(call cutwater_run,pump,%(case)s,%(run)s,$(CELLS)))
+"""
+
+
+class MakeRules(unittest.TestCase):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        folder = Path(self.holder.name)
+        self.calls, self.fail = folder / "calls", folder / "fail"
+        self.case, self.run_folder, self.bin = folder / "case.yaml", folder / "runs/pump", folder / "bin"
+        self.bin.mkdir()
+        self.case.write_text("name: pump\n")
+        for name in STAGES:
+            program = self.bin / f"cutwater-{name}"
+            program.write_text(STAGE % {"calls": self.calls, "fail": self.fail, "domain": DOMAIN})
+            program.chmod(0o755)
+        self.makefile = folder / "Makefile"
+        self.makefile.write_text(MAKEFILE % {"source": SOURCE, "bin": self.bin, "case": self.case,
+                                             "run": self.run_folder})
+
+    def tearDown(self):
+        self.holder.cleanup()
+
+    def make(self, *words):
+        """Calls make; gives its result and the stages that ran."""
+        self.calls.write_text("")
+        time.sleep(0.02)  # file times must differ
+        clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
+        result = subprocess.run(["make", "-f", self.makefile, "pump", *words], env=clean, cwd=self.holder.name,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return result, [line.split()[0] for line in self.calls.read_text().splitlines()]
+
+    def test_all_stages_in_turn_and_then_none(self):
+        result, ran = self.make()
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(ran, list(STAGES))
+        self.assertNotIn("--cells", self.calls.read_text())
+        result, ran = self.make()
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(ran, [])
+        self.assertIn("5 (+0.0 % of the 5 asked)", result.stdout)
+        self.assertIn("12.00 m predicted", result.stdout)
+        self.assertIn("report/index.html", result.stdout)
+
+    def test_another_count_leaves_the_geometry(self):
+        self.make("CELLS=100k")
+        self.assertEqual(self.calls.read_text().count("--cells 100k"), 3)
+        self.assertEqual(self.make("CELLS=100k")[1], [])
+        self.assertEqual(self.make("CELLS=200k")[1], ["mesh", "export", "report"])
+        self.assertEqual(self.make()[1], ["mesh", "export", "report"])
+
+    def test_other_ranks_change_nothing(self):
+        self.make("NP=1")
+        self.assertEqual(self.make("NP=3")[1], [])
+
+    def test_a_new_case_or_program_runs_what_depends_on_it(self):
+        self.make()
+        time.sleep(0.02)
+        self.case.write_text("name: pump\n# other\n")
+        self.assertEqual(self.make()[1], list(STAGES))
+        for index, name in enumerate(STAGES):
+            time.sleep(0.02)
+            (self.bin / f"cutwater-{name}").touch()
+            self.assertEqual(self.make()[1], list(STAGES[index:]))
+
+    def test_a_failing_stage_stops_and_is_tried_again(self):
+        self.fail.write_text("mesh")
+        result, ran = self.make()
+        self.assertEqual(ran, ["geometry", "mesh"])
+        self.assertNotEqual(result.returncode, 0)
+        lines = result.stdout.strip().splitlines()
+        self.assertEqual(lines[0], "cutwater-mesh: error: asked to fail")
+        self.assertEqual(len(lines), 2, "beside the stage's line only make's own")
+        self.fail.unlink()
+        self.assertEqual(self.make()[1], ["mesh", "export", "report"])
+
+
+class FrontDoor(unittest.TestCase):
+    def make(self, *words):
+        clean = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "CELLS")}
+        return subprocess.run(["make", "-C", SOURCE, "-n", "-B", *words], env=clean, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+
+    def test_options_reach_the_stages(self):
+        told = self.make("paper", "CELLS=2M", "NP=3", "OUT=/nowhere/run").stdout
+        self.assertIn(f"-n 3 {SOURCE}/build/bin/cutwater-mesh --case {SOURCE}/cases/paper/case.yaml --run /nowhere/run "
+                      "--cells 2M", told)
+
+    def test_cases_by_name(self):
+        told = self.make("-C", "cases", "paper").stdout
+        self.assertIn(f"--run {SOURCE}/runs/paper", told)
+        told = self.make("-C", "cases", "paper", "OUT=elsewhere").stdout
+        self.assertIn(f"--run {SOURCE}/elsewhere", told)
+        told = self.make("-C", "cases", "paper-sweep", "SWEEP=100k 200k").stdout
+        for cells in ("100k", "200k"):
+            self.assertIn(f"--run {SOURCE}/runs/paper-{cells} --cells {cells}", told)
+        self.assertNotEqual(self.make("-C", "cases", "nothing").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

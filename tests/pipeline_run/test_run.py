@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""The run of the paper's pump at a small size, by all stages in turn: the other tests of whole runs look at it."""
+import shutil
+import subprocess
+import unittest
+
+from cutwater import BIN, CELLS, RUN, done, record
+
+
+class Run(unittest.TestCase):
+    def test_1_all_stages(self):
+        shutil.rmtree(RUN, ignore_errors=True)
+        done(self, "geometry", RUN)
+        done(self, "mesh", RUN, cells=CELLS, ranks=2)
+        done(self, "export", RUN, cells=CELLS, ranks=2)
+        done(self, "report", RUN, cells=CELLS)
+        for name in ("geometry/rotor.brep", "geometry/stator.brep", "geometry/faces.csv", "geometry/pump.step",
+                     "geometry/design.json", "mesh/manifest.json", "export/pump.cgns",
+                     "export/openfoam/constant/polyMesh/faces", "export/cfx/steady.ccl", "report/index.html"):
+            self.assertGreater((RUN / name).stat().st_size, 100, name)
+
+    def test_2_records_tell_what_was_done(self):
+        for name in ("geometry", "mesh", "export", "report"):
+            told = record(RUN, name)
+            self.assertEqual(told["stage"], name)
+            self.assertGreater(told["seconds"], 0)
+            self.assertGreater(told["peak_memory_bytes"], 10e6)
+            self.assertTrue(told["steps"])
+            self.assertLessEqual(sum(step["seconds"] for step in told["steps"]), 1.01 * told["seconds"])
+
+    def test_3_nothing_half_written_stays(self):
+        known = {".brep", ".csv", ".step", ".json", ".svg", ".png", ".h5"}
+        for folder in ("geometry", "mesh"):
+            for path in (RUN / folder).iterdir():
+                self.assertIn(path.suffix, known, path)
+
+    def test_4_version_and_help(self):
+        for name in ("geometry", "mesh", "export", "report"):
+            help_text = subprocess.run([BIN / f"cutwater-{name}", "--help"], capture_output=True, text=True)
+            self.assertEqual(help_text.returncode, 0, help_text.stderr)
+            self.assertIn(f"usage: cutwater-{name} --case FILE --run DIR", help_text.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
