@@ -276,12 +276,10 @@ static void choose_wrap_spread(const CwMeridian *meridian, CwDesign *design) {
   design->wrap_spread = 0; // the sections then say what does not fit
 }
 
-static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
+// The volute with the design's b3, side walls and tongue.
+static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
-  SET(swirl_constant, design->outlet_swirl_speed * r2, "c_u2 r2");
-  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
-  TAKE(tongue_radius, given->tongue_radius, 0.0075 * design->outlet_diameter, "0.0075 D2: casting");
   // A plain trapezoid is near enough to see how wide the throat will be.
   const double height = cw_volute_trapezoid_height(r3, design->inlet_width, design->side_wall_angle,
                                                    design->flow_rate / design->swirl_constant);
@@ -310,6 +308,38 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
       .discharge_pipe_length = design->discharge_pipe_length,
   };
   CW_TRY(cw_volute_design(&input, &design->volute));
+done:
+  return status;
+}
+
+// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side walls, which
+// else would make the spiral too tall, at low specific speed the tongue's radius, which is too large for its throat.
+static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
+            tongue_open = !cw_case_given(given->tongue_radius);
+  const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
+  const double tongue = 0.0075 * design->outlet_diameter;
+  SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
+  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
+  TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
+  status = volute_of(given, design);
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && tongue_open; i++) {
+    cw_fail_clear();
+    SET(tongue_radius, tongue * pow(0.75, i), "0.0075 D2, reduced for the small throat");
+    status = volute_of(given, design);
+  }
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 12 && (width_open || side_open); i++) {
+    cw_fail_clear();
+    if (tongue_open)
+      SET(tongue_radius, tongue, "0.0075 D2: casting");
+    if (width_open)
+      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
+    if (side_open)
+      SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
+    status = volute_of(given, design);
+  }
+  CW_TRY(status);
   TAKE(throat_area, given->throat_area, design->volute.throat_area, "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
   SET(tongue_tip_radius, design->volute.tip_radius,

@@ -264,7 +264,7 @@ void Rotor::blade_patches(Shape &shape) {
 }
 
 // From the nose upstream along the mean line of the blades to their leading edge, then turning into the meridian
-// within a tenth of a pitch.
+// within a fifth of a pitch.
 void Rotor::guide_line(Shape &shape, int wall) {
   const int along = 200, turning = 100, straight = 60;
   const CwMeridianCurve &curve = wall == HUB ? meridian.hub : meridian.shroud;
@@ -273,7 +273,7 @@ void Rotor::guide_line(Shape &shape, int wall) {
   const CwBladeSection &s = shape.section[wall == HUB ? 0 : span_points - 1];
   const auto theta_at = [&](double q) { return cw_blade_theta(&s, (q - s.start) / (1 - s.start)); };
   const double step = 1e-4, slope = (theta_at(0) - theta_at(step)) / (step * length); // of theta by length upstream
-  const double turn_length = std::min(0.5 * begin, 0.2 * pitch / slope);
+  const double turn_length = std::min(0.5 * begin, 0.4 * pitch / slope);
   std::vector<double> theta, at_length, u(1, 0);
   for (int i = 0; i < straight; i++) {
     theta.push_back(theta_at(0) + 0.5 * slope * turn_length);
