@@ -24,12 +24,38 @@ static double wrap_step(const CwMeridian *meridian, double span, const double be
           wrap_rate(meridian, span, beta, b));
 }
 
-double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[3]) {
-  enum { STEPS = 50 };
-  double sum = 0;
-  for (int i = 0; i < STEPS; i++)
-    sum += wrap_step(meridian, span, beta, (double)i / STEPS, (double)(i + 1) / STEPS);
+// The section of the meridian at the points of Simpson's rule: it does not depend on the law, which is solved for.
+enum { WRAP_STEPS = 50 };
+typedef struct {
+  double q[2 * WRAP_STEPS + 1], radius[2 * WRAP_STEPS + 1], speed[2 * WRAP_STEPS + 1];
+} Samples;
+
+static void sample(const CwMeridian *meridian, double span, Samples *samples) {
+  for (int i = 0; i <= 2 * WRAP_STEPS; i++) {
+    double x[2], dx[2];
+    const double a = (double)(i / 2) / WRAP_STEPS, b = (double)(i / 2 + 1) / WRAP_STEPS;
+    samples->q[i] = i % 2 ? 0.5 * (a + b) : a;
+    cw_meridian_blade_point(meridian, span, samples->q[i], x, dx);
+    samples->radius[i] = x[0];
+    samples->speed[i] = hypot(dx[0], dx[1]);
+  }
+}
+
+static double sampled_wrap(const Samples *samples, const double beta[3]) {
+  double rate[2 * WRAP_STEPS + 1], sum = 0;
+  for (int i = 0; i <= 2 * WRAP_STEPS; i++)
+    rate[i] = samples->speed[i] / (samples->radius[i] * tan(law(beta, samples->q[i])));
+  for (int i = 0; i < WRAP_STEPS; i++) {
+    const double a = (double)i / WRAP_STEPS, b = (double)(i + 1) / WRAP_STEPS;
+    sum += (b - a) / 6 * (rate[2 * i] + 4 * rate[2 * i + 1] + rate[2 * i + 2]);
+  }
   return sum;
+}
+
+double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[3]) {
+  Samples samples;
+  sample(meridian, span, &samples);
+  return sampled_wrap(&samples, beta);
 }
 
 // Fifth-degree step from 0 to 1, flat to the second order at both ends.
@@ -107,10 +133,12 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
   // The inlet triangle with uniform c_m: tan beta1 falls as 1/r from hub to shroud.
   beta[0] = atan(tan(design->inlet_blade_angle) * middle[0] / x[0]);
   beta[2] = design->outlet_blade_angle;
+  Samples samples;
+  sample(meridian, span, &samples);
   double low = 1 * degree, high = 89 * degree;
   for (int i = 0; i < 60; i++) {
     beta[1] = 0.5 * (low + high);
-    if (cw_blade_wrap(meridian, span, beta) > wrap)
+    if (sampled_wrap(&samples, beta) > wrap)
       low = beta[1];
     else
       high = beta[1];
@@ -178,6 +206,34 @@ CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *b
   section.end = 1 - (1 - blade->end) / (1 - section.start);
   section.trailing_nose = blade->trailing_nose / (1 - section.start);
   return section;
+}
+
+CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian, double *least) {
+  enum { POINTS = 20 };
+  CwStatus status = CW_OK;
+  const double apart = 0.05;
+  CwBladeSection on, off;
+  *least = M_PI / 2;
+  for (int wall = 0; wall < 2; wall++) {
+    const double span = wall, other = wall ? 1 - apart : apart;
+    CW_TRY(cw_blade_section(design, meridian, span, &on));
+    CW_TRY(cw_blade_section(design, meridian, other, &off));
+    for (int i = 0; i <= POINTS; i++) {
+      const double p = (double)i / POINTS;
+      double x[2], dx[2], y[2];
+      cw_meridian_blade_point(meridian, span, p, x, dx);
+      cw_meridian_blade_point(meridian, other, p, y, NULL);
+      // Along the foot (m, theta) and across the span (along and normal to the wall in the meridian, theta).
+      const double speed = hypot(dx[0], dx[1]), beta = cw_blade_beta(&on, p), c = cos(beta), s = sin(beta);
+      const double along = ((y[0] - x[0]) * dx[0] + (y[1] - x[1]) * dx[1]) / speed;
+      const double normal = ((y[0] - x[0]) * dx[1] - (y[1] - x[1]) * dx[0]) / speed;
+      const double turned = x[0] * (cw_blade_theta(&off, p) - cw_blade_theta(&on, p));
+      // Part of the span's direction square to the foot but along the wall.
+      *least = fmin(*least, atan2(fabs(normal), fabs(along * c + turned * s)));
+    }
+  }
+done:
+  return status;
 }
 
 double cw_blade_half_thickness(const CwBladeSection *section, double p) {

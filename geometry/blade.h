@@ -50,6 +50,9 @@ double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[
 CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span,
                           CwBladeSection *section);
 
+// The least angle between the blades' mean surface and hub or shroud, rad. Fails as cw_blade_section().
+CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian, double *least);
+
 // Makes the section of the splitter between two blades from the section of the blade.
 CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *blade);
 

@@ -66,7 +66,7 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
          d->overlap);
   remark(remarks, d->wrap_spread != 0,
          "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay within 12 to "
-         "60 deg",
+         "60 deg and the blades stand steep on the walls",
          d->wrap_spread / degree);
   remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
          "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);

@@ -258,22 +258,31 @@ done:
   return status;
 }
 
-// The least difference of the wraps at shroud and hub with which both have a law within the allowed angles.
-static void choose_wrap_spread(const CwMeridian *meridian, CwDesign *design) {
+// The least difference of the wraps at shroud and hub with which all sections have a law within the allowed angles and
+// blades stand on hub and shroud at 70 degrees or more; where there is none, the one with the steepest blades.
+static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *meridian, CwDesign *design) {
   CwBladeSection section;
-  const double step = 2 * degree;
-  for (int i = 0; design->blade_form == CW_BLADE_TWISTED && i <= 80; i++) {
+  const double step = 3 * degree, enough = 70 * degree;
+  double best = -1, best_spread = 0;
+  TAKE(wrap_spread, given->wrap_spread, 0, "none needed");
+  if (cw_case_given(given->wrap_spread) || design->blade_form != CW_BLADE_TWISTED)
+    return;
+  for (int i = 0; i <= 40; i++) {
+    double angle = 0;
     design->wrap_spread = (i % 2 ? 1 : -1) * ((i + 1) / 2) * step;
     int fits = 1;
-    for (int j = 0; fits && j <= 4; j++)
+    for (int j = 1; fits && j < 4; j++)
       fits = cw_blade_section(design, meridian, 0.25 * j, &section) == CW_OK;
+    fits = fits && cw_blade_wall_angle(design, meridian, &angle) == CW_OK;
     cw_fail_clear();
-    if (fits) {
-      SET(wrap_spread, design->wrap_spread, i ? "least that keeps beta within 12 to 60 deg" : "none needed");
-      return;
-    }
+    if (!fits || angle <= best)
+      continue;
+    best = angle;
+    best_spread = design->wrap_spread;
+    if (angle > enough)
+      break;
   }
-  design->wrap_spread = 0; // the sections then say what does not fit
+  SET(wrap_spread, best_spread, best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
 }
 
 // The volute with the design's b3, side walls and tongue.
@@ -401,7 +410,7 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
              "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
              "change outlet_diameter_mm, outlet_width_mm or the priority",
              design->head, design->predicted_head);
-  choose_wrap_spread(&meridian, design);
+  choose_wrap_spread(&table->impeller, &meridian, design);
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,

@@ -263,49 +263,54 @@ void Rotor::blade_patches(Shape &shape) {
     shape.theta_corner[HUB] = shape.theta_corner[SHROUD];
 }
 
-// From the nose upstream along the mean line of the blades to their leading edge, then turning into the meridian
-// within a fifth of a pitch.
+// From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into the
+// meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through them wriggles.
 void Rotor::guide_line(Shape &shape, int wall) {
-  const int along = 200, turning = 100, straight = 60;
+  const int fine = 4000, points = 240;
   const CwMeridianCurve &curve = wall == HUB ? meridian.hub : meridian.shroud;
   const double begin = wall == HUB ? meridian.hub_leading : meridian.shroud_leading;
   const double length = (wall == HUB ? meridian.hub_trailing : meridian.shroud_trailing) - begin;
   const CwBladeSection &s = shape.section[wall == HUB ? 0 : span_points - 1];
-  const auto theta_at = [&](double q) { return cw_blade_theta(&s, (q - s.start) / (1 - s.start)); };
-  const double step = 1e-4, slope = (theta_at(0) - theta_at(step)) / (step * length); // of theta by length upstream
-  const double turn_length = std::min(0.5 * begin, 0.4 * pitch / slope);
-  std::vector<double> theta, at_length, u(1, 0);
-  for (int i = 0; i < straight; i++) {
-    theta.push_back(theta_at(0) + 0.5 * slope * turn_length);
-    at_length.push_back((begin - turn_length) * i / straight);
-  }
-  for (int i = 0; i < turning; i++) {
-    const double f = 1 - (double)i / turning;
-    theta.push_back(theta_at(0) + slope * turn_length * (f - 0.5 * f * f));
-    at_length.push_back(begin - turn_length * f);
-  }
-  for (int i = 0; i <= along; i++) {
-    const double q = s.start * i / along;
-    theta.push_back(theta_at(q));
-    at_length.push_back(begin + q * length);
-  }
-  std::vector<gp_Pnt> points;
-  std::vector<gp_Pnt2d> on_wall;
-  for (size_t i = 0; i < theta.size(); i++) {
-    const double t = cw_meridian_parameter(&curve, at_length[i]);
+  const double end = begin + s.start * length, step = 1e-4;
+  const auto in_passage = [&](double q) { return cw_blade_theta(&s, (q - s.start) / (1 - s.start)); };
+  const double slope = (in_passage(0) - in_passage(step)) / (step * length); // of theta by length upstream
+  const double turning = std::min(0.7 * begin, 0.4 * pitch / slope);
+  const auto theta_at = [&](double at_length) {
+    if (at_length >= begin)
+      return in_passage((at_length - begin) / length);
+    const double f = std::min(1.0, (begin - at_length) / turning), f4 = f * f * f * f;
+    return in_passage(0) + slope * turning * (f - f4 * (2.5 - 3 * f + f * f));
+  };
+  const auto point_at = [&](double at_length, double theta, double *t) {
     double x[2];
-    cw_meridian_point(&curve, t, x, nullptr);
-    points.push_back(at(x[0], theta[i], x[1]));
-    on_wall.push_back(gp_Pnt2d(theta[i], t));
-    if (i > 0)
-      u.push_back(u.back() + points[i].Distance(points[i - 1]));
+    *t = cw_meridian_parameter(&curve, at_length);
+    cw_meridian_point(&curve, *t, x, nullptr);
+    return at(x[0], theta, x[1]);
+  };
+  std::vector<double> travelled(1, 0), u;
+  std::vector<gp_Pnt> x;
+  std::vector<gp_Pnt2d> on_wall;
+  double t;
+  gp_Pnt last = point_at(0, theta_at(0), &t);
+  for (int i = 1; i <= fine; i++) {
+    const double at_length = end * i / fine;
+    const gp_Pnt next = point_at(at_length, theta_at(at_length), &t);
+    travelled.push_back(travelled.back() + next.Distance(last));
+    last = next;
   }
-  for (double &value : u)
-    value /= u.back();
-  u.back() = 1;
-  shape.guide[wall] = cw_bspline_curve_3d(u, points);
+  for (int i = 0, j = 0; i < points; i++) {
+    const double wanted = travelled.back() * i / (points - 1);
+    while (j < fine - 1 && travelled[j + 1] < wanted)
+      j++;
+    const double share = (wanted - travelled[j]) / (travelled[j + 1] - travelled[j]);
+    const double at_length = i == points - 1 ? end : end * (j + share) / fine;
+    u.push_back((double)i / (points - 1));
+    x.push_back(point_at(at_length, theta_at(at_length), &t));
+    on_wall.push_back(gp_Pnt2d(theta_at(at_length), t));
+  }
+  shape.guide[wall] = cw_bspline_curve_3d(u, x);
   shape.guide_on_wall[wall] = cw_bspline_curve_2d(u, on_wall);
-  shape.theta_up[wall] = theta.front();
+  shape.theta_up[wall] = on_wall.front().X();
 }
 
 // Axes whose x axis is the zero of the parameter plane of passage k.

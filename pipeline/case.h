@@ -58,6 +58,7 @@ typedef struct {
   double outlet_diameter;    // D2, m
   double outlet_width;       // b2, m
   double wrap_angle;         // rad
+  double wrap_spread;        // rad, wrap at the shroud minus wrap at the hub
   double hub_diameter;       // m, at the nut
   double leading_edge_radius_hub;    // m
   double leading_edge_radius_shroud; // m

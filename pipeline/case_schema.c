@@ -65,6 +65,8 @@ const CwCaseKey cw_case_keys[] = {
                   "b2, between hub and shroud at D2"),
     REAL_COMPUTED("impeller", "wrap_angle_deg", "deg", 20, 300, impeller.wrap_angle,
                   "angle about the axis from leading to trailing edge; required where it is the priority"),
+    REAL_COMPUTED("impeller", "wrap_spread_deg", "deg", -90, 90, impeller.wrap_spread,
+                  "wrap at the shroud minus wrap at the hub; wrap_angle_deg holds at mid-span"),
     REAL_COMPUTED("impeller", "hub_diameter_mm", "mm", 1, 4000, impeller.hub_diameter,
                   "of the hub at its nut"),
     REAL_COMPUTED("impeller", "hub_nut_length_mm", "mm", 0.1, 4000, impeller.nut_length,
