@@ -60,7 +60,7 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
 // into it above nq = 25, where the wheel turns mixed-flow and the blades would else become too short.
 static void leading_edge_shares(double nq, double share[2]) {
   const double f = fmin(1, fmax(0, (nq - 25) / 35));
-  share[0] = 0.568 - 0.168 * f;
+  share[0] = 0.568 - 0.248 * f;
   share[1] = 0.635 - 0.105 * f;
 }
 
@@ -87,7 +87,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   double share[2];
   leading_edge_shares(nq, share);
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, fmax(share[0] * d1, 0.56 * design->hub_diameter),
-       nq > 25 ? "0.568 D1 to 0.4 D1 at nq 60" : "0.568 D1");
+       nq > 25 ? "0.568 D1 to 0.32 D1 at nq 60" : "0.568 D1");
   TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share[1] * d1,
        nq > 25 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
   value = CORRELATED(CW_CORRELATED_BLADE_COUNT);
