@@ -11,6 +11,8 @@
 #include "mesher/vec.h"
 
 enum { LEAST_REGIONS = 4 };
+static const double TALLEST_COLUMN = 2; // of the edge length on the wall
+static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -73,14 +75,32 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, &domain->size));
+done:
+  return status;
+}
+
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  CwSize *size = NULL;
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, &size));
+  CW_TRY(cw_size_pack(size, bytes, byte_count));
+done:
+  cw_size_free(&size);
+  return status;
+}
+
+CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_size_unpack(bytes, &domain->size));
   CW_TRY(integrate(domain, table));
 done:
   return status;
 }
 
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
+CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
+                        double tet_factor, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
+  CwPlan plan = {0};
   double regions = ceil(cells / (double)table->mesh.cells_per_region);
   double *thickness = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
@@ -91,8 +111,10 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .thickness = thickness,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
-  CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &domain->plan));
+  CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan));
+  CW_TRY(cw_plan_pack(&plan, bytes, byte_count));
 done:
+  cw_plan_free(&plan);
   free(thickness);
   return status;
 }
@@ -132,6 +154,11 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
+    // Columns much taller than their triangles are wide crowd together at noses and roots. They give up growth there,
+    // never the first height.
+    double even = EVEN_LAYERS * table->walls.layer_count * domain->first_height[v];
+    double fair = fmax(even, TALLEST_COLUMN * cw_size_at(domain->size, x));
+    domain->target[v] = fmin(domain->target[v], fair);
   }
 done:
   return status;

@@ -27,15 +27,21 @@ typedef struct {
   int32_t pair_count, (*pair)[2];             // adjacent regions
 } CwDomain;
 
-// Opens geometry and makes background triangulation and size field.
+// Opens geometry and makes the background triangulation.
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
+
+// Makes the size field, packed: a task of one rank. All ranks take it up with cw_domain_take_size.
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes);
 
 // Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.
 double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
 
-// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain.
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor);
+// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
+// packed (cw_plan_unpack): a task of one rank.
+CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
+                        double tet_factor, void **bytes, int64_t *byte_count);
 
 // Starts the skeleton anew at the present scale of the size field: curve network and wall curves.
 CwStatus cw_domain_start(CwDomain *domain);

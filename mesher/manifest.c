@@ -160,7 +160,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
   CW_TRY(cw_record_integer(run->record, "cells", run->cells));
   CW_TRY(cw_record_integer(run->record, "passes", run->passes));
-  CW_TRY(cw_record_number(run->record, "size_scale", cw_size_scale(run->domain[0].size)));
+  CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
   CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
   json_t *given = domains;
   domains = NULL;

@@ -6,18 +6,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/pass_state.h"
 #include "mesher/schedule.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3 };
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 30 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
-// Cells per unit of the integrals of the size field. Equilateral triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded
-// surface needs a few per cent more. A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front, a good
-// part of the whole in the narrow channels of a pump, come on top. The passes correct both.
-static const double PRISMS_PER_LAYER = 2.5;
-static const double TETS_PER_VOLUME = 11.1;
+// Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
+// triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
+// 8.2 per h^3; the cells that fit it to the front come on top, the more so the fewer there are across a channel.
+static const double PRISMS_PER_LAYER = 2.45;
+static double tets_per_volume(double scale) {
+  return 10.6 + 2.4 * fmax(0, scale - 1);
+}
 
 static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};
 
@@ -89,31 +92,34 @@ static void results_free(Results *results) {
   }
 }
 
-static double predicted_cells(const CwMeshRun *run, double scale) {
-  double prisms = 0, tets = 0;
-  for (int d = 0; d < CW_DOMAINS; d++) {
-    prisms += run->domain[d].prism_integral;
-    tets += run->domain[d].tet_integral;
-  }
-  return run->prism_factor * prisms / (scale * scale) + run->tet_factor * tets / (scale * scale * scale);
+static double cells_at(const CwMeshRun *run, int d, double scale) {
+  return run->prism_factor * run->domain[d].prism_integral / (scale * scale) +
+         run->tet_factor * run->domain[d].tet_integral / (scale * scale * scale);
 }
 
-// The scale of the size field at which the predicted count is the asked one; the count falls with the scale.
-static double solve_scale(const CwMeshRun *run) {
+double cw_predicted_cells(const CwMeshRun *run, int domain) {
+  return cells_at(run, domain, run->scale);
+}
+
+static double all_cells_at(const CwMeshRun *run, double scale) {
+  double cells = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) cells += cells_at(run, d, scale);
+  return cells;
+}
+
+// Sets the scale of the size fields so that the predicted count is the asked one; the count falls with the scale.
+static void solve_scale(CwMeshRun *run) {
   double low = 1e-3, high = 1e3;
   for (int step = 0; step < 200; step++) {
     double middle = sqrt(low * high);
-    if (predicted_cells(run, middle) > (double)run->table->mesh.cells) {
+    if (all_cells_at(run, middle) > (double)run->table->mesh.cells) {
       low = middle;
     } else {
       high = middle;
     }
   }
-  return sqrt(low * high);
-}
-
-static void set_scale(CwMeshRun *run, double scale) {
-  for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, scale);
+  run->scale = sqrt(low * high);
+  for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, run->scale);
 }
 
 // Costs of faces: predicted triangles.
@@ -136,7 +142,7 @@ done:
 
 // Walls of both domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
 // is asked.
-static CwStatus mesh_walls(CwMeshRun *run, double *scale) {
+static CwStatus mesh_walls(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
   CwMeshTask *task = NULL;
@@ -145,7 +151,6 @@ static CwStatus mesh_walls(CwMeshRun *run, double *scale) {
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
     double integral = 0;
-    set_scale(run, *scale);
     for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_start(&run->domain[d]));
     CW_TRY(results_make(&results, cw_cad_face_count(run->domain[0].cad), cw_cad_face_count(run->domain[1].cad)));
     CW_TRY(run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
@@ -155,12 +160,12 @@ static CwStatus mesh_walls(CwMeshRun *run, double *scale) {
       integral += run->domain[d].prism_integral;
     }
     results_free(&results);
-    run->prism_factor = (double)triangles * run->table->walls.layer_count * *scale * *scale / integral;
-    double off = predicted_cells(run, *scale) / (double)run->table->mesh.cells - 1;
+    run->prism_factor = (double)triangles * run->table->walls.layer_count * run->scale * run->scale / integral;
+    double off = all_cells_at(run, run->scale) / (double)run->table->mesh.cells - 1;
     cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
-           *scale, 100 * off);
+           run->scale, 100 * off);
     if (fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
-    *scale = solve_scale(run);
+    solve_scale(run);
   }
   for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_targets(&run->domain[d], run->table));
 done:
@@ -169,13 +174,24 @@ done:
   return status;
 }
 
+// Runs a step that has one task a domain.
+static CwStatus run_domains(CwMeshRun *run, const char *name, CwMeshStep body, Results *results) {
+  CwStatus status = CW_OK;
+  CwMeshTask task[CW_DOMAINS];
+  CW_TRY(results_make(results, 1, 1));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    double cost = fmax(run->domain[d].skeleton.wall_count, run->domain[d].background.triangle_count);
+    task[d] = (CwMeshTask){d, 0, cost};
+  }
+  CW_TRY(run_step(run, name, "domains", body, CW_DOMAINS, task, results->bytes, NULL));
+done:
+  return status;
+}
+
 static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
-  CwMeshTask task[CW_DOMAINS];
-  CW_TRY(results_make(&results, 1, 1));
-  for (int d = 0; d < CW_DOMAINS; d++) task[d] = (CwMeshTask){d, 0, run->domain[d].skeleton.wall_count};
-  CW_TRY(run_step(run, "layers", "domains", cw_step_layers, CW_DOMAINS, task, results.bytes, NULL));
+  CW_TRY(run_domains(run, "layers", cw_step_layers, &results));
   for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
 done:
   results_free(&results);
@@ -251,13 +267,13 @@ done:
 }
 
 // Sets the factor of the tetrahedra to what the last pass made of them.
-static void learn_tets(CwMeshRun *run, double scale) {
+static void learn_tets(CwMeshRun *run) {
   double made = 0, integral = 0;
   for (int d = 0; d < CW_DOMAINS; d++) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
     integral += run->domain[d].tet_integral;
   }
-  run->tet_factor = made * scale * scale * scale / integral;
+  run->tet_factor = made * run->scale * run->scale * run->scale / integral;
   cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals", run->tet_factor,
                run->prism_factor / run->table->walls.layer_count);
 }
@@ -265,6 +281,7 @@ static void learn_tets(CwMeshRun *run, double scale) {
 static CwStatus open_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwFlowScales scales;
+  Results results = {0};
   char path[4096];
   double started = cw_seconds();
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
@@ -278,23 +295,25 @@ static CwStatus open_domains(CwMeshRun *run) {
     cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
            run->domain[d].background.triangle_count);
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry and size field", cw_seconds() - started, 2, "domains"));
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, 2, "domains"));
+  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
+  }
 done:
+  results_free(&results);
   return status;
 }
 
 // Regions for each domain by its share of the predicted cells.
-static CwStatus plan_domains(CwMeshRun *run, double scale) {
+static CwStatus plan_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  double started = cw_seconds();
-  int32_t regions = 0;
-  set_scale(run, scale);
+  Results results = {0};
+  CW_TRY(run_domains(run, "decomposition", cw_step_plan, &results));
   for (int d = 0; d < CW_DOMAINS; d++) {
     CwDomain *domain = &run->domain[d];
-    double cells = run->prism_factor * domain->prism_integral / (scale * scale) +
-                   run->tet_factor * domain->tet_integral / (scale * scale * scale);
-    CW_TRY(cw_domain_plan(domain, run->table, cells, run->prism_factor, run->tet_factor));
     double worst = 1;
+    CW_TRY(cw_plan_unpack(results.bytes[d][0], &domain->plan));
     for (int32_t n = 0; n < domain->plan.node_count; n++) {
       const CwPlane *plane = &domain->plan.node[n].plane;
       worst = fmin(worst, domain->plan.worst_angle[n]);
@@ -303,39 +322,62 @@ static CwStatus plan_domains(CwMeshRun *run, double scale) {
                    1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
     }
     cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
-           domain->plan.region_count, cells, asin(worst) * 180 / M_PI);
-    regions += domain->plan.region_count;
+           domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, regions, "regions"));
 done:
+  results_free(&results);
   return status;
+}
+
+static double rounded(double value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.12g", value);
+  return strtod(text, NULL);
 }
 
 CwStatus cw_mesh_run(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  char path[4096];
+  char path[4096], fingerprint[33];
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_make_directory(path));
   CW_TRY(open_domains(run));
   run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
-  run->tet_factor = TETS_PER_VOLUME;
-  double scale = solve_scale(run), asked = (double)run->table->mesh.cells;
-  CW_TRY(plan_domains(run, scale));
-  for (run->passes = 1;; run->passes++) {
-    CW_TRY(mesh_walls(run, &scale));
+  double asked = (double)run->table->mesh.cells;
+  run->scale = 1;
+  for (int step = 0; step < SCALE_STEPS; step++) {
+    run->tet_factor = tets_per_volume(run->scale);
+    solve_scale(run);
+  }
+  CW_TRY(plan_domains(run));
+  CwPassState state = {.pass = 1};
+  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, fingerprint));
+  cw_pass_state_read(run->run_path, fingerprint, &state);
+  if (state.pass > 1) {
+    run->prism_factor = state.prism_factor;
+    run->tet_factor = state.tet_factor;
+    solve_scale(run);
+    cw_log("going on with pass %d of an earlier run", state.pass);
+  }
+  for (run->passes = state.pass;; run->passes++) {
+    CW_TRY(mesh_walls(run));
     CW_TRY(grow_layers(run));
     CW_TRY(mesh_inner(run));
     CW_TRY(mesh_regions(run));
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
-    learn_tets(run, scale);
+    learn_tets(run);
     if (fabs(off) <= COUNT_TOLERANCE) break;
     if (run->passes == PASSES_MOST) {
       cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off, asked,
                   run->passes);
       break;
     }
-    scale = solve_scale(run);
+    // As many digits as the file keeps, so that a run that goes on from it has the same bits.
+    run->prism_factor = rounded(run->prism_factor);
+    run->tet_factor = rounded(run->tet_factor);
+    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor};
+    if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
+    solve_scale(run);
   }
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
 done:

@@ -25,6 +25,7 @@ typedef struct {
   CwRegionSummary *summary[CW_DOMAINS];
   double *region_seconds[CW_DOMAINS];
   double prism_factor, tet_factor; // cells per unit of the integrals
+  double scale;                    // of the size field
   int passes;
   int64_t cells;                   // made
 } CwMeshRun;
@@ -32,6 +33,9 @@ typedef struct {
 // Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all ranks.
 CwStatus cw_mesh_run(CwMeshRun *run);
 void cw_mesh_run_free(CwMeshRun *run);
+
+// Cells of one domain as its integrals and the factors predict them at the present scale.
+double cw_predicted_cells(const CwMeshRun *run, int domain);
 
 // A task of one domain.
 typedef struct {
@@ -41,6 +45,8 @@ typedef struct {
 
 // The steps that run as tasks; each a CwTask body over run->domain[task.domain].
 typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);

@@ -8,6 +8,15 @@
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
+CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_make_size(&run->domain[task.domain], run->table, bytes, size);
+}
+
+CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_plan(&run->domain[task.domain], run->table, cw_predicted_cells(run, task.domain), run->prism_factor,
+                        run->tet_factor, bytes, size);
+}
+
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }

@@ -93,6 +93,42 @@ done:
   return status;
 }
 
+CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
+  const int32_t count[2] = {plan->node_count, plan->region_count};
+  char *block;
+  CW_NEW(block, sizeof count + nodes + 2 * numbers);
+  memcpy(block, count, sizeof count);
+  memcpy(block + sizeof count, plan->node, nodes);
+  memcpy(block + sizeof count + nodes, plan->predicted_cells, numbers);
+  memcpy(block + sizeof count + nodes + numbers, plan->worst_angle, numbers);
+  *bytes = block;
+  *byte_count = (int64_t)(sizeof count + nodes + 2 * numbers);
+done:
+  return status;
+}
+
+CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  int32_t count[2];
+  const char *at = (const char *)bytes + sizeof count;
+  memcpy(count, bytes, sizeof count);
+  memset(plan, 0, sizeof *plan);
+  plan->node_count = count[0];
+  plan->region_count = count[1];
+  size_t n = (size_t)plan->region_count;
+  CW_NEW(plan->node, n);
+  CW_NEW(plan->predicted_cells, n);
+  CW_NEW(plan->worst_angle, n);
+  memcpy(plan->node, at, n * sizeof *plan->node);
+  memcpy(plan->predicted_cells, at + n * sizeof *plan->node, n * sizeof(double));
+  memcpy(plan->worst_angle, at + n * (sizeof *plan->node + sizeof(double)), n * sizeof(double));
+done:
+  if (status != CW_OK) cw_plan_free(plan);
+  return status;
+}
+
 void cw_plan_free(CwPlan *plan) {
   free(plan->node);
   free(plan->predicted_cells);

@@ -53,6 +53,10 @@ CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const Cw
                       const CwPlanOptions *options, CwPlan *plan);
 void cw_plan_free(CwPlan *plan);
 
+// The plan in one block of bytes (malloc'd), to travel between ranks, and back.
+CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count);
+CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan);
+
 // Region of a point (a point on a plane belongs to the negative side).
 int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
 

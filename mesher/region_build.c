@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/region_build.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "mesher/fill.h"
+#include "mesher/hash.h"
 #include "mesher/layer_heights.h"
 #include "mesher/vec.h"
 
@@ -77,52 +77,39 @@ void cw_region_context_free(CwRegionContext *context) {
   context->rim = NULL;
 }
 
-// Two 64-bit FNV-1a sums with different starts: 128 bits against chance, not against malice.
-typedef struct {
-  uint64_t sum[2];
-} Hash;
-
-static void hash_bytes(Hash *hash, const void *data, size_t size) {
-  const unsigned char *byte = data;
-  for (size_t i = 0; i < size; i++) {
-    hash->sum[0] = (hash->sum[0] ^ byte[i]) * UINT64_C(1099511628211);
-    hash->sum[1] = (hash->sum[1] ^ byte[i]) * UINT64_C(1099511628211) + 1;
-  }
-}
-
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
   const CwSkeleton *skeleton = context->skeleton;
-  Hash hash = {{UINT64_C(14695981039346656037), UINT64_C(1469598103934665603)}};
+  CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, context->growth_max, (double)context->shared_count};
-  hash_bytes(&hash, numbers, sizeof numbers);
-  hash_bytes(&hash, context->domain, strlen(context->domain));
+  cw_hash_bytes(&hash, numbers, sizeof numbers);
+  cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     if (skeleton->wall_region[t] != region) continue;
-    hash_bytes(&hash, &skeleton->wall_face[t], sizeof(int32_t));
+    cw_hash_bytes(&hash, &skeleton->wall_face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) {
       int32_t v = skeleton->wall_triangle[t][k];
-      hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
-      hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
-      hash_bytes(&hash, &context->first_height[v], sizeof(double));
-      hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
+      cw_hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
+      cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
   for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) {
     if (skeleton->cap_region[t] != region) continue;
-    hash_bytes(&hash, &skeleton->cap_face[t], sizeof(int32_t));
-    for (int k = 0; k < 3; k++) hash_bytes(&hash, skeleton->node_x[skeleton->cap_triangle[t][k]], sizeof(double[3]));
+    cw_hash_bytes(&hash, &skeleton->cap_face[t], sizeof(int32_t));
+    for (int k = 0; k < 3; k++) cw_hash_bytes(&hash, skeleton->node_x[skeleton->cap_triangle[t][k]], sizeof(double[3]));
   }
   for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
     if (skeleton->interface_region[t][0] != region && skeleton->interface_region[t][1] != region) continue;
     for (int k = 0; k < 3; k++) {
       int32_t node = skeleton->interface_triangle[t][k];
-      hash_bytes(&hash, skeleton->node_x[node], sizeof(double[3]));
-      hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
+      cw_hash_bytes(&hash, skeleton->node_x[node], sizeof(double[3]));
+      cw_hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
     }
     double centre = skeleton->size_at(skeleton->size, skeleton->node_x[skeleton->interface_triangle[t][0]]);
-    hash_bytes(&hash, &centre, sizeof centre);
+    cw_hash_bytes(&hash, &centre, sizeof centre);
   }
-  snprintf(fingerprint, 33, "%016" PRIx64 "%016" PRIx64, hash.sum[0], hash.sum[1]);
+  cw_hash_hex(&hash, fingerprint);
 }
 
 // A region in the making.

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/scanlines.h"
 #include "mesher/size_grid.h"
@@ -54,6 +55,65 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   CW_TRY(cw_size_seed_edges(&input, &made->grid));
   cw_size_grid_spread(&made->grid, table->gradation);
   CW_TRY(cw_scanlines_make(background, &low[1], &high[1], made->grid.spacing, &made->lines));
+  *size = made;
+  made = NULL;
+done:
+  cw_size_free(&made);
+  return status;
+}
+
+// The plain part of a field; arrays follow it: grid values, starts of the lines, crossings.
+typedef struct {
+  CwSize plain;
+  int64_t nodes, lines, crossings;
+} Packed;
+
+static Packed packed_head(const CwSize *size) {
+  const CwSizeGrid *grid = &size->grid;
+  const CwScanlines *lines = &size->lines;
+  Packed head = {.plain = *size};
+  head.nodes = (int64_t)grid->count[0] * grid->count[1] * grid->count[2];
+  head.lines = (int64_t)lines->count[0] * lines->count[1];
+  head.crossings = lines->start[head.lines];
+  return head;
+}
+
+CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  Packed head = packed_head(size);
+  size_t values = (size_t)head.nodes * sizeof(float), starts = (size_t)(head.lines + 1) * sizeof(int64_t),
+         crossings = (size_t)head.crossings * sizeof(double);
+  char *block;
+  CW_NEW(block, sizeof head + values + starts + crossings);
+  head.plain.grid.value = NULL; // addresses mean nothing elsewhere
+  head.plain.lines.start = NULL;
+  head.plain.lines.crossing = NULL;
+  memcpy(block, &head, sizeof head);
+  memcpy(block + sizeof head, size->grid.value, values);
+  memcpy(block + sizeof head + values, size->lines.start, starts);
+  memcpy(block + sizeof head + values + starts, size->lines.crossing, crossings);
+  *bytes = block;
+  *byte_count = (int64_t)(sizeof head + values + starts + crossings);
+done:
+  return status;
+}
+
+CwStatus cw_size_unpack(const void *bytes, CwSize **size) {
+  CwStatus status = CW_OK;
+  Packed head;
+  CwSize *made = NULL;
+  const char *at = (const char *)bytes + sizeof head;
+  memcpy(&head, bytes, sizeof head);
+  CW_NEW(made, 1);
+  *made = head.plain;
+  CW_NEW(made->grid.value, head.nodes);
+  CW_NEW(made->lines.start, head.lines + 1);
+  CW_NEW(made->lines.crossing, head.crossings);
+  memcpy(made->grid.value, at, (size_t)head.nodes * sizeof(float));
+  at += (size_t)head.nodes * sizeof(float);
+  memcpy(made->lines.start, at, (size_t)(head.lines + 1) * sizeof(int64_t));
+  at += (size_t)(head.lines + 1) * sizeof(int64_t);
+  memcpy(made->lines.crossing, at, (size_t)head.crossings * sizeof(double));
   *size = made;
   made = NULL;
 done:

@@ -25,6 +25,10 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
                       const double *patch_size, double base_size, CwSize **size);
 void cw_size_free(CwSize **size);
 
+// The field in one block of bytes (malloc'd), to travel between ranks, and back. An unpacked field gives the same bits.
+CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count);
+CwStatus cw_size_unpack(const void *bytes, CwSize **size);
+
 // The factor in front of the whole field; 1 after cw_size_make.
 void cw_size_set_scale(CwSize *size, double scale);
 double cw_size_scale(const CwSize *size);

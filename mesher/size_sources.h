@@ -26,7 +26,7 @@ typedef struct {
 static const double cw_size_least_share = 0.15;
 
 // Seeds `grid` all over the surface with min(patch size, curvature, gap). Curvature asks for at least a
-// quarter of the patch size. A gap is seen by a ray along the inward normal that leaves the domain through a
+// two fifths of the patch size. A gap is seen by a ray along the inward normal that leaves the domain through a
 // facing triangle; walls that meet in a crease there are not a gap.
 CwStatus cw_size_seed_surface(const CwSizeInput *input, CwSizeGrid *grid);
 

@@ -21,6 +21,7 @@ packages:
 configure: packages
 	@mkdir -p $(BUILD)
 	@test -e $(BUILD)/Makefile || $(call cutwater_logged,cmake -S $(ROOT) -B $(BUILD),$(BUILD)/configure.log)
+	@$(call cutwater_logged,cmake --build $(BUILD) --target cmake_check_build_system,$(BUILD)/configure.log)
 
 programs: configure
 	@test -e $(BIN)/cutwater-report || echo 'build: some minutes the first time, log in $(BUILD)/build.log' >&2

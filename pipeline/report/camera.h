@@ -10,7 +10,8 @@ typedef struct {
   int width, height;
 } CwCamera;
 
-// Sets the three directions from one towards the viewer and one that shall point upwards, of any length, not parallel.
+// Sets the three directions from one towards the viewer and one that shall point upwards, of any length, not
+// parallel.
 void cw_camera_turn(CwCamera *camera, const double towards[3], const double up[3]);
 void cw_camera_project(const CwCamera *camera, const double x[3], double pixel[3]);
 

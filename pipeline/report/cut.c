@@ -15,6 +15,24 @@ static const int tetrahedron_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}
 static const int pyramid_edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
 static const int prism_edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
 
+// Where the plane goes through a corner of the cell, several edges give the same point: it is kept once.
+static int without_doubles(int corners, double polygon[CW_CUT_CORNERS][2]) {
+  double size = 0;
+  int kept = 0;
+  for (int k = 1; k < corners; k++)
+    size = fmax(size, hypot(polygon[k][0] - polygon[0][0], polygon[k][1] - polygon[0][1]));
+  for (int k = 0; k < corners; k++) {
+    const double *before = polygon[kept ? kept - 1 : 0], *first = polygon[0], *here = polygon[k];
+    if (kept && hypot(here[0] - before[0], here[1] - before[1]) <= 1e-9 * size)
+      continue;
+    if (kept && hypot(here[0] - first[0], here[1] - first[1]) <= 1e-9 * size)
+      continue;
+    polygon[kept][0] = here[0];
+    polygon[kept++][1] = here[1];
+  }
+  return kept < 3 ? 0 : kept;
+}
+
 int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, const double *s,
                 double polygon[CW_CUT_CORNERS][2]) {
   const int(*edge)[2] = count == 4 ? tetrahedron_edge : count == 5 ? pyramid_edge : prism_edge;
@@ -22,9 +40,11 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
   double middle[2] = {0, 0}, angle[CW_CUT_CORNERS];
   for (int e = 0; e < edges; e++) {
     int a = edge[e][0], b = edge[e][1];
-    if ((s[a] >= 0) == (s[b] >= 0)) continue;
+    if ((s[a] >= 0) == (s[b] >= 0))
+      continue;
     double t = s[a] / (s[a] - s[b]), point[3];
-    for (int i = 0; i < 3; i++) point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
+    for (int i = 0; i < 3; i++)
+      point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
     polygon[corners][0] = along(point, plane->u);
     polygon[corners][1] = along(point, plane->v);
     middle[0] += polygon[corners][0];
@@ -46,5 +66,5 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
       angle[m - 1] = swap;
     }
   }
-  return corners;
+  return without_doubles(corners, polygon);
 }

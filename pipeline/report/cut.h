@@ -13,9 +13,10 @@ typedef struct {
 // Distance of `x` from the plane, positive to the side of the normal, m.
 double cw_cut_distance(const CwCutPlane *plane, const double x[3]);
 
-// The polygon in which the plane cuts a cell with `count` corners (4 tetrahedron, 5 pyramid, 6 prism, CGNS order) at
-// x[k] with distances s[k]: corners (u, v) counter-clockwise, their number returned; 0 where it does not cut. A corner
-// on the plane counts to the positive side, so that of two cells with a face in the plane one is cut.
+// The polygon in which the plane cuts a cell with `count` corners (4 tetrahedron, 5 pyramid, 6 prism, CGNS
+// order) at x[k] with distances s[k]: corners (u, v) counter-clockwise, their number returned; 0 where it
+// does not cut. A corner on the plane counts to the positive side, so that of two cells with a face in the
+// plane one is cut.
 int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, const double *s,
                 double polygon[CW_CUT_CORNERS][2]);
 

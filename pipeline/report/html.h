@@ -17,8 +17,8 @@ void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size);
 // A right-aligned table cell with the decimal points of a column in line.
 void cw_html_number_cell(FILE *page, const char *number);
 
-// Writes the <svg> element of a file, without what stands before it. CW_ERR_INPUT where there is none, or it is not
-// whole, or holds scripts or references.
+// Writes the <svg> element of a file, without what stands before it. CW_ERR_INPUT where there is none, or it
+// is not whole, or holds scripts or references.
 CwStatus cw_html_svg_file(FILE *page, const char *path);
 
 #endif

@@ -7,12 +7,12 @@
 
 #include "pipeline/status.h"
 
-// Reads a file whose top is an object. CW_ERR_IO where it cannot be read, CW_ERR_INPUT with line and column where it is
-// no JSON. Free with json_decref.
+// Reads a file whose top is an object. CW_ERR_IO where it cannot be read, CW_ERR_INPUT with line and column
+// where it is no JSON. Free with json_decref.
 CwStatus cw_json_read(const char *path, json_t **root);
 
-// Fetch a member of `object`; `where` names the object for the message ("mesh/record.json: results"). CW_ERR_INPUT
-// where it is missing or of another type. What is fetched belongs to the object.
+// Fetch a member of `object`; `where` names the object for the message ("mesh/record.json: results").
+// CW_ERR_INPUT where it is missing or of another type. What is fetched belongs to the object.
 CwStatus cw_json_object(json_t *object, const char *where, const char *key, json_t **value);
 CwStatus cw_json_array(json_t *object, const char *where, const char *key, json_t **value);
 CwStatus cw_json_text(json_t *object, const char *where, const char *key, const char **value);

@@ -10,7 +10,8 @@
 
 static const CwStageUsage usage = {
     .stage = "report",
-    .summary = "Writes RUN/report/index.html: figures, charts and pictures of RUN/geometry, RUN/mesh and, where it is\n"
+    .summary = "Writes RUN/report/index.html: figures, charts and pictures of RUN/geometry, RUN/mesh and, "
+               "where it is\n"
                "there, RUN/export. The page is one file that refers to nothing outside itself.\n",
 };
 
@@ -51,7 +52,8 @@ int main(int argc, char **argv) {
   CwCase table;
   CwRecord *record = NULL;
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
-  if (args.finished) goto done;
+  if (args.finished)
+    goto done;
   CW_TRY(cw_record_start("report", &record));
   CW_TRY(report(&args, &table, record));
 done:;

@@ -22,7 +22,8 @@ static CwStatus region_manifest(json_t *item, const char *where, CwReportRegion 
   const char *file;
   int64_t index, number;
   CW_TRY(cw_json_text(item, where, "file", &file));
-  CW_REQUIRE(!strchr(file, '/'), CW_ERR_INPUT, "%s: 'file' is %s; it must be a name without a folder", where, file);
+  CW_REQUIRE(!strchr(file, '/'), CW_ERR_INPUT, "%s: 'file' is %s; it must be a name without a folder", where,
+             file);
   CW_TRY(copy_text(file, &region->file));
   CW_TRY(cw_json_count(item, where, "region", &index));
   CW_TRY(cw_json_count(item, where, "number", &number));
@@ -45,8 +46,8 @@ static CwStatus domain_manifest(json_t *item, const char *path, CwReportDomain *
   char where[4200];
   snprintf(where, sizeof where, "%s: domain %s", path, domain->name);
   CW_TRY(cw_json_array(item, where, "patches", &patches));
-  CW_REQUIRE(json_array_size(patches) <= CW_REPORT_PATCHES, CW_ERR_INPUT, "%s: %zu patches; at most %d are allowed",
-             where, json_array_size(patches), CW_REPORT_PATCHES);
+  CW_REQUIRE(json_array_size(patches) <= CW_REPORT_PATCHES, CW_ERR_INPUT,
+             "%s: %zu patches; at most %d are allowed", where, json_array_size(patches), CW_REPORT_PATCHES);
   for (size_t p = 0; p < json_array_size(patches); p++) {
     const char *name;
     CW_TRY(cw_json_text(json_array_get(patches, p), where, "name", &name));
@@ -77,17 +78,18 @@ CwStatus cw_report_mesh_read(const char *run, CwReportMesh *mesh) {
   CW_TRY(cw_json_read(path, &root));
   int64_t format;
   CW_TRY(cw_json_count(root, path, "format", &format));
-  CW_REQUIRE(format == 1, CW_ERR_INPUT, "%s: format %lld; this program reads format 1", path, (long long)format);
+  CW_REQUIRE(format == 1, CW_ERR_INPUT, "%s: format %lld; this program reads format 1", path,
+             (long long)format);
   CW_TRY(cw_json_text(root, path, "case", &name));
   CW_TRY(copy_text(name, &mesh->case_name));
   CW_TRY(cw_json_array(root, path, "domains", &domains));
-  CW_REQUIRE(json_array_size(domains) == CW_REPORT_DOMAINS, CW_ERR_INPUT, "%s: %zu domains; there must be %d", path,
-             json_array_size(domains), CW_REPORT_DOMAINS);
+  CW_REQUIRE(json_array_size(domains) == CW_REPORT_DOMAINS, CW_ERR_INPUT, "%s: %zu domains; there must be %d",
+             path, json_array_size(domains), CW_REPORT_DOMAINS);
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
     json_t *item = json_array_get(domains, (size_t)d);
     CW_TRY(cw_json_text(item, path, "name", &name));
-    CW_REQUIRE(!strcmp(name, domain_names[d]), CW_ERR_INPUT, "%s: domain %d is %s; it must be %s", path, d + 1, name,
-               domain_names[d]);
+    CW_REQUIRE(!strcmp(name, domain_names[d]), CW_ERR_INPUT, "%s: domain %d is %s; it must be %s", path,
+               d + 1, name, domain_names[d]);
     CW_TRY(copy_text(name, &mesh->domain[d].name));
     CW_TRY(domain_manifest(item, path, &mesh->domain[d]));
   }
@@ -99,8 +101,10 @@ done:
 void cw_report_mesh_free(CwReportMesh *mesh) {
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
     CwReportDomain *domain = &mesh->domain[d];
-    for (int p = 0; p < domain->patch_count; p++) free(domain->patch[p]);
-    for (int r = 0; r < domain->region_count; r++) free(domain->region[r].file);
+    for (int p = 0; p < domain->patch_count; p++)
+      free(domain->patch[p]);
+    for (int r = 0; r < domain->region_count; r++)
+      free(domain->region[r].file);
     free(domain->region);
     free(domain->name);
   }
@@ -111,18 +115,20 @@ void cw_report_mesh_free(CwReportMesh *mesh) {
 
 int cw_report_patch(const CwReportDomain *domain, const char *name) {
   for (int p = 0; p < domain->patch_count; p++) {
-    if (!strcmp(domain->patch[p], name)) return p;
+    if (!strcmp(domain->patch[p], name))
+      return p;
   }
   return -1;
 }
 
 // Reads the whole dataset `name` of `rows` x `columns` (1: one dimension). Without rows it may be missing.
-static CwStatus read_rows(hid_t file, const char *path, const char *name, hid_t type, int64_t rows, int columns,
-                          void *into) {
+static CwStatus read_rows(hid_t file, const char *path, const char *name, hid_t type, int64_t rows,
+                          int columns, void *into) {
   CwStatus status = CW_OK;
   hid_t set = -1, space = -1;
   hsize_t size[2] = {0, 1};
-  if (rows == 0 && H5Lexists(file, name, H5P_DEFAULT) <= 0) goto done;
+  if (rows == 0 && H5Lexists(file, name, H5P_DEFAULT) <= 0)
+    goto done;
   CW_REQUIRE(H5Lexists(file, name, H5P_DEFAULT) > 0, CW_ERR_INPUT, "%s: dataset '%s' is missing", path, name);
   set = H5Dopen2(file, name, H5P_DEFAULT);
   CW_REQUIRE(set >= 0, CW_ERR_INPUT, "%s: '%s' is no dataset", path, name);
@@ -138,18 +144,21 @@ static CwStatus read_rows(hid_t file, const char *path, const char *name, hid_t 
                "%s: dataset '%s' cannot be read: the file is damaged or cut short", path, name);
   }
 done:
-  if (space >= 0) H5Sclose(space);
-  if (set >= 0) H5Dclose(set);
+  if (space >= 0)
+    H5Sclose(space);
+  if (set >= 0)
+    H5Dclose(set);
   return status;
 }
 
-static CwStatus read_indices(hid_t file, const char *path, const char *name, int64_t rows, int columns, int64_t limit,
-                             int32_t *into) {
+static CwStatus read_indices(hid_t file, const char *path, const char *name, int64_t rows, int columns,
+                             int64_t limit, int32_t *into) {
   CwStatus status = CW_OK;
   CW_TRY(read_rows(file, path, name, H5T_NATIVE_INT32, rows, columns, into));
   for (int64_t i = 0; i < rows * columns; i++) {
-    CW_REQUIRE(into[i] >= 0 && into[i] < limit, CW_ERR_INPUT, "%s: dataset '%s', row %lld holds %d; allowed: 0 to %lld",
-               path, name, (long long)(i / columns), into[i], (long long)limit - 1);
+    CW_REQUIRE(into[i] >= 0 && into[i] < limit, CW_ERR_INPUT,
+               "%s: dataset '%s', row %lld holds %d; allowed: 0 to %lld", path, name,
+               (long long)(i / columns), into[i], (long long)limit - 1);
   }
 done:
   return status;
@@ -183,21 +192,25 @@ CwStatus cw_report_cells_read(const CwReportMesh *mesh, int d, int r, int with_c
   CW_NEW(cells->quad_patch, cells->quads);
   CW_TRY(read_rows(file, path, "points", H5T_NATIVE_DOUBLE, cells->points, 3, cells->x));
   CW_TRY(read_indices(file, path, "triangles", cells->triangles, 3, cells->points, &cells->triangle[0][0]));
-  CW_TRY(read_indices(file, path, "triangle_patch", cells->triangles, 1, domain->patch_count, cells->triangle_patch));
+  CW_TRY(read_indices(file, path, "triangle_patch", cells->triangles, 1, domain->patch_count,
+                      cells->triangle_patch));
   CW_TRY(read_indices(file, path, "quads", cells->quads, 4, cells->points, &cells->quad[0][0]));
   CW_TRY(read_indices(file, path, "quad_patch", cells->quads, 1, domain->patch_count, cells->quad_patch));
-  if (!with_cells) goto done;
+  if (!with_cells)
+    goto done;
   cells->tetrahedra = (int32_t)region->tetrahedra;
   cells->pyramids = (int32_t)region->pyramids;
   cells->prisms = (int32_t)region->prisms;
   CW_NEW(cells->tetrahedron, cells->tetrahedra);
   CW_NEW(cells->pyramid, cells->pyramids);
   CW_NEW(cells->prism, cells->prisms);
-  CW_TRY(read_indices(file, path, "tetrahedra", cells->tetrahedra, 4, cells->points, &cells->tetrahedron[0][0]));
+  CW_TRY(
+      read_indices(file, path, "tetrahedra", cells->tetrahedra, 4, cells->points, &cells->tetrahedron[0][0]));
   CW_TRY(read_indices(file, path, "pyramids", cells->pyramids, 5, cells->points, &cells->pyramid[0][0]));
   CW_TRY(read_indices(file, path, "prisms", cells->prisms, 6, cells->points, &cells->prism[0][0]));
 done:
-  if (file >= 0) H5Fclose(file);
+  if (file >= 0)
+    H5Fclose(file);
   return status;
 }
 

@@ -24,7 +24,7 @@ typedef struct {
 } CwReportDomain;
 
 typedef struct {
-  char *folder;    // RUN/mesh
+  char *folder; // RUN/mesh
   char *case_name;
   CwReportDomain domain[CW_REPORT_DOMAINS]; // rotor, stator
 } CwReportMesh;
@@ -44,8 +44,8 @@ typedef struct {
   int32_t (*triangle)[3], *triangle_patch, (*quad)[4], *quad_patch;
 } CwReportCells;
 
-// Reads region `r` of domain `d`; without its cells where `with_cells` is 0. Checks sizes against the manifest and every
-// index. CW_ERR_IO, CW_ERR_INPUT. Free with cw_report_cells_free, also after a failure.
+// Reads region `r` of domain `d`; without its cells where `with_cells` is 0. Checks sizes against the
+// manifest and every index. CW_ERR_IO, CW_ERR_INPUT. Free with cw_report_cells_free, also after a failure.
 CwStatus cw_report_cells_read(const CwReportMesh *mesh, int d, int r, int with_cells, CwReportCells *cells);
 void cw_report_cells_free(CwReportCells *cells);
 

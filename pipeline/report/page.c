@@ -12,7 +12,8 @@ static const char style[] =
     ":root{--ink:#1f2933;--soft:#5f6c7b;--line:#dde3e9;--blue:#0b5c8a;--ground:#f6f8fa}\n"
     "*{box-sizing:border-box}\n"
     "html{scroll-behavior:smooth}\n"
-    "body{margin:0;color:var(--ink);background:#fff;font:15px/1.5 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',"
+    "body{margin:0;color:var(--ink);background:#fff;font:15px/1.5 'Helvetica "
+    "Neue',Helvetica,Arial,'Liberation Sans',"
     "sans-serif;font-variant-numeric:tabular-nums}\n"
     "nav{position:fixed;top:0;left:0;bottom:0;width:214px;padding:34px 20px;background:var(--ground);"
     "border-right:1px solid var(--line);overflow:auto;font-size:14px}\n"
@@ -27,7 +28,8 @@ static const char style[] =
     ".lead{color:var(--soft);font-size:17px;margin:0 0 26px}\n"
     ".tiles{display:grid;grid-template-columns:repeat(4,1fr);border-top:1px solid var(--line);"
     "border-left:1px solid var(--line);margin:0 0 30px}\n"
-    ".tiles div{padding:14px 16px 12px;border-right:1px solid var(--line);border-bottom:1px solid var(--line)}\n"
+    ".tiles div{padding:14px 16px 12px;border-right:1px solid var(--line);border-bottom:1px solid "
+    "var(--line)}\n"
     ".tiles b{display:block;font-size:25px;font-weight:600;line-height:1.25}\n"
     ".tiles span{color:var(--soft);font-size:13px;line-height:1.35;display:block}\n"
     "table{border-collapse:collapse;margin:10px 0 20px;font-size:14px}\n"
@@ -48,7 +50,8 @@ static const char style[] =
     "figure{margin:0}figure img{display:block;width:100%;height:auto;border:1px solid var(--line)}\n"
     "figure svg{max-width:100%;height:auto}\n"
     ".drawing svg{display:block;width:100%;border:1px solid var(--line)}\n"
-    "figcaption{margin-top:8px;font-size:14px;color:var(--soft);max-width:88ch}figcaption b{color:var(--ink)}\n"
+    "figcaption{margin-top:8px;font-size:14px;color:var(--soft);max-width:88ch}figcaption "
+    "b{color:var(--ink)}\n"
     ".key{margin:5px 0 0;font-size:13px;color:var(--soft);display:flex;flex-wrap:wrap;gap:2px 16px}\n"
     ".key i{display:inline-block;width:11px;height:11px;margin-right:6px;border:1px solid rgba(0,0,0,.25);"
     "vertical-align:-1px}\n"
@@ -57,10 +60,13 @@ static const char style[] =
     ".fine{border-left:3px solid #3d8b5a;background:#eff7f2;padding:8px 14px;margin:8px 0;max-width:100ch}\n"
     "svg.plot{display:block;margin:6px 0 4px;font-family:inherit;overflow:visible}\n"
     ".plot .g{stroke:#e3e8ed}.plot .a{stroke:#7b8794}.plot .m{stroke:#b3261e;stroke-dasharray:4 3}\n"
-    ".plot .t,.plot .x{font-size:12px;fill:#5f6c7b}.plot .v{font-size:10.5px;fill:#3e4c59;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}\n"
+    ".plot .t,.plot .x{font-size:12px;fill:#5f6c7b}.plot "
+    ".v{font-size:10.5px;fill:#3e4c59;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}"
+    "\n"
     ".plot .c,.plot .k{font-size:12.5px;fill:#1f2933}\n"
     "@media(max-width:1000px){nav{position:static;width:auto;border:0}main{margin:0;padding:20px}"
-    ".tiles{grid-template-columns:1fr 1fr}.grid,.columns{display:block;columns:1}.grid>*{margin-bottom:26px}}\n"
+    ".tiles{grid-template-columns:1fr "
+    "1fr}.grid,.columns{display:block;columns:1}.grid>*{margin-bottom:26px}}\n"
     "@media print{nav{display:none}main{margin:0;padding:0;max-width:none}h2{break-after:avoid}"
     "figure,table{break-inside:avoid}}\n";
 
@@ -73,13 +79,15 @@ static CwStatus geometry_pictures(FILE *page, const CwReportData *data) {
 }
 
 static CwStatus surface_pictures(FILE *page, const CwReportData *data) {
-  fputs("<p>Close views of the wall faces with their edges; every node lies on the exact surface.</p>\n", page);
+  fputs("<p>Close views of the wall faces with their edges; every node lies on the exact surface.</p>\n",
+        page);
   cw_page_picture_list(page, data, CW_SECTION_SURFACE);
   return CW_OK;
 }
 
 static CwStatus cut_pictures(FILE *page, const CwReportData *data) {
-  fputs("<p>True sections: each polygon is the cut of the plane through one cell, so tetrahedra look more uneven than "
+  fputs("<p>True sections: each polygon is the cut of the plane through one cell, so tetrahedra look more "
+        "uneven than "
         "they are. Red frames are the close views that follow.</p>\n",
         page);
   cw_page_picture_list(page, data, CW_SECTION_CUT);
@@ -139,7 +147,8 @@ static void write_picture(FILE *page, const CwReportPicture *picture) {
 void cw_page_picture_list(FILE *page, const CwReportData *data, CwPictureSection section) {
   fputs("<div class=\"grid\">\n", page);
   for (int k = 0; k < data->pictures.count; k++) {
-    if (data->pictures.picture[k].section == section) write_picture(page, &data->pictures.picture[k]);
+    if (data->pictures.picture[k].section == section)
+      write_picture(page, &data->pictures.picture[k]);
   }
   fputs("</div>\n", page);
 }
@@ -169,31 +178,39 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
     }
   }
   for (int s = 0; s < CW_STAGES; s++) {
-    if (!data->record[s]) continue;
+    if (!data->record[s])
+      continue;
     seconds += cw_json_real(data->record[s], "seconds");
     memory = fmax(memory, cw_json_real(data->record[s], "peak_memory_bytes"));
   }
   fputs("<h1>Pump ", page);
   cw_html_text(page, table->name);
   fputs(": from design table to mesh</h1>\n<p class=\"lead\">", page);
-  fprintf(page, "Centrifugal pump, %d blades, D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ", table->impeller.blade_count,
-          cw_format_number(table->impeller.outlet_diameter * 1e3, 4, text));
-  fprintf(page, "Q&#8239;=&#8239;%s&#8239;m&sup3;/h, ", cw_format_number(table->operating_point.flow_rate * 3600, 4, text));
+  fprintf(page, "Centrifugal pump, %d blades, D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ",
+          table->impeller.blade_count, cw_format_number(table->impeller.outlet_diameter * 1e3, 4, text));
+  fprintf(page, "Q&#8239;=&#8239;%s&#8239;m&sup3;/h, ",
+          cw_format_number(table->operating_point.flow_rate * 3600, 4, text));
   fprintf(page, "H&#8239;=&#8239;%s&#8239;m ", cw_format_number(table->operating_point.head, 4, text));
-  fprintf(page, "at %s&#8239;rpm.</p>\n", cw_format_number(table->operating_point.speed * 30 / M_PI, 5, text));
+  fprintf(page, "at %s&#8239;rpm.</p>\n",
+          cw_format_number(table->operating_point.speed * 30 / M_PI, 5, text));
   fputs("<div class=\"tiles\">\n", page);
   snprintf(label, sizeof label, "cells; %s asked, %+.2f&#8239;%%", cw_format_count(asked, more),
            asked ? 100 * ((double)cells / (double)asked - 1) : 0);
   tile(page, cw_format_count(cells, text), "", label);
-  snprintf(label, sizeof label, "tetrahedra, %s of all cells", cw_format_percent((double)tets / (double)cells, more));
+  snprintf(label, sizeof label, "tetrahedra, %s of all cells",
+           cw_format_percent((double)tets / (double)cells, more));
   tile(page, cw_format_count(tets, text), "", label);
-  snprintf(label, sizeof label, "prisms, %s of all cells", cw_format_percent((double)prisms / (double)cells, more));
+  snprintf(label, sizeof label, "prisms, %s of all cells",
+           cw_format_percent((double)prisms / (double)cells, more));
   tile(page, cw_format_count(prisms, text), "", label);
-  snprintf(text, sizeof text, "%d + %d", data->mesh.domain[0].region_count, data->mesh.domain[1].region_count);
+  snprintf(text, sizeof text, "%d + %d", data->mesh.domain[0].region_count,
+           data->mesh.domain[1].region_count);
   tile(page, text, "", "regions of rotor and stator");
-  snprintf(label, sizeof label, "predicted head; %s&#8239;m asked", cw_format_number(table->operating_point.head, 4, more));
+  snprintf(label, sizeof label, "predicted head; %s&#8239;m asked",
+           cw_format_number(table->operating_point.head, 4, more));
   tile(page, cw_format_number(cw_json_real(data->design, "predicted_head_m"), 4, text), "m", label);
-  snprintf(label, sizeof label, "whole run%s", data->record[2] ? ", geometry to export" : ", not exported yet");
+  snprintf(label, sizeof label, "whole run%s",
+           data->record[2] ? ", geometry to export" : ", not exported yet");
   tile(page, cw_format_seconds(seconds, text), "", label);
   int64_t ranks = json_integer_value(json_object_get(results, "ranks"));
   snprintf(label, sizeof label, "cells/s of the mesher on %lld rank%s; %s of the whole run", (long long)ranks,
@@ -214,7 +231,8 @@ CwStatus cw_page_write(FILE *page, const CwReportData *data) {
   cw_html_text(page, data->table->name);
   fprintf(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<nav><b>Cutwater report</b>\n", style);
   fputs("<a href=\"#top\">Overview</a>\n", page);
-  for (int k = 0; k < PARTS; k++) fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
+  for (int k = 0; k < PARTS; k++)
+    fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
   fputs("</nav>\n<main id=\"top\">\n", page);
   CW_TRY(cw_page_title(page, data));
   for (int k = 0; k < PARTS; k++) {

@@ -15,7 +15,7 @@ enum { CW_STAGES = 3 };
 typedef struct {
   const CwCase *table;
   char *run;
-  json_t *design;           // geometry/design.json
+  json_t *design;            // geometry/design.json
   json_t *record[CW_STAGES]; // geometry, mesh, export; the last may be NULL
   CwReportMesh mesh;
   CwReportPictures pictures;
@@ -23,8 +23,8 @@ typedef struct {
 
 extern const char *const cw_report_stage[CW_STAGES]; // names of the folders
 
-// Reads the files of `run` (all but the region files) and checks that they are of this case. CW_ERR_IO, CW_ERR_INPUT.
-// Free with cw_report_data_free, also after a failure.
+// Reads the files of `run` (all but the region files) and checks that they are of this case. CW_ERR_IO,
+// CW_ERR_INPUT. Free with cw_report_data_free, also after a failure.
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data);
 void cw_report_data_free(CwReportData *data);
 

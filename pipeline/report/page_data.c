@@ -15,12 +15,14 @@ static CwStatus read_record(const char *run, int stage, json_t **record) {
   const char *name;
   json_t *value;
   snprintf(path, sizeof path, "%s/%s/record.json", run, cw_report_stage[stage]);
-  if (!strcmp(cw_report_stage[stage], "export") && access(path, F_OK) != 0) goto done; // not exported yet
+  if (!strcmp(cw_report_stage[stage], "export") && access(path, F_OK) != 0)
+    goto done; // not exported yet
   CW_TRY(cw_json_read(path, record));
   CW_TRY(cw_json_text(*record, path, "stage", &name));
-  CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path, name,
-             cw_report_stage[stage]);
-  CW_REQUIRE(cw_json_real(*record, "seconds") >= 0, CW_ERR_INPUT, "%s: 'seconds' must be a number from 0", path);
+  CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path,
+             name, cw_report_stage[stage]);
+  CW_REQUIRE(cw_json_real(*record, "seconds") >= 0, CW_ERR_INPUT, "%s: 'seconds' must be a number from 0",
+             path);
   CW_REQUIRE(cw_json_real(*record, "peak_memory_bytes") >= 0, CW_ERR_INPUT,
              "%s: 'peak_memory_bytes' must be a number from 0", path);
   CW_TRY(cw_json_array(*record, path, "steps", &value));
@@ -44,7 +46,8 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   CW_REQUIRE(data->run, CW_ERR_MEMORY, "out of memory: a path");
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   CW_TRY(cw_json_read(path, &data->design));
-  for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, s, &data->record[s]));
+  for (int s = 0; s < CW_STAGES; s++)
+    CW_TRY(read_record(run, s, &data->record[s]));
   CW_TRY(cw_report_mesh_read(run, &data->mesh));
   CW_REQUIRE(!strcmp(data->mesh.case_name, table->name), CW_ERR_INPUT,
              "%s/manifest.json: the mesh is of case '%s', the case file is '%s'", data->mesh.folder,
@@ -56,7 +59,8 @@ done:
 void cw_report_data_free(CwReportData *data) {
   free(data->run);
   json_decref(data->design);
-  for (int s = 0; s < CW_STAGES; s++) json_decref(data->record[s]);
+  for (int s = 0; s < CW_STAGES; s++)
+    json_decref(data->record[s]);
   cw_report_mesh_free(&data->mesh);
   cw_report_pictures_free(&data->pictures);
   *data = (CwReportData){0};
@@ -90,8 +94,8 @@ CwStatus cw_page_mesh_domain(const CwReportData *data, int d, json_t **domain) {
   CW_TRY(cw_json_array(results, where, "domains", &domains));
   *domain = json_array_get(domains, (size_t)d);
   CW_TRY(cw_json_text(*domain, where, "name", &name));
-  CW_REQUIRE(!strcmp(name, data->mesh.domain[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'", where,
-             d + 1, name, data->mesh.domain[d].name);
+  CW_REQUIRE(!strcmp(name, data->mesh.domain[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'",
+             where, d + 1, name, data->mesh.domain[d].name);
 done:
   return status;
 }

@@ -11,113 +11,35 @@
 #include "pipeline/report/html.h"
 #include "pipeline/report/json_read.h"
 #include "pipeline/report/page.h"
-
-// A key with its unit behind the value; `end` of the key is the unit, as in design.json.
-typedef struct {
-  const char *end, *unit;
-  double scale;
-} Unit;
-
-// Longer ends first.
-static const Unit units[] = {
-    {"_m3_per_s", "m&sup3;/h", 3600}, {"_m2_per_s", "m&sup2;/s", 1}, {"_rad_per_s", "rad/s", 1}, {"_m_per_s", "m/s", 1},
-    {"_head_m", "m", 1},              {"head_m", "m", 1},            {"head_residual_m", "m", 1}, {"_deg", "&deg;", 1},
-    {"_m2", "mm&sup2;", 1e6},         {"_m3", "cm&sup3;", 1e6},      {"_m", "mm", 1e3},
-};
-
-static const struct {
-  const char *key, *symbol;
-} symbols[] = {
-    {"flow_rate", "Q"},
-    {"head", "H"},
-    {"angular_speed", "&omega;"},
-    {"specific_speed_nq", "n<sub>q</sub>"},
-    {"specific_speed_ns", "n<sub>s</sub>"},
-    {"head_coefficient", "&psi;"},
-    {"inlet_diameter", "D<sub>1</sub>"},
-    {"outlet_diameter", "D<sub>2</sub>"},
-    {"outlet_width", "b<sub>2</sub>"},
-    {"inlet_blade_angle", "&beta;<sub>1</sub>"},
-    {"outlet_blade_angle", "&beta;<sub>2</sub>"},
-    {"wrap_angle", "&phi;"},
-    {"impeller_tip_speed", "u<sub>2</sub>"},
-    {"inlet_blade_speed", "u<sub>1</sub>"},
-    {"inlet_meridional_speed", "c<sub>m1</sub>"},
-    {"inlet_blockage", "&tau;<sub>1</sub>"},
-    {"inlet_relative_speed", "w<sub>1</sub>"},
-    {"outlet_meridional_speed", "c<sub>m2</sub>"},
-    {"outlet_blockage", "&tau;<sub>2</sub>"},
-    {"slip_factor", "&gamma;"},
-    {"outlet_swirl_speed", "c<sub>u2</sub>"},
-    {"outlet_absolute_speed", "c<sub>2</sub>"},
-    {"outlet_relative_speed", "w<sub>2</sub>"},
-    {"outlet_absolute_angle", "&alpha;<sub>2</sub>"},
-    {"diffusion_ratio", "w<sub>2</sub>/w<sub>1</sub>"},
-    {"hydraulic_efficiency", "&eta;<sub>h</sub>"},
-    {"theoretical_head", "H<sub>th</sub>"},
-    {"base_diameter", "D<sub>3</sub>"},
-    {"inlet_width", "b<sub>3</sub>"},
-    {"swirl_constant", "K"},
-    {"discharge_diameter", "DN"},
-    {"blade_count", "z"},
-};
-
-static const Unit *unit_of(const char *key) {
-  static const Unit none = {"", "", 1};
-  for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
-    size_t size = strlen(units[k].end), length = strlen(key);
-    if (length >= size && !strcmp(key + length - size, units[k].end)) return &units[k];
-  }
-  return &none;
-}
-
-// The key without its unit.
-static void stem_of(const char *key, char stem[80]) {
-  const Unit *unit = unit_of(key);
-  const char *last = strrchr(unit->end, '_');
-  size_t cut = strlen(unit->end);
-  if (strstr(unit->end, "head")) cut = strlen(last); // "head" belongs to the name
-  snprintf(stem, 80, "%.*s", (int)(strlen(key) - cut), key);
-}
-
-static void symbol_cell(FILE *page, const char *stem) {
-  fputs("<td class=\"q\">", page);
-  for (size_t k = 0; k < sizeof symbols / sizeof *symbols; k++) {
-    if (!strcmp(stem, symbols[k].key)) fputs(symbols[k].symbol, page);
-  }
-  fputs("</td>", page);
-}
-
-static void row_start(FILE *page, const char *stem) {
-  fputs("<tr><td>", page);
-  cw_html_label(page, stem);
-  fputs("</td>", page);
-  symbol_cell(page, stem);
-}
+#include "pipeline/report/quantity.h"
 
 static const char *unit_text(const char *suffix) {
   static const struct {
     const char *suffix, *text;
-  } pretty[] = {{"m3_per_h", "m&sup3;/h"}, {"kg_per_m3", "kg/m&sup3;"}, {"m2_per_s", "m&sup2;/s"}, {"deg", "&deg;"},
-                {"mm2", "mm&sup2;"},       {"um", "&micro;m"}};
+  } pretty[] = {{"m3_per_h", "m&sup3;/h"}, {"kg_per_m3", "kg/m&sup3;"}, {"m2_per_s", "m&sup2;/s"},
+                {"deg", "&deg;"},          {"mm2", "mm&sup2;"},         {"um", "&micro;m"}};
   for (size_t k = 0; k < sizeof pretty / sizeof *pretty; k++) {
-    if (!strcmp(suffix, pretty[k].suffix)) return pretty[k].text;
+    if (!strcmp(suffix, pretty[k].suffix))
+      return pretty[k].text;
   }
   const CwUnit *unit = cw_unit_find(suffix);
   return unit ? unit->text : "";
 }
 
 static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
-  char stem[80], number[CW_FORMAT_SIZE];
+  char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
   size_t length;
   const char *origin = "case file";
-  if (key->type == CW_KEY_NAME) return;
+  if (key->type == CW_KEY_NAME)
+    return;
   cw_unit_of_key(key->key, &length);
   snprintf(stem, sizeof stem, "%.*s", (int)length, key->key);
   double value = cw_case_key_value(key, table);
-  if (key->presence == CW_KEY_COMPUTED && isnan(value)) return; // stands among the derived dimensions
-  if (key->presence == CW_KEY_DEFAULT && value == key->fallback) origin = "default";
-  row_start(page, stem);
+  if (key->presence == CW_KEY_COMPUTED && isnan(value))
+    return; // stands among the derived dimensions
+  if (key->presence == CW_KEY_DEFAULT && value == key->fallback)
+    origin = "default";
+  cw_quantity_start(page, stem);
   if (key->type == CW_KEY_CHOICE) {
     fputs("<td class=\"n\">", page);
     cw_html_label(page, key->choices[(int)value]);
@@ -132,14 +54,17 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
 
 CwStatus cw_page_input(FILE *page, const CwReportData *data) {
   const char *section = NULL;
-  fputs("<p>What the case file asks for, with the operating point. Keys that it leaves to the hydraulic design stand "
+  fputs("<p>What the case file asks for, with the operating point. Keys that it leaves to the hydraulic "
+        "design stand "
         "under <a href=\"#design\">derived dimensions</a>.</p>\n<div class=\"columns\">\n",
         page);
   for (size_t k = 0; k < cw_case_key_count; k++) {
     const CwCaseKey *key = &cw_case_keys[k];
-    if (!*key->section) continue;
+    if (!*key->section)
+      continue;
     if (!section || strcmp(section, key->section)) {
-      if (section) fputs("</table>\n", page);
+      if (section)
+        fputs("</table>\n", page);
       section = key->section;
       fputs("<table><tr class=\"s\"><td colspan=\"5\">", page);
       cw_html_label(page, section);
@@ -155,12 +80,13 @@ CwStatus cw_page_input(FILE *page, const CwReportData *data) {
 static void design_rows(FILE *page, json_t *object, json_t *sources) {
   const char *key;
   json_t *value;
-  char stem[80], number[CW_FORMAT_SIZE];
+  char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
   json_object_foreach(object, key, value) {
-    if (!json_is_number(value)) continue;
-    const Unit *unit = unit_of(key);
-    stem_of(key, stem);
-    row_start(page, stem);
+    if (!json_is_number(value))
+      continue;
+    const CwQuantityUnit *unit = cw_quantity_unit(key);
+    cw_quantity_stem(key, stem);
+    cw_quantity_start(page, stem);
     cw_html_number_cell(page, json_is_integer(value)
                                   ? cw_format_count(json_integer_value(value), number)
                                   : cw_format_number(json_real_value(value) * unit->scale, 5, number));
@@ -176,14 +102,18 @@ static void design_rows(FILE *page, json_t *object, json_t *sources) {
 }
 
 CwStatus cw_page_design(FILE *page, const CwReportData *data) {
-  json_t *sources = json_object_get(data->design, "sources"), *measured = json_object_get(data->design, "measured");
-  fputs("<p>Every dimension and figure of the hydraulic design with the correlation it comes from.</p>\n"
-        "<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th><th>Unit</th><th>Source</th></tr>\n",
-        page);
+  json_t *sources = json_object_get(data->design, "sources"),
+         *measured = json_object_get(data->design, "measured");
+  fputs(
+      "<p>Every dimension and figure of the hydraulic design with the correlation it comes from.</p>\n"
+      "<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th><th>Unit</th><th>Source</th></tr>\n",
+      page);
   design_rows(page, data->design, json_is_object(sources) ? sources : NULL);
   fputs("</table>\n", page);
-  if (!json_is_object(measured)) return CW_OK;
-  fputs("<h3>Measured on the solids as built</h3>\n<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th>"
+  if (!json_is_object(measured))
+    return CW_OK;
+  fputs("<h3>Measured on the solids as built</h3>\n<table><tr><th>Quantity</th><th></th><th class=\"n "
+        "p\">Value</th>"
         "<th>Unit</th></tr>\n",
         page);
   design_rows(page, measured, NULL);
@@ -192,8 +122,9 @@ CwStatus cw_page_design(FILE *page, const CwReportData *data) {
   char number[CW_FORMAT_SIZE];
   json_object_foreach(measured, key, value) {
     double angle = cw_json_real(value, "angle_deg");
-    if (isnan(angle)) continue;
-    row_start(page, key);
+    if (isnan(angle))
+      continue;
+    cw_quantity_start(page, key);
     cw_html_number_cell(page, cw_format_number(angle, 5, number));
     fputs("<td>&deg;</td></tr>\n", page);
   }
@@ -213,7 +144,8 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
   snprintf(folder, sizeof folder, "%s/geometry", data->run);
   int count = scandir(folder, &entry, is_svg, alphasort);
   CW_REQUIRE(count >= 0, CW_ERR_IO, "%s: cannot be read: %s", folder, strerror(errno));
-  if (count == 0) fputs("<p>The geometry stage left no drawings.</p>\n", page);
+  if (count == 0)
+    fputs("<p>The geometry stage left no drawings.</p>\n", page);
   fputs("<div class=\"grid\">\n", page);
   for (int k = 0; k < count; k++) {
     snprintf(path, sizeof path, "%s/%s", folder, entry[k]->d_name);
@@ -226,7 +158,8 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
   }
   fputs("</div>\n", page);
 done:
-  for (int k = 0; k < count; k++) free(entry[k]);
+  for (int k = 0; k < count; k++)
+    free(entry[k]);
   free(entry);
   return status;
 }

@@ -23,16 +23,18 @@ static void number_cell(FILE *page, double value, int significant) {
   cw_html_number_cell(page, cw_format_number(value, significant, text));
 }
 
-static void figure_row(FILE *page, const char *label, const char *unit, json_t *const domain[2], const char *key,
-                       double scale, int significant) {
+static void figure_row(FILE *page, const char *label, const char *unit, json_t *const domain[2],
+                       const char *key, double scale, int significant) {
   fprintf(page, "<tr><td>%s</td>", label);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) number_cell(page, cw_json_real(domain[d], key) * scale, significant);
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++)
+    number_cell(page, cw_json_real(domain[d], key) * scale, significant);
   fprintf(page, "<td>%s</td></tr>\n", unit);
 }
 
 static CwStatus both_domains(const CwReportData *data, json_t *domain[2]) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++)
+    CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
 done:
   return status;
 }
@@ -51,7 +53,8 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   char where[4096];
   int64_t cells[2] = {0, 0}, points[2];
   CW_TRY(both_domains(data, domain));
-  fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th><th class=\"n\">Rotor</th><th class=\"n\">Stator</th>"
+  fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th><th class=\"n\">Rotor</th><th "
+        "class=\"n\">Stator</th>"
         "<th class=\"n\">Together</th></tr>\n",
         page);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
@@ -62,14 +65,16 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
         memcpy(&count, (const char *)&data->mesh.domain[d].region[r] + rows[k].member, sizeof count);
         sum[d] += count;
       }
-      if (k < 3) cells[d] += sum[d];
+      if (k < 3)
+        cells[d] += sum[d];
     }
     fprintf(page, "<tr><td>%s</td>", rows[k].label);
     count_cell(page, sum[0]);
     count_cell(page, sum[1]);
     count_cell(page, sum[0] + sum[1]);
     fputs("</tr>\n", page);
-    if (k != 2) continue;
+    if (k != 2)
+      continue;
     fputs("<tr class=\"t\"><td>Cells</td>", page);
     count_cell(page, cells[0]);
     count_cell(page, cells[1]);
@@ -151,8 +156,14 @@ static CwStatus balance_chart(FILE *page, const CwReportData *data, int d, json_
   }
   CwPlotSeries series[2] = {{"prisms", d ? stator_colour : rotor_colour, prisms},
                             {"tetrahedra", d ? 0xecd3a6 : 0xb4d0e6, tets}};
-  CwPlot plot = {.axis = "thousand cells; dashed: mean of the domain", .label = labels, .count = count,
-                 .series = series, .series_count = 2, .note = notes, .mark = sum / count * 1e-3, .width = 560};
+  CwPlot plot = {.axis = "thousand cells; dashed: mean of the domain",
+                 .label = labels,
+                 .count = count,
+                 .series = series,
+                 .series_count = 2,
+                 .note = notes,
+                 .mark = sum / count * 1e-3,
+                 .width = 560};
   cw_plot_bars(page, &plot);
 done:
   free(tets);
@@ -168,9 +179,10 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   json_t *domain[2];
   CW_TRY(both_domains(data, domain));
-  fputs("<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
-        "colours; the mesh is the same for any number of ranks.</p>\n",
-        page);
+  fputs(
+      "<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
+      "colours; the mesh is the same for any number of ranks.</p>\n",
+      page);
   cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
   fputs("<h3>Balance</h3>\n<div class=\"grid\">\n", page);
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
@@ -179,7 +191,9 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
     fprintf(page, "<figcaption>Cells and meshing time of each region of the %s.</figcaption></figure>\n",
             data->mesh.domain[d].name);
   }
-  fputs("</div>\n<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n", page);
+  fputs(
+      "</div>\n<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n",
+      page);
   figure_row(page, "Largest region over mean", "", domain, "region_balance", 1, 3);
   figure_row(page, "Largest error of the predicted share", "%", domain, "region_prediction_error", 100, 2);
   figure_row(page, "Interface polygons", "", domain, "interfaces", 1, 9);
@@ -200,7 +214,8 @@ static CwStatus shares(const CwReportData *data, json_t *domain, const char *key
     share[k] = json_number_value(json_array_get(array, (size_t)k));
     sum += share[k];
   }
-  for (int k = 0; k < count; k++) share[k] = sum > 0 ? 100 * share[k] / sum : NAN;
+  for (int k = 0; k < count; k++)
+    share[k] = sum > 0 ? 100 * share[k] / sum : NAN;
 done:
   return status;
 }
@@ -208,7 +223,7 @@ done:
 CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   static const char *const aspect_label[ASPECT_CLASSES] = {
-      "1\342\200\2231.5", "1.5\342\200\2232", "2\342\200\2233", "3\342\200\2234",
+      "1\342\200\2231.5", "1.5\342\200\2232", "2\342\200\2233",  "3\342\200\2234",
       "4\342\200\2235",   "5\342\200\2237",   "7\342\200\22310", "> 10"};
   // The paper's Table 1, proposed algorithm.
   static const double paper[ASPECT_CLASSES] = {4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1, NAN};
@@ -222,7 +237,8 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
     CW_TRY(shares(data, domain[d], "least_dihedral_bins", DIHEDRAL_BINS, dihedral[d]));
     CW_TRY(shares(data, domain[d], "prism_scaled_jacobian_bins", JACOBIAN_BINS, jacobian[d]));
   }
-  fputs("<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n", page);
+  fputs("<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n",
+        page);
   figure_row(page, "Tetrahedra: longest over shortest edge, mean", "2.98 in the paper", domain,
              "tetrahedron_aspect_mean", 1, 4);
   figure_row(page, "Tetrahedra: longest over shortest edge, greatest", "8.8 in the paper", domain,
@@ -234,10 +250,16 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   CwPlotSeries series[3] = {{"rotor", rotor_colour, aspect[0]},
                             {"stator", stator_colour, aspect[1]},
                             {"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper}};
-  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra", .category_axis = "longest edge over shortest edge",
-                                  .label = aspect_label, .count = ASPECT_CLASSES, .series = series, .series_count = 3,
-                                  .decimals = 1, .width = 980});
-  fputs("<figcaption><b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the regular "
+  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
+                                  .category_axis = "longest edge over shortest edge",
+                                  .label = aspect_label,
+                                  .count = ASPECT_CLASSES,
+                                  .series = series,
+                                  .series_count = 3,
+                                  .decimals = 1,
+                                  .width = 980});
+  fputs("<figcaption><b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the "
+        "regular "
         "tetrahedron.</figcaption></figure>\n<div class=\"grid\">\n<figure>",
         page);
   // Least dihedral angles end at that of the regular tetrahedron, 70.5 degrees.
@@ -248,10 +270,16 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   }
   series[0].value = dihedral[0];
   series[1].value = dihedral[1];
-  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra", .category_axis = "least dihedral angle, degrees",
-                                  .label = labels, .count = bins, .series = series, .series_count = 2, .decimals = 1,
+  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
+                                  .category_axis = "least dihedral angle, degrees",
+                                  .label = labels,
+                                  .count = bins,
+                                  .series = series,
+                                  .series_count = 2,
+                                  .decimals = 1,
                                   .width = 560});
-  fputs("<figcaption><b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular one.</figcaption>"
+  fputs("<figcaption><b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular "
+        "one.</figcaption>"
         "</figure>\n<figure>",
         page);
   for (int k = 0; k < JACOBIAN_BINS; k++) {
@@ -260,8 +288,13 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   }
   series[0].value = jacobian[0];
   series[1].value = jacobian[1];
-  cw_plot_columns(page, &(CwPlot){.axis = "% of the prisms", .category_axis = "scaled Jacobian, from", .label = labels,
-                                  .count = JACOBIAN_BINS, .series = series, .series_count = 2, .decimals = -1,
+  cw_plot_columns(page, &(CwPlot){.axis = "% of the prisms",
+                                  .category_axis = "scaled Jacobian, from",
+                                  .label = labels,
+                                  .count = JACOBIAN_BINS,
+                                  .series = series,
+                                  .series_count = 2,
+                                  .decimals = -1,
                                   .width = 560});
   fputs("<figcaption><b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right prism on an "
         "equilateral triangle, 0 and below is inverted.</figcaption></figure>\n</div>\n",
@@ -270,8 +303,8 @@ done:
   return status;
 }
 
-static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces", "thinned_by_gradation_faces",
-                                           "thinned_by_repair_faces"};
+static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces",
+                                           "thinned_by_gradation_faces", "thinned_by_repair_faces"};
 
 static CwStatus coverage_chart(FILE *page, json_t *const list[2]) {
   CwStatus status = CW_OK;
@@ -295,20 +328,28 @@ static CwStatus coverage_chart(FILE *page, json_t *const list[2]) {
     json_array_foreach(list[d], k, patch) {
       const char *name = json_string_value(json_object_get(patch, "patch"));
       double faces = cw_json_real(patch, "wall_faces");
-      for (int s = 0; s < 4; s++) share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
+      for (int s = 0; s < 4; s++)
+        share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
       snprintf(words[row], sizeof words[row], "%s", name ? name : "");
       for (char *c = words[row]; *c; c++) {
-        if (*c == '_') *c = ' ';
+        if (*c == '_')
+          *c = ' ';
       }
       label[row] = words[row];
       row++;
     }
   }
-  CwPlot plot = {.axis = "% of the wall faces", .label = label, .count = (int)count, .series = series,
-                 .series_count = 4, .limit = 100, .width = 980};
+  CwPlot plot = {.axis = "% of the wall faces",
+                 .label = label,
+                 .count = (int)count,
+                 .series = series,
+                 .series_count = 4,
+                 .limit = 100,
+                 .width = 980};
   cw_plot_bars(page, &plot);
 done:
-  for (int s = 0; s < 4; s++) free(share[s]);
+  for (int s = 0; s < 4; s++)
+    free(share[s]);
   free(label);
   free(words);
   return status;
@@ -328,17 +369,24 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       met += fmax(cw_json_real(json_array_get(list[d], k), "first_height_met_faces"), 0);
     }
   }
-  fprintf(page, "<p>%d layers with a growth ratio of at most %s on every wall face. The first height comes from the "
-                "y<sup>+</sup> target of the wall; ",
-          data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
-  fprintf(page, "it is met within 10&#8239;%% on %s of the wall faces.</p>\n<figure>", cw_format_percent(met / all, text));
+  fprintf(
+      page,
+      "<p>%d layers with a growth ratio of at most %s on every wall face. The first height comes from the "
+      "y<sup>+</sup> target of the wall; ",
+      data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
+  fprintf(page, "it is met within 10&#8239;%% on %s of the wall faces.</p>\n<figure>",
+          cw_format_percent(met / all, text));
   CW_TRY(coverage_chart(page, list));
-  fputs("<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and why the "
-        "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
-        "<th class=\"n\">Full<br>thickness</th><th class=\"n\">First height<br>met</th><th class=\"n p\">First height,"
-        "<br>target, &micro;m</th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
-        "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th></tr>\n",
-        page);
+  fputs(
+      "<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
+      "why the "
+      "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
+      "<th class=\"n\">Full<br>thickness</th><th class=\"n\">First height<br>met</th><th class=\"n p\">First "
+      "height,"
+      "<br>target, &micro;m</th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
+      "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th "
+      "class=\"n\"><br>repair</th></tr>\n",
+      page);
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
     size_t k;
     json_t *patch;
@@ -350,13 +398,15 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       cw_html_label(page, name ? name : "");
       fputs("</td>", page);
       count_cell(page, json_integer_value(json_object_get(patch, "wall_faces")));
-      fprintf(page, "<td class=\"n\">%s</td>", cw_format_percent(cw_json_real(patch, coverage_key[0]) / faces, text));
+      fprintf(page, "<td class=\"n\">%s</td>",
+              cw_format_percent(cw_json_real(patch, coverage_key[0]) / faces, text));
       fprintf(page, "<td class=\"n\">%s</td>",
               cw_format_percent(cw_json_real(patch, "first_height_met_faces") / faces, text));
       number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
       number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
       number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
-      for (int s = 1; s < 4; s++) count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+      for (int s = 1; s < 4; s++)
+        count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
       fputs("</tr>\n", page);
     }
   }

@@ -9,40 +9,59 @@
 #include "pipeline/report/json_read.h"
 #include "pipeline/report/page.h"
 #include "pipeline/report/plot.h"
+#include "pipeline/report/quantity.h"
 
-static void value_text(FILE *page, json_t *value) {
+// A plain value of the key in the unit that quantities of that name are shown in.
+static void value_text(FILE *page, const char *key, json_t *value) {
   char text[CW_FORMAT_SIZE];
-  if (json_is_integer(value)) fputs(cw_format_count(json_integer_value(value), text), page);
-  else if (json_is_real(value)) fputs(cw_format_number(json_real_value(value), 5, text), page);
-  else if (json_is_string(value)) cw_html_text(page, json_string_value(value));
-  else if (json_is_boolean(value)) fputs(json_is_true(value) ? "yes" : "no", page);
-  else fputs("\342\200\223", page);
+  if (json_is_integer(value))
+    fputs(cw_format_count(json_integer_value(value), text), page);
+  else if (json_is_real(value))
+    fputs(cw_format_number(json_real_value(value) * cw_quantity_unit(key)->scale, 5, text), page);
+  else if (json_is_string(value))
+    cw_html_text(page, json_string_value(value));
+  else if (json_is_boolean(value))
+    fputs(json_is_true(value) ? "yes" : "no", page);
+  else
+    fputs("\342\200\223", page);
 }
 
 static int is_table(json_t *value) {
   return json_is_array(value) && json_array_size(value) && json_is_object(json_array_get(value, 0));
 }
 
-// An array of alike objects as a table.
-static void object_table(FILE *page, const char *heading, json_t *array) {
-  const char *key;
-  json_t *member, *row;
-  size_t k;
+static int is_plain(json_t *value) {
+  return !json_is_object(value) && !json_is_array(value);
+}
+
+static void heading(FILE *page, const char *key) {
   fputs("<h3>", page);
-  cw_html_label(page, heading);
-  fputs("</h3>\n<table class=\"plain\"><tr>", page);
-  json_object_foreach(json_array_get(array, 0), key, member) {
+  cw_html_label(page, key);
+  fputs("</h3>\n", page);
+}
+
+// An array of alike objects as a table.
+static void object_table(FILE *page, json_t *array) {
+  const char *key;
+  json_t *member, *row, *first = json_array_get(array, 0);
+  char stem[CW_STEM_SIZE];
+  size_t k;
+  fputs("<table class=\"plain\"><tr>", page);
+  json_object_foreach(first, key, member) {
     fprintf(page, "<th%s>", json_is_number(member) ? " class=\"n\"" : "");
-    cw_html_label(page, key);
+    cw_quantity_stem(key, stem);
+    cw_html_label(page, stem);
+    if (*cw_quantity_unit(key)->unit)
+      fprintf(page, ", %s", cw_quantity_unit(key)->unit);
     fputs("</th>", page);
   }
   fputs("</tr>\n", page);
   json_array_foreach(array, k, row) {
     fputs("<tr>", page);
-    json_object_foreach(json_array_get(array, 0), key, member) {
+    json_object_foreach(first, key, member) {
       json_t *value = json_object_get(row, key);
       fprintf(page, "<td%s>", json_is_number(value) ? " class=\"n\"" : "");
-      value_text(page, value);
+      value_text(page, key, value);
       fputs("</td>", page);
     }
     fputs("</tr>\n", page);
@@ -50,36 +69,42 @@ static void object_table(FILE *page, const char *heading, json_t *array) {
   fputs("</table>\n", page);
 }
 
-// Objects of plain values with the same keys stand side by side; the rest of the results one under the other.
-static void result_tables(FILE *page, json_t *results) {
-  const char *key, *inner;
-  json_t *value, *member;
+// The plain values of an object, one a row.
+static void value_table(FILE *page, json_t *object) {
+  const char *key;
+  json_t *value;
+  char stem[CW_STEM_SIZE];
   fputs("<table class=\"plain\">", page);
-  json_object_foreach(results, key, value) {
-    if (json_is_object(value) || json_is_array(value)) continue;
+  json_object_foreach(object, key, value) {
+    if (!is_plain(value))
+      continue;
+    cw_quantity_stem(key, stem);
     fputs("<tr><td>", page);
-    cw_html_label(page, key);
+    cw_html_label(page, stem);
     fputs("</td><td class=\"n\">", page);
-    value_text(page, value);
-    fputs("</td></tr>\n", page);
+    value_text(page, key, value);
+    fprintf(page, "</td><td>%s</td></tr>\n", cw_quantity_unit(key)->unit);
   }
   fputs("</table>\n", page);
+}
+
+static void result_tables(FILE *page, json_t *results) {
+  const char *key;
+  json_t *value;
+  value_table(page, results);
+  fputs("<div class=\"grid\">\n", page);
   json_object_foreach(results, key, value) {
-    if (is_table(value)) object_table(page, key, value);
-    if (!json_is_object(value)) continue;
-    fputs("<h3>", page);
-    cw_html_label(page, key);
-    fputs("</h3>\n<table class=\"plain\">", page);
-    json_object_foreach(value, inner, member) {
-      if (json_is_object(member) || json_is_array(member)) continue;
-      fputs("<tr><td>", page);
-      cw_html_label(page, inner);
-      fputs("</td><td class=\"n\">", page);
-      value_text(page, member);
-      fputs("</td></tr>\n", page);
-    }
-    fputs("</table>\n", page);
+    if (is_plain(value) || (json_is_array(value) && !is_table(value)))
+      continue;
+    fprintf(page, "<div%s>", json_is_array(value) ? " class=\"wide\"" : "");
+    heading(page, key);
+    if (is_table(value))
+      object_table(page, value);
+    else
+      value_table(page, value);
+    fputs("</div>\n", page);
   }
+  fputs("</div>\n", page);
 }
 
 CwStatus cw_page_export(FILE *page, const CwReportData *data) {
@@ -92,7 +117,8 @@ CwStatus cw_page_export(FILE *page, const CwReportData *data) {
   }
   snprintf(where, sizeof where, "%s/export/record.json", data->run);
   CW_TRY(cw_json_object(data->record[2], where, "results", &results));
-  fputs("<p>What the exporter counted and measured while it wrote CGNS, OpenFOAM and CFX files from the same mesh.</p>\n",
+  fputs("<p>What the exporter counted and measured while it wrote CGNS, OpenFOAM and CFX files from the same "
+        "mesh.</p>\n",
         page);
   result_tables(page, results);
 done:
@@ -117,7 +143,8 @@ static size_t gather_steps(const CwReportData *data, Step *step) {
       const char *unit = json_string_value(json_object_get(item, "unit"));
       char seconds[CW_FORMAT_SIZE], items[CW_FORMAT_SIZE];
       size_t at = first;
-      while (at < count && strcmp(step[at].name, name)) at++;
+      while (at < count && strcmp(step[at].name, name))
+        at++;
       if (at == count) {
         step[count++] = (Step){.name = name, .seconds = {NAN, NAN, NAN}};
         step[at].seconds[s] = 0;
@@ -147,14 +174,16 @@ CwStatus cw_page_times(FILE *page, const CwReportData *data) {
   char text[CW_FORMAT_SIZE];
   size_t most = 0, count;
   CwPlotSeries series[CW_STAGES];
-  for (int s = 0; s < CW_STAGES; s++) most += json_array_size(json_object_get(data->record[s], "steps"));
+  for (int s = 0; s < CW_STAGES; s++)
+    most += json_array_size(json_object_get(data->record[s], "steps"));
   CW_NEW(step, most);
   CW_NEW(label, most);
   CW_NEW(note, most);
   count = gather_steps(data, step);
   for (int s = 0; s < CW_STAGES; s++) {
     CW_NEW(value[s], count);
-    for (size_t k = 0; k < count; k++) value[s][k] = step[k].seconds[s];
+    for (size_t k = 0; k < count; k++)
+      value[s][k] = step[k].seconds[s];
     series[s] = (CwPlotSeries){cw_report_stage[s], colours[s], value[s]};
   }
   for (size_t k = 0; k < count; k++) {
@@ -166,28 +195,40 @@ CwStatus cw_page_times(FILE *page, const CwReportData *data) {
         page);
   for (int s = 0; s < CW_STAGES; s++) {
     if (!data->record[s]) {
-      fprintf(page, "<tr><td>%s</td><td class=\"n\">not run</td><td></td><td></td></tr>\n", cw_report_stage[s]);
+      fprintf(page, "<tr><td>%s</td><td class=\"n\">not run</td><td></td><td></td></tr>\n",
+              cw_report_stage[s]);
       continue;
     }
     double seconds = cw_json_real(data->record[s], "seconds");
     sum += seconds;
-    fprintf(page, "<tr><td>%s</td><td class=\"n\">%s</td>", cw_report_stage[s], cw_format_seconds(seconds, text));
+    fprintf(page, "<tr><td>%s</td><td class=\"n\">%s</td>", cw_report_stage[s],
+            cw_format_seconds(seconds, text));
     fprintf(page, "<td class=\"n\">%s</td>",
             cw_format_bytes(cw_json_real(data->record[s], "peak_memory_bytes"), text));
-    fprintf(page, "<td class=\"n\">%zu</td></tr>\n", json_array_size(json_object_get(data->record[s], "warnings")));
+    fprintf(page, "<td class=\"n\">%zu</td></tr>\n",
+            json_array_size(json_object_get(data->record[s], "warnings")));
   }
-  fprintf(page, "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n<figure>",
-          cw_format_seconds(sum, text));
-  cw_plot_bars(page, &(CwPlot){.axis = "seconds", .label = label, .count = (int)count, .series = series,
-                               .series_count = data->record[2] ? 3 : 2, .note = note, .width = 980});
-  fputs("<figcaption><b>Time of each step.</b> Steps that the mesher repeats to meet the asked number of cells are added "
+  fprintf(
+      page,
+      "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n<figure>",
+      cw_format_seconds(sum, text));
+  cw_plot_bars(page, &(CwPlot){.axis = "seconds",
+                               .label = label,
+                               .count = (int)count,
+                               .series = series,
+                               .series_count = data->record[2] ? 3 : 2,
+                               .note = note,
+                               .width = 980});
+  fputs("<figcaption><b>Time of each step.</b> Steps that the mesher repeats to meet the asked number of "
+        "cells are added "
         "up.</figcaption></figure>\n",
         page);
 done:
   free(step);
   free(label);
   free(note);
-  for (int s = 0; s < CW_STAGES; s++) free(value[s]);
+  for (int s = 0; s < CW_STAGES; s++)
+    free(value[s]);
   return status;
 }
 
@@ -204,6 +245,7 @@ CwStatus cw_page_warnings(FILE *page, const CwReportData *data) {
       count++;
     }
   }
-  if (!count) fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
+  if (!count)
+    fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
   return CW_OK;
 }

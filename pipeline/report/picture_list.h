@@ -11,10 +11,10 @@ typedef enum { CW_COLOUR_PATCH, CW_COLOUR_REGION, CW_COLOUR_CUT } CwPictureColou
 typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0 } CwPicturePlane;
 
 typedef enum {
-  CW_TARGET_ALL,      // all that is seen
-  CW_TARGET_PLACE,    // around one of the survey's places
-  CW_TARGET_NECK,     // at the interface radius, in the meridional plane
-  CW_TARGET_SHROUD,   // at the shroud, in the meridional plane
+  CW_TARGET_ALL,    // all that is seen
+  CW_TARGET_PLACE,  // around one of the survey's places
+  CW_TARGET_NECK,   // at the interface radius, in the meridional plane
+  CW_TARGET_SHROUD, // at the shroud, in the meridional plane
 } CwPictureTarget;
 
 typedef struct {
@@ -23,17 +23,18 @@ typedef struct {
   int wide, width, height;
   CwPictureColour colour;
   unsigned sees;
-  const char *hidden;       // names of patches that are left out, "|a|b|"
-  int upper_half;           // of the stator, what lies at z < 0 is cut off
-  int hollow_white;         // faces of the rotor seen from within the metal are left white
-  int edges;                // with the edges of the faces
+  const char *hidden; // names of patches that are left out, "|a|b|"
+  int upper_half;     // of the stator, what lies at z < 0 is cut off
+  int hollow_white;   // faces of the rotor seen from within the metal are left white
+  int edges;          // with the edges of the faces
   CwPicturePlane plane;
   CwPictureTarget target;
   CwPlace place;
-  double span;              // width of the picture over the outlet diameter; 0: all
-  // Towards the viewer and upwards: x, y, z; of a place: along the radius, the direction of rotation, the axis.
+  double span; // width of the picture over the outlet diameter; 0: all
+  // Towards the viewer and upwards: x, y, z; of a place: along the radius, the direction of rotation, the
+  // axis.
   double towards[3], up[3];
-  int inset_of;             // index of the picture in which this one is framed, or -1
+  int inset_of; // index of the picture in which this one is framed, or -1
   const char *inset_name;
 } CwPictureSpec;
 

@@ -12,7 +12,8 @@
 #include "pipeline/report/picture_list.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-static const uint32_t cut_colour[2][2] = {{0xdbe7f2, 0x8db4da}, {0xf6ecd6, 0xe2bb78}}; // domain; tetrahedra, prisms
+static const uint32_t cut_colour[2][2] = {{0xdbe7f2, 0x8db4da},
+                                          {0xf6ecd6, 0xe2bb78}}; // domain; tetrahedra, prisms
 static const uint32_t pyramid_colour = 0xb98fc0;
 enum { PATCHES = CW_REPORT_PATCHES, FIT_MARGIN = 28, METAL = 65000 };
 
@@ -34,7 +35,8 @@ static int sees(const CwPictureSpec *spec, int d) {
 
 static void mark_hidden(const CwReportMesh *mesh, Drawing *drawing) {
   char name[80];
-  if (!drawing->spec->hidden) return;
+  if (!drawing->spec->hidden)
+    return;
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
     for (int p = 0; p < mesh->domain[d].patch_count; p++) {
       snprintf(name, sizeof name, "|%s|", mesh->domain[d].patch[p]);
@@ -71,7 +73,8 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
   case CW_TARGET_ALL:
     break;
   case CW_TARGET_PLACE:
-    if (!cw_survey_place(survey, spec->place, middle)) drawing->lacking = "the mesh has no such patch";
+    if (!cw_survey_place(survey, spec->place, middle))
+      drawing->lacking = "the mesh has no such patch";
     if (spec->plane == CW_PLANE_NONE) {
       turn_with(middle, spec->towards, towards);
       turn_with(middle, spec->up, up);
@@ -79,7 +82,8 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
     break;
   case CW_TARGET_SHROUD:
     radius = 0.43 * survey->sizes.outlet_radius;
-    if (!cw_survey_shroud(survey, radius, &z)) drawing->lacking = "the mesh has no shroud";
+    if (!cw_survey_shroud(survey, radius, &z))
+      drawing->lacking = "the mesh has no shroud";
     // fall through
   case CW_TARGET_NECK:
     memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
@@ -100,7 +104,8 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
       return;
     }
     for (int side = -1; side <= 1; side += 2) {
-      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
+      cw_camera_reach(camera,
+                      (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
                       &drawing->reach);
       cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_most},
                       &drawing->reach);
@@ -118,15 +123,19 @@ static Face face_at(const CwReportCells *cells, int32_t index) {
   Face face = {.count = index < cells->triangles ? 3 : 4};
   const int32_t *corner = face.count == 3 ? cells->triangle[index] : cells->quad[index - cells->triangles];
   face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangles];
-  for (int k = 0; k < face.count; k++) face.x[k] = cells->x[corner[k]];
+  for (int k = 0; k < face.count; k++)
+    face.x[k] = cells->x[corner[k]];
   return face;
 }
 
 static int face_shown(const Drawing *drawing, int d, const Face *face) {
-  if (drawing->hidden[d][face->patch]) return 0;
-  if (!drawing->spec->upper_half || d == CW_REPORT_ROTOR) return 1;
+  if (drawing->hidden[d][face->patch])
+    return 0;
+  if (!drawing->spec->upper_half || d == CW_REPORT_ROTOR)
+    return 1;
   double z = 0;
-  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
+  for (int k = 0; k < face->count; k++)
+    z = fmax(z, face->x[k][2]);
   return z > 0;
 }
 
@@ -135,20 +144,26 @@ static int upper_part(const Face *face, double part[5][3]) {
   int count = 0;
   for (int k = 0; k < face->count; k++) {
     const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
-    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
-    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
-    for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
+    if (a[2] >= 0)
+      memcpy(part[count++], a, sizeof part[0]);
+    if ((a[2] >= 0) == (b[2] >= 0) || count == 5)
+      continue;
+    for (int i = 0; i < 3; i++)
+      part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
     count++;
   }
   return count;
 }
 
 static void reach_faces(Drawing *drawing, int d, const CwReportCells *cells) {
-  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
+  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL)
+    return;
   for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
     Face face = face_at(cells, f);
-    if (!face_shown(drawing, d, &face)) continue;
-    for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
+    if (!face_shown(drawing, d, &face))
+      continue;
+    for (int k = 0; k < face.count; k++)
+      cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
   }
 }
 
@@ -162,12 +177,15 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
     v[i] = face->x[face->count - 1][i] - face->x[face->count - 3][i];
   }
   if (face->count == 3) {
-    for (int i = 0; i < 3; i++) v[i] = face->x[2][i] - face->x[0][i];
+    for (int i = 0; i < 3; i++)
+      v[i] = face->x[2][i] - face->x[0][i];
   }
-  for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  for (int i = 0; i < 3; i++)
+    n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   *outside = 0;
-  if (!(length > 0)) return 1;
+  if (!(length > 0))
+    return 1;
   for (int i = 0; i < 3; i++) {
     facing[0] += n[i] * camera->right[i] / length;
     facing[1] += n[i] * camera->up[i] / length;
@@ -175,27 +193,35 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   }
   *outside = facing[2] > 0;
   double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
-  for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];
+  for (int i = 0; i < 3; i++)
+    cosine += sign * facing[i] * light[i];
   return 0.5 + 0.56 * fmax(cosine, 0);
 }
 
-static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int region, const CwReportCells *cells) {
+static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int region,
+                       const CwReportCells *cells) {
   const CwPictureSpec *spec = drawing->spec;
   int region_index = region + (d == CW_REPORT_STATOR ? mesh->domain[0].region_count : 0);
   for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
     Face face = face_at(cells, f);
-    if (!face_shown(drawing, d, &face)) continue;
+    if (!face_shown(drawing, d, &face))
+      continue;
     double p[5][3], part[5][3];
     int corners = face.count, outside;
     double light = light_of(&drawing->camera, &face, &outside);
-    if (spec->upper_half && d == CW_REPORT_STATOR) corners = upper_part(&face, part);
-    else for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
-    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
+    if (spec->upper_half && d == CW_REPORT_STATOR)
+      corners = upper_part(&face, part);
+    else
+      for (int k = 0; k < corners; k++)
+        memcpy(part[k], face.x[k], sizeof part[k]);
+    for (int k = 0; k < corners; k++)
+      cw_camera_project(&drawing->camera, part[k], p[k]);
     uint32_t colour = spec->colour == CW_COLOUR_REGION
                           ? cw_region_colour(region_index)
                           : cw_patch_colour(mesh->domain[d].patch[face.patch], face.patch);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region_index % 60000 : d * PATCHES + face.patch);
-    if (spec->hollow_white && outside && d == CW_REPORT_ROTOR) group = METAL;
+    if (spec->hollow_white && outside && d == CW_REPORT_ROTOR)
+      group = METAL;
     CwPaint paint = {.colour = cw_render_shade(colour, light),
                      .group = (uint16_t)group,
                      .edge_colour = ink,
@@ -214,8 +240,10 @@ static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const do
     s[k] = distance[corner[k]];
     above += s[k] >= 0;
   }
-  if (above == 0 || above == count) return;
-  for (int k = 0; k < count; k++) x[k] = cells->x[corner[k]];
+  if (above == 0 || above == count)
+    return;
+  for (int k = 0; k < count; k++)
+    x[k] = cells->x[corner[k]];
   int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
   const CwCamera *camera = &drawing->camera;
   double centre[2] = {0, 0}, area = 0;
@@ -233,8 +261,12 @@ static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const do
     area += 0.5 * (p[next][0] * p[k][1] - p[k][0] * p[next][1]);
   }
   // Lines of cells of a few pixels are drawn paler, or they would be all that one sees.
-  double size = sqrt(fmax(area, 0)), strength = fmin(fmax(0.12 + 0.09 * (size - 1), 0.12), 0.8);
-  CwPaint paint = {.colour = colour, .group = (uint16_t)group, .edge_colour = ink, .edge_width = size > 12 ? 0.9 : 0.6,
+  double size = sqrt(fmax(area, 0));
+  double strength = fmin(fmax(0.12 + 0.09 * (size - 1), 0.12), 0.8);
+  CwPaint paint = {.colour = colour,
+                   .group = (uint16_t)group,
+                   .edge_colour = ink,
+                   .edge_width = size > 12 ? 0.9 : 0.6,
                    .edge_strength = strength};
   cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
 }
@@ -243,7 +275,8 @@ static CwStatus draw_cut(Drawing *drawing, int d, const CwReportCells *cells) {
   CwStatus status = CW_OK;
   double *distance = NULL;
   CW_NEW(distance, cells->points);
-  for (int32_t i = 0; i < cells->points; i++) distance[i] = cw_cut_distance(&drawing->plane, cells->x[i]);
+  for (int32_t i = 0; i < cells->points; i++)
+    distance[i] = cw_cut_distance(&drawing->plane, cells->x[i]);
   for (int32_t c = 0; c < cells->tetrahedra; c++)
     draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedron[c], cut_colour[d][0], d + 1);
   for (int32_t c = 0; c < cells->pyramids; c++)
@@ -260,18 +293,21 @@ static void mark_seen(Drawing *drawing) {
   size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
   for (size_t i = 0; i < samples; i++) {
     int group = drawing->canvas.group[i] - 1;
-    if (group >= 0 && group < CW_REPORT_DOMAINS * PATCHES) drawing->seen[group / PATCHES][group % PATCHES] = 1;
+    if (group >= 0 && group < CW_REPORT_DOMAINS * PATCHES)
+      drawing->seen[group / PATCHES][group % PATCHES] = 1;
   }
 }
 
 static void add_legend(CwReportPicture *picture, const char *label, uint32_t colour) {
   for (int k = 0; k < picture->legend_count; k++) {
-    if (!strcmp(picture->legend[k].label, label)) return;
+    if (!strcmp(picture->legend[k].label, label))
+      return;
   }
   CwLegendItem *item = &picture->legend[picture->legend_count++];
   snprintf(item->label, sizeof item->label, "%s", label);
   for (char *c = item->label; *c; c++) {
-    if (*c == '_') *c = ' ';
+    if (*c == '_')
+      *c = ' ';
   }
   item->colour = colour;
 }
@@ -280,19 +316,24 @@ static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwRepo
   static const char *const cut_label[2][2] = {{"rotor tetrahedra", "rotor prisms"},
                                               {"stator tetrahedra", "stator prisms"}};
   int pyramids = 0;
-  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0) return;
+  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0)
+    return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
-      for (int k = 0; k < 2; k++) add_legend(picture, cut_label[d][k], cut_colour[d][k]);
-      for (int r = 0; r < mesh->domain[d].region_count; r++) pyramids |= mesh->domain[d].region[r].pyramids > 0;
+      for (int k = 0; k < 2; k++)
+        add_legend(picture, cut_label[d][k], cut_colour[d][k]);
+      for (int r = 0; r < mesh->domain[d].region_count; r++)
+        pyramids |= mesh->domain[d].region[r].pyramids > 0;
     }
-    if (pyramids) add_legend(picture, "pyramids", pyramid_colour);
+    if (pyramids)
+      add_legend(picture, "pyramids", pyramid_colour);
     return;
   }
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
     for (int p = 0; p < mesh->domain[d].patch_count; p++) {
       const char *name = mesh->domain[d].patch[p];
-      if (drawing->seen[d][p]) add_legend(picture, name, cw_patch_colour(name, p));
+      if (drawing->seen[d][p])
+        add_legend(picture, name, cw_patch_colour(name, p));
     }
   }
 }
@@ -313,11 +354,12 @@ static void annotate(const Drawing *drawings, int index, CwAnnotation *annotatio
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwCamera *inset = &drawings[k].camera;
     double at[3], share = inset->metres_per_pixel / camera->metres_per_pixel;
-    if (drawings[k].spec->inset_of != index || drawings[k].lacking) continue;
+    if (drawings[k].spec->inset_of != index || drawings[k].lacking)
+      continue;
     cw_camera_project(camera, inset->centre, at);
     double width = inset->width * share, height = inset->height * share;
-    annotation->frame[annotation->frame_count++] =
-        (CwInsetFrame){drawings[k].spec->inset_name, at[0] - 0.5 * width, at[1] - 0.5 * height, width, height};
+    annotation->frame[annotation->frame_count++] = (CwInsetFrame){
+        drawings[k].spec->inset_name, at[0] - 0.5 * width, at[1] - 0.5 * height, width, height};
   }
 }
 
@@ -326,7 +368,8 @@ static CwStatus finish(const CwReportMesh *mesh, Drawing *drawings, int index, C
   Drawing *drawing = &drawings[index];
   CwAnnotation annotation = {0};
   picture->lacking = drawing->lacking;
-  if (drawing->lacking) goto done;
+  if (drawing->lacking)
+    goto done;
   cw_render_erase(&drawing->canvas, METAL, background);
   if (drawing->spec->plane == CW_PLANE_NONE && !drawing->spec->edges)
     cw_render_occlusion(&drawing->canvas, 14, drawing->camera.metres_per_pixel);
@@ -348,7 +391,8 @@ static CwStatus survey_all(const CwReportMesh *mesh, Drawing *drawings, CwSurvey
       CW_TRY(cw_report_cells_read(mesh, d, r, 0, &cells));
       cw_survey_add(survey, &mesh->domain[d], &cells);
       for (int k = 0; k < cw_picture_list_count; k++) {
-        if (sees(drawings[k].spec, d)) reach_faces(&drawings[k], d, &cells);
+        if (sees(drawings[k].spec, d))
+          reach_faces(&drawings[k], d, &cells);
       }
       cw_report_cells_free(&cells);
     }
@@ -367,9 +411,12 @@ static CwStatus draw_all(const CwReportMesh *mesh, Drawing *drawings) {
     for (int r = 0; r < mesh->domain[d].region_count; r++) {
       CW_TRY(cw_report_cells_read(mesh, d, r, 1, &cells));
       for (int k = 0; k < cw_picture_list_count; k++) {
-        if (!sees(drawings[k].spec, d) || drawings[k].lacking) continue;
-        if (drawings[k].spec->plane == CW_PLANE_NONE) draw_faces(&drawings[k], mesh, d, r, &cells);
-        else CW_TRY(draw_cut(&drawings[k], d, &cells));
+        if (!sees(drawings[k].spec, d) || drawings[k].lacking)
+          continue;
+        if (drawings[k].spec->plane == CW_PLANE_NONE)
+          draw_faces(&drawings[k], mesh, d, r, &cells);
+        else
+          CW_TRY(draw_cut(&drawings[k], d, &cells));
       }
       cw_report_cells_free(&cells);
       cw_progress(++drawn);
@@ -381,7 +428,8 @@ done:
   return status;
 }
 
-CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures) {
+CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes,
+                                 CwReportPictures *pictures) {
   CwStatus status = CW_OK;
   Drawing *drawings = NULL;
   CwSurvey *survey = NULL;
@@ -403,11 +451,14 @@ CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *si
     drawings[k].lacking = NULL;
     aim(survey, &drawings[k]);
     if (spec->target == CW_TARGET_ALL && !drawings[k].lacking) {
-      if (drawings[k].reach.started) cw_camera_fit(&drawings[k].camera, &drawings[k].reach, FIT_MARGIN);
-      else drawings[k].lacking = "the mesh has no such faces";
+      if (drawings[k].reach.started)
+        cw_camera_fit(&drawings[k].camera, &drawings[k].reach, FIT_MARGIN);
+      else
+        drawings[k].lacking = "the mesh has no such faces";
     }
     if (!drawings[k].lacking)
-      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
+      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE,
+                             &drawings[k].canvas));
   }
   CW_TRY(draw_all(mesh, drawings));
   for (int k = 0; k < cw_picture_list_count; k++) {
@@ -422,14 +473,16 @@ CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *si
     CW_TRY(finish(mesh, drawings, k, picture));
   }
 done:
-  for (int k = 0; drawings && k < cw_picture_list_count; k++) cw_render_free(&drawings[k].canvas);
+  for (int k = 0; drawings && k < cw_picture_list_count; k++)
+    cw_render_free(&drawings[k].canvas);
   free(drawings);
   free(survey);
   return status;
 }
 
 void cw_report_pictures_free(CwReportPictures *pictures) {
-  for (int k = 0; k < pictures->count; k++) cw_png_free(&pictures->picture[k].png);
+  for (int k = 0; k < pictures->count; k++)
+    cw_png_free(&pictures->picture[k].png);
   free(pictures->picture);
   *pictures = (CwReportPictures){0};
 }

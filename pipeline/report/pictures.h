@@ -23,10 +23,10 @@ typedef struct {
 typedef struct {
   CwPictureSection section;
   const char *title, *caption;
-  int wide;              // takes the width of the page
-  int width, height;     // px
-  CwPng png;             // no bytes: the mesh lacks what the picture shows
-  const char *lacking;   // then: what
+  int wide;            // takes the width of the page
+  int width, height;   // px
+  CwPng png;           // no bytes: the mesh lacks what the picture shows
+  const char *lacking; // then: what
   CwLegendItem legend[2 * CW_REPORT_PATCHES];
   int legend_count;
 } CwReportPicture;
@@ -37,7 +37,8 @@ typedef struct {
 } CwReportPictures;
 
 // Reads every region twice and draws. Free with cw_report_pictures_free, also after a failure.
-CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures);
+CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes,
+                                 CwReportPictures *pictures);
 void cw_report_pictures_free(CwReportPictures *pictures);
 
 #endif

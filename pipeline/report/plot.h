@@ -13,20 +13,21 @@ typedef struct {
 } CwPlotSeries;
 
 typedef struct {
-  const char *axis;         // what the values are, with unit
+  const char *axis;          // what the values are, with unit
   const char *category_axis; // what the categories are; may be NULL
-  const char *const *label; // one a category
-  int count;                // categories
+  const char *const *label;  // one a category
+  int count;                 // categories
   const CwPlotSeries *series;
   int series_count;
-  const char *const *note;  // of bars: written behind each; may be NULL
-  int decimals;             // of columns: digits after the point of the values over them; below 0: no values
-  double limit;             // end of the axis; 0: from the values
-  double mark;              // a line across at this value, in the unit of the axis; 0: none
-  int width;                // px
+  const char *const *note; // of bars: written behind each; may be NULL
+  int decimals;            // of columns: digits after the point of the values over them; below 0: no values
+  double limit;            // end of the axis; 0: from the values
+  double mark;             // a line across at this value, in the unit of the axis; 0: none
+  int width;               // px
 } CwPlot;
 
-// Step of 1, 2 or 5 times a power of ten that gives 4 to 10 ticks up to `most`; 1 where `most` is not above 0.
+// Step of 1, 2 or 5 times a power of ten that gives 4 to 10 ticks up to `most`; 1 where `most` is not above
+// 0.
 double cw_plot_step(double most);
 
 // Columns side by side, one group a category.

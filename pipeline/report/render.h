@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A small software rasteriser: flat triangles with a depth buffer and with edge lines, orthographic views, 2 x 2
-// samples a pixel, out as PNG. Lengths on the canvas are pixels of the finished picture, x to the right, y down; depth
-// grows towards the viewer.
+// A small software rasteriser: flat triangles with a depth buffer and with edge lines, orthographic views, 2
+// x 2 samples a pixel, out as PNG. Lengths on the canvas are pixels of the finished picture, x to the right,
+// y down; depth grows towards the viewer.
 #ifndef CUTWATER_PIPELINE_REPORT_RENDER_H
 #define CUTWATER_PIPELINE_REPORT_RENDER_H
 
@@ -13,11 +13,11 @@
 enum { CW_RENDER_SAMPLES = 2 }; // along each side of a pixel
 
 typedef struct {
-  int width, height;   // pixels of the finished picture
-  int columns, rows;   // samples
-  uint32_t *colour;    // 0xRRGGBB
-  float *depth;        // -INFINITY: nothing drawn
-  uint16_t *group;     // what the sample shows; 0: background. An outline is drawn where it changes.
+  int width, height; // pixels of the finished picture
+  int columns, rows; // samples
+  uint32_t *colour;  // 0xRRGGBB
+  float *depth;      // -INFINITY: nothing drawn
+  uint16_t *group;   // what the sample shows; 0: background. An outline is drawn where it changes.
 } CwCanvas;
 
 // `depth_buffer` 0: later triangles cover earlier ones (flat pictures). CW_ERR_MEMORY.
@@ -34,14 +34,15 @@ typedef struct {
 
 // Draws the triangle with corners p[k] = (x, y, depth). Parts outside the canvas are left out.
 void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *paint);
-// Draws a convex polygon of `count` corners as a fan, its outer edges as lines (paint->edges is not read).
+// Draws a convex polygon of `count` corners, its edges as lines (paint->edges is not read); with a depth
+// buffer as a fan of triangles.
 void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const CwPaint *paint);
 
-// Darkens the borders between groups and, in pictures with a depth buffer, steps in depth of more than `step` (in
-// units of the depth).
+// Darkens the borders between groups and, in pictures with a depth buffer, steps in depth of more than `step`
+// (in units of the depth).
 void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step);
-// Darkens hollows: samples whose surroundings within `radius` px lie nearer to the viewer. For pictures with a depth
-// buffer; `unit` is the depth that is as long as one pixel.
+// Darkens hollows: samples whose surroundings within `radius` px lie nearer to the viewer. For pictures with
+// a depth buffer; `unit` is the depth that is as long as one pixel.
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit);
 
 // Makes the samples of `group` background again.
@@ -52,7 +53,7 @@ uint32_t cw_render_shade(uint32_t colour, double factor);
 
 // What is written over a finished picture.
 typedef struct {
-  const char *name; // "x"
+  const char *name;    // "x"
   double direction[2]; // on the canvas, y down; length 0 to 1
 } CwTriadAxis;
 
@@ -74,7 +75,8 @@ typedef struct {
   size_t size;
 } CwPng;
 
-// Averages the samples and writes scale bar, axes and frames. Free with cw_png_free. CW_ERR_LIBRARY, CW_ERR_MEMORY.
+// Averages the samples and writes scale bar, axes and frames. Free with cw_png_free. CW_ERR_LIBRARY,
+// CW_ERR_MEMORY.
 CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, CwPng *png);
 void cw_png_free(CwPng *png);
 

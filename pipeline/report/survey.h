@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A first look at the boundary of the mesh, region by region: where the places are that the pictures show, and how far
-// each view reaches.
+// A first look at the boundary of the mesh, region by region: where the places are that the pictures show,
+// and how far each view reaches.
 #ifndef CUTWATER_PIPELINE_REPORT_SURVEY_H
 #define CUTWATER_PIPELINE_REPORT_SURVEY_H
 
@@ -33,13 +33,14 @@ void cw_survey_add(CwSurvey *survey, const CwReportDomain *domain, const CwRepor
 // The middle of a place: of the tongue, or of one blade's edge. Returns 0 where the mesh has no such patch.
 int cw_survey_place(const CwSurvey *survey, CwPlace place, double middle[3]);
 
-// Azimuth of a plane through the axis that lies midway between two blades at the outlet and cuts the least of the
-// discharge. 0 where no trailing edge was found.
+// Azimuth of a plane through the axis that lies midway between two blades at the outlet and cuts the least of
+// the discharge. 0 where no trailing edge was found.
 double cw_survey_meridional_azimuth(const CwSurvey *survey);
 
-// Reach of the boundary in that plane on both sides of the axis: largest radius, least and greatest z. Returns 0 where
-// there is none.
-int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *radius, double *z_least, double *z_most);
+// Reach of the boundary in that plane on both sides of the axis: largest radius, least and greatest z.
+// Returns 0 where there is none.
+int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *radius, double *z_least,
+                               double *z_most);
 
 // z of the shroud at `radius`. Returns 0 where there is none.
 int cw_survey_shroud(const CwSurvey *survey, double radius, double *z);

@@ -32,8 +32,10 @@ static void numbers_read_well(void **state) {
   assert_string_equal(cw_format_number(74, 5, text), "74");
   assert_string_equal(cw_format_number(0.00218, 2, text), "0.0022");
   assert_string_equal(cw_format_number(-0.5, 3, text), MINUS "0.5");
-  assert_string_equal(cw_format_number(123456.7, 3, text), "123" GAP "457"); // no digit before the point is lost
-  assert_string_equal(cw_format_number(1.004e-6, 5, text), "1.004" GAP "\303\227" GAP "10\342\201\273\342\201\266");
+  assert_string_equal(cw_format_number(123456.7, 3, text),
+                      "123" GAP "457"); // no digit before the point is lost
+  assert_string_equal(cw_format_number(1.004e-6, 5, text),
+                      "1.004" GAP "\303\227" GAP "10\342\201\273\342\201\266");
   assert_string_equal(cw_format_number(9.9996, 4, text), "10");
   assert_string_equal(cw_format_number(NAN, 4, text), "\342\200\223");
   assert_string_equal(cw_format_si(301551, 3, text), "302" GAP "k");
@@ -64,7 +66,8 @@ static void html_is_escaped_and_encoded(void **state) {
   cw_html_label(page, "y_plus_blade");
   cw_html_number_cell(page, "12.87");
   cw_html_number_cell(page, "74");
-  for (size_t n = 0; n < 4; n++) cw_html_base64(page, (const unsigned char *)"Man", n);
+  for (size_t n = 0; n < 4; n++)
+    cw_html_base64(page, (const unsigned char *)"Man", n);
   cw_html_base64(page, (const unsigned char *)"\377\373\360", 3);
   fclose(page);
   assert_string_equal(text, "&lt;a &amp; &quot;b&quot;&gt;|outlet widthOutlet widthy<sup>+</sup> blade"
@@ -88,7 +91,8 @@ static CwStatus embed(const char *content, char **text) {
 
 static void drawings_are_embedded_alone(void **state) {
   char *text;
-  assert_int_equal(embed("<?xml version=\"1.0\"?>\n<svg width=\"3\"><rect/></svg>\n<!-- end -->", &text), CW_OK);
+  assert_int_equal(embed("<?xml version=\"1.0\"?>\n<svg width=\"3\"><rect/></svg>\n<!-- end -->", &text),
+                   CW_OK);
   assert_string_equal(text, "<svg width=\"3\"><rect/></svg>\n");
   free(text);
   static const char *const refused[] = {"", "<html></html>", "<svg width=\"3\"><rect/>",
@@ -124,7 +128,8 @@ static int cut(const CwCutPlane *plane, int count, const double (*x)[3], double 
 
 static void cuts_have_the_right_areas(void **state) {
   double polygon[CW_CUT_CORNERS][2];
-  // The unit tetrahedron at z = 1/4: a triangle of legs 3/4. All corners' areas are counter-clockwise, so positive.
+  // The unit tetrahedron at z = 1/4: a triangle of legs 3/4. All corners' areas are counter-clockwise, so
+  // positive.
   const double tet[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   assert_int_equal(cut(&plane_z, 4, tet, polygon), 3);
   assert_near(area_of(3, polygon), 9.0 / 32, 1e-12);
@@ -158,11 +163,27 @@ static void a_face_in_the_plane_is_cut_once(void **state) {
   assert_near(area_of(3, polygon), 0.5, 1e-12);
 }
 
-// Two blades' trailing edges as one triangle each, on opposite sides; the far corner of a discharge at azimuth 90 deg.
+// Where the plane goes through corners of a cell, no corner of the cut stands twice.
+static void corners_in_the_plane_stand_once(void **state) {
+  double polygon[CW_CUT_CORNERS][2];
+  const CwCutPlane across = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  // One corner behind, two in the plane, one before it.
+  const double tet[4][3] = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  assert_int_equal(cut(&across, 4, tet, polygon), 3);
+  assert_near(area_of(3, polygon), 0.5, 1e-12);
+  // Only an edge in the plane, or only a corner: no area, no cut.
+  const double edge[4][3] = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 1, 1}};
+  assert_int_equal(cut(&across, 4, edge, polygon), 0);
+  const double corner[4][3] = {{-1, 0, 0}, {-1, 1, 0}, {0, 0, 1}, {-1, 1, 1}};
+  assert_int_equal(cut(&across, 4, corner, polygon), 0);
+}
+
+// Two blades' trailing edges as one triangle each, on opposite sides; the far corner of a discharge at
+// azimuth 90 deg.
 static void survey_finds_places(void **state) {
-  double x[][3] = {{0.1, 0, -0.004},  {0.1, 0.003, 0.004},   {0.1, -0.003, 0.004}, {-0.1, 0, -0.004},
+  double x[][3] = {{0.1, 0, -0.004},      {0.1, 0.003, 0.004},  {0.1, -0.003, 0.004}, {-0.1, 0, -0.004},
                    {-0.1, -0.003, 0.004}, {-0.1, 0.003, 0.004}, {0, 0.3, 0.02},       {0.001, 0.3, -0.02},
-                   {-0.001, 0.29, 0},   {0.05, 0, -0.01},       {0, 0.05, -0.01},     {0.0, -0.05, -0.01}};
+                   {-0.001, 0.29, 0},     {0.05, 0, -0.01},     {0, 0.05, -0.01},     {0.0, -0.05, -0.01}};
   int32_t triangle[][3] = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, patch[] = {0, 0, 1, 2};
   char *names[] = {"blade_trailing_edge", "outlet", "shroud"};
   CwReportDomain domain = {.patch = {names[0], names[1], names[2]}, .patch_count = 3};
@@ -174,7 +195,8 @@ static void survey_finds_places(void **state) {
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 0);
   assert_int_equal(cw_survey_shroud(survey, 0.02, &z), 0);
   cw_survey_add(survey, &domain, &cells);
-  assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 1); // one blade, not the mean of both
+  assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle),
+                   1); // one blade, not the mean of both
   assert_near(fabs(middle[0]), 0.1, 1e-9);
   assert_near(middle[1], 0, 1e-9);
   assert_near(middle[2], 0.004 / 3, 1e-9);
@@ -192,9 +214,13 @@ static void survey_finds_places(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(numbers_read_well),          cmocka_unit_test(html_is_escaped_and_encoded),
-      cmocka_unit_test(drawings_are_embedded_alone), cmocka_unit_test(cuts_have_the_right_areas),
-      cmocka_unit_test(a_face_in_the_plane_is_cut_once), cmocka_unit_test(survey_finds_places),
+      cmocka_unit_test(numbers_read_well),
+      cmocka_unit_test(html_is_escaped_and_encoded),
+      cmocka_unit_test(drawings_are_embedded_alone),
+      cmocka_unit_test(cuts_have_the_right_areas),
+      cmocka_unit_test(a_face_in_the_plane_is_cut_once),
+      cmocka_unit_test(corners_in_the_plane_stand_once),
+      cmocka_unit_test(survey_finds_places),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// cutwater-report on a run of two boxes: one page, whole or not at all, and one line where something is wrong.
+// cutwater-report on a run of two boxes: one page, whole or not at all, and one line where something is
+// wrong.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,9 +39,11 @@ static char *read_text(const char *name) {
   size_t size = 0;
   path_in_run(name, path);
   FILE *file = fopen(path, "r");
-  if (!file) return NULL;
+  if (!file)
+    return NULL;
   FILE *copy = open_memstream(&text, &size);
-  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
+  for (int c = fgetc(file); c != EOF; c = fgetc(file))
+    fputc(c, copy);
   fclose(file);
   fclose(copy);
   return text;
@@ -57,13 +60,14 @@ static void dataset(hid_t file, const char *name, hid_t type, int rows, int colu
   hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, size, NULL);
   hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   assert_true(set >= 0);
-  if (rows) assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+  if (rows)
+    assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
   H5Dclose(set);
   H5Sclose(space);
 }
 
-// A box from (x0, -0.02, -0.004) to (x1, 0.02, 0.004) m of two prisms standing on z; patches by side: 0 below, 1 above,
-// 2 around. `corner` is the highest index used.
+// A box from (x0, -0.02, -0.004) to (x1, 0.02, 0.004) m of two prisms standing on z; patches by side: 0
+// below, 1 above, 2 around. `corner` is the highest index used.
 static void write_region(const char *name, double x0, double x1, int corner) {
   double x[8][3];
   for (int k = 0; k < 8; k++) {
@@ -72,8 +76,10 @@ static void write_region(const char *name, double x0, double x1, int corner) {
     x[k][2] = k & 4 ? 0.004 : -0.004;
   }
   const int32_t prism[2][6] = {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 5, corner, 6}};
-  const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}}, triangle_patch[4] = {0, 0, 1, 1};
-  const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}, quad_patch[4] = {2, 2, 2, 2};
+  const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}},
+                triangle_patch[4] = {0, 0, 1, 1};
+  const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}},
+                quad_patch[4] = {2, 2, 2, 2};
   char path[200];
   path_in_run(name, path);
   hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -88,27 +94,26 @@ static void write_region(const char *name, double x0, double x1, int corner) {
   H5Fclose(file);
 }
 
-#define REGION(file)                                                                                         \
-  "{\"file\":\"" file "\",\"region\":1,\"number\":1,\"points\":8,\"own_points\":8,\"tetrahedra\":0,"          \
-  "\"pyramids\":0,\"prisms\":2,\"triangles\":4,\"quads\":4}"
-#define PATCH(name, kind) "{\"name\":\"" name "\",\"kind\":\"" kind "\"}"
-#define MANIFEST(name)                                                                                       \
-  "{\"format\":1,\"case\":\"" name "\",\"domains\":["                                                        \
-  "{\"name\":\"rotor\",\"shared_points\":0,\"solid_volume_m3\":1,\"patches\":["                              \
-  PATCH("shroud", "wall") "," PATCH("hub", "wall") "," PATCH("rotor_interface", "interface")                 \
-  "],\"regions\":[" REGION("rotor-0001.h5") "]},"                                                           \
-  "{\"name\":\"stator\",\"shared_points\":0,\"solid_volume_m3\":1,\"patches\":["                             \
-  PATCH("volute", "wall") "," PATCH("tongue", "wall") "," PATCH("stator_interface", "interface")             \
-  "],\"regions\":[" REGION("stator-0001.h5") "]}]}"
-#define DOMAIN(name, patch)                                                                                  \
-  "{\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5,"              \
-  "\"tetrahedron_aspect_class\":[0,0,0,0,0,0,0,0],"                                                          \
-  "\"least_dihedral_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],"                                           \
-  "\"prism_scaled_jacobian_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,2,0],"                                \
-  "\"layer_coverage\":[{\"patch\":\"" patch "\",\"wall_faces\":40,\"full_thickness_faces\":30,"              \
-  "\"first_height_met_faces\":39,\"first_height_target_m\":2.2e-4,\"mean_thickness_m\":1.5e-3,"              \
-  "\"least_thickness_m\":1e-3,\"thinned_by_gap_faces\":10,\"thinned_by_gradation_faces\":0,"                 \
+// clang-format off
+#define REGION(file) "{\"file\":\"" file "\",\"region\":1,\"number\":1,\"points\":8,\"own_points\":8," \
+  "\"tetrahedra\":0,\"pyramids\":0,\"prisms\":2,\"triangles\":4,\"quads\":4}"
+#define PATCHES(a, b, c) "[{\"name\":\"" a "\",\"kind\":\"wall\"},{\"name\":\"" b "\",\"kind\":\"wall\"}," \
+  "{\"name\":\"" c "\",\"kind\":\"interface\"}]"
+#define MESHED(name, patches, file) "{\"name\":\"" name "\",\"shared_points\":0,\"solid_volume_m3\":1," \
+  "\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
+#define MANIFEST(name) "{\"format\":1,\"case\":\"" name "\",\"domains\":[" \
+  MESHED("rotor", PATCHES("shroud", "hub", "rotor_interface"), "rotor-0001.h5") "," \
+  MESHED("stator", PATCHES("volute", "tongue", "stator_interface"), "stator-0001.h5") "]}"
+#define DOMAIN(name, patch) \
+  "{\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5," \
+  "\"tetrahedron_aspect_class\":[0,0,0,0,0,0,0,0]," \
+  "\"least_dihedral_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]," \
+  "\"prism_scaled_jacobian_bins\":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,2,0]," \
+  "\"layer_coverage\":[{\"patch\":\"" patch "\",\"wall_faces\":40,\"full_thickness_faces\":30," \
+  "\"first_height_met_faces\":39,\"first_height_target_m\":2.2e-4,\"mean_thickness_m\":1.5e-3," \
+  "\"least_thickness_m\":1e-3,\"thinned_by_gap_faces\":10,\"thinned_by_gradation_faces\":0," \
   "\"thinned_by_repair_faces\":0}],\"region_list\":[{\"region\":1,\"seconds\":0.5}]}"
+// clang-format on
 
 static int make_run(void **state) {
   char path[200];
@@ -121,15 +126,17 @@ static int make_run(void **state) {
   write_text("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,"
                                      "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
                                      "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
-  write_text("geometry/record.json", "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
-                                     "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
-                                     "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
+  write_text("geometry/record.json",
+             "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
+             "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
+             "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
   write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
-  write_text("mesh/record.json", "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
-                                 "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
-                                 "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
-                                 "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":["
-                                 DOMAIN("rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
+  write_text("mesh/record.json",
+             "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
+             "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
+             "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
+             "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":[" DOMAIN(
+                 "rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
   write_text("mesh/manifest.json", MANIFEST("paper"));
   write_region("mesh/rotor-0001.h5", 0.03, 0.101, 7);
   write_region("mesh/stator-0001.h5", 0.101, 0.14, 7);
@@ -145,7 +152,9 @@ static int remove_run(void **state) {
 // Runs the program; returns its exit status and what it said.
 static int report(char said[4000]) {
   char command[600];
-  snprintf(command, sizeof command, "%s/cutwater-report --case %s --run %s 2>&1", CUTWATER_BIN_DIR, CASE, run);
+  snprintf(command, sizeof command,
+           "LSAN_OPTIONS=print_suppressions=0 %s/cutwater-report --case %s --run %s 2>&1", CUTWATER_BIN_DIR,
+           CASE, run);
   FILE *pipe = popen(command, "r");
   assert_non_null(pipe);
   size_t length = fread(said, 1, 3999, pipe);
@@ -158,7 +167,8 @@ static int report(char said[4000]) {
 static void fails(int code, const char *message) {
   char said[4000];
   int status = report(said);
-  if (status != code || !strstr(said, message)) fail_msg("exit status %d and: %s", status, said);
+  if (status != code || !strstr(said, message))
+    fail_msg("exit status %d and: %s", status, said);
   const char *error = strstr(said, "cutwater-report: error: "); // one line, the last
   assert_non_null(error);
   assert_ptr_equal(strchr(error, '\n'), said + strlen(said) - 1);
@@ -167,33 +177,36 @@ static void fails(int code, const char *message) {
 }
 
 static void holds(const char *page, const char *text) {
-  if (!strstr(page, text)) fail_msg("not in the page: %s", text);
+  if (!strstr(page, text))
+    fail_msg("not in the page: %s", text);
 }
 
 // Wherever `page` holds `start`, it goes on as `whole`; and it does so somewhere.
 static void every(const char *page, const char *start, const char *whole) {
   int count = 0;
   for (const char *at = page; (at = strstr(at, start)); at++, count++) {
-    if (strncmp(at, whole, strlen(whole))) fail_msg("in the page: %.60s", at);
+    if (strncmp(at, whole, strlen(whole)))
+      fail_msg("in the page: %.60s", at);
   }
   assert_true(count > 0);
 }
 
 static void page_tells_all_and_stands_alone(void **state) {
   char said[4000];
-  if (report(said) != 0) fail_msg("%s", said);
+  if (report(said) != 0)
+    fail_msg("%s", said);
   char *page = read_text("report/index.html");
   assert_non_null(page);
   assert_true(there("report/record.json"));
   assert_false(there("report/.part-index.html"));
   holds(page, "<b>4</b><span>cells; 5 asked, -20.00");
   holds(page, "12.87&#8239;m");
-  holds(page, ">866<span>.47</span>");         // throat area in mm2
-  holds(page, "constant &lt;K&gt;");           // its source
+  holds(page, ">866<span>.47</span>"); // throat area in mm2
+  holds(page, "constant &lt;K&gt;");   // its source
   holds(page, "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
-  holds(page, ">97.5 %<");                      // first heights met
+  holds(page, ">97.5 %<"); // first heights met
   holds(page, "mesh: surface</text>");
-  holds(page, "2.25 s, 9 faces, 2 passes");     // two passes added up
+  holds(page, "2.25 s, 9 faces, 2 passes"); // two passes added up
   holds(page, "geometry:</b> skewed &amp; sharp");
   holds(page, "has not been exported");
   holds(page, "Not drawn: the mesh has no such patch."); // no leading edge
@@ -216,11 +229,14 @@ static void export_figures_are_shown(void **state) {
   char path[200];
   path_in_run("export", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  write_text("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
-                                   "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.25},"
-                                   "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
-  if (report(said) != 0) fail_msg("%s", said);
+  write_text("export/record.json",
+             "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
+             "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
+             "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
+  if (report(said) != 0)
+    fail_msg("%s", said);
   char *page = read_text("report/index.html");
+  holds(page, "<tr><td>Volume</td><td class=\"n\">250</td><td>cm&sup3;</td></tr>");
   holds(page, "<h3>Patches</h3>");
   holds(page, "12\342\200\257345");
   assert_null(strstr(page, "has not been exported"));
@@ -251,8 +267,10 @@ static void wrong_content_is_named(void **state) {
       {"geometry/design.json", "[]", "object"},
       {"geometry/design.json", "{}", "interface_radius_m"},
       {"geometry/record.json", "{\"stage\":\"mesh\"}", "'stage' is mesh"},
-      {"mesh/record.json", "{\"stage\":\"mesh\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],\"warnings\":[],"
-                           "\"results\":{}}", "'asked_cells'"},
+      {"mesh/record.json",
+       "{\"stage\":\"mesh\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],\"warnings\":[],"
+       "\"results\":{}}",
+       "'asked_cells'"},
       {"geometry/velocity_triangles.svg", "<svg>", "not a whole SVG"},
       {"mesh/rotor-0001.h5", "no HDF5", "not a whole HDF5 file"},
   };

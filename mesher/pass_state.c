@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/pass_state.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "mesher/hash.h"
+#include "pipeline/record.h"
+
+enum { PATH_SIZE = 4096 };
+
+static CwStatus hash_file(CwHash *hash, const char *run_path, const char *name) {
+  CwStatus status = CW_OK;
+  char path[PATH_SIZE], block[65536];
+  size_t size;
+  snprintf(path, sizeof path, "%s/geometry/%s", run_path, name);
+  FILE *file = fopen(path, "rb");
+  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s; made by cutwater-geometry", path, strerror(errno));
+  while ((size = fread(block, 1, sizeof block, file)) > 0) cw_hash_bytes(hash, block, size);
+  CW_REQUIRE(!ferror(file), CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+done:
+  if (file) fclose(file);
+  return status;
+}
+
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, char fingerprint[33]) {
+  CwStatus status = CW_OK;
+  static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "design.json"};
+  CwHash hash = cw_hash_start();
+  const CwWalls *walls = &table->walls;
+  const CwMeshTable *mesh = &table->mesh;
+  // Value by value: structures have padding.
+  const double value[] = {walls->layer_count, walls->growth_ratio, walls->total_thickness, walls->y_plus_at,
+                          walls->y_plus_blade, walls->y_plus_hub_shroud, walls->y_plus_volute, walls->y_plus_pipe,
+                          (double)mesh->cells, (double)mesh->cells_per_region, mesh->gradation, mesh->curvature_angle,
+                          mesh->cells_across_gap, mesh->size_blade, mesh->size_hub_shroud, mesh->size_volute,
+                          mesh->size_pipe, mesh->size_interface, table->fluid.kinematic_viscosity};
+  cw_hash_bytes(&hash, value, sizeof value);
+  for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++) CW_TRY(hash_file(&hash, run_path, FILES[i]));
+  cw_hash_hex(&hash, fingerprint);
+done:
+  return status;
+}
+
+void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state) {
+  char path[PATH_SIZE];
+  snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
+  json_t *file = json_load_file(path, 0, NULL);
+  const char *of = json_string_value(json_object_get(file, "fingerprint"));
+  json_int_t pass = json_integer_value(json_object_get(file, "pass"));
+  double prisms = json_number_value(json_object_get(file, "prism_factor"));
+  double tets = json_number_value(json_object_get(file, "tet_factor"));
+  if (of && !strcmp(of, fingerprint) && pass > 1 && prisms > 0 && tets > 0) {
+    *state = (CwPassState){(int)pass, prisms, tets};
+  }
+  json_decref(file);
+}
+
+CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
+  CwStatus status = CW_OK;
+  char path[PATH_SIZE];
+  json_t *file = json_pack("{s:s, s:i, s:f, s:f}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
+                           state->prism_factor, "tet_factor", state->tet_factor);
+  CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
+  snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
+  CW_TRY(cw_json_write(file, path));
+done:
+  json_decref(file);
+  return status;
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "mesher/pass_state.h"
+
+static char run[] = "pass-state-XXXXXX";
+static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "design.json"};
+
+static void path_of(char *path, const char *name) {
+  sprintf(path, "%s/%s", run, name);
+}
+
+static void write_file(const char *name, const char *text) {
+  char path[128];
+  path_of(path, name);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(text, file);
+  fclose(file);
+}
+
+static int make_run(void **state) {
+  char path[128];
+  if (!mkdtemp(run)) return -1;
+  path_of(path, "geometry");
+  mkdir(path, 0777);
+  path_of(path, "mesh");
+  mkdir(path, 0777);
+  for (int i = 0; i < 4; i++) {
+    sprintf(path, "geometry/%s", FILES[i]);
+    write_file(path, FILES[i]);
+  }
+  return 0;
+}
+
+static int remove_run(void **state) {
+  char path[128], name[64];
+  for (int i = 0; i < 4; i++) {
+    sprintf(name, "geometry/%s", FILES[i]);
+    path_of(path, name);
+    unlink(path);
+  }
+  path_of(path, "mesh/pass.json");
+  unlink(path);
+  path_of(path, "mesh");
+  rmdir(path);
+  path_of(path, "geometry");
+  rmdir(path);
+  return rmdir(run);
+}
+
+static void state_comes_back_as_written(void **unused) {
+  CwCase table;
+  cw_case_defaults(&table);
+  char fingerprint[33];
+  assert_int_equal(cw_pass_fingerprint(&table, run, fingerprint), CW_OK);
+  const CwPassState written = {3, 12.2450980392, 10.8712345678};
+  assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
+  CwPassState read = {1, 0, 0};
+  cw_pass_state_read(run, fingerprint, &read);
+  assert_int_equal(read.pass, 3);
+  assert_memory_equal(&read.prism_factor, &written.prism_factor, sizeof(double));
+  assert_memory_equal(&read.tet_factor, &written.tet_factor, sizeof(double));
+}
+
+static void another_case_or_geometry_starts_anew(void **unused) {
+  CwCase table;
+  cw_case_defaults(&table);
+  char before[33], after[33];
+  assert_int_equal(cw_pass_fingerprint(&table, run, before), CW_OK);
+  table.mesh.cells++;
+  assert_int_equal(cw_pass_fingerprint(&table, run, after), CW_OK);
+  assert_string_not_equal(before, after);
+  CwPassState read = {1, 0, 0};
+  cw_pass_state_read(run, after, &read);
+  assert_int_equal(read.pass, 1);
+  table.mesh.cells--;
+  write_file("geometry/faces.csv", "changed");
+  assert_int_equal(cw_pass_fingerprint(&table, run, after), CW_OK);
+  assert_string_not_equal(before, after);
+}
+
+static void broken_state_is_left_aside(void **unused) {
+  write_file("mesh/pass.json", "{\"fingerprint\": \"x\", \"pass\": 2");
+  CwPassState read = {1, 0, 0};
+  cw_pass_state_read(run, "x", &read);
+  assert_int_equal(read.pass, 1);
+}
+
+static void missing_geometry_is_named(void **unused) {
+  CwCase table;
+  cw_case_defaults(&table);
+  char fingerprint[33];
+  assert_int_equal(cw_pass_fingerprint(&table, "nowhere", fingerprint), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "nowhere/geometry/rotor.brep"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(state_comes_back_as_written),
+      cmocka_unit_test(another_case_or_geometry_starts_anew),
+      cmocka_unit_test(broken_state_is_left_aside),
+      cmocka_unit_test(missing_geometry_is_named),
+  };
+  return cmocka_run_group_tests(tests, make_run, remove_run);
+}
