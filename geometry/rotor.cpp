@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include <BRepCheck_Analyzer.hxx>
 #include <Geom2d_BezierCurve.hxx>
 #include <Geom2d_Circle.hxx>
 #include <Geom2d_Line.hxx>
@@ -25,6 +26,7 @@
 #include "geometry/bspline_fit.hpp"
 #include "geometry/meridian.h"
 #include "geometry/shell_builder.hpp"
+#include "geometry/solid.hpp"
 
 namespace {
 
@@ -579,6 +581,17 @@ CwSolid *Rotor::build() {
   return shell.finish("rotor");
 }
 
+// Name of the first face that OpenCASCADE finds fault with; "" if all is well.
+std::string faulty_face(const CwSolid *solid) {
+  BRepCheck_Analyzer check(solid->solid);
+  if (check.IsValid())
+    return "";
+  for (const CwSolidFace &face : solid->faces)
+    if (!check.IsValid(face.face))
+      return face.name;
+  return solid->faces.front().name;
+}
+
 } // namespace
 
 CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
@@ -588,6 +601,15 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
     Rotor builder(design);
     CW_TRY(builder.sections());
     *rotor = builder.build();
+    const std::string faulty = faulty_face(*rotor);
+    if (!faulty.empty()) {
+      cw_solid_free(rotor);
+      status = CW_FAIL(CW_ERR_GEOMETRY,
+                       "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
+                       "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
+                       faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
+                       design->wrap_angle * 180 / M_PI);
+    }
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_GEOMETRY, "rotor: %s", failure.GetMessageString());
   } catch (const std::exception &failure) {
