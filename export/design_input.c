@@ -33,3 +33,28 @@ done:
   json_decref(root);
   return status;
 }
+
+CwStatus cw_design_complete_case(const char *path, CwCase *table) {
+  CwStatus status = CW_OK;
+  json_error_t error;
+  json_t *root = NULL;
+  const struct {
+    const char *key;
+    double *value;
+  } keys[] = {
+      {"inlet_diameter_m", &table->impeller.inlet_diameter},
+      {"outlet_diameter_m", &table->impeller.outlet_diameter},
+      {"outlet_width_m", &table->impeller.outlet_width},
+  };
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
+    if (cw_case_given(*keys[i].value)) continue;
+    if (!root) root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    CW_REQUIRE(root, CW_ERR_INPUT, "%s: cannot be read: %s", path, error.text);
+    const double value = json_number_value(json_object_get(root, keys[i].key));
+    CW_REQUIRE(value > 0, CW_ERR_INPUT, "%s: '%s' must be a number above 0", path, keys[i].key);
+    *keys[i].value = value;
+  }
+done:
+  json_decref(root);
+  return status;
+}

@@ -3,6 +3,7 @@
 #ifndef CUTWATER_EXPORT_DESIGN_INPUT_H
 #define CUTWATER_EXPORT_DESIGN_INPUT_H
 
+#include "pipeline/case.h"
 #include "pipeline/status.h"
 
 typedef struct {
@@ -13,5 +14,8 @@ typedef struct {
 
 // Fails with CW_ERR_IO or CW_ERR_INPUT, naming the key.
 CwStatus cw_design_read(const char *path, CwDesign *design);
+
+// Fills the impeller's D1, D2 and b2 of the case, where it leaves them open, from the design.
+CwStatus cw_design_complete_case(const char *path, CwCase *table);
 
 #endif

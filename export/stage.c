@@ -185,6 +185,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   Paths paths = {0};
   CwMesh mesh = {0};
   CwDesign design = {0};
+  CwCase whole = *table;
   CwAssembly assembly = {0};
   CwInterface interface = {0};
   CwFoamMesh foam = {0};
@@ -201,13 +202,15 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   CW_TRY(join(run, "geometry/design.json", &path));
   status = cw_design_read(path, &design);
   if (status == CW_OK)
+    status = cw_design_complete_case(path, &whole);
+  if (status == CW_OK)
     status = cw_mesh_manifest_read(run, &mesh);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
   checked = cw_seconds();
   status = cw_foam_mesh_plan(&assembly, paths.foam_mesh, &foam);
   if (status == CW_OK && ranks->rank == 0)
-    status = begin_files(table, &design, &assembly, &interface, &paths, &foam);
+    status = begin_files(&whole, &design, &assembly, &interface, &paths, &foam);
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &paths, &foam));

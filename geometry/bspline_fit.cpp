@@ -136,6 +136,24 @@ Handle(Geom2d_BSplineCurve)
                                  to_array<TColStd_Array1OfInteger>(times), degree);
 }
 
+Handle(Geom_BSplineCurve)
+    cw_bspline_curve_3d(const std::vector<double> &parameters, const std::vector<gp_Pnt> &points) {
+  check(parameters);
+  const int n = (int)parameters.size();
+  std::vector<double> values((size_t)n * 3), knots;
+  std::vector<int> times;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < 3; k++)
+      values[3 * i + k] = points[i].Coord(k + 1);
+  solve_poles(parameters, 3, values);
+  TColgp_Array1OfPnt poles(1, n);
+  for (int i = 0; i < n; i++)
+    poles.SetValue(i + 1, gp_Pnt(values[3 * i], values[3 * i + 1], values[3 * i + 2]));
+  open_cascade_knots(parameters, knots, times);
+  return new Geom_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots),
+                               to_array<TColStd_Array1OfInteger>(times), degree);
+}
+
 Handle(Geom_BSplineSurface) cw_bspline_surface(const std::vector<double> &u, const std::vector<double> &v,
                                                const std::vector<gp_Pnt> &points) {
   check(u);

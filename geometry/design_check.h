@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Compares a design with the usual correlations and limits, and says where they disagree. Nothing here is an
+// Compares a design with both families of correlations and with usual limits, and says where they disagree. Nothing here is an
 // error: the case's table is the law.
 #ifndef CUTWATER_GEOMETRY_DESIGN_CHECK_H
 #define CUTWATER_GEOMETRY_DESIGN_CHECK_H
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { CW_DESIGN_REMARK_LIMIT = 16 };
+enum { CW_DESIGN_REMARK_LIMIT = 24 };
 
 typedef struct {
   int count;

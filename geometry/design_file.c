@@ -2,7 +2,11 @@
 #include "geometry/design_file.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
+#include "geometry/correlations.h"
+#include "geometry/design_check.h"
 #include "pipeline/record.h"
 
 static const double degree = M_PI / 180;
@@ -39,41 +43,105 @@ json_t *cw_measured_json(const CwMeasuredPump *measured) {
                    "greatest_trailing_edge_angle", angle_json(&rotor->trailing_edge));
 }
 
-// Unit in the key and scale from SI for each kind of quantity.
-enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY };
-static const struct {
-  const char *suffix;
-  double scale;
-} json_unit[] = {
-    [NUMBER] = {"", 1},
-    [LENGTH] = {"_m", 1},
-    [HEAD] = {"_m", 1},
-    [ANGLE] = {"_deg", 180 / M_PI},
-    [SPEED] = {"_m_per_s", 1},
-    [FLOW] = {"_m3_per_s", 1},
-    [ANGULAR_SPEED] = {"_rad_per_s", 1},
-    [AREA] = {"_m2", 1},
-    [DIFFUSIVITY] = {"_m2_per_s", 1},
-};
+static json_t *triangle_json(const char *station, double span, const CwTriangle *t) {
+  return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "station", station, "span", span,
+                   "radius_m", t->radius, "u_m_per_s", t->u, "c_m_m_per_s", t->c_m, "c_u_m_per_s", t->c_u,
+                   "c_m_per_s", t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / degree, "blade_angle_deg",
+                   t->blade_angle / degree, "incidence_or_deviation_deg", (t->blade_angle - t->flow_angle) / degree);
+}
+
+static json_t *triangles_json(const CwDesign *design) {
+  json_t *list = json_array();
+  int failed = !list;
+  for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
+    const double span = (double)j / (CW_TRIANGLE_SPANS - 1);
+    failed |= json_array_append_new(list, triangle_json("inlet", span, &design->inlet_triangle[j])) != 0;
+    failed |= json_array_append_new(list, triangle_json("outlet", span, &design->outlet_triangle[j])) != 0;
+  }
+  if (failed) {
+    json_decref(list);
+    return NULL;
+  }
+  return list;
+}
+
+// What both families give for each correlated quantity, in the unit of its key.
+static json_t *correlations_json(const CwDesign *design) {
+  json_t *all = json_object();
+  int failed = !all;
+  for (int i = 0; i < CW_CORRELATED_COUNT; i++) {
+    const int quantity = cw_correlated_quantity(i);
+    char key[64] = "blade_count";
+    double scale = 1, used = design->blade_count;
+    if (quantity >= 0) {
+      const CwDesignValue value = cw_hydraulic_design_value(design, quantity);
+      snprintf(key, sizeof key, "%s", value.key);
+      used = value.stored;
+      scale = strstr(key, "_deg") ? 1 / degree : 1;
+    }
+    json_t *row = json_pack("{s:o}", "used", cw_json_number(used));
+    for (int family = 0; family < CW_CORRELATION_FAMILIES; family++) {
+      const char *source;
+      const double correlated = cw_correlation(family, i, design, &source);
+      failed |= json_object_set_new(row, cw_correlations_name(family),
+                                    json_pack("{s:o, s:s}", "value", cw_json_number(correlated * scale), "source",
+                                              source)) != 0;
+    }
+    failed |= json_object_set_new(all, key, row) != 0;
+  }
+  if (failed) {
+    json_decref(all);
+    return NULL;
+  }
+  return all;
+}
+
+static json_t *remarks_json(const CwDesign *design) {
+  CwDesignRemarks remarks;
+  json_t *list = json_array();
+  cw_design_check(design, &remarks);
+  for (int i = 0; i < remarks.count; i++)
+    json_array_append_new(list, json_string(remarks.text[i]));
+  return list;
+}
 
 CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path) {
   CwStatus status = CW_OK;
   static const char *const priorities[] = {
       [CW_PRIORITY_WRAP] = "wrap", [CW_PRIORITY_HEAD] = "head", [CW_PRIORITY_BETA] = "beta"};
+  static const char *const edges[] = {[CW_EDGE_BEVELLED] = "bevelled",
+                                      [CW_EDGE_BLUNT] = "blunt",
+                                      [CW_EDGE_ROUNDED] = "rounded",
+                                      [CW_EDGE_SHARP] = "sharp"};
   json_t *root = json_object(), *sources = json_object();
   int failed = !root || !sources;
-  char key[80];
   failed |= json_object_set_new(root, "blade_count", json_integer(design->blade_count)) != 0;
+  failed |= json_object_set_new(sources, "blade_count", json_string(design->blade_count_source)) != 0;
+  failed |= json_object_set_new(root, "splitter_count",
+                                json_integer(design->splitter_start > 0 ? design->blade_count : 0)) != 0;
   failed |= json_object_set_new(root, "priority", json_string(priorities[design->priority])) != 0;
-#define PUT(member, kind, text)                                                                              \
-  snprintf(key, sizeof key, "%s%s", #member, json_unit[kind].suffix);                                        \
-  failed |= json_object_set_new(root, key, cw_json_number(design->member * json_unit[kind].scale)) != 0;     \
-  failed |= json_object_set_new(sources, key, json_string(design->source[CW_DESIGN_##member])) != 0;
-  CW_DESIGN_LIST(PUT)
-#undef PUT
+  failed |= json_object_set_new(root, "correlation_family",
+                                json_string(cw_correlations_name(design->correlations))) != 0;
+  failed |= json_object_set_new(root, "slip_model",
+                                json_string(design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner")) != 0;
+  failed |= json_object_set_new(
+                root, "rotation",
+                json_string(design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise")) != 0;
+  failed |= json_object_set_new(
+                root, "blade_form",
+                json_string(design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted")) != 0;
+  failed |= json_object_set_new(root, "trailing_edge", json_string(edges[design->trailing_edge])) != 0;
+  for (int i = 0; i < CW_DESIGN_COUNT; i++) {
+    const CwDesignValue value = cw_hydraulic_design_value(design, i);
+    failed |= json_object_set_new(root, value.key, cw_json_number(value.stored)) != 0;
+    failed |= json_object_set_new(sources, value.key, json_string(design->source[i])) != 0;
+  }
   failed |= json_object_set_new(root, "rotor_volume_m3", cw_json_number(measured->rotor.volume)) != 0;
   failed |= json_object_set_new(root, "stator_volume_m3", cw_json_number(measured->stator.volume)) != 0;
   failed |= json_object_set_new(root, "measured", cw_measured_json(measured)) != 0;
+  failed |= json_object_set_new(root, "velocity_triangles", triangles_json(design)) != 0;
+  failed |= json_object_set_new(root, "correlations", correlations_json(design)) != 0;
+  failed |= json_object_set_new(root, "remarks", remarks_json(design)) != 0;
   failed |= json_object_set(root, "sources", sources) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "%s: out of memory", path);
   CW_TRY(cw_json_write(root, path));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Correlations: Gulich, Centrifugal Pumps; Guan, Modern Pumps Theory and Design; Wiesner 1967 in Gulich's
-// form.
 #include "geometry/hydraulic_design.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #include "geometry/blade.h"
+#include "geometry/correlations.h"
 #include "geometry/meridian.h"
+#include "geometry/velocity_triangles.h"
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
@@ -36,41 +36,83 @@ static double standard_bore(double flow_rate, double least) {
   return bore[count - 1];
 }
 
-static void main_dimensions(const CwCase *table, CwDesign *design) {
-  const CwImpellerTable *given = &table->impeller;
-  const double q = design->flow_rate, h = design->head, omega = design->angular_speed;
-  const double rpm = omega * 30 / M_PI, guan_size = cbrt(q / rpm);
+// The family's value of a quantity with the design so far.
+#define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
+
+static void specific_speeds(const CwCase *table, CwDesign *design) {
+  const double q = design->flow_rate, h = design->head, omega = design->angular_speed, rpm = omega * 30 / M_PI;
+  const char *source;
+  double value;
   SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75, rpm, m3/s, m");
-  const double nq = design->specific_speed_nq;
-  SET(specific_speed_ns, 3.65 * nq, "3.65 nq");
-  const double psi = 1.21 * exp(-0.77 * nq / 100);
-  TAKE(outlet_diameter, given->outlet_diameter, 2 / omega * sqrt(2 * gravity * h / psi),
-       "Gulich: psi = 1.21 exp(-0.77 nq/100)");
-  const double d2 = design->outlet_diameter;
-  TAKE(outlet_width, given->outlet_width, 0.64 * pow(design->specific_speed_ns / 100, 5.0 / 6) * guan_size,
-       "Guan: 0.64 (ns/100)^(5/6) (Q/n)^(1/3)");
-  TAKE(hub_diameter, given->hub_diameter, 0.12 * d2, "stiffness: 0.12 D2");
-  SET(impeller_tip_speed, omega * d2 / 2, "omega D2 / 2");
-  SET(head_coefficient, 2 * gravity * h / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
-  const double hub_ratio = design->hub_diameter / d2;
-  TAKE(inlet_diameter, given->inlet_diameter,
-       d2 * 1.16 * sqrt(hub_ratio * hub_ratio + 1.5e-3 * design->head_coefficient * pow(nq, 1.33)),
-       "Gulich: d1* = 1.16 (dn*^2 + 1.5e-3 psi nq^1.33)^0.5");
-  SET(nut_disk_radius, 0.145 * design->hub_diameter, "0.145 hub diameter");
-  SET(nut_length, 7.0 / 12 * design->hub_diameter, "7/12 hub diameter");
-  SET(axial_length, (d2 - design->inlet_diameter) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
+  SET(specific_speed_ns, 3.65 * design->specific_speed_nq, "3.65 nq");
+  SET(specific_speed_us, rpm * sqrt(q * 60e12 / 3785411784.0) / pow(h / 0.3048, 0.75), "n Q^0.5 / H^0.75");
+  SET(type_number, omega * sqrt(q) / pow(gravity * h, 0.75), "omega Q^0.5 / (g H)^0.75, ISO 2548");
+  value = CORRELATED(CW_CORRELATED_EFFICIENCY);
+  SET(efficiency, fmin(0.95, fmax(0.1, value)), source);
+  value = CORRELATED(CW_CORRELATED_HYDRAULIC_EFFICIENCY);
+  SET(hydraulic_efficiency, fmin(0.96, fmax(0.3, value)), source);
+  SET(shaft_power, table->fluid.density * gravity * q * h / design->efficiency, "rho g Q H / efficiency");
+  value = CORRELATED(CW_CORRELATED_SHAFT_DIAMETER);
+  SET(shaft_diameter, value, source);
+}
+
+// Radius of the leading edge over that of the eye, hub and shroud: outside the eye at low specific speed, and drawn
+// into it above nq = 25, where the wheel turns mixed-flow and the blades would else become too short.
+static void leading_edge_shares(double nq, double share[2]) {
+  const double f = fmin(1, fmax(0, (nq - 25) / 35));
+  share[0] = 0.568 - 0.248 * f;
+  share[1] = 0.635 - 0.105 * f;
+}
+
+static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
+  const CwImpellerTable *given = &table->impeller;
+  const char *source;
+  double value = CORRELATED(CW_CORRELATED_OUTLET_DIAMETER);
+  TAKE(outlet_diameter, given->outlet_diameter, value, source);
+  if (cw_case_given(outlet_diameter))
+    SET(outlet_diameter, outlet_diameter, "meets the head with the outlet blade angle");
+  const double d2 = design->outlet_diameter, nq = design->specific_speed_nq;
+  value = CORRELATED(CW_CORRELATED_HUB_DIAMETER);
+  TAKE(hub_diameter, given->hub_diameter, value, source);
+  value = CORRELATED(CW_CORRELATED_OUTLET_WIDTH);
+  TAKE(outlet_width, given->outlet_width, value, source);
+  SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
+  SET(head_coefficient, 2 * gravity * design->head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
+  value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
+  TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
-  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, 0.568 * d1, "0.568 D1");
-  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, 0.635 * d1, "0.635 D1");
-  TAKE(blade_thickness, given->blade_thickness, 0.020 * d2, "Gulich: 0.016 to 0.022 D2");
+  SET(axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
+  TAKE(nut_length, given->nut_length, 7.0 / 12 * design->hub_diameter, "7/12 hub diameter");
+  TAKE(nut_disk_radius, given->nut_flat_diameter / 2, 0.145 * design->hub_diameter, "0.145 hub diameter");
+  double share[2];
+  leading_edge_shares(nq, share);
+  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, fmax(share[0] * d1, 0.56 * design->hub_diameter),
+       nq > 25 ? "0.568 D1 to 0.32 D1 at nq 60" : "0.568 D1");
+  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share[1] * d1,
+       nq > 25 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
+  value = CORRELATED(CW_CORRELATED_BLADE_COUNT);
+  design->blade_count = given->blade_count ? given->blade_count : (int)value;
+  design->blade_count_source = given->blade_count ? "case" : source;
+  value = CORRELATED(CW_CORRELATED_BLADE_THICKNESS);
+  TAKE(blade_thickness, given->blade_thickness, value, source);
   TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness,
        "0.70 of the largest");
   TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness,
        "0.50 of the largest");
-  TAKE(suction_pipe_length, given->suction_pipe_length, d1 / 3, "D1 / 3");
-  TAKE(base_diameter, table->volute.base_diameter, 1.02 * d2, "1.02 D2");
-  TAKE(inlet_width, table->volute.inlet_width, 1.5 * design->outlet_width, "1.5 b2");
+  TAKE(suction_pipe_length, given->suction_pipe_length, fmax(d1 / 3, 1.2 * design->nut_length - 0.5625 * design->axial_length),
+       "D1 / 3, past the nut");
+  value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
+  TAKE(base_diameter, table->volute.base_diameter, value, source);
+  value = CORRELATED(CW_CORRELATED_INLET_WIDTH);
+  TAKE(inlet_width, table->volute.inlet_width, value, source);
+  const int splitters = cw_case_given(given->splitter_start);
+  SET(splitter_start, splitters ? given->splitter_start : 0, splitters ? "case" : "none");
+  SET(splitter_position, given->splitter_position, "case or its default");
+  SET(leading_edge_ratio, given->leading_edge_ratio, "case or its default");
+  SET(thickest_at, given->thickest_at, "case or its default");
+  SET(lean_angle, given->lean_angle, "case or its default");
   TAKE(wrap_angle, given->wrap_angle, 1.2 * 2 * M_PI / design->blade_count, "overlap 1.2");
+  SET(wrap_spread, 0, "none");
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
 }
 
@@ -91,15 +133,19 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   SET(inlet_meridional_speed, cm, "Q / area");
   // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
   // The flow angle with blockage needs the blade angle and that the flow angle: a few rounds.
-  const int wrapped = table->impeller.priority == CW_PRIORITY_WRAP;
+  const int wrapped = design->priority == CW_PRIORITY_WRAP;
   const double spiral = wrapped ? spiral_angle(meridian, design->wrap_angle) : 0;
-  const char *source = "flow angle + 4 deg";
+  const char *source, *incidence_source;
+  const double usual = CORRELATED(CW_CORRELATED_INCIDENCE), asked = table->impeller.incidence;
+  const double incidence = cw_case_given(asked) ? asked : usual;
+  incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
+  source = incidence_source;
   double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
-    tau = 1 / (1 - z * design->leading_edge_thickness / (2 * M_PI * r * sin(beta)));
+    tau = cw_blockage(z, design->leading_edge_thickness, r, beta);
     flow = atan2(cm * tau, u);
     if (!cw_case_given(given))
-      beta = flow + 4 * degree;
+      beta = fmax(flow + incidence, 13 * degree);
     if (!cw_case_given(given) && wrapped)
       beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
   }
@@ -114,61 +160,36 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   SET(inlet_relative_speed, hypot(u, cm * tau), "inlet triangle");
 }
 
-// Outlet triangle and head for the outlet blade angle of the design.
-static void outlet_triangle(CwDesign *design) {
-  const double beta = design->outlet_blade_angle, z = design->blade_count, d2 = design->outlet_diameter;
-  const double u2 = design->impeller_tip_speed, limit = exp(-8.16 * sin(beta) / z);
-  const double ratio = (design->leading_edge_radius_hub + design->leading_edge_radius_shroud) / d2;
-  const double excess = fmax(0, (ratio - limit) / (1 - limit)), kw = 1 - excess * excess * excess;
-  SET(slip_factor, 0.98 * (1 - sqrt(sin(beta)) / pow(z, 0.7)) * kw, "Wiesner in Gulich's form, f1 = 0.98");
-  SET(outlet_meridional_speed, design->flow_rate / (M_PI * d2 * design->outlet_width), "Q / (pi D2 b2)");
-  SET(outlet_blockage, 1 / (1 - z * design->trailing_edge_thickness / (M_PI * d2 * sin(beta))),
-      "1 / (1 - z e / (pi D2 sin beta2))");
-  const double cm = design->outlet_meridional_speed;
-  const double cu = design->slip_factor * u2 - cm * design->outlet_blockage / tan(beta);
-  SET(outlet_swirl_speed, cu, "gamma u2 - tau2 c_m2 / tan beta2");
-  SET(outlet_absolute_speed, hypot(cu, cm), "outlet triangle");
-  SET(outlet_relative_speed, hypot(u2 - cu, cm), "outlet triangle");
-  SET(outlet_flow_angle, atan2(cm, u2 - cu), "outlet triangle");
-  SET(outlet_absolute_angle, atan2(cm, cu), "outlet triangle");
-  SET(diffusion_ratio, design->outlet_relative_speed / design->inlet_relative_speed, "w2 / w1");
-  SET(hydraulic_efficiency, 1 + 0.0835 * log10(cbrt(design->flow_rate / (design->angular_speed * 30 / M_PI))),
-      "Guan: 1 + 0.0835 lg (Q/n)^(1/3)");
-  SET(theoretical_head, u2 * cu / gravity, "Euler: u2 c_u2 / g");
-  SET(predicted_head, design->hydraulic_efficiency * design->theoretical_head, "eta_h u2 c_u2 / g");
-  SET(head_residual, design->predicted_head - design->head, "predicted - asked");
-}
-
 // Wrap of the straight law beta1 to beta2 at mid-span.
 static double straight_wrap(const CwMeridian *meridian, double beta1, double beta2) {
   const double beta[3] = {beta1, 0.5 * (beta1 + beta2), beta2};
   return cw_blade_wrap(meridian, 0.5, beta);
 }
 
-static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, CwDesign *design) {
+// Range of a computed beta2 where D2 is open, and so can meet the head instead.
+static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
+
+// Sets beta2 and the wrap by the priority. `fixed`: the outlet blade angle where D2 meets the head, or NAN.
+static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
   CwStatus status = CW_OK;
   const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
   const double table_wrap = table->impeller.wrap_angle, least = 12 * degree, largest = 60 * degree;
   double low = least, high = largest;
-  if (table->impeller.priority == CW_PRIORITY_BETA) {
+  if (design->priority == CW_PRIORITY_BETA) {
     TAKE(outlet_blade_angle, given, 25 * degree, "25 deg: middle of the usual 18 to 32");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle),
         "straight law beta1 to beta2");
-  } else if (table->impeller.priority == CW_PRIORITY_HEAD) {
+  } else if (design->priority == CW_PRIORITY_HEAD) {
     for (int i = 0; i < 60; i++) {
       design->outlet_blade_angle = 0.5 * (low + high);
-      outlet_triangle(design);
+      cw_outlet_triangle(meridian, design);
       if (design->predicted_head < design->head)
         low = design->outlet_blade_angle;
       else
         high = design->outlet_blade_angle;
     }
-    CW_REQUIRE(
-        fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
-        "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
-        "change D2, b2 or the priority",
-        design->head, design->predicted_head);
-    SET(outlet_blade_angle, 0.5 * (low + high), "solved for the head");
+    SET(outlet_blade_angle, cw_case_given(fixed) ? fixed : 0.5 * (low + high),
+        cw_case_given(fixed) ? "limit of the usual 18 to 32 deg; D2 meets the head" : "solved for the head");
     SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle),
         "straight law beta1 to beta2");
   } else {
@@ -183,23 +204,91 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, Cw
     TAKE(outlet_blade_angle, given, solved, "straight law beta1 to beta2 closes the wrap");
     CW_REQUIRE(cw_case_given(given) || (solved > least + 1e-6 && solved < largest - 1e-6), CW_ERR_DESIGN,
                "a wrap of %.2f deg with beta1 = %.2f deg asks for an outlet blade angle outside 12 to 60 "
-               "deg: change "
-               "the wrap, beta1 or the leading edge radii",
+               "deg: change wrap_angle_deg, inlet_blade_angle_deg or the leading edge radii",
                design->wrap_angle / degree, beta1 / degree);
   }
   SET(wrap_residual, cw_case_given(table_wrap) ? design->wrap_angle - table_wrap : 0, "wrap - table's wrap");
+  SET(outlet_angle_residual, cw_case_given(given) ? design->outlet_blade_angle - given : 0,
+      "beta2 - table's beta2");
   SET(overlap, design->blade_count * design->wrap_angle / (2 * M_PI), "z wrap / 360 deg");
-  outlet_triangle(design);
+  cw_outlet_triangle(meridian, design);
 done:
   return status;
 }
 
-static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
+// Everything up to the predicted head, with the given outlet diameter and outlet blade angle or NAN for each.
+static CwStatus impeller(const CwCase *table, double outlet_diameter, double fixed, CwMeridian *meridian,
+                         CwDesign *design) {
+  CwStatus status = CW_OK;
+  main_dimensions(table, outlet_diameter, design);
+  CW_REQUIRE(design->blade_count * design->leading_edge_thickness < 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
+             CW_ERR_DESIGN, "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
+             design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
+  CW_TRY(cw_meridian_make(design, meridian));
+  inlet_triangle(table, meridian, design);
+  CW_TRY(outlet_angle(table, meridian, fixed, design));
+done:
+  return status;
+}
+
+// Solves an open D2 for the head, from the correlation's value on. A design by the head keeps the correlation's D2
+// where the outlet blade angle that it wants is a usual one.
+static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
+  CwStatus status = CW_OK;
+  double fixed = NAN;
+  CW_TRY(impeller(table, NAN, NAN, meridian, design));
+  if (design->priority == CW_PRIORITY_HEAD) {
+    if (fabs(design->head_residual) < 1e-6 * design->head && design->outlet_blade_angle >= usual_beta[0] &&
+        design->outlet_blade_angle <= usual_beta[1])
+      goto done;
+    fixed = fmin(usual_beta[1], fmax(usual_beta[0], design->outlet_blade_angle));
+  }
+  double low = 0.7 * design->outlet_diameter, high = 1.5 * design->outlet_diameter;
+  for (int i = 0; i < 50; i++) {
+    const double middle = 0.5 * (low + high);
+    CW_TRY(impeller(table, middle, fixed, meridian, design));
+    *(design->predicted_head < design->head ? &low : &high) = middle;
+  }
+  CW_REQUIRE(fabs(design->head_residual) < 1e-6 * design->head, CW_ERR_DESIGN,
+             "no outlet diameter from 0.7 to 1.5 times the correlation's meets the head of %.3f m with beta2 = %.2f deg "
+             "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
+             design->head, design->outlet_blade_angle / degree, design->predicted_head,
+             design->outlet_diameter * 1e3);
+done:
+  return status;
+}
+
+// The least difference of the wraps at shroud and hub with which all sections have a law within the allowed angles and
+// blades stand on hub and shroud at 70 degrees or more; where there is none, the one with the steepest blades.
+static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *meridian, CwDesign *design) {
+  CwBladeSection section;
+  const double step = 3 * degree, enough = 70 * degree;
+  double best = -1, best_spread = 0;
+  TAKE(wrap_spread, given->wrap_spread, 0, "none needed");
+  if (cw_case_given(given->wrap_spread) || design->blade_form != CW_BLADE_TWISTED)
+    return;
+  for (int i = 0; i <= 40; i++) {
+    double angle = 0;
+    design->wrap_spread = (i % 2 ? 1 : -1) * ((i + 1) / 2) * step;
+    int fits = 1;
+    for (int j = 1; fits && j < 4; j++)
+      fits = cw_blade_section(design, meridian, 0.25 * j, &section) == CW_OK;
+    fits = fits && cw_blade_wall_angle(design, meridian, &angle) == CW_OK;
+    cw_fail_clear();
+    if (!fits || angle <= best)
+      continue;
+    best = angle;
+    best_spread = design->wrap_spread;
+    if (angle > enough)
+      break;
+  }
+  SET(wrap_spread, best_spread, best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
+}
+
+// The volute with the design's b3, side walls and tongue.
+static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
-  SET(swirl_constant, design->outlet_swirl_speed * r2, "c_u2 r2");
-  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
-  TAKE(tongue_radius, given->tongue_radius, 0.0075 * design->outlet_diameter, "0.0075 D2: casting");
   // A plain trapezoid is near enough to see how wide the throat will be.
   const double height = cw_volute_trapezoid_height(r3, design->inlet_width, design->side_wall_angle,
                                                    design->flow_rate / design->swirl_constant);
@@ -228,6 +317,38 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
       .discharge_pipe_length = design->discharge_pipe_length,
   };
   CW_TRY(cw_volute_design(&input, &design->volute));
+done:
+  return status;
+}
+
+// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side walls, which
+// else would make the spiral too tall, at low specific speed the tongue's radius, which is too large for its throat.
+static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
+            tongue_open = !cw_case_given(given->tongue_radius);
+  const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
+  const double tongue = 0.0075 * design->outlet_diameter;
+  SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
+  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
+  TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
+  status = volute_of(given, design);
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && tongue_open; i++) {
+    cw_fail_clear();
+    SET(tongue_radius, tongue * pow(0.75, i), "0.0075 D2, reduced for the small throat");
+    status = volute_of(given, design);
+  }
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 12 && (width_open || side_open); i++) {
+    cw_fail_clear();
+    if (tongue_open)
+      SET(tongue_radius, tongue, "0.0075 D2: casting");
+    if (width_open)
+      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
+    if (side_open)
+      SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
+    status = volute_of(given, design);
+  }
+  CW_TRY(status);
   TAKE(throat_area, given->throat_area, design->volute.throat_area, "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
   SET(tongue_tip_radius, design->volute.tip_radius,
@@ -240,20 +361,62 @@ done:
   return status;
 }
 
+static CwPriority resolved_priority(const CwImpellerTable *given) {
+  if (given->priority != CW_PRIORITY_AUTO)
+    return given->priority;
+  return cw_case_given(given->wrap_angle)           ? CW_PRIORITY_WRAP
+         : cw_case_given(given->outlet_blade_angle) ? CW_PRIORITY_BETA
+                                                    : CW_PRIORITY_HEAD;
+}
+
+static void passage(const CwMeridian *meridian, CwDesign *design) {
+  double a[2], b[2], dx[2], length = 0, least = HUGE_VAL;
+  enum { STEPS = 100 };
+  for (int i = 0; i <= STEPS; i++) {
+    cw_meridian_blade_point(meridian, 0.5, (double)i / STEPS, a, dx);
+    length += hypot(dx[0], dx[1]) * (i == 0 || i == STEPS ? 0.5 : 1) / STEPS;
+    least = fmin(least, cw_meridian_area(meridian, (double)i / STEPS));
+  }
+  cw_meridian_blade_point(meridian, 0, 0, a, NULL);
+  cw_meridian_blade_point(meridian, 1, 0, b, NULL);
+  SET(meridional_length, length, "meridian");
+  SET(inlet_passage_width, hypot(a[0] - b[0], a[1] - b[1]), "meridian");
+  SET(passage_area_inlet, cw_meridian_area(meridian, 0), "meridian");
+  SET(passage_area_least, least, "meridian");
+  SET(passage_area_outlet, cw_meridian_area(meridian, 1), "meridian");
+  SET(shroud_bend_radius, cw_meridian_bend_radius(&meridian->shroud), "meridian");
+}
+
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   CwStatus status = CW_OK;
   CwMeridian meridian;
-  *design = (CwDesign){.blade_count = table->impeller.blade_count, .priority = table->impeller.priority};
+  *design = (CwDesign){.priority = resolved_priority(&table->impeller),
+                       .correlations = table->design.correlations,
+                       .slip = table->design.slip,
+                       .rotation = table->impeller.rotation,
+                       .blade_form = table->impeller.blade_form,
+                       .trailing_edge = table->impeller.trailing_edge,
+                       .warn_share = table->design.warn_share,
+                       .density = table->fluid.density};
   SET(flow_rate, table->operating_point.flow_rate, "case");
   SET(head, table->operating_point.head, "case");
   SET(angular_speed, table->operating_point.speed, "case");
-  main_dimensions(table, design);
-  CW_TRY(cw_meridian_make(design, &meridian));
-  inlet_triangle(table, &meridian, design);
-  CW_TRY(outlet_angle(table, &meridian, design));
+  specific_speeds(table, design);
+  if (cw_case_given(table->impeller.outlet_diameter))
+    CW_TRY(impeller(table, NAN, NAN, &meridian, design));
+  else
+    CW_TRY(solve_outlet_diameter(table, &meridian, design));
+  CW_REQUIRE(design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
+             "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
+             "change outlet_diameter_mm, outlet_width_mm or the priority",
+             design->head, design->predicted_head);
+  choose_wrap_spread(&table->impeller, &meridian, design);
+  passage(&meridian, design);
+  CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,
-       cw_blade_balanced_bevel(design->trailing_edge_thickness, design->outlet_blade_angle),
-       "as long as the rest of the trailing edge");
+       cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness, design->outlet_blade_angle),
+       design->trailing_edge == CW_EDGE_SHARP ? "leg along the blade twice the cut"
+                                              : "as long as the rest of the trailing edge");
   CW_TRY(volute(&table->volute, design));
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   SET(relative_speed, 0.5 * (design->inlet_relative_speed + design->outlet_relative_speed), "(w1 + w2) / 2");
@@ -266,33 +429,46 @@ done:
   return status;
 }
 
-// How each kind of quantity is printed.
-enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY };
+// How each kind of quantity is shown, and stored in design.json.
+enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY, POWER };
 static const struct {
-  double scale;
+  double shown;
   const char *unit;
-} print_unit[] = {
-    [NUMBER] = {1, ""},
-    [LENGTH] = {1e3, "mm"},
-    [HEAD] = {1, "m"},
-    [ANGLE] = {180 / M_PI, "deg"},
-    [SPEED] = {1, "m/s"},
-    [FLOW] = {3600, "m3/h"},
-    [ANGULAR_SPEED] = {30 / M_PI, "rpm"},
-    [AREA] = {1e6, "mm2"},
-    [DIFFUSIVITY] = {1, "m2/s"},
+  double stored;
+  const char *suffix;
+} units[] = {
+    [NUMBER] = {1, "", 1, ""},
+    [LENGTH] = {1e3, "mm", 1, "_m"},
+    [HEAD] = {1, "m", 1, "_m"},
+    [ANGLE] = {180 / M_PI, "deg", 180 / M_PI, "_deg"},
+    [SPEED] = {1, "m/s", 1, "_m_per_s"},
+    [FLOW] = {3600, "m3/h", 1, "_m3_per_s"},
+    [ANGULAR_SPEED] = {30 / M_PI, "rpm", 1, "_rad_per_s"},
+    [AREA] = {1e6, "mm2", 1, "_m2"},
+    [DIFFUSIVITY] = {1, "m2/s", 1, "_m2_per_s"},
+    [POWER] = {1e-3, "kW", 1, "_w"},
 };
 
-void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size) {
-  switch (quantity) {
-#define ROW(member, kind, text)                                                                              \
-  case CW_DESIGN_##member:                                                                                   \
-    snprintf(line, size, "%-52s %10.5g %-5s %s", text, design->member *print_unit[kind].scale,               \
-             print_unit[kind].unit, design->source[quantity]);                                               \
-    break;
-    CW_DESIGN_LIST(ROW)
+CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity quantity) {
+#define ROW(member, kind, text) {#member, text, kind},
+  static const struct {
+    const char *member, *text;
+    int kind;
+  } rows[] = {CW_DESIGN_LIST(ROW)};
 #undef ROW
-  default:
-    snprintf(line, size, "?");
-  }
+#define VALUE(member, kind, text) design->member,
+  const double values[] = {CW_DESIGN_LIST(VALUE)};
+#undef VALUE
+  const int kind = rows[quantity].kind;
+  CwDesignValue value = {.text = rows[quantity].text,
+                         .unit = units[kind].unit,
+                         .shown = values[quantity] * units[kind].shown,
+                         .stored = values[quantity] * units[kind].stored};
+  snprintf(value.key, sizeof value.key, "%s%s", rows[quantity].member, units[kind].suffix);
+  return value;
+}
+
+void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size) {
+  const CwDesignValue value = cw_hydraulic_design_value(design, quantity);
+  snprintf(line, size, "%-52s %10.5g %-5s %s", value.text, value.shown, value.unit, design->source[quantity]);
 }

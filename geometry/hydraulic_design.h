@@ -2,8 +2,9 @@
 // The hydraulic design: from the case's table to every dimension of the pump. What the table leaves open
 // (NAN) is computed by a named correlation; what it gives is taken as it is. SI units: m, rad, s, kg.
 //
-// Table 3 of the paper is over-determined: wrap angle, outlet blade angle and head do not fit one another.
-// The case's priority says which is the law; the others are predicted, and their residuals reported.
+// A table may be over-determined: wrap angle, outlet blade angle and head need not fit one another. The case's
+// priority says which is the law; the others are predicted, and their residuals reported. Where D2 is open it is
+// solved so that the predicted head is the one asked.
 #ifndef CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 #define CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 
@@ -25,6 +26,11 @@ extern "C" {
   X(angular_speed, ANGULAR_SPEED, "angular speed")                                                           \
   X(specific_speed_nq, NUMBER, "specific speed nq = n Q^0.5 / H^0.75")                                       \
   X(specific_speed_ns, NUMBER, "specific speed ns = 3.65 nq")                                                \
+  X(specific_speed_us, NUMBER, "specific speed Ns, US: rpm, gal/min, ft")                                    \
+  X(type_number, NUMBER, "type number omega Q^0.5 / (g H)^0.75")                                             \
+  X(efficiency, NUMBER, "overall efficiency")                                                                \
+  X(shaft_power, POWER, "shaft power")                                                                       \
+  X(shaft_diameter, LENGTH, "shaft, least diameter by torsion")                                              \
   X(head_coefficient, NUMBER, "head coefficient psi = 2 g H / u2^2")                                         \
   X(inlet_diameter, LENGTH, "impeller inlet D1")                                                             \
   X(outlet_diameter, LENGTH, "impeller outlet D2")                                                           \
@@ -35,15 +41,28 @@ extern "C" {
   X(axial_length, LENGTH, "shroud, axial length from eye to outlet")                                         \
   X(leading_edge_radius_hub, LENGTH, "leading edge at the hub, radius")                                      \
   X(leading_edge_radius_shroud, LENGTH, "leading edge at the shroud, radius")                                \
+  X(meridional_length, LENGTH, "blade length in the meridian, mid-span")                                     \
+  X(inlet_passage_width, LENGTH, "passage width b1 at the leading edge")                                     \
+  X(shroud_bend_radius, LENGTH, "shroud, least bend radius in the meridian")                                 \
+  X(passage_area_inlet, AREA, "passage area at the leading edge, no blades")                                 \
+  X(passage_area_least, AREA, "passage area, least")                                                         \
+  X(passage_area_outlet, AREA, "passage area at the trailing edge")                                          \
   X(inlet_blade_angle, ANGLE, "blade angle beta1 at mid-span")                                               \
   X(outlet_blade_angle, ANGLE, "blade angle beta2")                                                          \
   X(wrap_angle, ANGLE, "wrap angle at mid-span")                                                             \
   X(wrap_residual, ANGLE, "wrap angle minus the table's")                                                    \
+  X(wrap_spread, ANGLE, "wrap at the shroud minus wrap at the hub")                                          \
+  X(outlet_angle_residual, ANGLE, "beta2 minus the table's")                                                 \
   X(overlap, NUMBER, "overlap z wrap / 360 deg")                                                             \
   X(leading_edge_thickness, LENGTH, "blade thickness at the leading edge")                                   \
   X(blade_thickness, LENGTH, "blade thickness, largest")                                                     \
   X(trailing_edge_thickness, LENGTH, "blade thickness at the trailing edge")                                 \
   X(trailing_edge_bevel, LENGTH, "bevel of the trailing edge, facet length")                                 \
+  X(leading_edge_ratio, NUMBER, "leading edge ellipse, along to across")                                     \
+  X(thickest_at, NUMBER, "blade thickest at this share of its length")                                       \
+  X(lean_angle, ANGLE, "lean of the trailing edge")                                                          \
+  X(splitter_start, NUMBER, "splitters begin at this share (0: none)")                                       \
+  X(splitter_position, NUMBER, "splitters at this share of the pitch")                                       \
   X(suction_pipe_length, LENGTH, "suction pipe, length")                                                     \
   X(interface_radius, LENGTH, "rotor/stator interface, radius (D2 + D3) / 4")                                \
   X(impeller_tip_speed, SPEED, "u2")                                                                         \
@@ -55,7 +74,9 @@ extern "C" {
   X(incidence, ANGLE, "incidence: beta1 minus flow angle")                                                   \
   X(outlet_meridional_speed, SPEED, "c_m2 after the blades")                                                 \
   X(outlet_blockage, NUMBER, "blade blockage tau2 at the outlet")                                            \
-  X(slip_factor, NUMBER, "slip factor gamma (Wiesner)")                                                      \
+  X(slip_factor, NUMBER, "slip factor gamma, used")                                                          \
+  X(slip_factor_wiesner, NUMBER, "slip factor gamma by Wiesner")                                             \
+  X(slip_factor_pfleiderer, NUMBER, "slip factor gamma by Pfleiderer")                                       \
   X(outlet_swirl_speed, SPEED, "c_u2")                                                                       \
   X(outlet_absolute_speed, SPEED, "c_2")                                                                     \
   X(outlet_relative_speed, SPEED, "w_2")                                                                     \
@@ -66,6 +87,15 @@ extern "C" {
   X(theoretical_head, HEAD, "theoretical head u2 c_u2 / g")                                                  \
   X(predicted_head, HEAD, "predicted head")                                                                  \
   X(head_residual, HEAD, "predicted minus asked head")                                                       \
+  X(predicted_head_wiesner, HEAD, "predicted head with Wiesner's slip")                                      \
+  X(predicted_head_pfleiderer, HEAD, "predicted head with Pfleiderer's slip")                                \
+  X(inlet_throat_width, LENGTH, "throat between the blades at the inlet, width")                             \
+  X(inlet_throat_area, AREA, "throat at the inlet, all passages")                                            \
+  X(inlet_throat_ratio, NUMBER, "w in the inlet throat / w1")                                                \
+  X(outlet_throat_width, LENGTH, "throat between the blades at the outlet, width")                           \
+  X(npsh_required, HEAD, "NPSH3 estimated")                                                                  \
+  X(npsh_available, HEAD, "NPSH at the inlet pressure, cold water")                                          \
+  X(suction_specific_speed, NUMBER, "suction specific speed nss = n Q^0.5 / NPSH3^0.75")                     \
   X(base_diameter, LENGTH, "volute base circle D3")                                                          \
   X(inlet_width, LENGTH, "volute inlet width b3")                                                            \
   X(side_wall_angle, ANGLE, "volute side walls, half angle")                                                 \
@@ -87,20 +117,46 @@ extern "C" {
 typedef enum { CW_DESIGN_LIST(CW_DESIGN_ENUM) CW_DESIGN_COUNT } CwDesignQuantity;
 #undef CW_DESIGN_ENUM
 
+// A velocity triangle, m/s and rad. The blade's angle and the flow's are from the tangential direction.
+typedef struct {
+  double radius, u, c_m, c_u, w, c;
+  double flow_angle, blade_angle; // of w; of the blade
+} CwTriangle;
+
+enum { CW_TRIANGLE_SPANS = 3 }; // hub, mid-span, shroud
+
 #define CW_DESIGN_MEMBER(member, kind, text) double member;
 typedef struct {
   int blade_count;
-  CwPriority priority;
+  const char *blade_count_source;
+  CwPriority priority; // never CW_PRIORITY_AUTO
+  CwCorrelations correlations;
+  CwSlip slip;
+  CwRotation rotation;
+  CwBladeForm blade_form;
+  CwTrailingEdge trailing_edge;
+  double warn_share, density;
   CW_DESIGN_LIST(CW_DESIGN_MEMBER)
+  CwTriangle inlet_triangle[CW_TRIANGLE_SPANS];  // with blockage, without swirl
+  CwTriangle outlet_triangle[CW_TRIANGLE_SPANS]; // behind the blades, with slip
   CwVolute volute; // the casing, for cw_stator_build()
-  const char
-      *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
+  const char *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
 } CwDesign;
 #undef CW_DESIGN_MEMBER
 
 // Computes the design of a case. Fails with CW_ERR_DESIGN where it has no solution (for instance blade angles
 // outside 12 to 60 degrees), with the value and the allowed range.
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design);
+
+// One quantity as it is shown and stored.
+typedef struct {
+  const char *text, *unit; // as people read it, with its unit
+  double shown;            // in that unit
+  char key[64];
+  double stored;           // in the key's unit
+} CwDesignValue;
+
+CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity quantity);
 
 // One line for a person: what the quantity is, its value with a unit, and where it comes from.
 void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size);

@@ -28,7 +28,7 @@ static const double degree = M_PI / 180;
 
 static void show_design(const CwDesign *design) {
   char line[200];
-  cw_log("%-52s %10d       case", "blade number z", design->blade_count);
+  cw_log("%-52s %10d       %s", "blade number z", design->blade_count, design->blade_count_source);
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     cw_hydraulic_design_row(design, i, line, sizeof line);
     cw_log("%s", line);
@@ -98,6 +98,8 @@ static CwStatus build(const CwDesign *design, CwRecord *record, CwSolid *solid[2
   CW_TRY(cw_record_step(record, "rotor", cw_seconds() - begin, cw_solid_face_count(solid[0]), "faces"));
   begin = cw_seconds();
   CW_TRY(cw_stator_build(&design->volute, &solid[1]));
+  for (int i = 0; i < 2 && design->rotation == CW_ROTATION_CLOCKWISE; i++)
+    CW_TRY(cw_solid_mirror(solid[i]));
   CW_TRY(cw_record_step(record, "stator", cw_seconds() - begin, cw_solid_face_count(solid[1]), "faces"));
   begin = cw_seconds();
   CW_TRY(cw_measure_solid(solid[0], &measured->rotor));

@@ -46,6 +46,13 @@ const CwSolidFace &face_named(const CwSolid *solid, const std::string &name) {
   throw Standard_Failure(("no face named " + name).c_str());
 }
 
+bool has_face(const CwSolid *solid, const std::string &name) {
+  for (const CwSolidFace &face : solid->faces)
+    if (face.name == name)
+      return true;
+  return false;
+}
+
 // Normal out of the solid and the tangent of the edge with the face on its left, seen from outside.
 struct Side {
   gp_Vec normal, tangent;
@@ -202,9 +209,18 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     const gp_Pnt nose = mid_span(rotor, "blade_leading_edge_1", 0.5);
     const gp_Pnt pressure = mid_span(rotor, "blade_pressure_1", 1),
                  suction = mid_span(rotor, "blade_suction_1", 1);
-    measured->outlet_diameter = 2 * std::hypot(pressure.X(), pressure.Y()) * metre;
+    double outlet = std::hypot(pressure.X(), pressure.Y());
     const double thickness = angle_between(polar(suction), polar(pressure));
     measured->wrap_angle = angle_between(polar(suction) + thickness / 2, polar(nose));
+    // A rounded trailing edge goes on to its foremost point.
+    for (int i = 1; i < 100 && has_face(rotor, "blade_trailing_edge_1"); i++) {
+      const gp_Pnt tip = mid_span(rotor, "blade_trailing_edge_1", i / 100.0);
+      const double r = std::hypot(tip.X(), tip.Y());
+      if (r > outlet * (1 + 1e-6))
+        measured->wrap_angle = angle_between(polar(tip), polar(nose));
+      outlet = std::max(outlet, r);
+    }
+    measured->outlet_diameter = 2 * outlet * metre;
     measured->hub_crease.angle = measured->shroud_crease.angle = HUGE_VAL;
     measured->trailing_edge.angle = 0;
     for (const char *wall : {"hub", "shroud"}) {

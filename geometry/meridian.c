@@ -146,6 +146,22 @@ double cw_meridian_area(const CwMeridian *meridian, double q) {
   return M_PI * (h[0] + c[0]) * hypot(h[0] - c[0], h[1] - c[1]);
 }
 
+double cw_meridian_bend_radius(const CwMeridianCurve *curve) {
+  double least = HUGE_VAL;
+  for (int i = 1; i < CW_MERIDIAN_STEPS; i++) {
+    const double t = (double)i / CW_MERIDIAN_STEPS, u = 1 - t;
+    double x[2], dx[2], ddx[2];
+    cw_meridian_point(curve, t, x, dx);
+    for (int k = 0; k < 2; k++)
+      ddx[k] = 6 * (u * (curve->pole[2][k] - 2 * curve->pole[1][k] + curve->pole[0][k]) +
+                    t * (curve->pole[3][k] - 2 * curve->pole[2][k] + curve->pole[1][k]));
+    const double turn = fabs(dx[0] * ddx[1] - dx[1] * ddx[0]);
+    if (turn > 0)
+      least = fmin(least, pow(hypot(dx[0], dx[1]), 3) / turn);
+  }
+  return least;
+}
+
 // Integral of pi r^2 dz along a curve from t = 0 to t = 1 (exact: a polynomial of degree 8).
 static double curve_swept_volume(const CwMeridianCurve *curve) {
   double sum = 0;

@@ -57,6 +57,9 @@ void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, dou
 // Flow area of the passage at fraction q from the leading edge to the trailing edge, without blades, m2.
 double cw_meridian_area(const CwMeridian *meridian, double q);
 
+// The least bend radius of a curve between its ends, m.
+double cw_meridian_bend_radius(const CwMeridianCurve *curve);
+
 // Volume of the rotor's fluid without blades, m3: by integration of the section, exact to 1e-12.
 double cw_meridian_volume(const CwMeridian *meridian);
 

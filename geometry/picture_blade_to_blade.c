@@ -5,12 +5,15 @@
 #include "geometry/meridian.h"
 #include "geometry/picture.h"
 
-enum { SIDE = 120, NOSE = 24, OUTLINE = 2 * SIDE + NOSE + 3 };
+enum { SIDE = 120, NOSE = 24, OUTLINE = 2 * SIDE + 2 * NOSE + 4 };
 
-// The outline at mid-span from the bevel along the suction side round the nose to the pressure side; (r,
-// theta).
-static void outline(const CwMeridian *meridian, const CwBladeSection *section, double bevel, double (*x)[2]) {
-  const double begin = cw_blade_bevel_begin(section, bevel);
+// The outline at mid-span from the trailing edge along the suction side round the nose and back along the pressure side;
+// (r, theta).
+static void outline(const CwDesign *design, const CwBladeSection *section, double (*x)[2]) {
+  const CwTrailingEdge edge = design->trailing_edge;
+  const int faceted = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
+  const double begin =
+      faceted ? cw_blade_bevel_begin(section, edge, design->trailing_edge_bevel) : section->end;
   for (int i = 0; i < OUTLINE; i++) {
     CwBladePoint point;
     if (i <= SIDE)
@@ -19,11 +22,15 @@ static void outline(const CwMeridian *meridian, const CwBladeSection *section, d
       point = cw_blade_leading_edge(section, M_PI * ((double)(i - SIDE) / NOSE - 0.5));
     else if (i <= 2 * SIDE + NOSE + 1)
       point = cw_blade_side(section, CW_BLADE_PRESSURE,
-                            section->nose + (1 - section->nose) * (i - SIDE - NOSE - 1) / SIDE);
-    else
+                            section->nose + (section->end - section->nose) * (i - SIDE - NOSE - 1) / SIDE);
+    else if (edge == CW_EDGE_ROUNDED)
+      point = cw_blade_trailing_edge(section, M_PI * (0.5 - (double)(i - 2 * SIDE - NOSE - 2) / (NOSE + 1)));
+    else if (edge == CW_EDGE_BEVELLED)
       point = (CwBladePoint){1, cw_blade_bevel_theta(section, begin)};
+    else
+      point = cw_blade_side(section, edge == CW_EDGE_BLUNT ? CW_BLADE_SUCTION : CW_BLADE_PRESSURE, 1);
     double rz[2];
-    cw_meridian_blade_point(meridian, section->span, point.q, rz, NULL);
+    cw_meridian_blade_point(section->meridian, section->span, point.q, rz, NULL);
     x[i][0] = rz[0];
     x[i][1] = point.theta;
   }
@@ -33,23 +40,28 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   CwStatus status = CW_OK;
   CwPicture picture = {0};
   CwMeridian m;
-  CwBladeSection section;
+  CwBladeSection section, splitter;
   double polar[OUTLINE][2], x[OUTLINE][2];
   const double scale = 320 / design->interface_radius, centre = 360;
   CW_TRY(cw_meridian_make(design, &m));
   CW_TRY(cw_blade_section(design, &m, 0.5, &section));
-  outline(&m, &section, design->trailing_edge_bevel, polar);
   CW_TRY(cw_picture_begin(&picture, path, 2 * centre, 2 * centre + 40));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Blades at mid-span, seen from the hub side (against +z)");
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Blades at mid-span, seen %s (against +z); beta1 %.1f, beta2 %.1f deg",
+                  design->rotation == CW_ROTATION_CLOCKWISE ? "from the suction side" : "from the drive",
+                  design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->interface_radius);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->inlet_diameter / 2);
-  for (int k = 0; k < design->blade_count; k++) {
-    for (int i = 0; i < OUTLINE; i++) {
-      const double theta = polar[i][1] + 2 * M_PI * k / design->blade_count;
-      x[i][0] = centre + scale * polar[i][0] * cos(theta);
-      x[i][1] = centre + 20 - scale * polar[i][0] * sin(theta);
+  for (int kind = 0; kind < (design->splitter_start > 0 ? 2 : 1); kind++) {
+    splitter = kind ? cw_blade_splitter(design, &section) : section;
+    outline(design, &splitter, polar);
+    for (int k = 0; k < design->blade_count; k++) {
+      for (int i = 0; i < OUTLINE; i++) {
+        const double theta = polar[i][1] + 2 * M_PI * k / design->blade_count;
+        x[i][0] = centre + scale * polar[i][0] * cos(theta);
+        x[i][1] = centre + 20 - scale * polar[i][0] * sin(theta);
+      }
+      cw_picture_line(&picture, CW_STROKE_BLADE, (const double(*)[2])x, OUTLINE, 1);
     }
-    cw_picture_line(&picture, CW_STROKE_BLADE, (const double(*)[2])x, OUTLINE, 1);
   }
   // The wrap of blade 1, between the rays to the ends of its mean line, and the sense of rotation.
   const double r0 = scale * 0.16 * design->outlet_diameter / 2;

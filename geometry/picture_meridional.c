@@ -74,11 +74,20 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   CW_TRY(cw_meridian_make(design, &m));
   const double ri = design->interface_radius, half = design->outlet_width / 2;
   const double length = half - m.inlet_z, r1 = design->inlet_diameter / 2;
-  const Frame frame = {560 / fmax(ri, length), 70, 640, m.inlet_z};
-  const double width = frame.scale * length + 340;
-  CW_TRY(cw_picture_begin(&picture, path, width, 690));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Meridional section, z = %d", design->blade_count);
+  const double scale = 560 / fmax(ri, length);
+  const Frame frame = {scale, 70, scale * ri + 80, m.inlet_z};
+  const double width = fmax(scale * length + 340, 700);
+  CW_TRY(cw_picture_begin(&picture, path, width, scale * ri + 130));
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Meridional section: z = %d%s, nq = %.1f, passage %.0f to %.0f mm2",
+                  design->blade_count, design->splitter_start > 0 ? " with splitters" : "", design->specific_speed_nq,
+                  design->passage_area_inlet * 1e6, design->passage_area_outlet * 1e6);
   draw_blade(&picture, &frame, &m);
+  if (design->splitter_start > 0) {
+    double a[2], b[2];
+    cw_meridian_blade_point(&m, 0, design->splitter_start, a, NULL);
+    cw_meridian_blade_point(&m, 1, design->splitter_start, b, NULL);
+    draw_segment(&picture, &frame, CW_STROKE_BLADE, a[0], a[1], b[0], b[1]);
+  }
   draw_curve(&picture, &frame, &m.hub);
   draw_curve(&picture, &frame, &m.shroud);
   draw_nut(&picture, &frame, &m);

@@ -3,41 +3,63 @@
 
 #include "geometry/picture.h"
 
-// One triangle: u from left to right, c from its left end, w from its right end to the same apex.
-static void triangle(CwPicture *picture, double left, double base, double scale, const char *where, double u,
-                     double cu, double cm) {
-  const double x1 = left + scale * u, xa = left + scale * cu, ya = base - scale * cm;
-  cw_picture_text(picture, CW_TEXT_LEFT, left, ya - 36, "%s", where);
+// One triangle: u from left to right, c from its left end, w from its right end to the same apex. A steep arrow has its
+// name beside it, a flat one above it.
+static void triangle(CwPicture *picture, double left, double base, double scale, const char *where,
+                     const CwTriangle *t) {
+  const double x1 = left + scale * t->u, xa = left + scale * t->c_u, ya = base - scale * t->c_m;
+  cw_picture_text(picture, CW_TEXT_LEFT, left, ya - 30, "%s", where);
   cw_picture_arrow(picture, CW_STROKE_WALL, left, base, x1, base);
   cw_picture_arrow(picture, CW_STROKE_FLOW, left, base, xa, ya);
   cw_picture_arrow(picture, CW_STROKE_BLADE, x1, base, xa, ya);
-  cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
-  cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (left + x1), base + 20, "u = %.2f m/s", u);
-  cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (left + xa) - 6, 0.5 * (base + ya) - 8, "c = %.2f",
-                  hypot(cu, cm));
-  cw_picture_text(picture, CW_TEXT_LEFT, 0.5 * (x1 + xa) + 8, 0.5 * (base + ya) - 8, "w = %.2f",
-                  hypot(u - cu, cm));
-  cw_picture_text(picture, CW_TEXT_LEFT, x1 + 14, base + 4, "c_u = %.2f, c_m = %.2f, beta = %.1f deg", cu, cm,
-                  atan2(cm, u - cu) * 180 / M_PI);
+  if (xa > left + 1)
+    cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
+  cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (left + x1), base + 20, "u = %.2f", t->u);
+  cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (left + xa) - 8, 0.5 * (base + ya) - 4, "c = %.2f", t->c);
+  cw_picture_text(picture, CW_TEXT_LEFT, 0.5 * (x1 + xa) + 8, 0.5 * (base + ya) - 8, "w = %.2f", t->w);
+}
+
+// The figures of a triangle as a row of the table.
+static void row(CwPicture *picture, double y, const char *where, const CwTriangle *t) {
+  const double values[] = {t->radius * 1e3, t->u,          t->c_m, t->c_u, t->c, t->w, t->flow_angle * 180 / M_PI,
+                           t->blade_angle * 180 / M_PI, (t->blade_angle - t->flow_angle) * 180 / M_PI};
+  cw_picture_text(picture, CW_TEXT_LEFT, 40, y, "%s", where);
+  for (int i = 0; i < 9; i++)
+    cw_picture_text(picture, CW_TEXT_RIGHT, 250 + 75 * i, y, i == 0 || i > 5 ? "%.1f" : "%.2f", values[i]);
 }
 
 CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path) {
   CwStatus status = CW_OK;
   CwPicture picture = {0};
-  const double scale = 480 / design->impeller_tip_speed;
-  const double cm1 = design->inlet_meridional_speed * design->inlet_blockage,
-               cm2 = design->outlet_meridional_speed;
-  const double first = 120 + scale * cm1, second = first + 120 + scale * cm2;
-  CW_TRY(cw_picture_begin(&picture, path, 900, second + 90));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Velocity triangles, m/s");
-  triangle(&picture, 70, first, scale, "inlet, mid-span, with blockage, no pre-swirl",
-           design->inlet_blade_speed, 0, cm1);
-  triangle(&picture, 70, second, scale, "outlet, behind the blades, with slip", design->impeller_tip_speed,
-           design->outlet_swirl_speed, cm2);
-  cw_picture_text(&picture, CW_TEXT_LEFT, 70, second + 60,
-                  "blade angles %.1f and %.1f deg, slip factor %.3f, predicted head %.2f m (asked %.2f m)",
-                  design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI,
-                  design->slip_factor, design->predicted_head, design->head);
+  static const char *const heads[] = {"r, mm", "u", "c_m", "c_u", "c", "w", "flow, deg", "blade, deg", "difference"};
+  static const char *const inlets[] = {"inlet, hub", "inlet, mid-span", "inlet, shroud"};
+  static const char *const outlets[] = {"outlet, hub", "outlet, mid-span", "outlet, shroud"};
+  const CwTriangle *in = design->inlet_triangle, *out = design->outlet_triangle;
+  const double scale = 560 / out[1].u;
+  double highest = 0;
+  for (int j = 0; j < CW_TRIANGLE_SPANS; j++)
+    highest = fmax(highest, in[j].c_m);
+  const double first = 100 + scale * highest, second = first + 100 + scale * out[1].c_m, table = second + 70;
+  CW_TRY(cw_picture_begin(&picture, path, 940, table + 22 * 7 + 50));
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
+                  "Velocity triangles, m/s; inlet with blockage and without swirl, outlet behind the blades with slip");
+  double left = 70;
+  for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
+    triangle(&picture, left, first, 0.62 * scale, inlets[j], &in[j]);
+    left += 0.62 * scale * in[j].u + 85;
+  }
+  triangle(&picture, 70, second, scale, "outlet", &out[1]);
+  for (int i = 0; i < 9; i++)
+    cw_picture_text(&picture, CW_TEXT_RIGHT, 250 + 75 * i, table, "%s", heads[i]);
+  cw_picture_segment(&picture, CW_STROKE_THIN, 40, table + 8, 860, table + 8);
+  for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
+    row(&picture, table + 28 + 22 * j, inlets[j], &in[j]);
+    row(&picture, table + 28 + 22 * (j + 3), outlets[j], &out[j]);
+  }
+  cw_picture_text(&picture, CW_TEXT_LEFT, 40, table + 22 * 7 + 20,
+                  "slip factor %.3f (Wiesner %.3f, Pfleiderer %.3f), w2/w1 %.2f, predicted head %.2f m, asked %.2f m",
+                  design->slip_factor, design->slip_factor_wiesner, design->slip_factor_pfleiderer,
+                  design->diffusion_ratio, design->predicted_head, design->head);
   CW_TRY(cw_picture_end(&picture));
 done:
   cw_picture_abandon(&picture);

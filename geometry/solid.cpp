@@ -5,8 +5,14 @@
 #include <cstring>
 #include <fstream>
 
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepTools.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Trsf.hxx>
 
 #include "geometry/solid.hpp"
 #include "pipeline/atomic_file.h"
@@ -34,6 +40,34 @@ const char *cw_solid_face_kind(const CwSolid *solid, int face) {
 
 const char *cw_solid_face_name(const CwSolid *solid, int face) {
   return solid->faces[face].name.c_str();
+}
+
+CwStatus cw_solid_mirror(CwSolid *solid) {
+  CwStatus status = CW_OK;
+  try {
+    gp_Trsf mirror;
+    mirror.SetMirror(gp_Ax2(gp::Origin(), gp::DZ()));
+    BRepBuilderAPI_Transform transform(solid->solid, mirror, Standard_True);
+    std::vector<CwSolidFace> faces = solid->faces;
+    for (CwSolidFace &face : faces)
+      face.face = TopoDS::Face(transform.ModifiedShape(face.face));
+    const TopoDS_Solid mirrored = TopoDS::Solid(transform.Shape());
+    TopTools_IndexedMapOfShape map;
+    TopExp::MapShapes(mirrored, TopAbs_FACE, map);
+    CW_REQUIRE(map.Extent() == (int)faces.size(), CW_ERR_LIBRARY, "%s: the mirror image has other faces",
+               solid->domain.c_str());
+    for (size_t i = 0; i < faces.size(); i++) {
+      CW_REQUIRE(map((int)i + 1).IsSame(faces[i].face), CW_ERR_LIBRARY, "%s: the mirror image has faces in another order",
+                 solid->domain.c_str());
+      faces[i].face = TopoDS::Face(map((int)i + 1));
+    }
+    solid->solid = mirrored;
+    solid->faces = faces;
+  } catch (const Standard_Failure &failure) {
+    status = CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be mirrored: %s", solid->domain.c_str(), failure.GetMessageString());
+  }
+done:
+  return status;
 }
 
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {

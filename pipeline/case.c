@@ -124,7 +124,8 @@ static CwStatus read_pair(Reader *reader, const char *section, const Event *key,
   CwStatus status = CW_OK;
   char wrong[CW_WRONG_SIZE], name[CW_SHOWN_SIZE], allowed[CW_KEY_ALLOWED_SIZE];
   int scalar = value->type == FYET_SCALAR;
-  int index = cw_case_key_find(section, key->text);
+  const CwUnit *unit;
+  int index = cw_case_key_find_in(section, key->text, &unit);
   cw_show(key->text, name);
   char path[CW_KEY_PATH_SIZE + CW_SHOWN_SIZE];
   snprintf(path, sizeof path, "%s%s%s", section, section[0] ? "." : "", name);
@@ -139,7 +140,7 @@ static CwStatus read_pair(Reader *reader, const char *section, const Event *key,
              value->place.line, value->place.column, path, event_words(value->type), allowed);
   CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s",
              reader->path, value->place.line, value->place.column, path, allowed);
-  CW_REQUIRE(cw_case_value_read(&cw_case_keys[index], value->text, value->plain, &reader->table, wrong),
+  CW_REQUIRE(cw_case_value_read(&cw_case_keys[index], unit, value->text, value->plain, &reader->table, wrong),
              CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, value->place.line, value->place.column, path,
              wrong);
 done:

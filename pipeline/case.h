@@ -16,7 +16,12 @@ extern "C" {
 
 enum { CW_NAME_SIZE = 33 }; // 32 characters: the limit of CGNS names
 
-typedef enum { CW_PRIORITY_WRAP, CW_PRIORITY_HEAD, CW_PRIORITY_BETA } CwPriority;
+typedef enum { CW_PRIORITY_WRAP, CW_PRIORITY_HEAD, CW_PRIORITY_BETA, CW_PRIORITY_AUTO } CwPriority;
+typedef enum { CW_CORRELATIONS_GUELICH, CW_CORRELATIONS_GUAN } CwCorrelations;
+typedef enum { CW_SLIP_WIESNER, CW_SLIP_PFLEIDERER } CwSlip;
+typedef enum { CW_BLADE_TWISTED, CW_BLADE_CYLINDRICAL } CwBladeForm;
+typedef enum { CW_EDGE_BEVELLED, CW_EDGE_BLUNT, CW_EDGE_ROUNDED, CW_EDGE_SHARP } CwTrailingEdge;
+typedef enum { CW_ROTATION_COUNTER_CLOCKWISE, CW_ROTATION_CLOCKWISE } CwRotation; // seen from the drive
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
 
@@ -38,22 +43,41 @@ typedef struct {
   double kinematic_viscosity; // m2/s
 } CwFluid;
 
+// How the hydraulic design works out what the table leaves open.
+typedef struct {
+  CwCorrelations correlations; // the family of books
+  CwSlip slip;                 // slip model of the predicted head
+  double warn_share;           // a given value that differs more from its correlation is warned of
+} CwDesignTable;
+
 typedef struct {
   CwPriority priority;       // which constraint of an over-determined table is the law
-  int blade_count;           // z, 3 to 9
+  CwRotation rotation;
+  int blade_count;           // z, 3 to 9; 0: computed
   double inlet_diameter;     // D1, m
   double outlet_diameter;    // D2, m
   double outlet_width;       // b2, m
   double wrap_angle;         // rad
+  double wrap_spread;        // rad, wrap at the shroud minus wrap at the hub
   double hub_diameter;       // m, at the nut
   double leading_edge_radius_hub;    // m
   double leading_edge_radius_shroud; // m
+  double incidence;          // rad, of the computed inlet blade angle
   double inlet_blade_angle;  // beta1 at mid-span, rad from tangential
   double outlet_blade_angle; // beta2, rad from tangential
   double leading_edge_thickness;  // m
   double blade_thickness;         // m, the largest
   double trailing_edge_thickness; // m
-  double trailing_edge_bevel;     // m, length of the bevel facet on each edge of the trailing edge
+  double trailing_edge_bevel;     // m, length of the bevel facet
+  CwTrailingEdge trailing_edge;
+  double leading_edge_ratio;      // semi-axes of the leading edge's ellipse, along to across
+  double thickest_at;             // share of the blade's length where it is thickest
+  CwBladeForm blade_form;
+  double lean_angle;              // rad, of the trailing edge from the axial direction; positive: shroud ahead
+  double splitter_start;          // share of the meridional length where splitters begin; NAN: none
+  double splitter_position;       // share of the pitch from a blade to the splitter behind its pressure side
+  double nut_length;              // m, of the hub's nose before the hub
+  double nut_flat_diameter;       // m, of its flat end
   double suction_pipe_length;     // m, from the shroud's inlet
 } CwImpellerTable;
 
@@ -93,6 +117,7 @@ typedef struct {
   char name[CW_NAME_SIZE];
   CwOperatingPoint operating_point;
   CwFluid fluid;
+  CwDesignTable design;
   CwImpellerTable impeller;
   CwVoluteTable volute;
   CwWalls walls;

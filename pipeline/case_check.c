@@ -33,8 +33,8 @@ static const Rule rules[] = {
      "this is the largest thickness of the blade"},
     {"impeller", "trailing_edge_thickness_mm", AT_MOST, 1, "impeller", "blade_thickness_mm",
      "this is the largest thickness of the blade"},
-    {"impeller", "trailing_edge_bevel_mm", AT_MOST, 1, "impeller", "trailing_edge_thickness_mm",
-     "two bevels share the trailing edge"},
+    {"impeller", "hub_nut_flat_diameter_mm", BELOW, 1, "impeller", "hub_diameter_mm",
+     "the flat end is a part of the hub's nose"},
     {"volute", "base_diameter_mm", ABOVE, 1, "impeller", "outlet_diameter_mm",
      "the volute lies around the impeller"},
     {"volute", "inlet_width_mm", AT_LEAST, 1, "impeller", "outlet_width_mm",
@@ -74,13 +74,13 @@ static CwStatus check_priority(const char *path, const CwCase *table, const CwCa
              CW_ERR_INPUT,
              "%s:%d:%d: impeller.priority: wrap needs the key wrap_angle_deg, which is missing; allowed: "
              "wrap_angle_deg "
-             "from 20 to 300 degrees, or priority head or beta",
+             "from 20 to 300 degrees, or priority auto, head or beta",
              path, place->line, place->column);
   CW_REQUIRE(
       table->impeller.priority != CW_PRIORITY_BETA || cw_case_given(table->impeller.outlet_blade_angle),
       CW_ERR_INPUT,
       "%s:%d:%d: impeller.priority: beta needs the key outlet_blade_angle_deg, which is missing; allowed: "
-      "outlet_blade_angle_deg from 5 to 85 degrees, or priority wrap or head",
+      "outlet_blade_angle_deg from 5 to 85 degrees, or priority auto, wrap or head",
       path, place->line, place->column);
 done:
   return status;
@@ -100,7 +100,7 @@ static CwStatus check_operating_point(const char *path, const CwCase *table, con
       path, place->line, place->column, rpm, specific_speed);
   // Without swirl before the impeller no blade gives more than u2^2 / g (Euler).
   double tip_speed = point->speed * table->impeller.outlet_diameter / 2;
-  double most = tip_speed * tip_speed / gravity;
+  double most = cw_case_given(tip_speed) ? tip_speed * tip_speed / gravity : INFINITY;
   place = &places[cw_case_key_find("operating_point", "head_m")];
   CW_REQUIRE(point->head < most, CW_ERR_INPUT,
              "%s:%d:%d: operating_point.head_m: %.6g contradicts speed_rpm and impeller.outlet_diameter_mm, "
@@ -115,7 +115,7 @@ static CwStatus check_blockage(const char *path, const CwCase *table, const CwCa
   CwStatus status = CW_OK;
   const CwImpellerTable *impeller = &table->impeller;
   const CwCasePlace *place = &places[cw_case_key_find("impeller", "blade_thickness_mm")];
-  if (!cw_case_given(impeller->blade_thickness)) goto done;
+  if (!cw_case_given(impeller->blade_thickness * impeller->inlet_diameter) || !impeller->blade_count) goto done;
   double most = 0.5 * pi * impeller->inlet_diameter / impeller->blade_count;
   CW_REQUIRE(
       impeller->blade_thickness < most, CW_ERR_INPUT,

@@ -6,7 +6,12 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const char *const priorities[] = {"wrap", "head", "beta", NULL};
+static const char *const priorities[] = {"wrap", "head", "beta", "auto", NULL};
+static const char *const correlation_families[] = {"guelich", "guan", NULL};
+static const char *const slip_models[] = {"wiesner", "pfleiderer", NULL};
+static const char *const blade_forms[] = {"twisted", "cylindrical", NULL};
+static const char *const trailing_edges[] = {"bevelled", "blunt", "rounded", "sharp", NULL};
+static const char *const rotations[] = {"counter_clockwise", "clockwise", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
@@ -40,23 +45,40 @@ const CwCaseKey cw_case_keys[] = {
                  fluid.kinematic_viscosity,
                  "kinematic viscosity; the default is water at 20 degrees Celsius"),
 
-    CHOICE("impeller", "priority", priorities, CW_PRIORITY_WRAP, impeller.priority,
-           "the law of an over-determined table: the wrap angle, the head, or the blade angle at the outlet"),
-    {"impeller", "blade_count", CW_KEY_INT, CW_KEY_REQUIRED, "", 3, 9, NAN, NULL, AT(impeller.blade_count),
-     "z, number of blades"},
-    REAL_REQUIRED("impeller", "inlet_diameter_mm", "mm", 5, 5000, impeller.inlet_diameter, "D1, of the eye"),
-    REAL_REQUIRED("impeller", "outlet_diameter_mm", "mm", 10, 5000, impeller.outlet_diameter,
+    CHOICE("design", "correlations", correlation_families, CW_CORRELATIONS_GUELICH, design.correlations,
+           "whose correlations give what the table leaves open: those of Guelich or of Guan (docs/geometry.md)"),
+    CHOICE("design", "slip", slip_models, CW_SLIP_WIESNER, design.slip, "slip model of the predicted head"),
+    REAL_DEFAULT("design", "warn_share", "", 0.01, 1, 0.1, design.warn_share,
+                 "a given value that differs from the correlations by more than this share is warned of"),
+
+    CHOICE("impeller", "priority", priorities, CW_PRIORITY_AUTO, impeller.priority,
+           "the law of an over-determined table: the wrap angle, the head, or the blade angle at the outlet; "
+           "auto: wrap where it is given, else beta where it is given, else head"),
+    CHOICE("impeller", "rotation", rotations, CW_ROTATION_COUNTER_CLOCKWISE, impeller.rotation,
+           "seen from the drive; the wheel turns about +z either way, and clockwise has its suction at +z"),
+    {"impeller", "blade_count", CW_KEY_INT, CW_KEY_COMPUTED, "", 3, 9, 0, NULL, AT(impeller.blade_count),
+     "z, number of blades without splitters"},
+    REAL_COMPUTED("impeller", "inlet_diameter_mm", "mm", 5, 5000, impeller.inlet_diameter, "D1, of the eye"),
+    REAL_COMPUTED("impeller", "outlet_diameter_mm", "mm", 10, 5000, impeller.outlet_diameter,
                   "D2, of the blades' trailing edges"),
-    REAL_REQUIRED("impeller", "outlet_width_mm", "mm", 0.5, 1000, impeller.outlet_width,
+    REAL_COMPUTED("impeller", "outlet_width_mm", "mm", 0.5, 1000, impeller.outlet_width,
                   "b2, between hub and shroud at D2"),
     REAL_COMPUTED("impeller", "wrap_angle_deg", "deg", 20, 300, impeller.wrap_angle,
                   "angle about the axis from leading to trailing edge; required where it is the priority"),
+    REAL_COMPUTED("impeller", "wrap_spread_deg", "deg", -90, 90, impeller.wrap_spread,
+                  "wrap at the shroud minus wrap at the hub; wrap_angle_deg holds at mid-span"),
     REAL_COMPUTED("impeller", "hub_diameter_mm", "mm", 1, 4000, impeller.hub_diameter,
                   "of the hub at its nut"),
+    REAL_COMPUTED("impeller", "hub_nut_length_mm", "mm", 0.1, 4000, impeller.nut_length,
+                  "of the hub's elliptic nose"),
+    REAL_COMPUTED("impeller", "hub_nut_flat_diameter_mm", "mm", 0.1, 4000, impeller.nut_flat_diameter,
+                  "of the flat end of the hub's nose"),
     REAL_COMPUTED("impeller", "leading_edge_radius_hub_mm", "mm", 1, 2500, impeller.leading_edge_radius_hub,
                   "radius where the leading edge meets the hub"),
     REAL_COMPUTED("impeller", "leading_edge_radius_shroud_mm", "mm", 1, 2500,
                   impeller.leading_edge_radius_shroud, "radius where the leading edge meets the shroud"),
+    REAL_COMPUTED("impeller", "incidence_deg", "deg", -10, 20, impeller.incidence,
+                  "beta1 minus the flow angle, where beta1 is computed"),
     REAL_COMPUTED("impeller", "inlet_blade_angle_deg", "deg", 5, 85, impeller.inlet_blade_angle,
                   "beta1 at mid-span, from the tangential direction"),
     REAL_COMPUTED("impeller", "outlet_blade_angle_deg", "deg", 5, 85, impeller.outlet_blade_angle,
@@ -68,13 +90,28 @@ const CwCaseKey cw_case_keys[] = {
     REAL_COMPUTED("impeller", "trailing_edge_thickness_mm", "mm", 0.1, 200, impeller.trailing_edge_thickness,
                   "blade thickness at the blunt trailing edge"),
     REAL_COMPUTED("impeller", "trailing_edge_bevel_mm", "mm", 0.01, 50, impeller.trailing_edge_bevel,
-                  "length of the bevel facet on each edge of the trailing edge"),
+                  "length of the facet that takes off the acute corner of the trailing edge"),
+    CHOICE("impeller", "trailing_edge", trailing_edges, CW_EDGE_BEVELLED, impeller.trailing_edge,
+           "blunt: cut on D2; bevelled: blunt with the acute corner taken off; rounded: an ellipse; sharp: the "
+           "facet takes all of the cut"),
+    REAL_DEFAULT("impeller", "leading_edge_ratio", "", 1, 6, 2, impeller.leading_edge_ratio,
+                 "semi-axes of the leading edge's ellipse, along to across the blade"),
+    REAL_DEFAULT("impeller", "thickest_at", "", 0.2, 0.8, 0.45, impeller.thickest_at,
+                 "share of the blade's length where it is thickest"),
+    CHOICE("impeller", "blade_form", blade_forms, CW_BLADE_TWISTED, impeller.blade_form,
+           "twisted: every section has its own angles; cylindrical: straight parallel to the axis"),
+    REAL_DEFAULT("impeller", "lean_deg", "deg", -30, 30, 0, impeller.lean_angle,
+                 "of the trailing edge from the axial direction; positive: the shroud's end ahead"),
+    REAL_COMPUTED("impeller", "splitter_start", "", 0.15, 0.8, impeller.splitter_start,
+                  "share of the meridional length where z splitter blades begin; left out: no splitters"),
+    REAL_DEFAULT("impeller", "splitter_position", "", 0.3, 0.7, 0.5, impeller.splitter_position,
+                 "share of the pitch from a blade's pressure side to the next splitter"),
     REAL_COMPUTED("impeller", "suction_pipe_length_mm", "mm", 1, 100000, impeller.suction_pipe_length,
                   "straight pipe before the shroud's inlet"),
 
-    REAL_REQUIRED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter,
+    REAL_COMPUTED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter,
                   "D3, base circle of the spiral"),
-    REAL_REQUIRED("volute", "inlet_width_mm", "mm", 0.5, 2000, volute.inlet_width, "b3, width at D3"),
+    REAL_COMPUTED("volute", "inlet_width_mm", "mm", 0.5, 2000, volute.inlet_width, "b3, width at D3"),
     REAL_COMPUTED("volute", "side_wall_angle_deg", "deg", 1, 45, volute.side_wall_angle,
                   "half angle of the trapezoid section: side wall from the plane normal to the axis"),
     REAL_COMPUTED("volute", "tongue_radius_mm", "mm", 0.1, 200, volute.tongue_radius, "of the tongue's nose"),
@@ -137,6 +174,7 @@ static const CwUnit units[] = {
     {"cm", "cm", "length", 1, 100},
     {"um", "um", "length", 1, 1e6},
     {"in", "in", "length", 254, 10000},
+    {"in2", "in2", "area", 64516, 1e8},
     {"inch", "in", "length", 254, 10000},
     {"ft", "ft", "length", 3048, 10000},
     {"mm2", "mm2", "area", 1, 1e6},
@@ -151,16 +189,21 @@ static const CwUnit units[] = {
     {"m3_per_s", "m3/s", "flow rate", 1, 1},
     {"l_per_s", "l/s", "flow rate", 1, 1000},
     {"l_per_min", "l/min", "flow rate", 1, 60000},
+    {"gpm", "US gal/min", "flow rate", 3785411784.0, 60e12},
+    {"ft3_per_s", "ft3/s", "flow rate", 28316846592.0, 1e12},
     {"pa", "Pa", "pressure", 1, 1},
     {"kpa", "kPa", "pressure", 1000, 1},
     {"mpa", "MPa", "pressure", 1e6, 1},
     {"bar", "bar", "pressure", 1e5, 1},
     {"atm", "atm", "pressure", 101325, 1},
+    {"psi", "psi", "pressure", 6894757293168.0, 1e9},
     {"kg_per_m3", "kg/m3", "density", 1, 1},
     {"g_per_cm3", "g/cm3", "density", 1000, 1},
+    {"lb_per_ft3", "lb/ft3", "density", 45359237e4, 28316846592.0},
     {"m2_per_s", "m2/s", "viscosity", 1, 1},
     {"mm2_per_s", "mm2/s", "viscosity", 1, 1e6},
     {"cst", "cSt", "viscosity", 1, 1e6},
+    {"ft2_per_s", "ft2/s", "viscosity", 9290304, 1e8},
 };
 enum { UNIT_COUNT = sizeof units / sizeof *units };
 
@@ -191,6 +234,21 @@ int cw_case_key_find(const char *section, const char *key) {
   for (size_t i = 0; i < cw_case_key_count; ++i)
     if (!strcmp(cw_case_keys[i].section, section) && !strcmp(cw_case_keys[i].key, key)) return (int)i;
   return -1;
+}
+
+int cw_case_key_find_in(const char *section, const char *key, const CwUnit **unit) {
+  size_t stem, key_stem;
+  int index = cw_case_key_find(section, key);
+  *unit = index < 0 ? cw_unit_of_key(key, &stem) : cw_unit_find(cw_case_keys[index].unit);
+  for (size_t i = 0; index < 0 && *unit && i < cw_case_key_count; ++i) {
+    const CwUnit *own = cw_unit_find(cw_case_keys[i].unit);
+    if (!own || strcmp(own->quantity, (*unit)->quantity) || strcmp(cw_case_keys[i].section, section)) continue;
+    cw_unit_of_key(cw_case_keys[i].key, &key_stem);
+    // The unit itself must be written as in the table: "head_FT" is taken for a slip.
+    if (stem == key_stem && !strncmp(key, cw_case_keys[i].key, stem) && !strcmp(key + stem + 1, (*unit)->suffix))
+      index = (int)i;
+  }
+  return index;
 }
 
 int cw_case_section_known(const char *section) {
@@ -258,8 +316,11 @@ double cw_case_key_value(const CwCaseKey *key, const CwCase *table) {
 _Static_assert(sizeof(CwPriority) == sizeof(int), "a choice is stored as an int");
 
 void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table) {
+  cw_case_key_set_in(key, cw_unit_find(key->unit), value, table);
+}
+
+void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, CwCase *table) {
   char *field = (char *)table + key->offset;
-  const CwUnit *unit = cw_unit_find(key->unit);
   double real = unit ? value * unit->numerator / unit->denominator : value;
   int integer;
   int64_t large;
@@ -285,8 +346,24 @@ void cw_case_defaults(CwCase *table) {
   memset(table, 0, sizeof *table);
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     const CwCaseKey *key = &cw_case_keys[i];
-    if (key->presence == CW_KEY_DEFAULT || key->type == CW_KEY_REAL)
+    if (key->type != CW_KEY_NAME && (key->presence != CW_KEY_REQUIRED || key->type == CW_KEY_REAL))
       cw_case_key_set(key, key->fallback, table);
+  }
+}
+
+static void units_markdown(FILE *stream) {
+  fputs("\n### Units\n\nA key takes any unit of its quantity: `outlet_diameter_in: 8` stands for "
+        "`outlet_diameter_mm: 203.2`.\n\n| quantity | a key may end in |\n|---|---|\n",
+        stream);
+  for (int i = 0; i < UNIT_COUNT; ++i) {
+    int known = 0;
+    for (int j = 0; j < i; ++j) known |= !strcmp(units[i].quantity, units[j].quantity);
+    if (known) continue;
+    fprintf(stream, "| %s |", units[i].quantity);
+    for (int j = i; j < UNIT_COUNT; ++j)
+      if (!strcmp(units[i].quantity, units[j].quantity))
+        fprintf(stream, "%s `_%s`", j == i ? "" : ",", units[j].suffix);
+    fputs(" |\n", stream);
   }
 }
 
@@ -313,4 +390,5 @@ void cw_case_schema_markdown(FILE *stream) {
     fprintf(stream, "| `%s` | %s | %s | %s | %s |\n", key->key, key->unit[0] ? unit_text(key) : "-", allowed,
             fallback, key->meaning);
   }
+  units_markdown(stream);
 }

@@ -19,6 +19,15 @@ typedef enum { CW_KEY_REAL, CW_KEY_INT, CW_KEY_INT64, CW_KEY_CHOICE, CW_KEY_NAME
 // A key left out: an error, the default, or NAN for the hydraulic design (or the mesher) to compute.
 typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED } CwKeyPresence;
 
+// Units that a key may end in. `value` SI units are value * numerator / denominator: a quotient, so that 74
+// mm is the double nearest to 0.074 m.
+typedef struct {
+  const char *suffix;   // as in keys: "m3_per_h"
+  const char *text;     // as people write it: "m3/h"
+  const char *quantity; // "length"
+  double numerator, denominator;
+} CwUnit;
+
 typedef struct {
   const char *section; // "" for the top of the file
   const char *key;     // ends in its unit, when it has one
@@ -41,6 +50,10 @@ enum { CW_KEY_PATH_SIZE = 80, CW_KEY_ALLOWED_SIZE = 160 };
 // Index of `key` in `section`, or -1.
 int cw_case_key_find(const char *section, const char *key);
 
+// The same for a key that may end in another unit of the same quantity ("outlet_diameter_in"). `*unit`: the one that
+// it ends in, or NULL.
+int cw_case_key_find_in(const char *section, const char *key, const CwUnit **unit);
+
 // Whether the schema has keys in `section`.
 int cw_case_section_known(const char *section);
 
@@ -57,17 +70,11 @@ double cw_case_key_value(const CwCaseKey *key, const CwCase *table);
 // Sets the key's field from a value in the unit of the key. Not for names. No check of the range.
 void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table);
 
+// The same from a value in `unit`, or NULL for none.
+void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, CwCase *table);
+
 // Writes the sections and their tables as docs/case-reference.md holds them.
 void cw_case_schema_markdown(FILE *stream);
-
-// Units that a key may end in. `value` SI units are value * numerator / denominator: a quotient, so that 74
-// mm is the double nearest to 0.074 m.
-typedef struct {
-  const char *suffix;   // as in keys: "m3_per_h"
-  const char *text;     // as people write it: "m3/h"
-  const char *quantity; // "length"
-  double numerator, denominator;
-} CwUnit;
 
 // The unit of a suffix, or NULL.
 const CwUnit *cw_unit_find(const char *suffix);

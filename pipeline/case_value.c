@@ -63,10 +63,12 @@ static int is_name(const char *text, double most) {
   return 1;
 }
 
-int cw_case_value_read(const CwCaseKey *key, const char *text, int plain, CwCase *table,
+int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *text, int plain, CwCase *table,
                        char wrong[CW_WRONG_SIZE]) {
   char shown[CW_SHOWN_SIZE], allowed[CW_KEY_ALLOWED_SIZE];
   const char *what = NULL;
+  const CwUnit *own = cw_unit_find(key->unit);
+  char converted[64] = "";
   double number = NAN;
   if (plain && (!*text || !strcmp(text, "~") || !strcasecmp(text, "null"))) {
     what =
@@ -87,15 +89,20 @@ int cw_case_value_read(const CwCaseKey *key, const char *text, int plain, CwCase
     what = plain ? cw_number_read(text, &number) : "is text, not a number (it stands in quotes)";
     int whole = key->type == CW_KEY_INT || key->type == CW_KEY_INT64;
     if (!what && whole && strspn(text, "+-0123456789") < strlen(text)) what = "is not a whole number";
-    if (!what && (number < key->least || number > key->most)) what = "is out of range";
+    double in_own = number;
+    if (!what && own && unit != own) {
+      in_own = number * unit->numerator / unit->denominator * own->denominator / own->numerator;
+      snprintf(converted, sizeof converted, " (it is %.6g %s)", in_own, own->text);
+    }
+    if (!what && (in_own < key->least || in_own > key->most)) what = "is out of range";
   }
   if (!what) {
-    if (key->type != CW_KEY_NAME) cw_case_key_set(key, number, table);
+    if (key->type != CW_KEY_NAME) cw_case_key_set_in(key, unit, number, table);
     return 1;
   }
   cw_show(text, shown);
   cw_case_key_allowed(key, allowed);
-  snprintf(wrong, CW_WRONG_SIZE, "%s %s; allowed: %s", shown, what, allowed);
+  snprintf(wrong, CW_WRONG_SIZE, "%s %s%s; allowed: %s", shown, what, converted, allowed);
   return 0;
 }
 

@@ -21,10 +21,9 @@ void cw_show(const char *text, char shown[CW_SHOWN_SIZE]);
 // number are wrong.
 const char *cw_number_read(const char *text, double *number);
 
-// Reads `text` (plain: without quotes in the file) into the key's field. On failure writes "VALUE is wrong;
-// allowed:
-// ..." to `wrong` and returns 0; else returns 1.
-int cw_case_value_read(const CwCaseKey *key, const char *text, int plain, CwCase *table,
+// Reads `text` (plain: without quotes in the file), in `unit` (of cw_case_key_find_in()), into the key's field. On
+// failure writes "VALUE is wrong; allowed: ..." to `wrong` and returns 0; else returns 1.
+int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *text, int plain, CwCase *table,
                        char wrong[CW_WRONG_SIZE]);
 
 // Writes what is wrong with `name`, which is no key of `section` ("" for the top of the file), to `wrong`: a

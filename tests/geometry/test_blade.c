@@ -83,7 +83,7 @@ static void nose(void **state) {
 
 // In the plane that touches the D2 cylinder: the facet has the asked length, and legs of equal length.
 static void bevel(void **state) {
-  const double facet = design.trailing_edge_bevel, q = cw_blade_bevel_begin(&section, facet);
+  const double facet = design.trailing_edge_bevel, q = cw_blade_bevel_begin(&section, CW_EDGE_BEVELLED, facet);
   const double end = cw_blade_bevel_theta(&section, q);
   const CwBladePoint begin = cw_blade_side(&section, CW_BLADE_SUCTION, q),
                      corner = cw_blade_side(&section, CW_BLADE_SUCTION, 1);
@@ -94,7 +94,7 @@ static void bevel(void **state) {
   // Curvature of the side and of the cylinder makes a little difference to the flat triangle.
   near_to(hypot(dm, (end - begin.theta) * x[0]), facet, 0.05 * facet);
   // The balanced facet is as long as what is left of the cut.
-  const double balanced = cw_blade_balanced_bevel(2e-3, 36 * degree), leg = balanced / (2 * sin(18 * degree));
+  const double balanced = cw_blade_usual_bevel(CW_EDGE_BEVELLED, 2e-3, 36 * degree), leg = balanced / (2 * sin(18 * degree));
   near_to(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
 }
 

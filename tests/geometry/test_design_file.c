@@ -43,8 +43,15 @@ static void keys_of_the_format(void **state) {
   assert_true(fabs(number(json_object_get(root, "measured"), "wrap_angle_deg") - 71) < 1e-9);
   // Every number of the design says where it comes from.
   const json_t *sources = json_object_get(root, "sources");
-  assert_int_equal(json_object_size(sources), CW_DESIGN_COUNT);
+  assert_int_equal(json_object_size(sources), CW_DESIGN_COUNT + 1); // and blade_count
   assert_string_equal(json_string_value(json_object_get(sources, "outlet_diameter_m")), "case");
+  // Six triangles; both families for each correlated quantity (Guan's D2 is 178 mm); a remark on the head.
+  assert_int_equal(json_array_size(json_object_get(root, "velocity_triangles")), 2 * CW_TRIANGLE_SPANS);
+  const json_t *d2 = json_object_get(json_object_get(root, "correlations"), "outlet_diameter_m");
+  assert_true(fabs(number(d2, "used") - 0.2) < 1e-12);
+  assert_true(fabs(number(json_object_get(d2, "guan"), "value") - 0.178) < 5e-4);
+  assert_true(fabs(number(json_object_get(d2, "guelich"), "value") - 0.1822) < 1e-4);
+  assert_true(json_array_size(json_object_get(root, "remarks")) >= 3);
   json_decref(root);
 }
 

@@ -65,7 +65,7 @@ static double blade_volume(const CwDesign *design, const CwMeridian *meridian) {
   double volume = 0;
   CwBladeSection middle;
   assert_int_equal(cw_blade_section(design, meridian, 0.5, &middle), CW_OK);
-  const double q_bevel = cw_blade_bevel_begin(&middle, design->trailing_edge_bevel);
+  const double q_bevel = cw_blade_bevel_begin(&middle, CW_EDGE_BEVELLED, design->trailing_edge_bevel);
   const double theta_bevel = cw_blade_bevel_theta(&middle, q_bevel);
   for (int j = 0; j <= SPANS; j++) {
     CwBladeSection section;
@@ -197,6 +197,142 @@ static void other_priorities(void **state) {
   }
 }
 
+static int faces_of_patch(const CwSolid *solid, const char *patch) {
+  int found = 0;
+  for (int face = 0; face < cw_solid_face_count(solid); face++)
+    found += strcmp(cw_solid_face_patch(solid, face), patch) == 0;
+  return found;
+}
+
+// Each kind of trailing edge: faces a blade, and the outlet diameter that is met. A bevel takes material off the blunt
+// edge, and a sharp edge more: the fluid grows.
+static void trailing_edges(void **state) {
+  static const int faces[] = {
+      [CW_EDGE_BEVELLED] = 2, [CW_EDGE_BLUNT] = 1, [CW_EDGE_ROUNDED] = 1, [CW_EDGE_SHARP] = 1};
+  double volume[4];
+  for (int edge = CW_EDGE_BEVELLED; edge <= CW_EDGE_SHARP; edge++) {
+    CwCase table = paper();
+    table.impeller.trailing_edge = (CwTrailingEdge)edge;
+    const CwDesign design = design_of(&table);
+    CwSolid *rotor = NULL;
+    CwMeasuredSolid solid;
+    CwMeasuredRotor measured;
+    measure(&design, &solid, &measured);
+    assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
+    volume[edge] = solid.volume;
+    near_to(measured.outlet_diameter, 0.2, edge == CW_EDGE_ROUNDED ? 1e-5 : 1e-6);
+    near_to(measured.wrap_angle, 71 * degree, edge == CW_EDGE_ROUNDED ? 1 * degree : 0.01 * degree);
+    assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+    assert_int_equal(faces_of_patch(rotor, "blade_trailing_edge"), 6 * faces[edge]);
+    cw_solid_free(&rotor);
+  }
+  assert_true(volume[CW_EDGE_BLUNT] < volume[CW_EDGE_BEVELLED]);
+  assert_true(volume[CW_EDGE_BEVELLED] < volume[CW_EDGE_SHARP]);
+}
+
+// The foremost point of the rounding lies on D2 in every section.
+static void rounding_reaches_the_outlet_diameter(void **state) {
+  CwCase table = paper();
+  table.impeller.trailing_edge = CW_EDGE_ROUNDED;
+  const CwDesign design = design_of(&table);
+  CwMeridian meridian;
+  CwBladeSection section;
+  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+  for (int j = 0; j <= 2; j++) {
+    double largest = 0, x[2];
+    assert_int_equal(cw_blade_section(&design, &meridian, 0.5 * j, &section), CW_OK);
+    for (int i = 0; i <= 200; i++) {
+      const CwBladePoint point = cw_blade_trailing_edge(&section, M_PI * (i / 200.0 - 0.5));
+      cw_meridian_blade_point(&meridian, 0.5 * j, point.q, x, NULL);
+      largest = fmax(largest, x[0]);
+    }
+    near_to(largest, 0.1, 5e-6);
+  }
+}
+
+// Splitters: twice the blade faces, less fluid by their volume, and the same wrap of the blades.
+static void splitters(void **state) {
+  CwCase table = paper();
+  table.impeller.splitter_start = 0.4;
+  const CwDesign design = design_of(&table);
+  CwSolid *rotor = NULL;
+  CwMeasuredSolid solid;
+  CwMeasuredRotor measured;
+  measure(&design, &solid, &measured);
+  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
+  near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+  assert_int_equal(faces_of_patch(rotor, "blade_pressure"), 12);
+  assert_int_equal(faces_of_patch(rotor, "hub"), 12);
+  int named = 0;
+  for (int face = 0; face < cw_solid_face_count(rotor); face++)
+    named += strncmp(cw_solid_face_name(rotor, face), "splitter_", 9) == 0;
+  assert_int_equal(named, 6 * 5);
+  cw_solid_free(&rotor);
+  CwMeridian meridian;
+  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+  const double blades = 6 * blade_volume(&design, &meridian), all = cw_meridian_volume(&meridian) - solid.volume;
+  // Splitters of 0.6 of the blades' length where the wheel is narrower than at the inlet.
+  if (!(all > 1.4 * blades && all < 1.65 * blades))
+    fail_msg("blades and splitters have %.3f of the blades' volume", all / blades);
+}
+
+// Straight blades: theta is a function of r alone; lean turns hub and shroud apart by b2 tan(lean) / r2.
+static void cylindrical_blades_and_lean(void **state) {
+  CwCase table = paper();
+  table.impeller.blade_form = CW_BLADE_CYLINDRICAL;
+  CwDesign design = design_of(&table);
+  CwMeridian meridian;
+  CwBladeSection hub, shroud;
+  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+  assert_int_equal(cw_blade_section(&design, &meridian, 0, &hub), CW_OK);
+  assert_int_equal(cw_blade_section(&design, &meridian, 1, &shroud), CW_OK);
+  for (double p = 0.2; p < 0.95; p += 0.1) {
+    // The same radius on the hub, by bisection.
+    double x[2], y[2], low = 0, high = 1;
+    cw_meridian_blade_point(&meridian, 1, p, x, NULL);
+    for (int i = 0; i < 60; i++) {
+      cw_meridian_blade_point(&meridian, 0, 0.5 * (low + high), y, NULL);
+      *(y[0] < x[0] ? &low : &high) = 0.5 * (low + high);
+    }
+    near_to(cw_blade_theta(&hub, low), cw_blade_theta(&shroud, p), 1e-7);
+  }
+  CwMeasuredSolid solid;
+  CwMeasuredRotor measured;
+  measure(&design, &solid, &measured);
+  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
+  table = paper();
+  table.impeller.lean_angle = 12 * degree;
+  design = design_of(&table);
+  assert_int_equal(cw_blade_section(&design, &meridian, 0, &hub), CW_OK);
+  assert_int_equal(cw_blade_section(&design, &meridian, 1, &shroud), CW_OK);
+  near_to(cw_blade_theta(&shroud, 1) - cw_blade_theta(&hub, 1), 8e-3 * tan(12 * degree) / 0.1, 1e-12);
+  measure(&design, &solid, &measured);
+  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
+}
+
+// A pump of the other hand: the same volume, the inlet on the other side, faces in the same order.
+static void mirrored(void **state) {
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
+  CwSolid *rotor = NULL, *other = NULL;
+  CwMeasuredSolid a, b;
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+  assert_int_equal(cw_rotor_build(&design, &other), CW_OK);
+  assert_int_equal(cw_solid_mirror(other), CW_OK);
+  assert_int_equal(cw_measure_solid(rotor, &a), CW_OK);
+  assert_int_equal(cw_measure_solid(other, &b), CW_OK);
+  assert_true(b.valid && b.closed && b.largest_tolerance < 1e-6);
+  near_to(b.volume / a.volume, 1, 1e-9);
+  for (int face = 0; face < cw_solid_face_count(rotor); face++)
+    assert_string_equal(cw_solid_face_name(rotor, face), cw_solid_face_name(other, face));
+  CwMeasuredRotor measured;
+  assert_int_equal(cw_measure_rotor(other, &measured), CW_OK);
+  near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
+  cw_solid_free(&rotor);
+  cw_solid_free(&other);
+}
+
 static void too_long_a_bevel_is_refused(void **state) {
   CwCase table = paper();
   table.impeller.trailing_edge_bevel = 5e-3;
@@ -214,6 +350,11 @@ int main(void) {
       cmocka_unit_test(every_face_has_a_patch),
       cmocka_unit_test(sweep),
       cmocka_unit_test(other_priorities),
+      cmocka_unit_test(trailing_edges),
+      cmocka_unit_test(rounding_reaches_the_outlet_diameter),
+      cmocka_unit_test(splitters),
+      cmocka_unit_test(cylindrical_blades_and_lean),
+      cmocka_unit_test(mirrored),
       cmocka_unit_test(too_long_a_bevel_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

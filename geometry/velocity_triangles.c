@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/velocity_triangles.h"
+
+#include <math.h>
+
+#include "geometry/blade.h"
+
+static const double gravity = 9.80665;
+static const double degree = M_PI / 180;
+
+#define SET(member, value, text)                                                                             \
+  do {                                                                                                       \
+    design->member = (value);                                                                                \
+    design->source[CW_DESIGN_##member] = (text);                                                             \
+  } while (0)
+
+double cw_blockage(double count, double thickness, double radius, double angle) {
+  return 1 / (1 - count * thickness / (2 * M_PI * radius * sin(angle)));
+}
+
+double cw_slip_wiesner(double count, double outlet_angle, double diameter_ratio) {
+  const double limit = exp(-8.16 * sin(outlet_angle) / count);
+  const double excess = fmax(0, (diameter_ratio - limit) / (1 - limit)), kw = 1 - excess * excess * excess;
+  return 0.98 * (1 - sqrt(sin(outlet_angle)) / pow(count, 0.7)) * kw;
+}
+
+double cw_slip_pfleiderer(double count, double outlet_angle, double outlet_radius, double static_moment) {
+  return 0.65 * (1 + outlet_angle / (60 * degree)) * outlet_radius * outlet_radius / (count * static_moment);
+}
+
+double cw_static_moment(const CwMeridian *meridian) {
+  enum { STEPS = 100 }; // Simpson
+  double sum = 0;
+  for (int i = 0; i <= STEPS; i++) {
+    double x[2], dx[2];
+    cw_meridian_blade_point(meridian, 0.5, (double)i / STEPS, x, dx);
+    sum += x[0] * hypot(dx[0], dx[1]) * (i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2);
+  }
+  return sum / (3 * STEPS);
+}
+
+// Blades at the outlet; for the slip a splitter counts by its share of the length.
+static double outlet_blades(const CwDesign *design) {
+  return design->blade_count * (design->splitter_start > 0 ? 2 : 1);
+}
+static double slip_blades(const CwDesign *design) {
+  return design->blade_count * (design->splitter_start > 0 ? 2 - design->splitter_start : 1);
+}
+
+void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
+  const double beta = design->outlet_blade_angle, d2 = design->outlet_diameter, u2 = design->impeller_tip_speed;
+  const double ratio = (design->leading_edge_radius_hub + design->leading_edge_radius_shroud) / d2;
+  const double blades = slip_blades(design);
+  SET(outlet_meridional_speed, design->flow_rate / (M_PI * d2 * design->outlet_width), "Q / (pi D2 b2)");
+  SET(outlet_blockage, cw_blockage(outlet_blades(design), design->trailing_edge_thickness, d2 / 2, beta),
+      "1 / (1 - z e / (pi D2 sin beta2))");
+  const double cm = design->outlet_meridional_speed, turned = cm * design->outlet_blockage / tan(beta);
+  SET(slip_factor_wiesner, cw_slip_wiesner(blades, beta, ratio),
+      "0.98 (1 - sin(beta2)^0.5 / z^0.7) kw: Gulich's form");
+  const double p = cw_slip_pfleiderer(blades, beta, d2 / 2, cw_static_moment(meridian));
+  SET(slip_factor_pfleiderer, ((u2 - turned) / (1 + p) + turned) / u2,
+      "p = 0.65 (1 + beta2/60 deg) r2^2 / (z S), S = integral r dm");
+  const int pfleiderer = design->slip == CW_SLIP_PFLEIDERER;
+  SET(slip_factor, pfleiderer ? design->slip_factor_pfleiderer : design->slip_factor_wiesner,
+      pfleiderer ? "Pfleiderer" : "Wiesner");
+  const double cu = design->slip_factor * u2 - turned;
+  SET(outlet_swirl_speed, cu, "gamma u2 - tau2 c_m2 / tan beta2");
+  SET(outlet_absolute_speed, hypot(cu, cm), "outlet triangle");
+  SET(outlet_relative_speed, hypot(u2 - cu, cm), "outlet triangle");
+  SET(outlet_flow_angle, atan2(cm, u2 - cu), "outlet triangle");
+  SET(outlet_absolute_angle, atan2(cm, cu), "outlet triangle");
+  SET(diffusion_ratio, design->outlet_relative_speed / design->inlet_relative_speed, "w2 / w1");
+  const double euler = design->hydraulic_efficiency * u2 / gravity;
+  SET(theoretical_head, u2 * cu / gravity, "Euler: u2 c_u2 / g");
+  SET(predicted_head, euler * cu, "eta_h u2 c_u2 / g");
+  SET(predicted_head_wiesner, euler * (design->slip_factor_wiesner * u2 - turned), "eta_h u2 c_u2 / g");
+  SET(predicted_head_pfleiderer, euler * (design->slip_factor_pfleiderer * u2 - turned), "eta_h u2 c_u2 / g");
+  SET(head_residual, design->predicted_head - design->head, "predicted - asked");
+}
+
+static CwTriangle triangle(double radius, double u, double cm, double cu, double blade_angle) {
+  return (CwTriangle){.radius = radius,
+                      .u = u,
+                      .c_m = cm,
+                      .c_u = cu,
+                      .w = hypot(u - cu, cm),
+                      .c = hypot(cu, cm),
+                      .flow_angle = atan2(cm, u - cu),
+                      .blade_angle = blade_angle};
+}
+
+static void to_space(const CwBladeSection *section, CwBladePoint point, double turn, double x[3]) {
+  double rz[2];
+  cw_meridian_blade_point(section->meridian, section->span, point.q, rz, NULL);
+  x[0] = rz[0] * cos(point.theta + turn);
+  x[1] = rz[0] * sin(point.theta + turn);
+  x[2] = rz[1];
+}
+
+// Least distance at mid-span from the edge `from` of a blade to a side of its neighbour turned by `turn`, and the
+// place q there.
+static double throat(const CwBladeSection *section, CwBladePoint from, CwBladeSide side, double turn, double *place) {
+  enum { POINTS = 400 };
+  double a[3], b[3], least = HUGE_VAL;
+  to_space(section, from, 0, a);
+  for (int i = 0; i <= POINTS; i++) {
+    const CwBladePoint point =
+        cw_blade_side(section, side, section->nose + (section->end - section->nose) * i / POINTS);
+    to_space(section, point, turn, b);
+    const double distance = sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
+    if (distance < least) {
+      least = distance;
+      *place = 0.5 * (point.q + from.q);
+    }
+  }
+  return least;
+}
+
+static double passage_width(const CwMeridian *meridian, double q) {
+  double h[2], s[2];
+  cw_meridian_blade_point(meridian, 0, q, h, NULL);
+  cw_meridian_blade_point(meridian, 1, q, s, NULL);
+  return hypot(h[0] - s[0], h[1] - s[1]);
+}
+
+CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure, CwDesign *design) {
+  CwStatus status = CW_OK;
+  CwBladeSection section;
+  const double pitch = 2 * M_PI / design->blade_count, omega = design->angular_speed;
+  for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
+    const double span = (double)j / (CW_TRIANGLE_SPANS - 1);
+    double x[2];
+    CW_TRY(cw_blade_section(design, meridian, span, &section));
+    cw_meridian_blade_point(meridian, span, 0, x, NULL);
+    const double beta = cw_blade_beta(&section, 0);
+    const double tau = cw_blockage(design->blade_count, design->leading_edge_thickness, x[0], beta);
+    design->inlet_triangle[j] = triangle(x[0], omega * x[0], design->inlet_meridional_speed * tau, 0, beta);
+    design->outlet_triangle[j] =
+        triangle(design->outlet_diameter / 2, design->impeller_tip_speed, design->outlet_meridional_speed,
+                 design->outlet_swirl_speed, cw_blade_beta(&section, 1));
+  }
+  CW_TRY(cw_blade_section(design, meridian, 0.5, &section));
+  double place = 0;
+  SET(inlet_throat_width, throat(&section, cw_blade_leading_edge(&section, 0), CW_BLADE_SUCTION, pitch, &place),
+      "least distance to the next blade, mid-span");
+  SET(inlet_throat_area, design->blade_count * design->inlet_throat_width * passage_width(meridian, place),
+      "z a1 b");
+  SET(inlet_throat_ratio, design->flow_rate / design->inlet_throat_area / design->inlet_relative_speed,
+      "Q / (throat area w1)");
+  SET(outlet_throat_width,
+      throat(&section, cw_blade_side(&section, CW_BLADE_SUCTION, section.end), CW_BLADE_PRESSURE, -pitch, &place),
+      "least distance to the next blade, mid-span");
+  // Gulich, section 6.3.2: lambda_c = 1.1 with an axial inlet, lambda_w = 0.3 tan(beta1B)^0.57 at the shroud.
+  const CwTriangle *tip = &design->inlet_triangle[CW_TRIANGLE_SPANS - 1];
+  const double cm = design->inlet_meridional_speed, w = hypot(tip->u, cm);
+  const double lambda = 0.3 * pow(tan(tip->blade_angle), 0.57), rpm = omega * 30 / M_PI;
+  SET(npsh_required, (1.1 * cm * cm + lambda * w * w) / (2 * gravity),
+      "Gulich: 1.1 c_m1^2/2g + 0.3 tan(beta1)^0.57 w1^2/2g, shroud");
+  SET(npsh_available, fmax(0, inlet_pressure - 2339) / (design->density * gravity),
+      "(inlet pressure - 2339 Pa) / (rho g)");
+  SET(suction_specific_speed, rpm * sqrt(design->flow_rate) / pow(design->npsh_required, 0.75),
+      "rpm, m3/s, m; 160 to 260 are usual");
+done:
+  return status;
+}
