@@ -48,7 +48,12 @@ static CwVoluteInput paper() {
   input.side_wall_angle = 20 * degree;
   input.throat_area = 905e-6;
   input.tongue_radius = 0.0015;
-  input.tongue_gap = input.least_tongue_gap = NAN;
+  input.tongue_gap = input.tongue_angle = input.least_tongue_gap = NAN;
+  input.area_law = CW_AREA_LAW_ANGULAR_MOMENTUM;
+  input.section_speed = 5.9;
+  input.section = CW_SECTION_TRAPEZOID;
+  input.corner_radius = input.diffuser_area_ratio = NAN;
+  input.discharge = CW_DISCHARGE_TANGENTIAL;
   input.diffuser_length = NAN;
   input.diffuser_angle = 9 * degree;
   input.outlet_diameter = 0.05;
