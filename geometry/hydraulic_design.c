@@ -209,15 +209,17 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
                             : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
   SET(section_speed, factor * sqrt(2 * gravity * design->head),
       cw_case_given(given->velocity_factor) ? "case: K3" : "Stepanoff: K3 = 0.42 (nq / 20)^-0.2");
-  TAKE(corner_radius, given->corner_radius, rectangle ? 0.25 * design->inlet_width : 0,
-       rectangle ? "b3 / 4" : "one arc");
-  TAKE(tongue_radius, given->tongue_radius, 0.0075 * design->outlet_diameter, "0.0075 D2: casting");
   // A plain trapezoid is near enough to see how wide the throat will be.
-  const double height = cw_volute_trapezoid_height(r3, design->inlet_width, design->side_wall_angle,
-                                                   design->flow_rate / design->swirl_constant);
   const int velocity = given->area_law == CW_AREA_LAW_VELOCITY;
-  const double area = velocity ? design->flow_rate / design->section_speed
-                               : height * (design->inlet_width + height * tan(design->side_wall_angle));
+  const double b3 = design->inlet_width, slope = tan(design->side_wall_angle);
+  const double spiral = cw_volute_trapezoid_height(r3, b3, design->side_wall_angle,
+                                                   design->flow_rate / design->swirl_constant);
+  const double area = velocity ? design->flow_rate / design->section_speed : spiral * (b3 + spiral * slope);
+  const double height = 2 * area / (b3 + sqrt(b3 * b3 + 4 * slope * area));
+  TAKE(corner_radius, given->corner_radius, rectangle ? fmin(b3, height) / 6 : 0,
+       rectangle ? "a sixth of b3 or of the throat's height" : "one arc");
+  TAKE(tongue_radius, given->tongue_radius, fmin(0.0075 * design->outlet_diameter, height / 6),
+       "0.0075 D2: casting; at most a sixth of the throat");
   TAKE(discharge_diameter, given->outlet_diameter,
        cw_case_given(given->diffuser_area_ratio)
            ? sqrt(given->diffuser_area_ratio * 4 * area / M_PI)

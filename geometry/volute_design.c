@@ -8,6 +8,8 @@
 
 // The spiral begins this share of D3/2 outside it: a section that begins at nothing has no outer wall.
 static const double START_MARGIN = 0.003;
+// The kink at the end of the spiral lies within so many D3/2: enough for nq 60 or so.
+static const double LARGEST_SPIRAL = 2.5;
 // Half angle of the outer arc at the tongue. A larger one sweeps the nose back more: with 60 degrees it leans so far that
 // its edge to the flank has a radius of 0.05 mm (0.4 mm with 35); a smaller one sharpens the kink between
 // outer and side walls (105 degrees with 35 and side walls at 20).
@@ -16,6 +18,9 @@ static const double ARC_HALF_ANGLE = 35 * PI / 180;
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
 static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
+// Least throat area in that of the spiral's last section. In a slim spiral, of a low specific speed, a tongue
+// of the default angle would take more away; it is then made slimmer, down to the least angle.
+static const double THROAT_SHARE = 0.85;
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 // Above the kink's level the nose's centre line levels out over this height, in nose radii.
@@ -342,6 +347,13 @@ static double tongue_excess(double wedge, const void *context) {
   return tongue_at(wedge, c->volute) - c->value;
 }
 
+static double wedge_throat_excess(double wedge, const void *context) {
+  const Context *c = context;
+  CwVolute trial = *c->volute;
+  place_tongue(&trial, wedge);
+  return throat_area(&trial) - c->value;
+}
+
 // Throat area of a spiral that ends with `end`, less the asked one.
 static double close_spiral(CwVolute *volute, double end) {
   const CwVoluteInput *in = &volute->input;
@@ -357,6 +369,13 @@ static double close_spiral(CwVolute *volute, double end) {
   }
   place_tongue(volute, wedge);
   volute->throat_area = throat_area(volute);
+  const double least = THROAT_SHARE * cw_volute_section(volute, 2 * PI).area;
+  if (isnan(in->tongue_gap) && isnan(in->tongue_angle) && volute->throat_area < least) {
+    context.value = least;
+    const double slimmer = find_root(wedge_throat_excess, &context, LEAST_WEDGE, wedge);
+    place_tongue(volute, isnan(slimmer) ? LEAST_WEDGE : slimmer);
+    volute->throat_area = throat_area(volute);
+  }
   return volute->throat_area - volute->input.throat_area;
 }
 
@@ -433,12 +452,12 @@ static CwStatus solve_spiral(CwVolute *volute) {
   const double scale = velocity ? 1e6 : 1e3, r3 = base_radius(volute);
   double end =
       volute->law_start + in->flow_rate / (velocity ? in->section_speed : in->angular_momentum);
-  double largest = law_at(volute, 1.9 * r3, volute->end_half_angle);
+  double largest = law_at(volute, LARGEST_SPIRAL * r3, volute->end_half_angle);
   CW_REQUIRE(end < largest, CW_ERR_DESIGN,
-             "volute: %s = %g %s needs an outer wall beyond 1.9 D3/2; allowed: at most %g %s (raise the head or b3, or lower "
-             "the flow rate)",
+             "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s (raise the head or b3, or "
+             "lower the flow rate)",
              velocity ? "Q / (K3 sqrt(2 g H))" : "Q / (c_u2 r2)", scale * (end - volute->law_start),
-             velocity ? "mm2" : "mm", scale * (largest - volute->law_start), velocity ? "mm2" : "mm");
+             velocity ? "mm2" : "mm", LARGEST_SPIRAL, scale * (largest - volute->law_start), velocity ? "mm2" : "mm");
   if (!isnan(in->throat_area)) {
     Context context = {.volute = volute};
     double low = volute->law_start + 0.02 * (largest - volute->law_start);
@@ -486,9 +505,11 @@ static CwStatus check_sections(const CwVolute *volute) {
     double phi = volute->start_angle + 2 * PI * i / steps;
     double gap = cw_volute_section(volute, phi).kink_radius - base_radius(volute);
     CW_REQUIRE(gap > START_MARGIN * base_radius(volute), CW_ERR_DESIGN,
-               "volute: the section %.0f deg behind the spiral's start is too small for its arcs; lower "
-               "corner_radius or inlet_width, or take section trapezoid",
-               phi * 180 / PI);
+               "volute: the section %.0f deg behind the spiral's start is too small for %s; lower %s or "
+               "inlet_width, or take section trapezoid%s",
+               phi * 180 / PI, has_corners(volute) ? "its corners" : "a circle",
+               has_corners(volute) ? "corner_radius" : "side_wall_angle",
+               has_corners(volute) ? " without corner_radius" : "");
   }
 done:
   return status;
@@ -569,8 +590,8 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   double k = volute->arc_half_angle, x[3], centre[2], normal[2];
   cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, x, NULL, NULL);
   volute->throat_width = x[0] - volute->inner_wall_x;
-  CW_TRY(check_tongue(volute));
   CW_TRY(check_sections(volute));
+  CW_TRY(check_tongue(volute));
   volute->side_level = cw_volute_section(volute, volute->start_angle).kink_height;
   cw_volute_contact_circle(volute, volute->start_angle, k, centre, normal);
   volute->side_centre_y = centre[1];
