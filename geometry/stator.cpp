@@ -33,7 +33,7 @@ const int ACROSS = 49, ACROSS_CORNERS = 97; // over the outer wall, whose curvat
 const int PLANE_CURVE = 49, PLANE_CURVE_BENT = 97;
 // Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4
 // by 1 %.
-const double TANGENT = 0.4, TANGENT_BENT = 0.8; // the latter keeps a bend round
+const double TANGENT = 0.4;
 const double TONGUE_SIDE = 1.01;       // least radius of the tongue's end at the side wall, in D3/2
 const double LEAST_WALL = 0.5;         // mm, between diffuser and spiral
 const double U_MARGIN = 0.1;           // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
@@ -270,8 +270,7 @@ private:
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave
   // in the tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
-    bool bent = v_.input.discharge == CW_DISCHARGE_RADIAL;
-    double length = (bent ? TANGENT_BENT : TANGENT) * 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
+    double length = TANGENT * 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
     auto outer_start = [&](double t) { return wall(cw_volute_throat_angle(&v_, psi(t)), psi(t)); };
     auto outer_direction = [&](double t) {

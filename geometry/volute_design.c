@@ -18,9 +18,6 @@ static const double ARC_HALF_ANGLE = 35 * PI / 180;
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
 static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
-// Least throat area in that of the spiral's last section. In a slim spiral, of a low specific speed, a tongue
-// of the default angle would take more away; it is then made slimmer, down to the least angle.
-static const double THROAT_SHARE = 0.85;
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 // Above the kink's level the nose's centre line levels out over this height, in nose radii.
@@ -94,8 +91,8 @@ double cw_volute_trapezoid_height(double r3, double b3, double side_wall_angle, 
 // whose first two derivatives vanish at both ends.
 static double arc_angle(const CwVolute *volute, double phi, double *slope) {
   double k = volute->arc_half_angle, change = volute->end_half_angle - k;
-  double s = fmin(fmax((phi - volute->start_angle) / CW_VOLUTE_SECTOR, 0), 1);
-  *slope = change * 30 * s * s * (1 - s) * (1 - s) / CW_VOLUTE_SECTOR;
+  double span = 2 * CW_VOLUTE_SECTOR, s = fmin(fmax((phi - volute->start_angle) / span, 0), 1);
+  *slope = change * 30 * s * s * (1 - s) * (1 - s) / span;
   return k + change * s * s * s * (10 + s * (6 * s - 15));
 }
 
@@ -347,13 +344,6 @@ static double tongue_excess(double wedge, const void *context) {
   return tongue_at(wedge, c->volute) - c->value;
 }
 
-static double wedge_throat_excess(double wedge, const void *context) {
-  const Context *c = context;
-  CwVolute trial = *c->volute;
-  place_tongue(&trial, wedge);
-  return throat_area(&trial) - c->value;
-}
-
 // Throat area of a spiral that ends with `end`, less the asked one.
 static double close_spiral(CwVolute *volute, double end) {
   const CwVoluteInput *in = &volute->input;
@@ -369,13 +359,6 @@ static double close_spiral(CwVolute *volute, double end) {
   }
   place_tongue(volute, wedge);
   volute->throat_area = throat_area(volute);
-  const double least = THROAT_SHARE * cw_volute_section(volute, 2 * PI).area;
-  if (isnan(in->tongue_gap) && isnan(in->tongue_angle) && volute->throat_area < least) {
-    context.value = least;
-    const double slimmer = find_root(wedge_throat_excess, &context, LEAST_WEDGE, wedge);
-    place_tongue(volute, isnan(slimmer) ? LEAST_WEDGE : slimmer);
-    volute->throat_area = throat_area(volute);
-  }
   return volute->throat_area - volute->input.throat_area;
 }
 
@@ -460,9 +443,17 @@ static CwStatus solve_spiral(CwVolute *volute) {
              velocity ? "mm2" : "mm", LARGEST_SPIRAL, scale * (largest - volute->law_start), velocity ? "mm2" : "mm");
   if (!isnan(in->throat_area)) {
     Context context = {.volute = volute};
-    double low = volute->law_start + 0.02 * (largest - volute->law_start);
-    double least_excess = throat_area_excess(low, &context),
-           largest_excess = throat_area_excess(largest, &context);
+    // The smallest and the largest spirals may have no room for a tongue at all.
+    double share = 0.02, low, least_excess, largest_excess;
+    do {
+      low = volute->law_start + share * (largest - volute->law_start);
+      least_excess = throat_area_excess(low, &context);
+    } while (isnan(least_excess) && (share *= 1.5) < 0.7);
+    while (isnan(largest_excess = throat_area_excess(largest, &context)) && largest > low)
+      largest = volute->law_start + 0.8 * (largest - volute->law_start);
+    CW_REQUIRE(!isnan(least_excess) && !isnan(largest_excess), CW_ERR_DESIGN,
+               "volute: no spiral with this D3 and b3 has room for its tongue%s; lower inlet_width or %s",
+               has_corners(volute) ? " and corners" : "", has_corners(volute) ? "corner_radius" : "tongue_radius");
     end = find_root(throat_area_excess, &context, low, largest);
     CW_REQUIRE(!isnan(end), CW_ERR_DESIGN,
                "volute: throat_area is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
@@ -487,6 +478,17 @@ static CwStatus check_tongue(const CwVolute *volute) {
   CW_REQUIRE(isnan(in->tongue_angle) || fabs(volute->tip_angle - in->tongue_angle) < 1e-7, CW_ERR_DESIGN,
              "volute: tongue_angle is %g deg; allowed for this spiral: %.2f to %.2f deg (or leave it out)",
              in->tongue_angle * 180 / PI, least * 180 / PI, largest * 180 / PI);
+  double corner[3] = {volute->inner_wall_x};
+  if (!isnan(volute->throat_width))
+    cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle,
+                         corner, NULL, NULL);
+  CW_REQUIRE(volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
+                 corner[0] > volute->inner_wall_x + in->tongue_radius,
+             CW_ERR_DESIGN,
+             "volute: %s no side wall at the throat; lower inlet_width or %s, or take section trapezoid%s",
+             has_corners(volute) ? "the corners leave" : "the circle leaves",
+             has_corners(volute) ? "corner_radius" : "side_wall_angle",
+             has_corners(volute) ? " without corner_radius" : "");
   CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) &&
                  volute->throat_width > 4 * in->tongue_radius,
              CW_ERR_DESIGN,
@@ -583,7 +585,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   CW_TRY(check_input(&volute->input));
   volute->arc_half_angle = volute->end_half_angle = ARC_HALF_ANGLE;
   if (input->section == CW_SECTION_CIRCLE || has_corners(volute))
-    volute->end_half_angle = 0.5 * PI - volute->input.side_wall_angle;
+    volute->end_half_angle = 0.5 * PI + volute->input.side_wall_angle;
   volute->law_start = law_at(volute, base_radius(volute) * (1 + START_MARGIN), ARC_HALF_ANGLE);
   CW_TRY(solve_spiral(volute));
 

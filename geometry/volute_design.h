@@ -17,8 +17,8 @@
 //              radius, f what is left
 //   rectangle  the same with corners, a = 0
 //   circle     one arc (f = 0) that touches the side walls
-// Where k is not 35 deg everywhere, it is so at the tongue and grows over CW_VOLUTE_SECTOR behind it to
-// 90 deg - a: from there on the arcs touch the side walls. At the tongue a wall that touches the side walls
+// Where k is not 35 deg everywhere, it is so at the tongue and grows over twice CW_VOLUTE_SECTOR behind it to
+// 90 deg + a: from there on the arcs touch the side walls. At the tongue a wall that touches the side walls
 // would lean the nose over until it has no thickness.
 //
 // The contour's parameter psi runs from -k0 to k0, k0 = k at the tongue, in proportion to its length; where
@@ -41,7 +41,7 @@
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 
-// rad: the contour changes over this angle behind the tongue; the solid's faces are split there.
+// rad: from one split of the solid's faces to the next; the contour changes over the first two of them.
 #define CW_VOLUTE_SECTOR (3.14159265358979323846 * 5 / 12)
 
 #ifdef __cplusplus
