@@ -8,6 +8,7 @@
 
 #include "geometry/blade.h"
 #include "geometry/meridian.h"
+#include "geometry/volute_section.h"
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;

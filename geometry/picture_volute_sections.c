@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "geometry/picture.h"
+#include "geometry/volute_section.h"
 
 enum { STEP = 45, COUNT = 360 / STEP, POINTS = 96, SIDE_POINTS = 48 };
 static const double degree = M_PI / 180, left = 80, width = 620, chart = 250;
@@ -37,7 +38,8 @@ static void area_chart(CwPicture *picture, const CwVolute *volute, double bottom
       line[i][0] = left + width * phi / (2 * M_PI);
       line[i][1] = bottom - chart * cw_volute_section(volute, phi).area * 1e6 / top;
     }
-    cw_picture_line(picture, part ? CW_STROKE_BLADE : CW_STROKE_AXIS, (const double(*)[2])line, POINTS + 1, 0);
+    cw_picture_line(picture, part ? CW_STROKE_BLADE : CW_STROKE_AXIS, (const double(*)[2])line, POINTS + 1,
+                    0);
   }
   const double x = left + width * tip / (2 * M_PI);
   cw_picture_segment(picture, CW_STROKE_FLOW, x, bottom, x, bottom - 0.55 * chart);
@@ -50,7 +52,8 @@ static int outline(const CwVolute *volute, double phi, double x[SIDE_POINTS + 2]
   x[0][1] = volute->input.inlet_width / 2;
   for (int i = 0; i <= SIDE_POINTS; i++) {
     double p[3];
-    cw_volute_wall_point(volute, phi, volute->arc_half_angle * (SIDE_POINTS - i) / SIDE_POINTS, p, NULL, NULL);
+    cw_volute_wall_point(volute, phi, volute->arc_half_angle * (SIDE_POINTS - i) / SIDE_POINTS, p, NULL,
+                         NULL);
     x[i + 1][0] = hypot(p[0], p[1]);
     x[i + 1][1] = p[2];
   }
@@ -73,8 +76,8 @@ static void outlines(CwPicture *picture, const CwVolute *volute, double bottom, 
     const CwVoluteSection s = cw_volute_section(volute, i * STEP * degree);
     const double y = bottom - scale * (s.outer_radius - r3);
     cw_picture_segment(picture, CW_STROKE_THIN, middle, y, left + 0.80 * width, y);
-    cw_picture_text(picture, CW_TEXT_LEFT, left + 0.81 * width, y + 4, "%d deg: %.0f mm2, r = %.1f mm", i * STEP,
-                    s.area * 1e6, s.outer_radius * 1e3);
+    cw_picture_text(picture, CW_TEXT_LEFT, left + 0.81 * width, y + 4, "%d deg: %.0f mm2, r = %.1f mm",
+                    i * STEP, s.area * 1e6, s.outer_radius * 1e3);
   }
   const double b3 = scale * volute->input.inlet_width;
   cw_picture_segment(picture, CW_STROKE_AXIS, middle, bottom + 12, middle,

@@ -21,22 +21,23 @@
 #include "geometry/stator_builder.hpp"
 #include "geometry/stator_check.hpp"
 #include "geometry/stator_spline.hpp"
+#include "geometry/volute_section.h"
 
 namespace {
 
 const double PI = 3.14159265358979323846;
-const int SECTORS = 5;             // round the axis; the last one holds the tongue and opens into the throat
-const double SECTOR = CW_VOLUTE_SECTOR; // angle of all but the last
-const int ALONG = 33, SIDE = 25; // points of interpolation: along the flow, other
+const int SECTORS = 5; // round the axis; the last one holds the tongue and opens into the throat
+const double SECTOR = CW_VOLUTE_SECTOR;     // angle of all but the last
+const int ALONG = 33, SIDE = 25;            // points of interpolation: along the flow, other
 const int ACROSS = 49, ACROSS_CORNERS = 97; // over the outer wall, whose curvature jumps where it has corners
 // Of curves in the parameter plane; where the kink line bends more, each of its points is one of theirs.
 const int PLANE_CURVE = 49, PLANE_CURVE_BENT = 97;
 // Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4
 // by 1 %.
 const double TANGENT = 0.4;
-const double TONGUE_SIDE = 1.01;       // least radius of the tongue's end at the side wall, in D3/2
-const double LEAST_WALL = 0.5;         // mm, between diffuser and spiral
-const double U_MARGIN = 0.1;           // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
+const double TONGUE_SIDE = 1.01; // least radius of the tongue's end at the side wall, in D3/2
+const double LEAST_WALL = 0.5;   // mm, between diffuser and spiral
+const double U_MARGIN = 0.1;     // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
 
 // The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the

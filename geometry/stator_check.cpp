@@ -25,9 +25,9 @@
 
 namespace {
 
-const double LARGEST_TOLERANCE = 1e-3; // mm
+const double LARGEST_TOLERANCE = 1e-3;                       // mm
 const double LEAST_FLUID_ANGLE = 66, LEAST_SOLID_ANGLE = 75; // degrees
-const int SAMPLES = 24; // of an edge
+const int SAMPLES = 24;                                      // of an edge
 
 // BRepCheck alone passes gaps that inflated tolerances cover.
 void check_tolerances(const CwSolid &stator) {

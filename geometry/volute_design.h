@@ -16,10 +16,10 @@
 //   trapezoid  without a corner radius: one arc (f = 0) with k = 35 deg everywhere; with one: rho is that
 //              radius, f what is left
 //   rectangle  the same with corners, a = 0
-//   circle     one arc (f = 0) that touches the side walls
+//   circle     one arc (f = 0) that touches the side walls; in a slim spiral it ends sooner
 // Where k is not 35 deg everywhere, it is so at the tongue and grows over twice CW_VOLUTE_SECTOR behind it to
 // 90 deg + a: from there on the arcs touch the side walls. At the tongue a wall that touches the side walls
-// would lean the nose over until it has no thickness.
+// would lean the nose over until it has no thickness. Where a circle has no room, k ends at less.
 //
 // The contour's parameter psi runs from -k0 to k0, k0 = k at the tongue, in proportion to its length; where
 // the contour is one arc with k = k0, psi is the angle at the arc's centre.
@@ -49,7 +49,7 @@ extern "C" {
 #endif
 
 typedef struct {
-  double flow_rate;        // Q, m3/s
+  double flow_rate; // Q, m3/s
   CwAreaLaw area_law;
   double angular_momentum; // K = c_u2 r2, m2/s; for constant angular momentum
   double section_speed;    // c3, m/s; for constant velocity
@@ -64,12 +64,12 @@ typedef struct {
   double tongue_radius;    // of the nose, m
   double
       tongue_gap; // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
-  double tongue_angle; // rad, from the spiral's start to the tongue's tip; NAN: as the gap or shape asks
-  double least_tongue_gap;      // m, for a chosen gap, which comes as near as the spiral allows; NAN: none
-  double diffuser_length;       // m; NAN: from the diffuser's angle
-  double diffuser_angle;        // rad, full angle of the cone of equal areas; used where the length is NAN
-  double outlet_diameter;       // DN, m; NAN: from the area ratio
-  double diffuser_area_ratio;   // of outlet to throat; NAN: as the diameter says
+  double tongue_angle;     // rad, from the spiral's start to the tongue's tip; NAN: as the gap or shape asks
+  double least_tongue_gap; // m, for a chosen gap, which comes as near as the spiral allows; NAN: none
+  double diffuser_length;  // m; NAN: from the diffuser's angle
+  double diffuser_angle;   // rad, full angle of the cone of equal areas; used where the length is NAN
+  double outlet_diameter;  // DN, m; NAN: from the area ratio
+  double diffuser_area_ratio; // of outlet to throat; NAN: as the diameter says
   CwDischarge discharge;
   double discharge_pipe_length; // m, behind the diffuser
 } CwVoluteInput;
@@ -91,41 +91,17 @@ typedef struct {
   double throat_width;  // m, in x at z = 0
   double side_level;    // m: |z| of the kink where it begins
   double side_centre_y; // m: y of the nose's centre at that level
-  double side_centre_slope; // its derivative with respect to |z|
-  double diffuser_length;   // m
-  double diffuser_angle;    // rad, full angle of the cone of equal areas
+  double side_centre_slope;   // its derivative with respect to |z|
+  double diffuser_length;     // m
+  double diffuser_angle;      // rad, full angle of the cone of equal areas
   double diffuser_area_ratio; // outlet to throat
-  double throat_lean;    // rad: the diffuser begins along (-sin, cos) of it, midway between the throat's walls
-  double discharge_lean; // rad: the pipe runs along (-sin, cos) of it; tangential: as the throat
+  double throat_lean; // rad: the diffuser begins along (-sin, cos) of it, midway between the throat's walls
+  double discharge_lean;     // rad: the pipe runs along (-sin, cos) of it; tangential: as the throat
   double outlet_x, outlet_y; // m: centre of the diffuser's end; its z is 0
 } CwVolute;
 
-// One section at the angle phi.
-typedef struct {
-  double kink_radius, kink_height; // r_k, h_k, m
-  double arc_radius, arc_centre;   // rho, r_c, m
-  double arc_angle, arc_angle_slope; // k, rad, and its derivative d k / d phi
-  double flat;                     // f, m: half width of the wall parallel to the axis
-  double outer_radius;             // r_c + rho, m
-  double area;                     // m2, from D3/2 outward
-  double integral;                 // of b dr / r, m
-  double kink_slope;               // d r_k / d phi, m per rad
-} CwVoluteSection;
-
 // Designs the volute. Fails with CW_ERR_DESIGN and one line that names the quantity and its allowed range.
 CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute);
-
-// Half width of the casing between the side walls at the radius r >= D3/2, m.
-double cw_volute_half_width(const CwVolute *volute, double r);
-
-CwVoluteSection cw_volute_section(const CwVolute *volute, double phi);
-
-// Radius of the outer wall at the level |z| <= h_k of a section, m.
-double cw_volute_wall_radius(const CwVoluteSection *section, double z);
-
-// Point of the outer wall, and its derivatives where not NULL, m and m/rad.
-void cw_volute_wall_point(const CwVolute *volute, double phi, double psi, double x[3], double x_phi[3],
-                          double x_psi[3]);
 
 // Angle phi at which the nose touches the outer wall's line psi.
 double cw_volute_contact_angle(const CwVolute *volute, double psi);
@@ -145,11 +121,6 @@ double cw_volute_nose_height(const CwVolute *volute, double beta);
 
 // Angle phi at which the outer wall's line psi crosses the plane y = y_t of the throat, more than 2 pi.
 double cw_volute_throat_angle(const CwVolute *volute, double psi);
-
-// Radial height r_o - r3 of a plain trapezoid (no outer arc) that passes the share q = Q phi / (2 pi K), m,
-// of the flow with constant angular momentum: (b3 - 2 r3 tan a) ln(r_o/r3) + 2 tan a (r_o - r3) = q. NAN: no
-// solution.
-double cw_volute_trapezoid_height(double r3, double b3, double side_wall_angle, double q);
 
 #ifdef __cplusplus
 }

@@ -154,8 +154,8 @@ static CwStatus check_volute(const char *path, const CwCase *table, const CwCase
   const CwCasePlace *place = &places[cw_case_key_find("volute", "velocity_factor")];
   CW_REQUIRE(isnan(table->volute.velocity_factor) || table->volute.area_law == CW_AREA_LAW_VELOCITY,
              CW_ERR_INPUT,
-             "%s:%d:%d: volute.velocity_factor: %.6g is of no use with the area_law angular_momentum; allowed: "
-             "with area_law velocity",
+             "%s:%d:%d: volute.velocity_factor: %.6g is of no use with the area_law angular_momentum; "
+             "allowed: with area_law velocity",
              path, place->line, place->column, table->volute.velocity_factor);
   place = &places[cw_case_key_find("volute", "corner_radius_mm")];
   CW_REQUIRE(isnan(table->volute.corner_radius) || table->volute.section != CW_SECTION_CIRCLE, CW_ERR_INPUT,

@@ -86,11 +86,11 @@ const CwCaseKey cw_case_keys[] = {
            "shape of the sections: trapezoid, rectangle with parallel side walls, or a circle that touches "
            "the side walls"),
     REAL_COMPUTED("volute", "side_wall_angle_deg", "deg", 1, 45, volute.side_wall_angle,
-                  "half angle between the side walls: side wall from the plane normal to the axis; not used by "
-                  "a rectangle"),
+                  "half angle between the side walls: side wall from the plane normal to the axis; not used "
+                  "by a rectangle"),
     REAL_COMPUTED("volute", "corner_radius_mm", "mm", 0.1, 1000, volute.corner_radius,
-                  "between side walls and outer wall; a trapezoid without it has one flat arc as outer wall, a "
-                  "circle has none"),
+                  "between side walls and outer wall; a trapezoid without it has one flat arc as outer wall, "
+                  "a circle has none"),
     REAL_COMPUTED("volute", "tongue_radius_mm", "mm", 0.1, 200, volute.tongue_radius, "of the tongue's nose"),
     REAL_COMPUTED("volute", "tongue_gap_mm", "mm", 0.05, 500, volute.tongue_gap,
                   "radial distance from the base circle to the tongue's tip"),

@@ -34,6 +34,7 @@ extern "C" {
 #include "geometry/measure.h"
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
+#include "geometry/volute_section.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
@@ -290,9 +291,7 @@ static double angle_between(const CwSolidFace &a, const CwSolidFace &b) {
 static void families(void **) {
   for (int kind = 0; kind < 4; kind++) {
     CwVoluteInput input = paper();
-    input.section = kind == 2   ? CW_SECTION_CIRCLE
-                    : kind == 1 ? CW_SECTION_RECTANGLE
-                                : CW_SECTION_TRAPEZOID;
+    input.section = kind == 2 ? CW_SECTION_CIRCLE : kind == 1 ? CW_SECTION_RECTANGLE : CW_SECTION_TRAPEZOID;
     input.corner_radius = kind < 2 ? 4 * mm : NAN;
     input.inlet_width = (kind == 1 ? 28 : 14) * mm;
     input.area_law = kind % 2 ? CW_AREA_LAW_VELOCITY : CW_AREA_LAW_ANGULAR_MOMENTUM;

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "geometry/volute_design.h"
+#include "geometry/volute_section.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
@@ -78,8 +79,7 @@ static void section_by_strips(void **state) {
     near_to(area, s.area, 1e-5 * s.area);
     near_to(integral, s.integral, 1e-5 * s.integral);
     // The law: the same share of the flow for each angle.
-    near_to(s.integral,
-            volute.law_start + (volute.law_end - volute.law_start) * phi / (2 * M_PI), 1e-15);
+    near_to(s.integral, volute.law_start + (volute.law_end - volute.law_start) * phi / (2 * M_PI), 1e-15);
     double ahead = cw_volute_section(&volute, phi + 1e-5).kink_radius;
     double behind = cw_volute_section(&volute, phi - 1e-5).kink_radius;
     near_to(s.kink_slope, (ahead - behind) / 2e-5, 1e-7);
@@ -90,9 +90,7 @@ static void section_by_strips(void **state) {
 static CwVoluteInput family(int kind) {
   CwVoluteInput input = paper();
   input.throat_area = NAN;
-  input.section = kind == 0   ? CW_SECTION_TRAPEZOID
-                  : kind == 1 ? CW_SECTION_RECTANGLE
-                              : CW_SECTION_CIRCLE;
+  input.section = kind == 0 ? CW_SECTION_TRAPEZOID : kind == 1 ? CW_SECTION_RECTANGLE : CW_SECTION_CIRCLE;
   input.area_law = kind == 2 ? CW_AREA_LAW_ANGULAR_MOMENTUM : CW_AREA_LAW_VELOCITY;
   input.inlet_width = (kind == 1 ? 28 : 14) * mm;
   input.corner_radius = kind == 2 ? NAN : 4 * mm;
@@ -384,13 +382,21 @@ static void wrong_input(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(trapezoid_heights), cmocka_unit_test(section_by_strips),
-      cmocka_unit_test(wall_derivatives),  cmocka_unit_test(spiral_by_swirl),
-      cmocka_unit_test(throat_by_strips),  cmocka_unit_test(tongue_touches),
-      cmocka_unit_test(diffuser),          cmocka_unit_test(least_gap),
-      cmocka_unit_test(wrong_input),       cmocka_unit_test(arc_beyond_axis),
-      cmocka_unit_test(families_of_sections), cmocka_unit_test(family_wall_derivatives),
-      cmocka_unit_test(tongue_angle), cmocka_unit_test(area_ratio), cmocka_unit_test(radial_discharge),
+      cmocka_unit_test(trapezoid_heights),
+      cmocka_unit_test(section_by_strips),
+      cmocka_unit_test(wall_derivatives),
+      cmocka_unit_test(spiral_by_swirl),
+      cmocka_unit_test(throat_by_strips),
+      cmocka_unit_test(tongue_touches),
+      cmocka_unit_test(diffuser),
+      cmocka_unit_test(least_gap),
+      cmocka_unit_test(wrong_input),
+      cmocka_unit_test(arc_beyond_axis),
+      cmocka_unit_test(families_of_sections),
+      cmocka_unit_test(family_wall_derivatives),
+      cmocka_unit_test(tongue_angle),
+      cmocka_unit_test(area_ratio),
+      cmocka_unit_test(radial_discharge),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
