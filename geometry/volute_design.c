@@ -21,6 +21,9 @@ static const double ARC_HALF_ANGLE = 35 * PI / 180;
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
 static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
+// Least share of the side walls in the throat's width where arcs touch them: beside a narrower one the
+// diffuser's outer wall, which overhangs there, folds over.
+static const double LEAST_SIDE = 0.25;
 // The throat lies this many nose radii behind the centre of the nose, so that the flank is no needle.
 static const double THROAT_SETBACK = 2.0;
 // Above the kink's level the nose's centre line levels out over this height, in nose radii.
@@ -309,13 +312,14 @@ static CwStatus check_tongue(const CwVolute *volute) {
   if (!isnan(volute->throat_width))
     cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle),
                          volute->arc_half_angle, corner, NULL, NULL);
-  CW_REQUIRE(volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
-                 corner[0] > volute->inner_wall_x + in->tongue_radius,
-             CW_ERR_DESIGN,
-             "volute: %s no side wall at the throat; lower inlet_width or %s, or take section trapezoid%s",
-             cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
-             cw_volute_has_corners(volute) ? "corner_radius" : "side_wall_angle",
-             cw_volute_has_corners(volute) ? " without corner_radius" : "");
+  CW_REQUIRE(
+      volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
+          corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
+      CW_ERR_DESIGN,
+      "volute: %s too little side wall at the throat; lower inlet_width or %s, or take section trapezoid%s",
+      cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
+      cw_volute_has_corners(volute) ? "corner_radius" : "side_wall_angle",
+      cw_volute_has_corners(volute) ? " without corner_radius" : "");
   CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) &&
                  volute->throat_width > 4 * in->tongue_radius,
              CW_ERR_DESIGN,
