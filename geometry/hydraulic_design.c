@@ -8,6 +8,7 @@
 #include "geometry/correlations.h"
 #include "geometry/meridian.h"
 #include "geometry/velocity_triangles.h"
+#include "geometry/volute_section.h"
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
@@ -289,19 +290,41 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
 static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
+  const int rectangle = given->section == CW_SECTION_RECTANGLE;
+  if (rectangle)
+    SET(side_wall_angle, 0, "rectangle");
+  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40.
+  const double factor = cw_case_given(given->velocity_factor)
+                            ? given->velocity_factor
+                            : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
+  SET(section_speed, factor * sqrt(2 * gravity * design->head),
+      cw_case_given(given->velocity_factor) ? "case: K3" : "Stepanoff: K3 = 0.42 (nq / 20)^-0.2");
   // A plain trapezoid is near enough to see how wide the throat will be.
-  const double height = cw_volute_trapezoid_height(r3, design->inlet_width, design->side_wall_angle,
+  const int velocity = given->area_law == CW_AREA_LAW_VELOCITY;
+  const double b3 = design->inlet_width, slope = tan(design->side_wall_angle);
+  const double spiral = cw_volute_trapezoid_height(r3, b3, design->side_wall_angle,
                                                    design->flow_rate / design->swirl_constant);
-  const double area = height * (design->inlet_width + height * tan(design->side_wall_angle));
+  const double area = velocity ? design->flow_rate / design->section_speed : spiral * (b3 + spiral * slope);
+  const double height = 2 * area / (b3 + sqrt(b3 * b3 + 4 * slope * area));
+  TAKE(corner_radius, given->corner_radius, rectangle ? fmin(b3, height) / 6 : 0,
+       rectangle ? "a sixth of b3 or of the throat's height" : "one arc");
+  if (!cw_case_given(given->tongue_radius) && design->tongue_radius > height / 6)
+    SET(tongue_radius, height / 6, "a sixth of the throat's height");
   TAKE(discharge_diameter, given->outlet_diameter,
-       standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
+       cw_case_given(given->diffuser_area_ratio)
+           ? sqrt(given->diffuser_area_ratio * 4 * area / M_PI)
+           : standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
        "standard bore under 4 m/s, wider than the throat");
   TAKE(discharge_pipe_length, given->discharge_pipe_length, 2 * design->discharge_diameter, "2 DN");
   // Gulich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
   const double gap = r2 * (1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->head / 1000) - r3;
   const CwVoluteInput input = {
       .flow_rate = design->flow_rate,
+      .area_law = given->area_law,
       .angular_momentum = design->swirl_constant,
+      .section_speed = design->section_speed,
+      .section = given->section,
+      .corner_radius = design->corner_radius > 0 ? design->corner_radius : NAN,
       .interface_radius = design->interface_radius,
       .neck_width = design->outlet_width,
       .base_diameter = design->base_diameter,
@@ -310,10 +333,14 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
       .throat_area = given->throat_area,
       .tongue_radius = design->tongue_radius,
       .tongue_gap = given->tongue_gap,
-      .least_tongue_gap = cw_case_given(given->tongue_gap) || gap < 0 ? NAN : gap,
+      .tongue_angle = given->tongue_angle,
+      .least_tongue_gap =
+          cw_case_given(given->tongue_gap) || cw_case_given(given->tongue_angle) || gap < 0 ? NAN : gap,
       .diffuser_length = given->diffuser_length,
-      .diffuser_angle = 9 * degree,
-      .outlet_diameter = design->discharge_diameter,
+      .diffuser_angle = cw_case_given(given->diffuser_angle) ? given->diffuser_angle : 9 * degree,
+      .outlet_diameter = cw_case_given(given->diffuser_area_ratio) ? NAN : design->discharge_diameter,
+      .diffuser_area_ratio = given->diffuser_area_ratio,
+      .discharge = given->discharge,
       .discharge_pipe_length = design->discharge_pipe_length,
   };
   CW_TRY(cw_volute_design(&input, &design->volute));
@@ -349,13 +376,21 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
     status = volute_of(given, design);
   }
   CW_TRY(status);
-  TAKE(throat_area, given->throat_area, design->volute.throat_area, "constant angular momentum K");
+  TAKE(throat_area, given->throat_area, design->volute.throat_area,
+       given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
   SET(tongue_tip_radius, design->volute.tip_radius,
       cw_case_given(given->tongue_gap)
           ? "case: D3/2 + tongue gap"
           : "well shaped, at least Gulich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
-  TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length, "full angle 9 deg");
+  SET(tongue_angle, design->volute.tip_angle,
+      cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
+  if (cw_case_given(given->diffuser_area_ratio))
+    SET(discharge_diameter, design->volute.input.outlet_diameter, "area ratio of the diffuser");
+  TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length,
+       cw_case_given(given->diffuser_angle) ? "full angle of the case" : "full angle 9 deg");
+  SET(diffuser_area_ratio, design->volute.diffuser_area_ratio,
+      cw_case_given(given->diffuser_area_ratio) ? "case" : "outlet over throat");
   SET(diffuser_angle, design->volute.diffuser_angle, "cone of equal areas");
 done:
   return status;

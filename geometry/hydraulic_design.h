@@ -100,12 +100,16 @@ extern "C" {
   X(inlet_width, LENGTH, "volute inlet width b3")                                                            \
   X(side_wall_angle, ANGLE, "volute side walls, half angle")                                                 \
   X(swirl_constant, DIFFUSIVITY, "volute swirl K = c_u2 r2")                                                 \
+  X(section_speed, SPEED, "volute speed K3 sqrt(2 g H) of the constant velocity law")                        \
+  X(corner_radius, LENGTH, "volute corner radius (0: none)")                                                 \
   X(throat_area, AREA, "volute throat area")                                                                 \
   X(throat_speed, SPEED, "speed in the throat")                                                              \
   X(tongue_radius, LENGTH, "tongue nose radius")                                                             \
   X(tongue_tip_radius, LENGTH, "tongue tip, radius from the axis")                                           \
+  X(tongue_angle, ANGLE, "tongue tip, behind the start of the spiral")                                       \
   X(diffuser_length, LENGTH, "diffuser length")                                                              \
   X(diffuser_angle, ANGLE, "diffuser, full angle of the cone of equal areas")                                \
+  X(diffuser_area_ratio, NUMBER, "diffuser, area ratio")                                                     \
   X(discharge_diameter, LENGTH, "discharge DN")                                                              \
   X(discharge_pipe_length, LENGTH, "discharge pipe, length")                                                 \
   X(relative_speed, SPEED, "mean relative speed along the blade")                                            \

@@ -136,8 +136,10 @@ static CwStatus write_file(const CwSolid *const solid[2], const CwDesign *design
     return cw_picture_blade_to_blade(design, path);
   case 7:
     return cw_picture_velocity_triangles(design, path);
-  default:
+  case 8:
     return cw_picture_blade_angle(design, path);
+  default:
+    return cw_picture_volute_sections(design, path);
   }
 }
 
@@ -152,7 +154,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
                                       "faces.csv",          "pump.step",
                                       "design.json",        "meridional_section.svg",
                                       "blade_to_blade.svg", "velocity_triangles.svg",
-                                      "blade_angle.svg"};
+                                      "blade_angle.svg",    "volute_sections.svg"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
   CwDesign design;

@@ -7,46 +7,46 @@
 #include <memory>
 #include <stdexcept>
 
-#include <BRepCheck_Analyzer.hxx>
-#include <BRep_Tool.hxx>
 #include <GeomAPI.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Ax3.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
 #include "geometry/stator_builder.hpp"
+#include "geometry/stator_check.hpp"
 #include "geometry/stator_spline.hpp"
+#include "geometry/volute_section.h"
 
 namespace {
 
 const double PI = 3.14159265358979323846;
-const int SECTORS = 5;             // round the axis; the last one holds the tongue and opens into the throat
-const double SECTOR = PI * 5 / 12; // angle of all but the last
-const int ALONG = 33, ACROSS = 49,
-          SIDE = 25; // points of interpolation: along the flow, over the outer arc, other
+const int SECTORS = 5; // round the axis; the last one holds the tongue and opens into the throat
+const double SECTOR = CW_VOLUTE_SECTOR;     // angle of all but the last
+const int ALONG = 33, SIDE = 25;            // points of interpolation: along the flow, other
+const int ACROSS = 49, ACROSS_CORNERS = 97; // over the outer wall, whose curvature jumps where it has corners
+// Of curves in the parameter plane; where the kink line bends more, each of its points is one of theirs.
+const int PLANE_CURVE = 49, PLANE_CURVE_BENT = 97;
 // Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4
 // by 1 %.
 const double TANGENT = 0.4;
-const double TONGUE_SIDE = 1.01;       // least radius of the tongue's end at the side wall, in D3/2
-const double LEAST_WALL = 0.5;         // mm, between diffuser and spiral
-const double LARGEST_TOLERANCE = 1e-3; // mm
-const double U_MARGIN = 0.1;           // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
+const double TONGUE_SIDE = 1.01; // least radius of the tongue's end at the side wall, in D3/2
+const double LEAST_WALL = 0.5;   // mm, between diffuser and spiral
+const double U_MARGIN = 0.1;     // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
 
 // The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the
 // start of the kink line at the tongue. Names of the points as in volute_design.h.
 class StatorMaker {
 public:
-  explicit StatorMaker(const CwVolute &volute) : v_(volute) {}
+  explicit StatorMaker(const CwVolute &volute)
+      : v_(volute), across_(std::isnan(volute.input.corner_radius) ? ACROSS : ACROSS_CORNERS),
+        b_(volute.end_half_angle > volute.arc_half_angle ? PLANE_CURVE_BENT : PLANE_CURVE) {}
 
   CwSolid *make() {
     for (int j = 0; j <= SECTORS; j++)
@@ -152,7 +152,7 @@ private:
   void make_outer_wall() {
     std::array<Handle(Geom_BSplineSurface), SECTORS> surface;
     for (int j = 0; j < SECTORS; j++)
-      surface[j] = spline_surface(ALONG, ACROSS, [&](double u, double v) {
+      surface[j] = spline_surface(ALONG, across_, [&](double u, double v) {
         double from = j == 0 ? cw_volute_contact_angle(&v_, psi(v)) : angle_[j];
         double to = j == SECTORS - 1 ? cw_volute_throat_angle(&v_, psi(v)) : angle_[j + 1];
         return wall(from + u * (to - from), psi(v));
@@ -184,12 +184,13 @@ private:
       return std::atan2(-normal[1], -normal[0]);
     };
     double side_direction = direction(k);
-    Handle(Geom_BSplineSurface) surface = spline_surface(SIDE, ACROSS, [&](double u, double v) {
+    Handle(Geom_BSplineSurface) surface = spline_surface(SIDE, across_, [&](double u, double v) {
       double height = cw_volute_nose_height(&v_, side_direction * (1 - u));
       if (std::isnan(height))
         throw std::runtime_error("the nose of the tongue does not reach the side walls");
-      double rho = cw_volute_section(&v_, cw_volute_contact_angle(&v_, psi(v))).arc_radius;
-      double z = rho * std::sin(psi(v)) * (1 + u_share(u) * (height / v_.side_level - 1));
+      double contact[3];
+      cw_volute_wall_point(&v_, cw_volute_contact_angle(&v_, psi(v)), psi(v), contact, nullptr, nullptr);
+      double z = contact[2] * (1 + u_share(u) * (height / v_.side_level - 1));
       double beta = direction(psi(v)) * (1 - u);
       return gp_Pnt(1e3 * (v_.inner_wall_x - radius + radius * std::cos(beta)),
                     1e3 * (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), 1e3 * z);
@@ -258,7 +259,11 @@ private:
         double to = angle_[j + 1];
         if (j == SECTORS - 1)
           to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
-        b_.face(new Geom_ConicalSurface(frame(angle_[j], to, b3, side), cone_angle, r3()), loop, "volute");
+        gp_Ax3 at = frame(angle_[j], to, b3, side);
+        Handle(Geom_Surface) wall = v_.input.side_wall_angle > 0
+                                        ? Handle(Geom_Surface)(new Geom_ConicalSurface(at, cone_angle, r3()))
+                                        : Handle(Geom_Surface)(new Geom_Plane(at));
+        b_.face(wall, loop, "volute");
       }
     }
   }
@@ -312,7 +317,7 @@ private:
       return [=](double t) { return on_circle(from + t * (to - from)); };
     };
     Handle(Geom_BSplineSurface) outer =
-        hermite_surface(ACROSS, outer_start, outer_direction, turn(corner[0], corner[1]), straight);
+        hermite_surface(across_, outer_start, outer_direction, turn(corner[0], corner[1]), straight);
     Handle(Geom_BSplineSurface) inner_surface =
         hermite_surface(SIDE, inner_start, inner_direction, turn(corner[3], corner[2]), straight);
     std::array<Handle(Geom_BSplineSurface), 2> sides;
@@ -357,7 +362,7 @@ private:
         gp_Pnt p = surface->Value(double(i) / samples, double(j) / samples);
         CwVoluteSection s = cw_volute_section(&v_, std::atan2(p.Y(), p.X()));
         double z = std::min(std::fabs(p.Z()) * 1e-3, s.kink_height);
-        double wall = 1e3 * (s.arc_centre + std::sqrt(s.arc_radius * s.arc_radius - z * z));
+        double wall = 1e3 * cw_volute_wall_radius(&s, z);
         if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL ||
             std::hypot(p.X(), p.Y()) > wall + LEAST_WALL)
           continue;
@@ -413,6 +418,7 @@ private:
   }
 
   const CwVolute &v_;
+  const int across_;
   LoopBuilder b_;
   double angle_[SECTORS + 1];
   Ring step_[2];
@@ -423,36 +429,13 @@ private:
   Circle circle_end_;
 };
 
-// BRepCheck alone passes gaps that inflated tolerances cover.
-void check(const CwSolid &stator) {
-  TopTools_IndexedMapOfShape vertices;
-  TopExp::MapShapes(stator.solid, TopAbs_VERTEX, vertices);
-  for (int i = 1; i <= vertices.Extent(); i++) {
-    const TopoDS_Vertex &vertex = TopoDS::Vertex(vertices(i));
-    double tolerance = BRep_Tool::Tolerance(vertex);
-    if (tolerance < LARGEST_TOLERANCE)
-      continue;
-    gp_Pnt p = BRep_Tool::Pnt(vertex);
-    char text[200];
-    snprintf(text, sizeof text,
-             "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm", tolerance,
-             p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
-    throw std::runtime_error(text);
-  }
-  for (const CwSolidFace &face : stator.faces)
-    if (!BRepCheck_Analyzer(face.face).IsValid())
-      throw std::runtime_error("face " + face.name + " crosses itself or its edges do not fit");
-  if (!BRepCheck_Analyzer(stator.solid).IsValid())
-    throw std::runtime_error("the solid is not valid");
-}
-
 } // namespace
 
 CwStatus cw_stator_build(const CwVolute *volute, CwSolid **stator) {
   *stator = nullptr;
   try {
     std::unique_ptr<CwSolid> fresh(StatorMaker(*volute).make());
-    check(*fresh);
+    cw_stator_check(*fresh);
     *stator = fresh.release();
     return CW_OK;
   } catch (const Standard_Failure &failure) {

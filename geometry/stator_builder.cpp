@@ -17,8 +17,6 @@
 
 namespace {
 
-const int CURVE_POINTS = 49; // of an interpolated curve in the parameter plane
-
 // (u,v) of a point on a plane, cylinder or cone; u of the latter two lies in [0, 2 pi).
 gp_Pnt2d parameters(const GeomAdaptor_Surface &surface, const gp_Pnt &p) {
   double u = 0, v = 0;
@@ -140,7 +138,7 @@ CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool firs
       if (use.border)
         curve = straight_plane_curve(edge.a, edge.b, use.border->first, use.border->second);
       else
-        curve = spline_plane_curve(CURVE_POINTS, edge.a, edge.b,
+        curve = spline_plane_curve(curve_points_, edge.a, edge.b,
                                    [&](double t) { return parameters(adaptor, edge.curve->Value(t)); });
       gp_Pnt2d before = curve->Value(edge.a);
       for (int k = 1; k <= 32; k++) {

@@ -30,6 +30,8 @@ struct LoopEdge {
 
 class LoopBuilder {
 public:
+  // Curves in the parameter plane are interpolated at so many points.
+  explicit LoopBuilder(int curve_points) : curve_points_(curve_points) {}
   int vertex(const gp_Pnt &point);
   // The curve over [a, b] must run from vertex `start` to vertex `end`.
   int edge(const Handle(Geom_Curve) & curve, double a, double b, int start, int end);
@@ -63,6 +65,7 @@ private:
   };
   std::vector<bool> turned_loops() const;
 
+  const int curve_points_;
   std::vector<gp_Pnt> vertices_;
   std::vector<Edge> edges_;
   std::vector<Face> faces_;

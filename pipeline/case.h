@@ -22,6 +22,9 @@ typedef enum { CW_SLIP_WIESNER, CW_SLIP_PFLEIDERER } CwSlip;
 typedef enum { CW_BLADE_TWISTED, CW_BLADE_CYLINDRICAL } CwBladeForm;
 typedef enum { CW_EDGE_BEVELLED, CW_EDGE_BLUNT, CW_EDGE_ROUNDED, CW_EDGE_SHARP } CwTrailingEdge;
 typedef enum { CW_ROTATION_COUNTER_CLOCKWISE, CW_ROTATION_CLOCKWISE } CwRotation; // seen from the drive
+typedef enum { CW_AREA_LAW_ANGULAR_MOMENTUM, CW_AREA_LAW_VELOCITY } CwAreaLaw;
+typedef enum { CW_SECTION_TRAPEZOID, CW_SECTION_RECTANGLE, CW_SECTION_CIRCLE } CwVoluteSectionKind;
+typedef enum { CW_DISCHARGE_TANGENTIAL, CW_DISCHARGE_RADIAL } CwDischarge;
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
 
@@ -84,11 +87,19 @@ typedef struct {
 typedef struct {
   double base_diameter;      // D3, m
   double inlet_width;        // b3, m
-  double side_wall_angle;    // rad, half angle of the trapezoid
+  CwAreaLaw area_law;        // how the sections grow
+  double velocity_factor;    // K3 = c3 / sqrt(2 g H), with constant velocity
+  CwVoluteSectionKind section;
+  double side_wall_angle;    // rad, half angle between the side walls; not of a rectangle
+  double corner_radius;      // m, between side and outer wall; not of a circle
   double tongue_radius;      // m, nose
   double tongue_gap;         // m, radial, from D3/2 to the tongue's tip
+  double tongue_angle;       // rad, from the spiral's start to the tongue's tip
   double throat_area;        // m2
   double diffuser_length;    // m
+  double diffuser_angle;     // rad, full angle of the cone of equal areas
+  double diffuser_area_ratio; // of outlet to throat
+  CwDischarge discharge;     // which way the discharge pipe points
   double outlet_diameter;    // DN, m
   double discharge_pipe_length; // m
 } CwVoluteTable;

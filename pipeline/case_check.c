@@ -138,6 +138,34 @@ done:
   return status;
 }
 
+// Pairs of keys of which each follows from the other.
+static CwStatus check_volute(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  static const char *const pairs[][2] = {{"tongue_angle_deg", "tongue_gap_mm"},
+                                         {"diffuser_angle_deg", "diffuser_length_mm"},
+                                         {"diffuser_area_ratio", "outlet_diameter_mm"}};
+  for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
+    const int key = cw_case_key_find("volute", pairs[i][0]), other = cw_case_key_find("volute", pairs[i][1]);
+    const double value = cw_case_key_value(&cw_case_keys[key], table);
+    CW_REQUIRE(isnan(value) || isnan(cw_case_key_value(&cw_case_keys[other], table)), CW_ERR_INPUT,
+               "%s:%d:%d: volute.%s: %.6g contradicts volute.%s, from which it follows; allowed: one of them",
+               path, places[key].line, places[key].column, pairs[i][0], value, pairs[i][1]);
+  }
+  const CwCasePlace *place = &places[cw_case_key_find("volute", "velocity_factor")];
+  CW_REQUIRE(isnan(table->volute.velocity_factor) || table->volute.area_law == CW_AREA_LAW_VELOCITY,
+             CW_ERR_INPUT,
+             "%s:%d:%d: volute.velocity_factor: %.6g is of no use with the area_law angular_momentum; "
+             "allowed: with area_law velocity",
+             path, place->line, place->column, table->volute.velocity_factor);
+  place = &places[cw_case_key_find("volute", "corner_radius_mm")];
+  CW_REQUIRE(isnan(table->volute.corner_radius) || table->volute.section != CW_SECTION_CIRCLE, CW_ERR_INPUT,
+             "%s:%d:%d: volute.corner_radius_mm: %.6g is of no use with the section circle; allowed: with "
+             "section trapezoid or rectangle",
+             path, place->line, place->column, 1000 * table->volute.corner_radius);
+done:
+  return status;
+}
+
 CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places) {
   CwStatus status = CW_OK;
   CW_TRY(check_priority(path, table, places));
@@ -146,6 +174,7 @@ CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace 
   CW_TRY(check_operating_point(path, table, places));
   CW_TRY(check_blockage(path, table, places));
   CW_TRY(check_roughness(path, table, places));
+  CW_TRY(check_volute(path, table, places));
 done:
   return status;
 }

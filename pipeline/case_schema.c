@@ -12,6 +12,9 @@ static const char *const slip_models[] = {"wiesner", "pfleiderer", NULL};
 static const char *const blade_forms[] = {"twisted", "cylindrical", NULL};
 static const char *const trailing_edges[] = {"bevelled", "blunt", "rounded", "sharp", NULL};
 static const char *const rotations[] = {"counter_clockwise", "clockwise", NULL};
+static const char *const area_laws[] = {"angular_momentum", "velocity", NULL};
+static const char *const sections[] = {"trapezoid", "rectangle", "circle", NULL};
+static const char *const discharges[] = {"tangential", "radial", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
@@ -112,15 +115,34 @@ const CwCaseKey cw_case_keys[] = {
     REAL_COMPUTED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter,
                   "D3, base circle of the spiral"),
     REAL_COMPUTED("volute", "inlet_width_mm", "mm", 0.5, 2000, volute.inlet_width, "b3, width at D3"),
+    CHOICE("volute", "area_law", area_laws, CW_AREA_LAW_ANGULAR_MOMENTUM, volute.area_law,
+           "how the sections grow: by constant angular momentum c_u r, or by constant velocity (Stepanoff)"),
+    REAL_COMPUTED("volute", "velocity_factor", "", 0.1, 1, volute.velocity_factor,
+                  "K3 = c3 / sqrt(2 g H), of the law of constant velocity"),
+    CHOICE("volute", "section", sections, CW_SECTION_TRAPEZOID, volute.section,
+           "shape of the sections: trapezoid, rectangle with parallel side walls, or a circle that touches "
+           "the side walls"),
     REAL_COMPUTED("volute", "side_wall_angle_deg", "deg", 1, 45, volute.side_wall_angle,
-                  "half angle of the trapezoid section: side wall from the plane normal to the axis"),
+                  "half angle between the side walls: side wall from the plane normal to the axis; not used "
+                  "by a rectangle"),
+    REAL_COMPUTED("volute", "corner_radius_mm", "mm", 0.1, 1000, volute.corner_radius,
+                  "between side walls and outer wall; a trapezoid without it has one flat arc as outer wall, "
+                  "a circle has none"),
     REAL_COMPUTED("volute", "tongue_radius_mm", "mm", 0.1, 200, volute.tongue_radius, "of the tongue's nose"),
     REAL_COMPUTED("volute", "tongue_gap_mm", "mm", 0.05, 500, volute.tongue_gap,
                   "radial distance from the base circle to the tongue's tip"),
+    REAL_COMPUTED("volute", "tongue_angle_deg", "deg", 5, 80, volute.tongue_angle,
+                  "from the start of the spiral to the tongue's tip; instead of the gap"),
     REAL_COMPUTED("volute", "throat_area_mm2", "mm2", 10, 1e7, volute.throat_area,
                   "section of the volute at the tongue"),
     REAL_COMPUTED("volute", "diffuser_length_mm", "mm", 1, 20000, volute.diffuser_length,
                   "from the throat to the outlet diameter"),
+    REAL_COMPUTED("volute", "diffuser_angle_deg", "deg", 1, 30, volute.diffuser_angle,
+                  "full angle of the cone of equal areas; instead of the length"),
+    REAL_COMPUTED("volute", "diffuser_area_ratio", "", 1.05, 4, volute.diffuser_area_ratio,
+                  "area of the outlet over that of the throat; instead of the outlet diameter"),
+    CHOICE("volute", "discharge", discharges, CW_DISCHARGE_TANGENTIAL, volute.discharge,
+           "tangential: straight on from the throat; radial: bent until the pipe points away from the axis"),
     REAL_COMPUTED("volute", "outlet_diameter_mm", "mm", 5, 5000, volute.outlet_diameter,
                   "DN, of the discharge"),
     REAL_COMPUTED("volute", "discharge_pipe_length_mm", "mm", 1, 100000, volute.discharge_pipe_length,

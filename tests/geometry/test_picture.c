@@ -67,6 +67,7 @@ static void pictures(void **state) {
   check(cw_picture_blade_to_blade, &design, "wrap 71.0 deg");
   check(cw_picture_velocity_triangles, &design, "u = 15.18");
   check(cw_picture_blade_angle, &design, "mid-span");
+  check(cw_picture_volute_sections, &design, "360 deg: ");
 }
 
 static void text_is_escaped(void **state) {

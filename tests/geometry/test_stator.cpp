@@ -34,6 +34,7 @@ extern "C" {
 #include "geometry/measure.h"
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
+#include "geometry/volute_section.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
@@ -48,7 +49,12 @@ static CwVoluteInput paper() {
   input.side_wall_angle = 20 * degree;
   input.throat_area = 905e-6;
   input.tongue_radius = 0.0015;
-  input.tongue_gap = input.least_tongue_gap = NAN;
+  input.tongue_gap = input.tongue_angle = input.least_tongue_gap = NAN;
+  input.area_law = CW_AREA_LAW_ANGULAR_MOMENTUM;
+  input.section_speed = 5.9;
+  input.section = CW_SECTION_TRAPEZOID;
+  input.corner_radius = input.diffuser_area_ratio = NAN;
+  input.discharge = CW_DISCHARGE_TANGENTIAL;
   input.diffuser_length = NAN;
   input.diffuser_angle = 9 * degree;
   input.outlet_diameter = 0.05;
@@ -134,14 +140,14 @@ static void outlet(void **) {
 
 // Fluid between r = D3/2 and the throat by columns over a grid in plan: the height of a column follows from
 // the sections; the tongue is left sharp, which is worth some 10 mm3.
-static double spiral_volume() {
+static double spiral_volume(const CwVolute &volute) {
   double r3 = volute.input.base_diameter / 2, step = 0.4 * mm, sum = 0;
   auto height = [&](double r, double phi) {
     CwVoluteSection s = cw_volute_section(&volute, phi);
     if (r < s.kink_radius)
       return cw_volute_half_width(&volute, r);
     double inside = s.arc_radius * s.arc_radius - std::pow(r - s.arc_centre, 2);
-    return inside > 0 ? std::sqrt(inside) : 0;
+    return inside > 0 ? s.flat + std::sqrt(inside) : 0;
   };
   for (double x = -0.2 + step / 2; x < 0.2; x += step)
     for (double y = -0.2 + step / 2; y < 0.2; y += step) {
@@ -160,7 +166,7 @@ static double spiral_volume() {
 
 // Volume of the diffuser, closed by the planes of throat and outlet: a third of the flux of x through small
 // triangles.
-static double diffuser_volume() {
+static double diffuser_volume(const CwVolute &volute, const CwSolid *stator) {
   enum { STEPS = 100 };
   double sum = 0;
   for (const CwSolidFace &face : stator->faces) {
@@ -177,17 +183,24 @@ static double diffuser_volume() {
         sum += sign * (a.Dot(b.Crossed(c)) + a.Dot(c.Crossed(d))) / 6;
       }
   }
-  double lean = volute.discharge_lean,
+  // The whole solid is turned by minus the lean of the discharge: so is the throat's plane.
+  double lean = volute.discharge_lean, radius = volute.input.outlet_diameter / 2,
          outlet = volute.outlet_y * std::cos(lean) - volute.outlet_x * std::sin(lean);
-  return sum * 1e-9 + (outlet * M_PI * 0.025 * 0.025 - volute.throat_y * volute.throat_area) / 3;
+  return sum * 1e-9 + (outlet * M_PI * radius * radius - volute.throat_y * volute.throat_area) / 3;
+}
+
+static void check_volume(const CwVolute &volute, const CwSolid *stator) {
+  CwMeasuredSolid measured;
+  assert_int_equal(cw_measure_solid(stator, &measured), CW_OK);
+  const CwVoluteInput &in = volute.input;
+  double neck = M_PI * (std::pow(in.base_diameter / 2, 2) - std::pow(in.interface_radius, 2)) * in.neck_width;
+  double pipe = M_PI / 4 * in.outlet_diameter * in.outlet_diameter * in.discharge_pipe_length;
+  double expected = neck + spiral_volume(volute) + diffuser_volume(volute, stator) + pipe;
+  near_to(measured.volume, expected, 1e-3 * expected);
 }
 
 static void volume(void **) {
-  CwMeasuredSolid measured;
-  assert_int_equal(cw_measure_solid(stator, &measured), CW_OK);
-  double neck = M_PI * (0.102 * 0.102 - 0.101 * 0.101) * 0.008, pipe = M_PI * 0.025 * 0.025 * 0.1;
-  double expected = neck + spiral_volume() + diffuser_volume() + pipe;
-  near_to(measured.volume, expected, 1e-3 * expected);
+  check_volume(volute, stator);
 }
 
 struct Side {
@@ -255,6 +268,59 @@ static void creases(void **) {
   // Rings: interface 5, neck 10, step 10; side walls 10; outer wall 4, nose 2, throat 4, diffuser to pipe 4,
   // pipe 4.
   assert_int_equal(smooth_edges, 53);
+}
+
+// Angle through the fluid, in degrees, in the middle of the edge that two faces share; -1: they share none.
+static double angle_between(const CwSolidFace &a, const CwSolidFace &b) {
+  for (TopExp_Explorer i(a.face, TopAbs_EDGE); i.More(); i.Next())
+    for (TopExp_Explorer j(b.face, TopAbs_EDGE); j.More(); j.Next())
+      if (i.Current().IsSame(j.Current())) {
+        TopoDS_Edge edge = TopoDS::Edge(i.Current());
+        double first, last;
+        BRep_Tool::Range(edge, first, last);
+        Side one = side_of(edge, a.face, (first + last) / 2),
+             other = side_of(TopoDS::Edge(j.Current()), b.face, (first + last) / 2);
+        double angle = one.into.Angle(other.into) / degree;
+        return other.into.Dot(one.normal) >= 0 ? 360 - angle : angle;
+      }
+  return -1;
+}
+
+// Each family, by either law and discharge, has the paper's faces; its outer wall touches the side walls all
+// along the last three sectors; its volume is that of its sections.
+static void families(void **) {
+  for (int kind = 0; kind < 4; kind++) {
+    CwVoluteInput input = paper();
+    input.section = kind == 2 ? CW_SECTION_CIRCLE : kind == 1 ? CW_SECTION_RECTANGLE : CW_SECTION_TRAPEZOID;
+    input.corner_radius = kind < 2 ? 4 * mm : NAN;
+    input.inlet_width = (kind == 1 ? 28 : 14) * mm;
+    input.area_law = kind % 2 ? CW_AREA_LAW_VELOCITY : CW_AREA_LAW_ANGULAR_MOMENTUM;
+    input.discharge = kind == 0 ? CW_DISCHARGE_TANGENTIAL : CW_DISCHARGE_RADIAL;
+    input.throat_area = input.outlet_diameter = NAN;
+    input.diffuser_area_ratio = 1.7;
+    CwVolute trial;
+    CwSolid *solid = NULL;
+    if (cw_volute_design(&input, &trial) != CW_OK || cw_stator_build(&trial, &solid) != CW_OK)
+      fail_msg("%d: %s", kind, cw_fail_message());
+    CwMeasuredSolid measured;
+    assert_int_equal(cw_measure_solid(solid, &measured), CW_OK);
+    assert_true(measured.valid && measured.closed && measured.largest_tolerance < 1e-6);
+    assert_int_equal(cw_solid_face_count(solid), cw_solid_face_count(stator));
+    std::map<std::string, const CwSolidFace *> wall;
+    for (int i = 0; i < cw_solid_face_count(solid); i++) {
+      assert_string_equal(cw_solid_face_name(solid, i), cw_solid_face_name(stator, i));
+      wall[solid->faces[i].name] = &solid->faces[i];
+    }
+    // volute_1 to 5: outer wall; 6 to 10 and 11 to 15: side walls below and above.
+    for (int sector = 3; sector <= 5; sector++)
+      for (int side : {5, 10}) {
+        double angle = angle_between(*wall.at("volute_" + std::to_string(sector)),
+                                     *wall.at("volute_" + std::to_string(sector + side)));
+        near_to(angle, kind == 3 ? 105 : 180, 0.3);
+      }
+    check_volume(trial, solid);
+    cw_solid_free(&solid);
+  }
 }
 
 // Every set is built whole, or refused in one line.
@@ -329,6 +395,7 @@ int main() {
       cmocka_unit_test(valid_and_closed), cmocka_unit_test(dimensions), cmocka_unit_test(patches),
       cmocka_unit_test(outlet),           cmocka_unit_test(volume),     cmocka_unit_test(creases),
       cmocka_unit_test(parameter_sets),   cmocka_unit_test(same_bits),  cmocka_unit_test(curvature),
+      cmocka_unit_test(families),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

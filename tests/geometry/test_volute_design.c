@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "geometry/volute_design.h"
+#include "geometry/volute_section.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
@@ -23,7 +24,11 @@ static CwVoluteInput paper(void) {
       .side_wall_angle = 20 * degree,
       .throat_area = 905e-6,
       .tongue_radius = 0.0015,
+      .section_speed = 5.9,
+      .corner_radius = NAN,
       .tongue_gap = NAN,
+      .tongue_angle = NAN,
+      .diffuser_area_ratio = NAN,
       .least_tongue_gap = NAN,
       .diffuser_length = NAN,
       .diffuser_angle = 9 * degree,
@@ -74,12 +79,122 @@ static void section_by_strips(void **state) {
     near_to(area, s.area, 1e-5 * s.area);
     near_to(integral, s.integral, 1e-5 * s.integral);
     // The law: the same share of the flow for each angle.
-    near_to(s.integral,
-            volute.integral_start + (volute.integral_end - volute.integral_start) * phi / (2 * M_PI), 1e-15);
+    near_to(s.integral, volute.law_start + (volute.law_end - volute.law_start) * phi / (2 * M_PI), 1e-15);
     double ahead = cw_volute_section(&volute, phi + 1e-5).kink_radius;
     double behind = cw_volute_section(&volute, phi - 1e-5).kink_radius;
     near_to(s.kink_slope, (ahead - behind) / 2e-5, 1e-7);
   }
+}
+
+// Trapezoid with corners, rectangle and circle, by both laws.
+static CwVoluteInput family(int kind) {
+  CwVoluteInput input = paper();
+  input.throat_area = NAN;
+  input.section = kind == 0 ? CW_SECTION_TRAPEZOID : kind == 1 ? CW_SECTION_RECTANGLE : CW_SECTION_CIRCLE;
+  input.area_law = kind == 2 ? CW_AREA_LAW_ANGULAR_MOMENTUM : CW_AREA_LAW_VELOCITY;
+  input.inlet_width = (kind == 1 ? 28 : 14) * mm;
+  input.corner_radius = kind == 2 ? NAN : 4 * mm;
+  return input;
+}
+
+// The sections' area and integral around the outline of cw_volute_wall_point, by Green's theorem, and their
+// law; where the arcs no longer grow they touch the side walls and have the given radius.
+static void families_of_sections(void **state) {
+  for (int kind = 0; kind < 3; kind++) {
+    CwVoluteInput input = family(kind);
+    CwVolute volute = designed(&input);
+    double a = kind == 1 ? 0 : 20 * degree, k0 = volute.arc_half_angle, b3 = input.inlet_width;
+    near_to(volute.end_half_angle, 90 * degree + a, 1e-14);
+    for (double phi = volute.start_angle; phi < 6.9; phi += 0.7) {
+      CwVoluteSection s = cw_volute_section(&volute, phi);
+      enum { PIECES = 40000 };
+      double area = 0, integral = 0, before[3], x[3], r = s.kink_radius, slope = tan(a);
+      cw_volute_wall_point(&volute, phi, -k0, before, NULL, NULL);
+      near_to(hypot(before[0], before[1]), r, 1e-12);
+      near_to(before[2], -(b3 / 2 + (r - 0.102) * slope), 1e-12);
+      for (int i = 1; i <= PIECES; i++) {
+        cw_volute_wall_point(&volute, phi, k0 * (2.0 * i / PIECES - 1), x, NULL, NULL);
+        double r0 = hypot(before[0], before[1]), r1 = hypot(x[0], x[1]), dz = x[2] - before[2];
+        area += 0.5 * (r0 + r1) * dz;
+        integral += 0.5 * (log(r0) + log(r1)) * dz;
+        for (int j = 0; j < 3; j++)
+          before[j] = x[j];
+      }
+      // The rest of the way round, clockwise: along the side walls inward and across the base circle.
+      double h = s.kink_height;
+      area -= 0.102 * b3 + 2 * (h - b3 / 2) * (r + 0.102) / 2;
+      integral -= log(0.102) * b3;
+      for (int i = 0; i < 2000; i++)
+        integral -= 2 * log(0.102 + (r - 0.102) * (i + 0.5) / 2000) * (h - b3 / 2) / 2000;
+      near_to(s.area, area, 1e-6 * s.area);
+      near_to(s.integral, integral, 1e-6 * s.integral);
+      double law = input.area_law == CW_AREA_LAW_VELOCITY ? s.area : s.integral;
+      near_to(law, volute.law_start + (volute.law_end - volute.law_start) * phi / (2 * M_PI), 1e-14);
+      if (phi > volute.start_angle + 2 * CW_VOLUTE_SECTOR) {
+        double p[3], along[3];
+        cw_volute_wall_point(&volute, phi, k0, p, NULL, along);
+        near_to(along[2] / hypot(along[0], along[1]), slope * cos(atan2(along[1], along[0]) - phi),
+                1e-9); // on along the side wall
+        if (kind < 2)
+          near_to(s.arc_radius, 4 * mm, 1e-15);
+      }
+    }
+    if (kind < 2)
+      near_to((volute.law_end - volute.law_start) * input.section_speed, input.flow_rate, 1e-12);
+    // The nose touches the outer wall from outside.
+    double outer = cw_volute_section(&volute, volute.tip_angle).outer_radius;
+    assert_true(volute.tip_radius <= outer && volute.tip_radius > outer - 1 * mm);
+  }
+}
+
+static void family_wall_derivatives(void **state) {
+  for (int kind = 0; kind < 3; kind++) {
+    CwVoluteInput input = family(kind);
+    CwVolute volute = designed(&input);
+    double x[3], a[3], b[3], ahead[3], behind[3], h = 1e-6;
+    for (double phi = 0.9; phi < 4; phi += 0.6)
+      for (double psi = -0.59; psi < 0.6; psi += 0.29) {
+        cw_volute_wall_point(&volute, phi, psi, x, a, b);
+        cw_volute_wall_point(&volute, phi + h, psi, ahead, NULL, NULL);
+        cw_volute_wall_point(&volute, phi - h, psi, behind, NULL, NULL);
+        for (int i = 0; i < 3; i++)
+          near_to(a[i], (ahead[i] - behind[i]) / (2 * h), 2e-7);
+        cw_volute_wall_point(&volute, phi, psi + h, ahead, NULL, NULL);
+        cw_volute_wall_point(&volute, phi, psi - h, behind, NULL, NULL);
+        for (int i = 0; i < 3; i++)
+          near_to(b[i], (ahead[i] - behind[i]) / (2 * h), 2e-7);
+      }
+  }
+}
+
+static void tongue_angle(void **state) {
+  CwVoluteInput input = paper();
+  input.tongue_angle = 38 * degree;
+  near_to(designed(&input).tip_angle, 38 * degree, 1e-9);
+}
+
+static void area_ratio(void **state) {
+  CwVoluteInput input = paper();
+  input.outlet_diameter = NAN;
+  input.diffuser_area_ratio = 1.8;
+  CwVolute volute = designed(&input);
+  near_to(M_PI / 4 * pow(volute.input.outlet_diameter, 2), 1.8 * 905e-6, 1e-11);
+  near_to(volute.diffuser_area_ratio, 1.8, 1e-12);
+}
+
+// The pipe's axis goes through the pump's, and the throat's middle and the diffuser's end lie on a circle
+// that touches both directions: equal angles of the chord to them.
+static void radial_discharge(void **state) {
+  CwVoluteInput input = paper();
+  input.discharge = CW_DISCHARGE_RADIAL;
+  CwVolute volute = designed(&input);
+  double lean = volute.discharge_lean, middle = volute.inner_wall_x + 0.5 * volute.throat_width;
+  near_to(volute.outlet_x * cos(lean) + volute.outlet_y * sin(lean), 0, 1e-12);
+  assert_true(volute.outlet_y * cos(lean) - volute.outlet_x * sin(lean) > 0.15);
+  double dx = volute.outlet_x - middle, dy = volute.outlet_y - volute.throat_y;
+  near_to(atan2(-dx, dy), 0.5 * (volute.throat_lean + lean), 1e-12);
+  double bend = volute.throat_lean - lean;
+  near_to(hypot(dx, dy), volute.diffuser_length * sin(bend / 2) / (bend / 2), 1e-12);
 }
 
 // Wide side walls and a large section: the arc's radius is more than its centre's distance from the axis.
@@ -119,8 +234,8 @@ static void spiral_by_swirl(void **state) {
   CwVoluteInput input = paper();
   input.throat_area = NAN;
   CwVolute volute = designed(&input);
-  near_to(volute.integral_end - volute.integral_start, 25 / 3600.0 / 0.95, 1e-15);
-  near_to(volute.design_momentum, 0.95, 1e-12);
+  near_to(volute.law_end - volute.law_start, 25 / 3600.0 / 0.95, 1e-15);
+  near_to(volute.law_constant, 0.95, 1e-12);
   near_to(volute.throat_area, 905e-6, 0.05 * 905e-6);
 }
 
@@ -212,7 +327,7 @@ static void wrong_input(void **state) {
   input.throat_area = 0.5;
   refuse(input, "throat_area is 500000 mm2; allowed ");
   input.throat_area = 20e-6;
-  refuse(input, "raise throat_area");
+  refuse(input, "throat_area is 20 mm2; allowed with this D3, b3 and tongue: ");
   input = paper();
   input.throat_area = NAN;
   input.angular_momentum = 0.1;
@@ -232,15 +347,56 @@ static void wrong_input(void **state) {
   input = paper();
   input.tongue_radius = 0.015;
   refuse(input, "tongue");
+  input = paper();
+  input.tongue_angle = 70 * degree;
+  refuse(input, "tongue_angle is 70 deg; allowed for this spiral: ");
+  input.tongue_gap = 7 * mm;
+  refuse(input, "tongue_gap and tongue_angle both");
+  input = paper();
+  input.diffuser_area_ratio = 2;
+  refuse(input, "outlet_diameter and diffuser_area_ratio both");
+  input = paper();
+  input.section = CW_SECTION_CIRCLE;
+  input.corner_radius = 3 * mm;
+  refuse(input, "corner_radius is 3 mm, but a circle has no corners");
+  input.section = CW_SECTION_RECTANGLE;
+  input.corner_radius = NAN;
+  refuse(input, "corner_radius is nan");
+  input.inlet_width = 75 * mm;
+  input.corner_radius = 36 * mm;
+  input.throat_area = NAN;
+  refuse(input, "too small for its corners; lower corner_radius");
+  input.throat_area = 9000e-6; // with which the spiral has room
+  input.outlet_diameter = 130 * mm;
+  near_to(designed(&input).throat_area, 9000e-6, 1e-12);
+  input = paper();
+  input.discharge = CW_DISCHARGE_RADIAL;
+  input.diffuser_length = 35 * mm;
+  refuse(input, "diffuser_length 35 mm");
+  input = paper();
+  input.area_law = CW_AREA_LAW_VELOCITY;
+  input.section_speed = 0.2;
+  input.throat_area = NAN;
+  refuse(input, "Q / (K3 sqrt(2 g H))");
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(trapezoid_heights), cmocka_unit_test(section_by_strips),
-      cmocka_unit_test(wall_derivatives),  cmocka_unit_test(spiral_by_swirl),
-      cmocka_unit_test(throat_by_strips),  cmocka_unit_test(tongue_touches),
-      cmocka_unit_test(diffuser),          cmocka_unit_test(least_gap),
-      cmocka_unit_test(wrong_input),       cmocka_unit_test(arc_beyond_axis),
+      cmocka_unit_test(trapezoid_heights),
+      cmocka_unit_test(section_by_strips),
+      cmocka_unit_test(wall_derivatives),
+      cmocka_unit_test(spiral_by_swirl),
+      cmocka_unit_test(throat_by_strips),
+      cmocka_unit_test(tongue_touches),
+      cmocka_unit_test(diffuser),
+      cmocka_unit_test(least_gap),
+      cmocka_unit_test(wrong_input),
+      cmocka_unit_test(arc_beyond_axis),
+      cmocka_unit_test(families_of_sections),
+      cmocka_unit_test(family_wall_derivatives),
+      cmocka_unit_test(tongue_angle),
+      cmocka_unit_test(area_ratio),
+      cmocka_unit_test(radial_discharge),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -264,6 +264,23 @@ static const BadCase bad_cases[] = {
      "14:21: volute.base_diameter_mm: 200 contradicts impeller.outlet_diameter_mm (the volute lies around "
      "the "
      "impeller); allowed: above 200 mm"},
+    {15, "  inlet_width_mm: 12\n  tongue_gap_mm: 7\n  tongue_angle_deg: 35",
+     "17:21: volute.tongue_angle_deg: 35 contradicts volute.tongue_gap_mm, from which it follows; allowed: one "
+     "of them"},
+    {15, "  inlet_width_mm: 12\n  diffuser_angle_deg: 8\n  diffuser_length_mm: 100",
+     "16:23: volute.diffuser_angle_deg: 8 contradicts volute.diffuser_length_mm, from which it follows; "
+     "allowed: one of them"},
+    {15, "  inlet_width_mm: 12\n  diffuser_area_ratio: 1.5\n  outlet_diameter_mm: 50",
+     "16:24: volute.diffuser_area_ratio: 1.5 contradicts volute.outlet_diameter_mm, from which it follows; "
+     "allowed: one of them"},
+    {15, "  inlet_width_mm: 12\n  velocity_factor: 0.4",
+     "16:20: volute.velocity_factor: 0.4 is of no use with the area_law angular_momentum; allowed: with "
+     "area_law velocity"},
+    {15, "  inlet_width_mm: 12\n  section: circle\n  corner_radius_mm: 3",
+     "17:21: volute.corner_radius_mm: 3 is of no use with the section circle; allowed: with section trapezoid "
+     "or rectangle"},
+    {15, "  inlet_width_mm: 12\n  section: square",
+     "16:12: volute.section: square is not one of the choices; allowed: trapezoid, rectangle or circle"},
     {9, "  inlet_diameter_mm: 200",
      "9:22: impeller.inlet_diameter_mm: 200 contradicts impeller.outlet_diameter_mm (the flow goes "
      "outwards); allowed: "

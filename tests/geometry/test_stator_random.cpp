@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Random volutes over the range of radial pumps: each is built whole or refused in one clear line.
+// Usage: test_stator_random [DRAWS]
+#include <cmath>
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+
+extern "C" {
+#include <cmocka.h>
+}
+
+#include "geometry/measure.h"
+#include "geometry/stator.h"
+
+static const double degree = M_PI / 180, gravity = 9.80665;
+static int draws = 24;
+
+// Knuth's linear congruential generator, so that the draw is the same everywhere.
+static uint64_t state;
+static double uniform(double a, double b) {
+  state = state * 6364136223846793005u + 1442695040888963407u;
+  return a + (b - a) * double(state >> 11) / 9007199254740992.0;
+}
+
+// A pump of the specific speed nq = 8 to 55 (ns = 30 to 200) with usual main dimensions.
+static CwVoluteInput draw() {
+  CwVoluteInput in;
+  double rpm = uniform(0, 1) < 0.5 ? 1450 : 2900, d2 = 0.12 * std::pow(4, uniform(0, 1)), nq = uniform(8, 55);
+  double u2 = rpm * M_PI / 30 * d2 / 2, head = uniform(0.9, 1.1) * u2 * u2 / (2 * gravity);
+  double b2 = std::max(3e-3, d2 * (0.012 + 0.0021 * nq) * uniform(0.85, 1.15));
+  in.flow_rate = std::pow(nq * std::pow(head, 0.75) / rpm, 2);
+  in.area_law = uniform(0, 1) < 0.5 ? CW_AREA_LAW_ANGULAR_MOMENTUM : CW_AREA_LAW_VELOCITY;
+  in.angular_momentum = gravity * head / (rpm * M_PI / 30 * uniform(0.75, 0.9));
+  in.section_speed = 0.42 * std::pow(nq / 20, -0.2) * uniform(0.9, 1.1) * std::sqrt(2 * gravity * head);
+  double kind = uniform(0, 3);
+  in.section = kind < 1 ? CW_SECTION_TRAPEZOID : kind < 2 ? CW_SECTION_RECTANGLE : CW_SECTION_CIRCLE;
+  in.neck_width = b2;
+  in.base_diameter = d2 * uniform(1.02, 1.1);
+  in.interface_radius = (d2 + in.base_diameter) / 4;
+  // A rectangle is as wide as its throat is high, more or less; the others open with the radius.
+  double area = in.flow_rate / in.section_speed;
+  in.inlet_width = b2 * uniform(1.2, 2.2);
+  if (in.section == CW_SECTION_RECTANGLE)
+    in.inlet_width = std::max(in.inlet_width, std::sqrt(area) * uniform(0.7, 1.1));
+  in.inlet_width = std::min(std::max(b2 + 1e-3, in.inlet_width), 0.4 * in.base_diameter);
+  in.side_wall_angle = uniform(12, 28) * degree;
+  in.throat_area = NAN;
+  double slope = in.section == CW_SECTION_RECTANGLE ? 0 : std::tan(in.side_wall_angle);
+  double height = 2 * area / (in.inlet_width + std::sqrt(in.inlet_width * in.inlet_width + 4 * slope * area));
+  bool corners =
+      in.section == CW_SECTION_RECTANGLE || (in.section == CW_SECTION_TRAPEZOID && uniform(0, 1) < 0.5);
+  in.corner_radius = corners ? std::max(0.5e-3, std::min(in.inlet_width, height) * uniform(0.1, 0.25)) : NAN;
+  in.tongue_radius = std::max(0.2e-3, std::min(0.0075 * d2 * uniform(0.7, 1.3), height / 6));
+  in.tongue_gap = in.tongue_angle = NAN;
+  in.least_tongue_gap =
+      std::max(0.0, d2 / 2 * (1.03 + 0.1 * nq / 40 + 0.07 * head / 1000) - in.base_diameter / 2);
+  in.diffuser_length = NAN;
+  in.diffuser_angle = uniform(7, 11) * degree;
+  in.outlet_diameter = NAN;
+  in.diffuser_area_ratio = uniform(1.2, 2.2);
+  in.discharge = uniform(0, 1) < 0.5 ? CW_DISCHARGE_TANGENTIAL : CW_DISCHARGE_RADIAL;
+  in.discharge_pipe_length = d2 * uniform(0.2, 1);
+  return in;
+}
+
+static void random_volutes(void **) {
+  static const char *const section[] = {"trapezoid", "rectangle", "circle"};
+  std::map<std::string, std::pair<int, int>> kinds; // built and drawn
+  int built = 0;
+  state = 20;
+  for (int i = 0; i < draws; i++) {
+    CwVoluteInput in = draw();
+    CwVolute volute;
+    CwSolid *solid = NULL;
+    CwStatus status = cw_volute_design(&in, &volute);
+    if (status == CW_OK)
+      status = cw_stator_build(&volute, &solid);
+    std::string kind =
+        std::string(section[in.section]) + (std::isnan(in.corner_radius) ? "" : " with corners");
+    kinds[kind].second++;
+    if (status == CW_OK) {
+      CwMeasuredSolid measured;
+      assert_int_equal(cw_measure_solid(solid, &measured), CW_OK);
+      assert_true(measured.valid && measured.closed && measured.face_count == 51);
+      assert_true(measured.largest_tolerance < 1e-6 && measured.volume > 0);
+      kinds[kind].first++;
+      built++;
+    } else {
+      print_message("%d: %s, law %d, D3 %.0f, b2 %.1f, b3 %.1f, corner %.1f mm, a %.0f deg: %s\n", i,
+                    kind.c_str(), in.area_law, 1e3 * in.base_diameter, 1e3 * in.neck_width,
+                    1e3 * in.inlet_width, 1e3 * in.corner_radius, in.side_wall_angle / degree,
+                    cw_fail_message());
+      assert_true(std::strlen(cw_fail_message()) > 20 && !std::strchr(cw_fail_message(), '\n'));
+      assert_true(status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY);
+    }
+    cw_solid_free(&solid);
+  }
+  for (const auto &one : kinds)
+    print_message("%s: %d of %d built\n", one.first.c_str(), one.second.first, one.second.second);
+  print_message("%d of %d volutes built\n", built, draws);
+  assert_true(built >= 0.95 * draws);
+}
+
+int main(int argc, char **argv) {
+  if (argc > 1)
+    draws = std::atoi(argv[1]);
+  const CMUnitTest tests[] = {cmocka_unit_test(random_volutes)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
