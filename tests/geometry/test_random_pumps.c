@@ -2,7 +2,7 @@
 // Random pumps, from a fixed seed: specific speed ns 35 to 220, 3 to 9 blades, all options. Each ends in
 // valid solids or in one line that says what does not fit; at least 97 % in valid solids.
 //
-//   geometry_test_random_pumps [COUNT]     24 pumps, or COUNT; prints each pump that ends in a line
+//   geometry_test_random_pumps [COUNT]     16 pumps, or COUNT; prints each pump that ends in a line
 #include <ctype.h>
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +23,7 @@
 #include "pipeline/log.h"
 
 static const double degree = M_PI / 180;
-static int pump_count = 24, only = 0;
+static int pump_count = 16, only = 0;
 
 // Splitmix64.
 static double draw(uint64_t *state, double least, double most) {
