@@ -24,7 +24,8 @@ static double wrap_step(const CwMeridian *meridian, double span, const double be
           wrap_rate(meridian, span, beta, b));
 }
 
-// The section of the meridian at the points of Simpson's rule: it does not depend on the law, which is solved for.
+// The section of the meridian at the points of Simpson's rule: it does not depend on the law, which is solved
+// for.
 enum { WRAP_STEPS = 50 };
 typedef struct {
   double q[2 * WRAP_STEPS + 1], radius[2 * WRAP_STEPS + 1], speed[2 * WRAP_STEPS + 1];
@@ -79,7 +80,8 @@ static double master_place(const CwBladeSection *section, double r) {
     const int middle = (low + high) / 2;
     *(section->radius[middle] <= r ? &low : &high) = middle;
   }
-  double q = (low + (r - section->radius[low]) / (section->radius[high] - section->radius[low])) / CW_BLADE_STEPS;
+  double q =
+      (low + (r - section->radius[low]) / (section->radius[high] - section->radius[low])) / CW_BLADE_STEPS;
   for (int i = 0; i < 3; i++) {
     double x[2], dx[2];
     cw_meridian_blade_point(section->meridian, 0.5, q, x, dx);
@@ -98,7 +100,8 @@ static double plan_tangent(const CwBladeSection *section, double q) {
 static double mean_theta(const CwBladeSection *section, double q) {
   int i = (int)(q * CW_BLADE_STEPS);
   i = i < 0 ? 0 : i >= CW_BLADE_STEPS ? CW_BLADE_STEPS - 1 : i;
-  const double begin = (double)i / CW_BLADE_STEPS, span = section->form == CW_BLADE_CYLINDRICAL ? 0.5 : section->span;
+  const double begin = (double)i / CW_BLADE_STEPS,
+               span = section->form == CW_BLADE_CYLINDRICAL ? 0.5 : section->span;
   return section->theta[i] - (q > begin ? wrap_step(section->meridian, span, section->beta, begin, q) : 0);
 }
 
@@ -124,9 +127,10 @@ double cw_blade_theta(const CwBladeSection *section, double p) {
   return section->theta[0] + log(section->radius[0] / x[0]) / plan_tangent(section, 0) + section->shift;
 }
 
-// The blade angles at both ends and the free ordinate that closes the wrap. Returns whether beta stays in range.
-static int close_law(const CwDesign *design, const CwMeridian *meridian, double span, double wrap, double beta[3],
-                     double range[2]) {
+// The blade angles at both ends and the free ordinate that closes the wrap. Returns whether beta stays in
+// range.
+static int close_law(const CwDesign *design, const CwMeridian *meridian, double span, double wrap,
+                     double beta[3], double range[2]) {
   double x[2], middle[2];
   cw_meridian_blade_point(meridian, 0.5, 0, middle, NULL);
   cw_meridian_blade_point(meridian, span, 0, x, NULL);
@@ -159,7 +163,8 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
   const double place = design->blade_form == CW_BLADE_CYLINDRICAL ? 0.5 : span;
   const double wrap = design->wrap_angle + (place - 0.5) * design->wrap_spread;
   CW_REQUIRE(close_law(design, meridian, place, wrap, beta, range), CW_ERR_DESIGN,
-             "a wrap of %.2f deg with beta1 %.2f and beta2 %.2f deg asks for blade angles of %.2f to %.2f deg at span "
+             "a wrap of %.2f deg with beta1 %.2f and beta2 %.2f deg asks for blade angles of %.2f to %.2f "
+             "deg at span "
              "%.2f; 12 to 60 deg are allowed: %s wrap_angle_deg or move the leading edge radii",
              wrap / degree, beta[0] / degree, beta[2] / degree, range[0] / degree, range[1] / degree, place,
              range[1] > largest_beta ? "raise" : "lower");
@@ -174,7 +179,8 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
     cw_meridian_blade_point(meridian, 0.5, (double)i / CW_BLADE_STEPS, x, NULL);
     section->radius[i] = x[0];
   }
-  section->shift = (span - 0.5) * design->outlet_width * tan(design->lean_angle) / (design->outlet_diameter / 2);
+  section->shift =
+      (span - 0.5) * design->outlet_width * tan(design->lean_angle) / (design->outlet_diameter / 2);
   section->half_leading = design->leading_edge_thickness / 2;
   section->half_largest = design->blade_thickness / 2;
   section->half_trailing = design->trailing_edge_thickness / 2;
@@ -246,8 +252,8 @@ double cw_blade_half_thickness(const CwBladeSection *section, double p) {
 }
 
 // Offset by y (positive: towards greater theta). lambda = 1 at the leading edge is the true normal offset,
-// which makes a round nose; lambda = 0 from p = 0.4 on is a tangential offset, which keeps a cut trailing edge
-// on D2. A rounded trailing edge has the normal offset again.
+// which makes a round nose; lambda = 0 from p = 0.4 on is a tangential offset, which keeps a cut trailing
+// edge on D2. A rounded trailing edge has the normal offset again.
 static CwBladePoint offset(const CwBladeSection *section, double p, double y) {
   double lambda = 1 - smooth_step(p / offset_fades_at);
   if (section->end < 1)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The blade as sections of constant span s (0 hub, 1 shroud) in (q, theta): mean line by the blade angle law,
-// ellipse at the leading edge, thickness, and a trailing edge that is cut on the D2 cylinder, with its acute corner
-// bevelled, or rounded, or sharp. The blade sweeps backward: the wheel turns about +z by the right hand, theta falls from the
-// leading to the trailing edge, and the pressure side is the one of greater theta.
+// ellipse at the leading edge, thickness, and a trailing edge that is cut on the D2 cylinder, with its acute
+// corner bevelled, or rounded, or sharp. The blade sweeps backward: the wheel turns about +z by the right
+// hand, theta falls from the leading to the trailing edge, and the pressure side is the one of greater theta.
 #ifndef CUTWATER_GEOMETRY_BLADE_H
 #define CUTWATER_GEOMETRY_BLADE_H
 
@@ -18,8 +18,8 @@ enum { CW_BLADE_STEPS = 400 };
 
 typedef enum { CW_BLADE_PRESSURE, CW_BLADE_SUCTION } CwBladeSide;
 
-// One section. Angles in rad, lengths in m. The parameter p of a blade runs from 0 at its leading to 1 at its trailing
-// edge; q = start + (1 - start) p is the place between the blades' leading and trailing edges.
+// One section. Angles in rad, lengths in m. The parameter p of a blade runs from 0 at its leading to 1 at its
+// trailing edge; q = start + (1 - start) p is the place between the blades' leading and trailing edges.
 typedef struct {
   const CwMeridian *meridian;
   double span;
@@ -29,11 +29,11 @@ typedef struct {
   double theta[CW_BLADE_STEPS + 1]; // of the mean line at equal steps of q; 0 at the trailing edge
   // Cylindrical blades: theta is a function of the radius alone, that of mid-span.
   CwBladeForm form;
-  double radius[CW_BLADE_STEPS + 1]; // of mid-span at equal steps of q
+  double radius[CW_BLADE_STEPS + 1];                // of mid-span at equal steps of q
   double half_leading, half_largest, half_trailing; // half thicknesses
   double thickest_at;
-  double nose;         // p where the leading edge ellipse meets the sides
-  double end;          // p where the sides end: 1, or where the rounding of the trailing edge begins
+  double nose;          // p where the leading edge ellipse meets the sides
+  double end;           // p where the sides end: 1, or where the rounding of the trailing edge begins
   double trailing_nose; // length in p of that rounding
 } CwBladeSection;
 
@@ -45,8 +45,9 @@ typedef struct {
 // Wrap of a blade angle law on a section of the meridian: integral of dm / (r tan beta) from q = 0 to 1, rad.
 double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[3]);
 
-// Solves the free ordinate of the law for the wrap of the section: the design's, with its spread from hub to shroud.
-// Fails with CW_ERR_DESIGN where beta would leave 12 to 60 degrees, with the angles asked and what to change.
+// Solves the free ordinate of the law for the wrap of the section: the design's, with its spread from hub to
+// shroud. Fails with CW_ERR_DESIGN where beta would leave 12 to 60 degrees, with the angles asked and what to
+// change.
 CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span,
                           CwBladeSection *section);
 
@@ -70,15 +71,15 @@ CwBladePoint cw_blade_leading_edge(const CwBladeSection *section, double psi);
 // Point of the rounded trailing edge: psi from -pi/2 (suction) to pi/2 (pressure).
 CwBladePoint cw_blade_trailing_edge(const CwBladeSection *section, double psi);
 
-// p on the suction side where the bevel of the trailing edge begins, for a bevel facet of the given length, m: with
-// equal legs, or of a sharp edge. The same for all sections: solved at mid-span.
+// p on the suction side where the bevel of the trailing edge begins, for a bevel facet of the given length,
+// m: with equal legs, or of a sharp edge. The same for all sections: solved at mid-span.
 double cw_blade_bevel_begin(const CwBladeSection *section, CwTrailingEdge edge, double facet);
 
 // Theta on the D2 cylinder where a bevel with legs of equal length ends.
 double cw_blade_bevel_theta(const CwBladeSection *section, double p_begin);
 
-// Length of the facet for which facet and rest of the trailing edge are equally long, or whose leg along the suction
-// side is twice the cut (sharp), m.
+// Length of the facet for which facet and rest of the trailing edge are equally long, or whose leg along the
+// suction side is twice the cut (sharp), m.
 double cw_blade_usual_bevel(CwTrailingEdge edge, double trailing_edge_thickness, double outlet_blade_angle);
 
 #ifdef __cplusplus

@@ -72,7 +72,8 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
 
 // Guan's coefficient of the blade thickness for cast iron, over ns.
 static double guan_thickness(double ns) {
-  static const double table[][2] = {{40, 3.2}, {60, 3.5}, {70, 3.8}, {80, 4}, {90, 4.5}, {130, 6}, {190, 7}, {280, 10}};
+  static const double table[][2] = {{40, 3.2}, {60, 3.5}, {70, 3.8}, {80, 4},
+                                    {90, 4.5}, {130, 6},  {190, 7},  {280, 10}};
   const int count = sizeof table / sizeof *table;
   int i = 1;
   while (i < count - 1 && ns > table[i][0])
@@ -131,7 +132,8 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
   }
 }
 
-double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesign *design, const char **source) {
+double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesign *design,
+                      const char **source) {
   const char *unused;
   if (!source)
     source = &unused;

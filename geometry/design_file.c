@@ -44,10 +44,11 @@ json_t *cw_measured_json(const CwMeasuredPump *measured) {
 }
 
 static json_t *triangle_json(const char *station, double span, const CwTriangle *t) {
-  return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "station", station, "span", span,
-                   "radius_m", t->radius, "u_m_per_s", t->u, "c_m_m_per_s", t->c_m, "c_u_m_per_s", t->c_u,
-                   "c_m_per_s", t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / degree, "blade_angle_deg",
-                   t->blade_angle / degree, "incidence_or_deviation_deg", (t->blade_angle - t->flow_angle) / degree);
+  return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "station", station, "span",
+                   span, "radius_m", t->radius, "u_m_per_s", t->u, "c_m_m_per_s", t->c_m, "c_u_m_per_s",
+                   t->c_u, "c_m_per_s", t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / degree,
+                   "blade_angle_deg", t->blade_angle / degree, "incidence_or_deviation_deg",
+                   (t->blade_angle - t->flow_angle) / degree);
 }
 
 static json_t *triangles_json(const CwDesign *design) {
@@ -84,8 +85,8 @@ static json_t *correlations_json(const CwDesign *design) {
       const char *source;
       const double correlated = cw_correlation(family, i, design, &source);
       failed |= json_object_set_new(row, cw_correlations_name(family),
-                                    json_pack("{s:o, s:s}", "value", cw_json_number(correlated * scale), "source",
-                                              source)) != 0;
+                                    json_pack("{s:o, s:s}", "value", cw_json_number(correlated * scale),
+                                              "source", source)) != 0;
     }
     failed |= json_object_set_new(all, key, row) != 0;
   }
@@ -122,11 +123,13 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
   failed |= json_object_set_new(root, "priority", json_string(priorities[design->priority])) != 0;
   failed |= json_object_set_new(root, "correlation_family",
                                 json_string(cw_correlations_name(design->correlations))) != 0;
-  failed |= json_object_set_new(root, "slip_model",
-                                json_string(design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner")) != 0;
-  failed |= json_object_set_new(
-                root, "rotation",
-                json_string(design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise")) != 0;
+  failed |=
+      json_object_set_new(root, "slip_model",
+                          json_string(design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner")) != 0;
+  failed |=
+      json_object_set_new(
+          root, "rotation",
+          json_string(design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise")) != 0;
   failed |= json_object_set_new(
                 root, "blade_form",
                 json_string(design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted")) != 0;

@@ -41,7 +41,8 @@ static double standard_bore(double flow_rate, double least) {
 #define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
 
 static void specific_speeds(const CwCase *table, CwDesign *design) {
-  const double q = design->flow_rate, h = design->head, omega = design->angular_speed, rpm = omega * 30 / M_PI;
+  const double q = design->flow_rate, h = design->head, omega = design->angular_speed,
+               rpm = omega * 30 / M_PI;
   const char *source;
   double value;
   SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75, rpm, m3/s, m");
@@ -57,8 +58,8 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
   SET(shaft_diameter, value, source);
 }
 
-// Radius of the leading edge over that of the eye, hub and shroud: outside the eye at low specific speed, and drawn
-// into it above nq = 25, where the wheel turns mixed-flow and the blades would else become too short.
+// Radius of the leading edge over that of the eye, hub and shroud: outside the eye at low specific speed, and
+// drawn into it above nq = 25, where the wheel turns mixed-flow and the blades would else become too short.
 static void leading_edge_shares(double nq, double share[2]) {
   const double f = fmin(1, fmax(0, (nq - 25) / 35));
   share[0] = 0.568 - 0.248 * f;
@@ -80,14 +81,16 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
   SET(head_coefficient, 2 * gravity * design->head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
   value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
-  TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
+  TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2),
+       value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
   SET(axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
   TAKE(nut_length, given->nut_length, 7.0 / 12 * design->hub_diameter, "7/12 hub diameter");
   TAKE(nut_disk_radius, given->nut_flat_diameter / 2, 0.145 * design->hub_diameter, "0.145 hub diameter");
   double share[2];
   leading_edge_shares(nq, share);
-  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub, fmax(share[0] * d1, 0.56 * design->hub_diameter),
+  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
+       fmax(share[0] * d1, 0.56 * design->hub_diameter),
        nq > 25 ? "0.568 D1 to 0.32 D1 at nq 60" : "0.568 D1");
   TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share[1] * d1,
        nq > 25 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
@@ -100,8 +103,8 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
        "0.70 of the largest");
   TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness,
        "0.50 of the largest");
-  TAKE(suction_pipe_length, given->suction_pipe_length, fmax(d1 / 3, 1.2 * design->nut_length - 0.5625 * design->axial_length),
-       "D1 / 3, past the nut");
+  TAKE(suction_pipe_length, given->suction_pipe_length,
+       fmax(d1 / 3, 1.2 * design->nut_length - 0.5625 * design->axial_length), "D1 / 3, past the nut");
   value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
   TAKE(base_diameter, table->volute.base_diameter, value, source);
   value = CORRELATED(CW_CORRELATED_INLET_WIDTH);
@@ -139,7 +142,8 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   const char *source, *incidence_source;
   const double usual = CORRELATED(CW_CORRELATED_INCIDENCE), asked = table->impeller.incidence;
   const double incidence = cw_case_given(asked) ? asked : usual;
-  incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
+  incidence_source =
+      cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
   source = incidence_source;
   double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
@@ -171,7 +175,8 @@ static double straight_wrap(const CwMeridian *meridian, double beta1, double bet
 static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
 
 // Sets beta2 and the wrap by the priority. `fixed`: the outlet blade angle where D2 meets the head, or NAN.
-static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
+static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed,
+                             CwDesign *design) {
   CwStatus status = CW_OK;
   const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
   const double table_wrap = table->impeller.wrap_angle, least = 12 * degree, largest = 60 * degree;
@@ -222,8 +227,10 @@ static CwStatus impeller(const CwCase *table, double outlet_diameter, double fix
                          CwDesign *design) {
   CwStatus status = CW_OK;
   main_dimensions(table, outlet_diameter, design);
-  CW_REQUIRE(design->blade_count * design->leading_edge_thickness < 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
-             CW_ERR_DESIGN, "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
+  CW_REQUIRE(design->blade_count * design->leading_edge_thickness <
+                 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
+             CW_ERR_DESIGN,
+             "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
              design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
   CW_TRY(cw_meridian_make(design, meridian));
   inlet_triangle(table, meridian, design);
@@ -232,8 +239,8 @@ done:
   return status;
 }
 
-// Solves an open D2 for the head, from the correlation's value on. A design by the head keeps the correlation's D2
-// where the outlet blade angle that it wants is a usual one.
+// Solves an open D2 for the head, from the correlation's value on. A design by the head keeps the
+// correlation's D2 where the outlet blade angle that it wants is a usual one.
 static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
   double fixed = NAN;
@@ -251,7 +258,8 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
     *(design->predicted_head < design->head ? &low : &high) = middle;
   }
   CW_REQUIRE(fabs(design->head_residual) < 1e-6 * design->head, CW_ERR_DESIGN,
-             "no outlet diameter from 0.7 to 1.5 times the correlation's meets the head of %.3f m with beta2 = %.2f deg "
+             "no outlet diameter from 0.7 to 1.5 times the correlation's meets the head of %.3f m with beta2 "
+             "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
              design->head, design->outlet_blade_angle / degree, design->predicted_head,
              design->outlet_diameter * 1e3);
@@ -259,8 +267,9 @@ done:
   return status;
 }
 
-// The least difference of the wraps at shroud and hub with which all sections have a law within the allowed angles and
-// blades stand on hub and shroud at 70 degrees or more; where there is none, the one with the steepest blades.
+// The least difference of the wraps at shroud and hub with which all sections have a law within the allowed
+// angles and blades stand on hub and shroud at 70 degrees or more; where there is none, the one with the
+// steepest blades.
 static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *meridian, CwDesign *design) {
   CwBladeSection section;
   const double step = 3 * degree, enough = 70 * degree;
@@ -283,7 +292,8 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
     if (angle > enough)
       break;
   }
-  SET(wrap_spread, best_spread, best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
+  SET(wrap_spread, best_spread,
+      best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
 }
 
 // The volute with the design's b3, side walls and tongue.
@@ -348,13 +358,16 @@ done:
   return status;
 }
 
-// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side walls, which
-// else would make the spiral too tall, at low specific speed the tongue's radius, which is too large for its throat.
+// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side
+// walls, which else would make the spiral too tall, at low specific speed the tongue's radius, which is too
+// large for its throat.
 static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
-  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
+  const int width_open = !cw_case_given(given->inlet_width),
+            side_open = !cw_case_given(given->side_wall_angle),
             tongue_open = !cw_case_given(given->tongue_radius);
-  const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
+  const double width = design->inlet_width,
+               widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
   const double tongue = 0.0075 * design->outlet_diameter;
   SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
   TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
@@ -370,7 +383,8 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
     if (tongue_open)
       SET(tongue_radius, tongue, "0.0075 D2: casting");
     if (width_open)
-      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
+      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0),
+          "widened for a spiral that is not too tall");
     if (side_open)
       SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
     status = volute_of(given, design);
@@ -441,15 +455,18 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
     CW_TRY(impeller(table, NAN, NAN, &meridian, design));
   else
     CW_TRY(solve_outlet_diameter(table, &meridian, design));
-  CW_REQUIRE(design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
-             "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
-             "change outlet_diameter_mm, outlet_width_mm or the priority",
-             design->head, design->predicted_head);
+  CW_REQUIRE(
+      design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head,
+      CW_ERR_DESIGN,
+      "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
+      "change outlet_diameter_mm, outlet_width_mm or the priority",
+      design->head, design->predicted_head);
   choose_wrap_spread(&table->impeller, &meridian, design);
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,
-       cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness, design->outlet_blade_angle),
+       cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness,
+                            design->outlet_blade_angle),
        design->trailing_edge == CW_EDGE_SHARP ? "leg along the blade twice the cut"
                                               : "as long as the rest of the trailing edge");
   CW_TRY(volute(&table->volute, design));

@@ -2,9 +2,9 @@
 // The hydraulic design: from the case's table to every dimension of the pump. What the table leaves open
 // (NAN) is computed by a named correlation; what it gives is taken as it is. SI units: m, rad, s, kg.
 //
-// A table may be over-determined: wrap angle, outlet blade angle and head need not fit one another. The case's
-// priority says which is the law; the others are predicted, and their residuals reported. Where D2 is open it is
-// solved so that the predicted head is the one asked.
+// A table may be over-determined: wrap angle, outlet blade angle and head need not fit one another. The
+// case's priority says which is the law; the others are predicted, and their residuals reported. Where D2 is
+// open it is solved so that the predicted head is the one asked.
 #ifndef CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 #define CUTWATER_GEOMETRY_HYDRAULIC_DESIGN_H
 
@@ -143,8 +143,9 @@ typedef struct {
   CW_DESIGN_LIST(CW_DESIGN_MEMBER)
   CwTriangle inlet_triangle[CW_TRIANGLE_SPANS];  // with blockage, without swirl
   CwTriangle outlet_triangle[CW_TRIANGLE_SPANS]; // behind the blades, with slip
-  CwVolute volute; // the casing, for cw_stator_build()
-  const char *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
+  CwVolute volute;                               // the casing, for cw_stator_build()
+  const char
+      *source[CW_DESIGN_COUNT]; // correlation or "case": static texts, never NULL after cw_hydraulic_design
 } CwDesign;
 #undef CW_DESIGN_MEMBER
 
@@ -157,7 +158,7 @@ typedef struct {
   const char *text, *unit; // as people read it, with its unit
   double shown;            // in that unit
   char key[64];
-  double stored;           // in the key's unit
+  double stored; // in the key's unit
 } CwDesignValue;
 
 CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity quantity);

@@ -7,8 +7,8 @@
 
 enum { SIDE = 120, NOSE = 24, OUTLINE = 2 * SIDE + 2 * NOSE + 4 };
 
-// The outline at mid-span from the trailing edge along the suction side round the nose and back along the pressure side;
-// (r, theta).
+// The outline at mid-span from the trailing edge along the suction side round the nose and back along the
+// pressure side; (r, theta).
 static void outline(const CwDesign *design, const CwBladeSection *section, double (*x)[2]) {
   const CwTrailingEdge edge = design->trailing_edge;
   const int faceted = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
@@ -46,7 +46,8 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   CW_TRY(cw_meridian_make(design, &m));
   CW_TRY(cw_blade_section(design, &m, 0.5, &section));
   CW_TRY(cw_picture_begin(&picture, path, 2 * centre, 2 * centre + 40));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Blades at mid-span, seen %s (against +z); beta1 %.1f, beta2 %.1f deg",
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
+                  "Blades at mid-span, seen %s (against +z); beta1 %.1f, beta2 %.1f deg",
                   design->rotation == CW_ROTATION_CLOCKWISE ? "from the suction side" : "from the drive",
                   design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->interface_radius);

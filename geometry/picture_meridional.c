@@ -78,8 +78,9 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   const Frame frame = {scale, 70, scale * ri + 80, m.inlet_z};
   const double width = fmax(scale * length + 340, 700);
   CW_TRY(cw_picture_begin(&picture, path, width, scale * ri + 130));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Meridional section: z = %d%s, nq = %.1f, passage %.0f to %.0f mm2",
-                  design->blade_count, design->splitter_start > 0 ? " with splitters" : "", design->specific_speed_nq,
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
+                  "Meridional section: z = %d%s, nq = %.1f, passage %.0f to %.0f mm2", design->blade_count,
+                  design->splitter_start > 0 ? " with splitters" : "", design->specific_speed_nq,
                   design->passage_area_inlet * 1e6, design->passage_area_outlet * 1e6);
   draw_blade(&picture, &frame, &m);
   if (design->splitter_start > 0) {

@@ -3,8 +3,8 @@
 
 #include "geometry/picture.h"
 
-// One triangle: u from left to right, c from its left end, w from its right end to the same apex. A steep arrow has its
-// name beside it, a flat one above it.
+// One triangle: u from left to right, c from its left end, w from its right end to the same apex. A steep
+// arrow has its name beside it, a flat one above it.
 static void triangle(CwPicture *picture, double left, double base, double scale, const char *where,
                      const CwTriangle *t) {
   const double x1 = left + scale * t->u, xa = left + scale * t->c_u, ya = base - scale * t->c_m;
@@ -21,8 +21,15 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
 
 // The figures of a triangle as a row of the table.
 static void row(CwPicture *picture, double y, const char *where, const CwTriangle *t) {
-  const double values[] = {t->radius * 1e3, t->u,          t->c_m, t->c_u, t->c, t->w, t->flow_angle * 180 / M_PI,
-                           t->blade_angle * 180 / M_PI, (t->blade_angle - t->flow_angle) * 180 / M_PI};
+  const double values[] = {t->radius * 1e3,
+                           t->u,
+                           t->c_m,
+                           t->c_u,
+                           t->c,
+                           t->w,
+                           t->flow_angle * 180 / M_PI,
+                           t->blade_angle * 180 / M_PI,
+                           (t->blade_angle - t->flow_angle) * 180 / M_PI};
   cw_picture_text(picture, CW_TEXT_LEFT, 40, y, "%s", where);
   for (int i = 0; i < 9; i++)
     cw_picture_text(picture, CW_TEXT_RIGHT, 250 + 75 * i, y, i == 0 || i > 5 ? "%.1f" : "%.2f", values[i]);
@@ -31,7 +38,8 @@ static void row(CwPicture *picture, double y, const char *where, const CwTriangl
 CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path) {
   CwStatus status = CW_OK;
   CwPicture picture = {0};
-  static const char *const heads[] = {"r, mm", "u", "c_m", "c_u", "c", "w", "flow, deg", "blade, deg", "difference"};
+  static const char *const heads[] = {"r, mm", "u",         "c_m",        "c_u",       "c",
+                                      "w",     "flow, deg", "blade, deg", "difference"};
   static const char *const inlets[] = {"inlet, hub", "inlet, mid-span", "inlet, shroud"};
   static const char *const outlets[] = {"outlet, hub", "outlet, mid-span", "outlet, shroud"};
   const CwTriangle *in = design->inlet_triangle, *out = design->outlet_triangle;
@@ -41,8 +49,9 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
     highest = fmax(highest, in[j].c_m);
   const double first = 100 + scale * highest, second = first + 100 + scale * out[1].c_m, table = second + 70;
   CW_TRY(cw_picture_begin(&picture, path, 940, table + 22 * 7 + 50));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Velocity triangles, m/s; inlet with blockage and without swirl, outlet behind the blades with slip");
+  cw_picture_text(
+      &picture, CW_TEXT_LEFT, 20, 28,
+      "Velocity triangles, m/s; inlet with blockage and without swirl, outlet behind the blades with slip");
   double left = 70;
   for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
     triangle(&picture, left, first, 0.62 * scale, inlets[j], &in[j]);
@@ -56,10 +65,11 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
     row(&picture, table + 28 + 22 * j, inlets[j], &in[j]);
     row(&picture, table + 28 + 22 * (j + 3), outlets[j], &out[j]);
   }
-  cw_picture_text(&picture, CW_TEXT_LEFT, 40, table + 22 * 7 + 20,
-                  "slip factor %.3f (Wiesner %.3f, Pfleiderer %.3f), w2/w1 %.2f, predicted head %.2f m, asked %.2f m",
-                  design->slip_factor, design->slip_factor_wiesner, design->slip_factor_pfleiderer,
-                  design->diffusion_ratio, design->predicted_head, design->head);
+  cw_picture_text(
+      &picture, CW_TEXT_LEFT, 40, table + 22 * 7 + 20,
+      "slip factor %.3f (Wiesner %.3f, Pfleiderer %.3f), w2/w1 %.2f, predicted head %.2f m, asked %.2f m",
+      design->slip_factor, design->slip_factor_wiesner, design->slip_factor_pfleiderer,
+      design->diffusion_ratio, design->predicted_head, design->head);
   CW_TRY(cw_picture_end(&picture));
 done:
   cw_picture_abandon(&picture);

@@ -41,8 +41,8 @@ const double level = 1e-12; // rad: two corners of a trailing edge without lean
 enum { HUB, SHROUD };
 
 // One blade patch: grid of (q, theta) points, interpolated. The pressure and suction sides run from the
-// leading to the trailing edge, the leading edge from suction to pressure, bevel and trailing edge towards greater
-// theta.
+// leading to the trailing edge, the leading edge from suction to pressure, bevel and trailing edge towards
+// greater theta.
 struct Patch {
   std::vector<double> u;
   std::vector<CwBladePoint> points;       // points[i * span_points + j]
@@ -50,18 +50,18 @@ struct Patch {
   Handle(Geom2d_BSplineCurve) on_wall[2]; // (theta, t) on hub and shroud
 };
 
-// A blade or a splitter. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a sharp one
-// no cut.
+// A blade or a splitter. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a
+// sharp one no cut.
 struct Shape {
   const char *name;
   std::vector<CwBladeSection> section;
   bool has_bevel, has_trailing;
   Patch pressure, suction, leading, bevel, trailing;
-  double u_bevel;                          // parameter of the suction side where bevel or cut begins
-  double theta_tip[2], theta_corner[2];    // of the nose and of the pressure side's end
-  double t_tip[2], t_corner[2];            // the same along hub and shroud
-  // The line on the wall from the eye to the nose: of a blade the meridian, of a splitter along the passage between
-  // the blades, which a meridian would cross. theta_up is where it begins.
+  double u_bevel;                       // parameter of the suction side where bevel or cut begins
+  double theta_tip[2], theta_corner[2]; // of the nose and of the pressure side's end
+  double t_tip[2], t_corner[2];         // the same along hub and shroud
+  // The line on the wall from the eye to the nose: of a blade the meridian, of a splitter along the passage
+  // between the blades, which a meridian would cross. theta_up is where it begins.
   double theta_up[2];
   Handle(Geom2d_BSplineCurve) guide_on_wall[2];
   Handle(Geom_BSplineCurve) guide[2];
@@ -135,12 +135,14 @@ CwStatus Rotor::sections() {
   for (const Shape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
       const double last = cw_blade_theta(&s, 0);
-      CW_REQUIRE(last + pitch < 2 * M_PI - 1.5 * margin, CW_ERR_GEOMETRY,
-                 "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
-                 "raise blade_count",
-                 last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
+      CW_REQUIRE(
+          last + pitch < 2 * M_PI - 1.5 * margin, CW_ERR_GEOMETRY,
+          "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
+          "raise blade_count",
+          last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
       CW_REQUIRE(s.nose < 0.5 * s.end && s.nose < 0.8 * s.thickest_at, CW_ERR_GEOMETRY,
-                 "the leading edge's ellipse takes %.0f %% of the %s at span %.2f: lower leading_edge_thickness_mm or "
+                 "the leading edge's ellipse takes %.0f %% of the %s at span %.2f: lower "
+                 "leading_edge_thickness_mm or "
                  "leading_edge_ratio, or raise thickest_at",
                  100 * s.nose, shape.name, s.span);
     }
@@ -218,9 +220,9 @@ void Rotor::blade_patches(Shape &shape) {
       shape.leading.points.push_back(
           cw_blade_leading_edge(&shape.section[j], M_PI * (shape.leading.u.back() - 0.5)));
   }
-  // Parameters of the sides run from 0 at the leading to 1 at the trailing edge, closer together towards the leading
-  // edge. The suction side has a row where the bevel begins, so that the bevel's row of points is one of its
-  // own.
+  // Parameters of the sides run from 0 at the leading to 1 at the trailing edge, closer together towards the
+  // leading edge. The suction side has a row where the bevel begins, so that the bevel's row of points is one
+  // of its own.
   for (int i = 0; i < side_points; i++) {
     const double g = (double)i / (side_points - 1);
     shape.pressure.u.push_back(0.4 * g + 0.6 * g * g);
@@ -265,10 +267,11 @@ void Rotor::blade_patches(Shape &shape) {
     shape.theta_corner[HUB] = shape.theta_corner[SHROUD];
 }
 
-// From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into the
-// meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through them wriggles.
+// From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into
+// the meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through
+// them wriggles.
 void Rotor::guide_line(Shape &shape, int wall) {
-  const int fine = 4000, points = 240;
+  const int fine = 4000, points = 160;
   const CwMeridianCurve &curve = wall == HUB ? meridian.hub : meridian.shroud;
   const double begin = wall == HUB ? meridian.hub_leading : meridian.shroud_leading;
   const double length = (wall == HUB ? meridian.hub_trailing : meridian.shroud_trailing) - begin;
@@ -355,13 +358,15 @@ Handle(Geom_Curve) Rotor::wall_curve(const Patch &patch, int wall, int k) const 
 int Rotor::interface_line(const double theta[2], double turn, int begin, int end) {
   const double half = design->outlet_width / 2, ri = design->interface_radius;
   if (theta[HUB] == theta[SHROUD])
-    return shell.edge(new Geom_Line(at(ri, turn + theta[HUB], 0), gp::DZ()), -mm * half, mm * half, begin, end);
+    return shell.edge(new Geom_Line(at(ri, turn + theta[HUB], 0), gp::DZ()), -mm * half, mm * half, begin,
+                      end);
   const int points = 33;
   std::vector<double> u;
   std::vector<gp_Pnt> x;
   for (int i = 0; i < points; i++) {
     u.push_back((double)i / (points - 1));
-    x.push_back(at(ri, turn + theta[SHROUD] + u.back() * (theta[HUB] - theta[SHROUD]), half * (2 * u.back() - 1)));
+    x.push_back(
+        at(ri, turn + theta[SHROUD] + u.back() * (theta[HUB] - theta[SHROUD]), half * (2 * u.back() - 1)));
   }
   return shell.edge(cw_bspline_curve_3d(u, x), 0, 1, begin, end);
 }
@@ -441,15 +446,16 @@ CwSolid *Rotor::build() {
     b.x_corner = across(s.has_trailing ? s.trailing : s.bevel, 1, b.corner[HUB], b.corner[SHROUD]);
     b.x_out = interface_line(s.theta_corner, turn, b.out[SHROUD], b.out[HUB]);
   }
-  // Arcs have the angle in the frame of their passage as parameter. The angles of the next blade are those of its
-  // shape, and the pitch besides where it is the first of its pitch.
+  // Arcs have the angle in the frame of their passage as parameter. The angles of the next blade are those of
+  // its shape, and the pitch besides where it is the first of its pitch.
   const auto far_of = [&](int i) { return (i + 1) % kinds == 0 ? pitch : 0; };
   for (int i = 0; i < n; i++) {
     Blade &b = blade[i], &next = blade[(i + 1) % n];
     const Shape &s = *b.shape, &f = *next.shape;
     const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
       const gp_Ax3 axes = frame(b.turns, height);
-      return shell.edge(new Geom_Circle(axes.Ax2(), mm * r), from + margin, to + margin + far_of(i), begin, end);
+      return shell.edge(new Geom_Circle(axes.Ax2(), mm * r), from + margin, to + margin + far_of(i), begin,
+                        end);
     };
     for (int w : {HUB, SHROUD}) {
       b.a_out[w] = arc(ri, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w], b.out[w], next.out[w]);
@@ -468,7 +474,8 @@ CwSolid *Rotor::build() {
     Blade &b = blade[i], &next = blade[(i + 1) % n];
     const Shape &s = *b.shape, &f = *next.shape;
     const std::string number = "_" + std::to_string(i + 1), blade_number = "_" + std::to_string(b.turns + 1);
-    const double base = b.turns * pitch - margin, turn = b.turns * pitch, near = margin, far = margin + far_of(i);
+    const double base = b.turns * pitch - margin, turn = b.turns * pitch, near = margin,
+                 far = margin + far_of(i);
     for (int w : {HUB, SHROUD}) {
       const auto up_on_wall = [&](const Shape &shape, double offset) -> Handle(Geom2d_Curve) {
         if (shape.guide[w].IsNull())
@@ -489,8 +496,8 @@ CwSolid *Rotor::build() {
       loop.push_back({next.e_nose_s[w], true, moved(f.leading.on_wall[w], far)});
       loop.push_back({next.e_up[w], false, up_on_wall(f, far)});
       loop.push_back({b.a_up[w], false, along_u(0)});
-      shell.face(revolved(meridian_curve(*curve[w], base)), loop, w == SHROUD, w == HUB ? "hub" : "shroud", "wall",
-                 (w == HUB ? "hub" : "shroud") + number);
+      shell.face(revolved(meridian_curve(*curve[w], base)), loop, w == SHROUD, w == HUB ? "hub" : "shroud",
+                 "wall", (w == HUB ? "hub" : "shroud") + number);
     }
     shell.face(revolved(nut_curve(base)),
                {{b.e_end[HUB], true, along_v(s.theta_up[HUB] + near)},
@@ -521,8 +528,8 @@ CwSolid *Rotor::build() {
                 {next.x_out, false, across_interface(f, far)},
                 {b.a_out[SHROUD], false, along_u(-half)}},
                true, "rotor_interface", "interface", "rotor_interface" + number);
-    const auto blade_face = [&](const Patch &patch, std::vector<CwEdgeUse> loop, bool outward, const char *part,
-                                const char *patch_name) {
+    const auto blade_face = [&](const Patch &patch, std::vector<CwEdgeUse> loop, bool outward,
+                                const char *part, const char *patch_name) {
       Handle(Geom_Surface) surface = Handle(Geom_Surface)::DownCast(patch.surface->Copy());
       surface->Rotate(gp::OZ(), turn);
       shell.face(surface, loop, outward, patch_name, "wall", std::string(s.name) + part + blade_number);
@@ -604,11 +611,12 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
     const std::string faulty = faulty_face(*rotor);
     if (!faulty.empty()) {
       cw_solid_free(rotor);
-      status = CW_FAIL(CW_ERR_GEOMETRY,
-                       "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
-                       "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
-                       faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
-                       design->wrap_angle * 180 / M_PI);
+      status = CW_FAIL(
+          CW_ERR_GEOMETRY,
+          "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
+          "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
+          faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
+          design->wrap_angle * 180 / M_PI);
     }
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_GEOMETRY, "rotor: %s", failure.GetMessageString());

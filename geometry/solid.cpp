@@ -57,14 +57,15 @@ CwStatus cw_solid_mirror(CwSolid *solid) {
     CW_REQUIRE(map.Extent() == (int)faces.size(), CW_ERR_LIBRARY, "%s: the mirror image has other faces",
                solid->domain.c_str());
     for (size_t i = 0; i < faces.size(); i++) {
-      CW_REQUIRE(map((int)i + 1).IsSame(faces[i].face), CW_ERR_LIBRARY, "%s: the mirror image has faces in another order",
-                 solid->domain.c_str());
+      CW_REQUIRE(map((int)i + 1).IsSame(faces[i].face), CW_ERR_LIBRARY,
+                 "%s: the mirror image has faces in another order", solid->domain.c_str());
       faces[i].face = TopoDS::Face(map((int)i + 1));
     }
     solid->solid = mirrored;
     solid->faces = faces;
   } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be mirrored: %s", solid->domain.c_str(), failure.GetMessageString());
+    status = CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be mirrored: %s", solid->domain.c_str(),
+                     failure.GetMessageString());
   }
 done:
   return status;

@@ -19,8 +19,8 @@ const char *cw_solid_face_patch(const CwSolid *solid, int face);
 const char *cw_solid_face_kind(const CwSolid *solid, int face); // "wall", "inlet", "outlet" or "interface"
 const char *cw_solid_face_name(const CwSolid *solid, int face);
 
-// Turns the solid into its mirror image in the plane z = 0, with the same faces in the same order: a pump of the other
-// hand, which still turns about +z by the right hand.
+// Turns the solid into its mirror image in the plane z = 0, with the same faces in the same order: a pump of
+// the other hand, which still turns about +z by the right hand.
 CwStatus cw_solid_mirror(CwSolid *solid);
 
 // Writes the solid in OpenCASCADE's text format under a temporary name, then renames it. The same bits each

@@ -46,7 +46,8 @@ static void paper_values_by_hand(void **state) {
   near_to(design.outlet_meridional_speed, 6.94444e-3 / 5.026548e-3, 1e-5);
   near_to(design.interface_radius, 0.101, 1e-12);
   near_to(design.wrap_angle, 71 * degree, 1e-12);
-  // m = 0.08 144^0.15 (45/21.487)^0.06 = 0.1763; 1 - 0.055 144^m - 0.2 (0.26 - lg(21.487/25))^2 144^0.1 = 0.8331.
+  // m = 0.08 144^0.15 (45/21.487)^0.06 = 0.1763; 1 - 0.055 144^m - 0.2 (0.26 - lg(21.487/25))^2 144^0.1 =
+  // 0.8331.
   near_to(design.hydraulic_efficiency, 0.8331, 2e-4);
   near_to(design.discharge_diameter, 0.050, 1e-12);
   assert_string_equal(design.source[CW_DESIGN_outlet_diameter], "case");
@@ -122,8 +123,9 @@ static CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) 
   return table;
 }
 
-// From the duty point alone: Gulich psi = 1.21 exp(-0.77 0.21487) = 1.02545, D2 = 2/151.844 (196.133/1.02545)^0.5
-// = 182.2 mm, where beta2 = 20 deg meets the head. ns = 78.4, Ns = 51.65 21.487 = 1110, type number 21.487 / 52.92.
+// From the duty point alone: Gulich psi = 1.21 exp(-0.77 0.21487) = 1.02545, D2 = 2/151.844
+// (196.133/1.02545)^0.5 = 182.2 mm, where beta2 = 20 deg meets the head. ns = 78.4, Ns = 51.65 21.487 = 1110,
+// type number 21.487 / 52.92.
 static void duty_point_is_enough(void **state) {
   CwCase table = duty_point(25, 10, 1450);
   CwDesign design = design_of(&table);
@@ -157,7 +159,8 @@ static void open_outlet_diameter_meets_the_head(void **state) {
   assert_true(design.outlet_diameter < 0.1822);
 }
 
-// p = 0.65 (1 + 25/60) 0.1^2 / (6 S), S = 0.00375 m2 (r from 0.05 to 0.1, radial): 0.40926; by Pfleiderer H_inf / H.
+// p = 0.65 (1 + 25/60) 0.1^2 / (6 S), S = 0.00375 m2 (r from 0.05 to 0.1, radial): 0.40926; by Pfleiderer
+// H_inf / H.
 static void pfleiderer_by_hand(void **state) {
   near_to(cw_slip_pfleiderer(6, 25 * degree, 0.1, 0.00375), 0.65 * (85.0 / 60) * 0.01 / 0.0225, 1e-12);
   CwCase table = paper();

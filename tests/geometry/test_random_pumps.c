@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Random pumps, from a fixed seed: specific speed ns 35 to 220, 3 to 9 blades, all options. Each ends in valid solids or
-// in one line that says what does not fit; at least 97 % in valid solids.
+// Random pumps, from a fixed seed: specific speed ns 35 to 220, 3 to 9 blades, all options. Each ends in
+// valid solids or in one line that says what does not fit; at least 97 % in valid solids.
 //
-//   geometry_test_random_pumps [COUNT]     24 pumps, or COUNT; prints each pump that ends in a line
+//   geometry_test_random_pumps [COUNT]     16 pumps, or COUNT; prints each pump that ends in a line
 #include <ctype.h>
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +23,7 @@
 #include "pipeline/log.h"
 
 static const double degree = M_PI / 180;
-static int pump_count = 24, only = 0;
+static int pump_count = 16, only = 0;
 
 // Splitmix64.
 static double draw(uint64_t *state, double least, double most) {
@@ -110,7 +110,8 @@ static int build(const CwCase *table, CwDesign *design) {
     // A solid that is built but not sound would be no line but a wrong pump.
     if (fine && !(measured.valid && measured.closed && measured.largest_tolerance < 1e-6))
       fine = CW_FAIL(CW_ERR_GEOMETRY, "%s: valid %d, closed %d, largest tolerance %.3g mm: UNSOUND",
-                     cw_solid_domain(solid[i]), measured.valid, measured.closed, measured.largest_tolerance * 1e3) == CW_OK;
+                     cw_solid_domain(solid[i]), measured.valid, measured.closed,
+                     measured.largest_tolerance * 1e3) == CW_OK;
   }
   cw_solid_free(&solid[0]);
   cw_solid_free(&solid[1]);
@@ -144,17 +145,18 @@ static void random_pumps(void **state_) {
       unsound += strstr(message, "UNSOUND") != NULL;
       // One line, with a number in it and something to do.
       lines += strlen(message) > 20 && !strchr(message, '\n') && strpbrk(message, "0123456789") != NULL;
-      print_message("pump %d, ns %.0f, %.1f m3/h, %.1f m, z %d%s, wrap %.0f deg, D2 %.0f, b2 %.1f mm, edge %d, form %d: "
+      print_message("pump %d, ns %.0f, %.1f m3/h, %.1f m, z %d%s, wrap %.0f deg, D2 %.0f, b2 %.1f mm, edge "
+                    "%d, form %d: "
                     "%s\n",
                     i + 1, design.specific_speed_ns, design.flow_rate * 3600, design.head, design.blade_count,
                     design.splitter_start > 0 ? " with splitters" : "", design.wrap_angle / degree,
-                    design.outlet_diameter * 1e3, design.outlet_width * 1e3, design.trailing_edge, design.blade_form,
-                    message);
+                    design.outlet_diameter * 1e3, design.outlet_width * 1e3, design.trailing_edge,
+                    design.blade_form, message);
       cw_fail_clear();
     }
   }
-  print_message("%d of %d random pumps are valid (%.1f %%), %.2f s each, the longest %.2f s\n", built, pump_count,
-                100.0 * built / pump_count, (cw_seconds() - begin) / pump_count, longest);
+  print_message("%d of %d random pumps are valid (%.1f %%), %.2f s each, the longest %.2f s\n", built,
+                pump_count, 100.0 * built / pump_count, (cw_seconds() - begin) / pump_count, longest);
   assert_int_equal(unsound, 0);
   assert_int_equal(built + lines, pump_count);
   assert_true(built >= 0.97 * pump_count);

@@ -204,8 +204,8 @@ static int faces_of_patch(const CwSolid *solid, const char *patch) {
   return found;
 }
 
-// Each kind of trailing edge: faces a blade, and the outlet diameter that is met. A bevel takes material off the blunt
-// edge, and a sharp edge more: the fluid grows.
+// Each kind of trailing edge: faces a blade, and the outlet diameter that is met. A bevel takes material off
+// the blunt edge, and a sharp edge more: the fluid grows.
 static void trailing_edges(void **state) {
   static const int faces[] = {
       [CW_EDGE_BEVELLED] = 2, [CW_EDGE_BLUNT] = 1, [CW_EDGE_ROUNDED] = 1, [CW_EDGE_SHARP] = 1};
@@ -271,7 +271,8 @@ static void splitters(void **state) {
   cw_solid_free(&rotor);
   CwMeridian meridian;
   assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
-  const double blades = 6 * blade_volume(&design, &meridian), all = cw_meridian_volume(&meridian) - solid.volume;
+  const double blades = 6 * blade_volume(&design, &meridian),
+               all = cw_meridian_volume(&meridian) - solid.volume;
   // Splitters of 0.6 of the blades' length where the wheel is narrower than at the inlet.
   if (!(all > 1.4 * blades && all < 1.65 * blades))
     fail_msg("blades and splitters have %.3f of the blades' volume", all / blades);
@@ -346,16 +347,11 @@ static void too_long_a_bevel_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paper_rotor),
-      cmocka_unit_test(every_face_has_a_patch),
-      cmocka_unit_test(sweep),
-      cmocka_unit_test(other_priorities),
-      cmocka_unit_test(trailing_edges),
-      cmocka_unit_test(rounding_reaches_the_outlet_diameter),
-      cmocka_unit_test(splitters),
-      cmocka_unit_test(cylindrical_blades_and_lean),
-      cmocka_unit_test(mirrored),
-      cmocka_unit_test(too_long_a_bevel_is_refused),
+      cmocka_unit_test(paper_rotor),    cmocka_unit_test(every_face_has_a_patch),
+      cmocka_unit_test(sweep),          cmocka_unit_test(other_priorities),
+      cmocka_unit_test(trailing_edges), cmocka_unit_test(rounding_reaches_the_outlet_diameter),
+      cmocka_unit_test(splitters),      cmocka_unit_test(cylindrical_blades_and_lean),
+      cmocka_unit_test(mirrored),       cmocka_unit_test(too_long_a_bevel_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
