@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "geometry/volute_section.h"
 #include "pipeline/record.h"
 
 static const double degree = M_PI / 180;
@@ -56,6 +57,18 @@ static const struct {
     [DIFFUSIVITY] = {"_m2_per_s", 1},
 };
 
+// The spiral every 45 degrees behind its start.
+static json_t *sections_json(const CwVolute *volute) {
+  json_t *sections = json_array();
+  for (int i = 1; sections && i <= 8; i++) {
+    const CwVoluteSection s = cw_volute_section(volute, i * M_PI / 4);
+    json_array_append_new(sections, json_pack("{s:f, s:f, s:f, s:f, s:f}", "angle_deg", 45.0 * i, "area_m2",
+                                              s.area, "outer_radius_m", s.outer_radius, "side_wall_radius_m",
+                                              s.kink_radius, "side_wall_width_m", 2 * s.kink_height));
+  }
+  return sections;
+}
+
 CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path) {
   CwStatus status = CW_OK;
   static const char *const priorities[] = {
@@ -74,6 +87,7 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
   failed |= json_object_set_new(root, "rotor_volume_m3", cw_json_number(measured->rotor.volume)) != 0;
   failed |= json_object_set_new(root, "stator_volume_m3", cw_json_number(measured->stator.volume)) != 0;
   failed |= json_object_set_new(root, "measured", cw_measured_json(measured)) != 0;
+  failed |= json_object_set_new(root, "volute_sections", sections_json(&design->volute)) != 0;
   failed |= json_object_set(root, "sources", sources) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "%s: out of memory", path);
   CW_TRY(cw_json_write(root, path));
