@@ -7,6 +7,7 @@
 
 #include "geometry/correlations.h"
 #include "geometry/design_check.h"
+#include "geometry/volute_section.h"
 #include "pipeline/record.h"
 
 static const double degree = M_PI / 180;
@@ -106,6 +107,18 @@ static json_t *remarks_json(const CwDesign *design) {
   return list;
 }
 
+// The spiral every 45 degrees behind its start.
+static json_t *sections_json(const CwVolute *volute) {
+  json_t *sections = json_array();
+  for (int i = 1; sections && i <= 8; i++) {
+    const CwVoluteSection s = cw_volute_section(volute, i * M_PI / 4);
+    json_array_append_new(sections, json_pack("{s:f, s:f, s:f, s:f, s:f}", "angle_deg", 45.0 * i, "area_m2",
+                                              s.area, "outer_radius_m", s.outer_radius, "side_wall_radius_m",
+                                              s.kink_radius, "side_wall_width_m", 2 * s.kink_height));
+  }
+  return sections;
+}
+
 CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *measured, const char *path) {
   CwStatus status = CW_OK;
   static const char *const priorities[] = {
@@ -145,6 +158,7 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
   failed |= json_object_set_new(root, "velocity_triangles", triangles_json(design)) != 0;
   failed |= json_object_set_new(root, "correlations", correlations_json(design)) != 0;
   failed |= json_object_set_new(root, "remarks", remarks_json(design)) != 0;
+  failed |= json_object_set_new(root, "volute_sections", sections_json(&design->volute)) != 0;
   failed |= json_object_set(root, "sources", sources) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "%s: out of memory", path);
   CW_TRY(cw_json_write(root, path));

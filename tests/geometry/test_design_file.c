@@ -41,6 +41,14 @@ static void keys_of_the_format(void **state) {
   assert_true(fabs(number(root, "outlet_diameter_m") - 0.2) < 1e-12);
   assert_true(number(root, "rotor_volume_m3") == 5e-4);
   assert_true(fabs(number(json_object_get(root, "measured"), "wrap_angle_deg") - 71) < 1e-9);
+  // The area of the paper's volute half way round, and its growth.
+  const json_t *sections = json_object_get(root, "volute_sections");
+  assert_int_equal(json_array_size(sections), 8);
+  assert_true(fabs(number(json_array_get(sections, 3), "angle_deg") - 180) < 1e-12);
+  assert_true(fabs(number(json_array_get(sections, 3), "area_m2") - 427e-6) < 1e-6);
+  for (size_t i = 1; i < 8; i++)
+    assert_true(number(json_array_get(sections, i), "outer_radius_m") >
+                number(json_array_get(sections, i - 1), "outer_radius_m"));
   // Every number of the design says where it comes from.
   const json_t *sources = json_object_get(root, "sources");
   assert_int_equal(json_object_size(sources), CW_DESIGN_COUNT + 1); // and blade_count
