@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/delaunay.h"
+#include "mesher/fill_points.h"
+#include "mesher/fill_shape.h"
+#include "mesher/kernel_facets.h"
+#include "mesher/tet_improve.h"
+#include "pipeline/log.h"
+
+// Boundary points, then inner candidates.
+static CwStatus all_points(const CwFillInput *input, int32_t *count, double (**x)[3]) {
+  CwStatus status = CW_OK;
+  double(*inner)[3] = NULL;
+  int32_t inner_count = 0;
+  CW_TRY(cw_fill_points(input, 1.0, &inner_count, &inner));
+  CW_NEW(*x, input->point_count + inner_count);
+  memcpy(*x, input->x, (size_t)input->point_count * sizeof **x);
+  memcpy(*x + input->point_count, inner, (size_t)inner_count * sizeof **x);
+  *count = input->point_count + inner_count;
+done:
+  free(inner);
+  return status;
+}
+
+enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
+
+// Floods from both sides of all facets; place[t] holds the side and the facets of each tetrahedron.
+static CwStatus classify(const CwFillInput *input, const CwDelaunay *mesh, const CwFacets *facets, uint8_t *place) {
+  CwStatus status = CW_OK;
+  int32_t *stack = NULL, count = 0;
+  CW_NEW(stack, mesh->tet_count);
+  for (int32_t f = 0; f < facets->count; f++) {
+    int32_t face[2] = {facets->inner[f], mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4]};
+    for (int k = 0; k < 2; k++) {
+      uint8_t *here = &place[face[k] / 4], side = k == 0 ? INSIDE : OUTSIDE;
+      const double *x = mesh->point[facets->corner[f][0]].x;
+      CW_REQUIRE((*here & SIDE) == OPEN || (*here & SIDE) == side, CW_ERR_MESH,
+                 "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
+                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+      if ((*here & SIDE) == OPEN) stack[count++] = face[k] / 4;
+      *here |= (uint8_t)(side | 4 << face[k] % 4);
+    }
+  }
+  while (count) {
+    int32_t t = stack[--count];
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    for (int i = 0; i < 4; i++) {
+      if (tet->neighbour[i] < 0 || place[t] & 4 << i) continue;
+      uint8_t *next = &place[tet->neighbour[i] / 4];
+      if ((*next & SIDE) == OPEN) {
+        *next |= place[t] & SIDE;
+        stack[count++] = tet->neighbour[i] / 4;
+        continue;
+      }
+      const double *x = mesh->point[tet->corner[0]].x;
+      CW_REQUIRE(((*next ^ place[t]) & SIDE) == 0, CW_ERR_MESH,
+                 "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
+                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+    }
+  }
+done:
+  free(stack);
+  return status;
+}
+
+// Takes the tetrahedra inside over: given boundary points first, then the inner points that are used, in the given order.
+static CwStatus take_inside(const CwFillInput *input, const CwDelaunay *mesh, const uint8_t *place, int32_t count,
+                            double (*x)[3], CwFill *fill) {
+  CwStatus status = CW_OK;
+  int32_t *number = NULL, kept = 0, points = input->point_count;
+  CW_NEW(number, count);
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *corner = mesh->tet[t].corner;
+    if (corner[0] < 0 || (place[t] & SIDE) != INSIDE) continue;
+    kept++;
+    for (int i = 0; i < 4; i++) {
+      CW_REQUIRE(corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
+                 "%s: nothing lies inside the boundary: its normals point inward", input->name);
+      number[mesh->source[corner[i]]] = 1;
+    }
+  }
+  for (int32_t p = 0; p < count; p++) {
+    if (p >= input->point_count && number[p]) memcpy(x[points], x[p], sizeof *x);
+    if (p < input->point_count) number[p] = p;
+    else if (number[p]) number[p] = points++;
+  }
+  fill->tetrahedron = malloc((size_t)kept * sizeof *fill->tetrahedron);
+  CW_REQUIRE(fill->tetrahedron, CW_ERR_MEMORY, "%s: out of memory: %d tetrahedra", input->name, kept);
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *corner = mesh->tet[t].corner;
+    if (corner[0] < 0 || (place[t] & SIDE) != INSIDE) continue;
+    int32_t *made = fill->tetrahedron[fill->tetrahedron_count++];
+    for (int i = 0; i < 4; i++) made[i] = number[mesh->source[corner[i]]];
+  }
+  fill->x = x;
+  fill->point_count = points;
+done:
+  free(number);
+  return status;
+}
+
+CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
+  CwStatus status = CW_OK;
+  CwDelaunay mesh = {0};
+  CwFacets facets = {0};
+  CwTetImproved improved;
+  double(*x)[3] = NULL;
+  uint8_t *place = NULL;
+  int32_t count = 0;
+  memset(fill, 0, sizeof *fill);
+  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(all_points(input, &count, &x));
+  CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
+  CW_TRY(cw_facets_make(input, &mesh, &facets));
+  cw_facets_locate(&mesh, input->point_count, &facets);
+  if (facets.missing_count) {
+    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets.missing_count, facets.count);
+    status = CW_RETRY;
+    goto done;
+  }
+  CW_NEW(place, mesh.tet_count);
+  CW_TRY(classify(input, &mesh, &facets, place));
+  CW_TRY(take_inside(input, &mesh, place, count, x, fill));
+  x = NULL;
+  cw_facets_free(&facets);
+  cw_delaunay_free(&mesh);
+  CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
+  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+               input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
+               improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+done:
+  free(place);
+  free(x);
+  cw_facets_free(&facets);
+  cw_delaunay_free(&mesh);
+  if (status != CW_OK) cw_fill_free(fill);
+  return status;
+}
