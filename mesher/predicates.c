@@ -73,24 +73,14 @@ static int sign_of(int m, const double *e) {
   return (e[m - 1] > 0.0) - (e[m - 1] < 0.0);
 }
 
-// Longest expansions: differences 2, minors of two rows 16, of three rows 192, squares of distances 24, terms of the
-// fourth order 9216.
-enum { TWO = 16, THREE = 192, SQUARE = 24, TERM = 2 * THREE * SQUARE };
+// Longest expansions: differences 2, minors of two rows 16, of three rows 192; that times a difference 768, twice 3072.
+enum { TWO = 16, THREE = 192, FOUR = 4 * THREE, FIVE = 4 * FOUR };
 
-// h = e f; room for 2 m n, in `spare` too.
+// h = e f for f of one or two parts; room for 2 m n, in `spare` too.
 static int multiply(int m, const double *e, int n, const double *f, double *h, double *spare) {
-  double part[2 * THREE], *from = spare, *to = h;
-  int count = 1;
-  if (n % 2 == 0) from = h, to = spare; // so that the last sum goes to h
-  from[0] = 0.0;
-  for (int j = 0; j < n; j++) {
-    int length = scale(m, e, f[j], part);
-    count = add(count, from, length, part, to);
-    double *swap = from;
-    from = to;
-    to = swap;
-  }
-  return count;
+  if (n == 1) return scale(m, e, f[0], h);
+  int low = scale(m, e, f[0], spare), high = scale(m, e, f[1], spare + low);
+  return add(low, spare, high, spare + low, h);
 }
 
 typedef struct {
@@ -145,29 +135,78 @@ int cw_orient3d_exact(const double a[3], const double b[3], const double c[3], c
   return sign_of(det.n, det.c);
 }
 
-static int square_of(const Short v[3], double h[SQUARE]) {
-  double s[3][8], pair[16], spare[8];
-  int n[3];
-  for (int i = 0; i < 3; i++) n[i] = multiply(v[i].n, v[i].c, v[i].n, v[i].c, s[i], spare);
-  int count = add(n[0], s[0], n[1], s[1], pair);
-  return add(count, pair, n[2], s[2], h);
-}
-
 int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]) {
   const double *corner[4] = {a, b, c, d};
   Short row[4][3];
-  double term[TERM], spare[TERM], sum[2][4 * TERM];
-  for (int k = 0; k < 4; k++) from_to(e, corner[k], row[k]);
-  int count = 1;
+  double once[FOUR], twice[FIVE], spare[FIVE], sum[2][12 * FIVE];
+  int count = 1, now = 0;
   sum[0][0] = 0.0;
+  for (int k = 0; k < 4; k++) from_to(e, corner[k], row[k]);
   for (int k = 0; k < 4; k++) {
     Minor3 minor;
-    double square[SQUARE];
     minor3(row[(k + 1) % 4], row[(k + 2) % 4], row[(k + 3) % 4], &minor);
-    int n = square_of(row[k], square);
-    n = multiply(minor.n, minor.c, n, square, term, spare);
-    if (k % 2) turn(n, term);
-    count = add(count, sum[k % 2], n, term, sum[(k + 1) % 2]);
+    if (k % 2) turn(minor.n, minor.c);
+    for (int i = 0; i < 3; i++) {
+      int n = multiply(minor.n, minor.c, row[k][i].n, row[k][i].c, once, spare);
+      n = multiply(n, once, row[k][i].n, row[k][i].c, twice, spare);
+      count = add(count, sum[now], n, twice, sum[1 - now]);
+      now = 1 - now;
+    }
   }
-  return sign_of(count, sum[0]);
+  return sign_of(count, sum[now]);
+}
+
+// A number as the sum of two doubles, right to about 2^-102 of the numbers that made it.
+typedef struct {
+  double high, low;
+} Pair;
+
+static inline Pair pair_of(double a, double b) {
+  Pair r;
+  r.high = a + b;
+  r.low = b - (r.high - a);
+  return r;
+}
+
+static inline Pair pair_minus(Pair a, Pair b) {
+  double error, sum = two_sum(a.high, -b.high, &error);
+  return pair_of(sum, error + (a.low - b.low));
+}
+
+static inline Pair pair_plus(Pair a, Pair b) {
+  double error, sum = two_sum(a.high, b.high, &error);
+  return pair_of(sum, error + (a.low + b.low));
+}
+
+static inline Pair pair_times(Pair a, Pair b) {
+  double error, product = two_product(a.high, b.high, &error);
+  return pair_of(product, error + (a.high * b.low + a.low * b.high));
+}
+
+int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]) {
+  const double *corner[4] = {a, b, c, d};
+  Pair v[4][3], square[4], det = {0.0, 0.0};
+  double size = 0.0;
+  for (int k = 0; k < 4; k++) {
+    for (int i = 0; i < 3; i++) v[k][i].high = two_sum(corner[k][i], -e[i], &v[k][i].low);
+    square[k] = pair_plus(pair_plus(pair_times(v[k][0], v[k][0]), pair_times(v[k][1], v[k][1])),
+                          pair_times(v[k][2], v[k][2]));
+  }
+  for (int k = 0; k < 4; k++) {
+    const Pair *p = v[(k + 1) % 4], *q = v[(k + 2) % 4], *r = v[(k + 3) % 4];
+    Pair minor = {0.0, 0.0};
+    double minor_size = 0.0;
+    for (int i = 0; i < 3; i++) {
+      int x = (i + 1) % 3, y = (i + 2) % 3;
+      Pair s = pair_times(q[x], r[y]), t = pair_times(q[y], r[x]);
+      minor = pair_plus(minor, pair_times(p[i], pair_minus(s, t)));
+      minor_size += fabs(p[i].high) * (fabs(s.high) + fabs(t.high));
+    }
+    Pair term = pair_times(minor, square[k]);
+    det = k % 2 ? pair_minus(det, term) : pair_plus(det, term);
+    size += minor_size * square[k].high;
+  }
+  // Some twenty operations deep, each within 2^-101.
+  if (fabs(det.high) > 0x1p-94 * size) return det.high > 0.0 ? 1 : -1;
+  return cw_insphere_exact(a, b, c, d, e);
 }

@@ -15,6 +15,9 @@ extern "C" {
 int cw_orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]);
 int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]);
 
+// By pairs of doubles where that is enough, then exactly: for signs that plain doubles leave open.
+int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]);
+
 // Bounds of the relative rounding error, in units of 2^-53: 7 and 16 operations deep, with a margin for second order.
 #define CW_ORIENT3D_BOUND (7.1 * 0x1p-53)
 #define CW_INSPHERE_BOUND (16.1 * 0x1p-53)
@@ -57,7 +60,7 @@ static inline int cw_insphere(const double a[3], const double b[3], const double
                 (zc * sda + zd * sac + za * scd) * square[1] + (zd * sab + za * sbd + zb * sda) * square[2];
   if (det > CW_INSPHERE_BOUND * size) return 1;
   if (det < -CW_INSPHERE_BOUND * size) return -1;
-  return cw_insphere_exact(a, b, c, d, e);
+  return cw_insphere_close(a, b, c, d, e);
 }
 
 #ifdef __cplusplus

@@ -78,6 +78,7 @@ static void check(const double p[5][3]) {
   // Of a positive tetrahedron (0, x, y, z) and a point far away: rows give +, outside.
   int sphere = -judge(5, five, 1);
   assert_int_equal(cw_insphere(p[0], p[1], p[2], p[3], p[4]), sphere);
+  assert_int_equal(cw_insphere_close(p[0], p[1], p[2], p[3], p[4]), sphere);
   assert_int_equal(cw_insphere_exact(p[0], p[1], p[2], p[3], p[4]), sphere);
 }
 
