@@ -8,6 +8,7 @@
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
+#include "mesher/kernel_recover.h"
 #include "mesher/tet_improve.h"
 #include "pipeline/log.h"
 
@@ -117,6 +118,10 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   cw_facets_locate(&mesh, input->point_count, &facets);
+  if (facets.missing_count) {
+    CW_TRY(cw_kernel_recover(&mesh, &facets));
+    cw_facets_locate(&mesh, input->point_count, &facets);
+  }
   if (facets.missing_count) {
     cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets.missing_count, facets.count);
     status = CW_RETRY;

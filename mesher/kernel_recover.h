@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Brings boundary triangles that the Delaunay mesh does not have into it by flips.
+#ifndef CUTWATER_MESHER_KERNEL_RECOVER_H
+#define CUTWATER_MESHER_KERNEL_RECOVER_H
+
+#include "mesher/kernel_facets.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered stay missing
+// (see cw_facets_locate afterwards). Deterministic.
+CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
