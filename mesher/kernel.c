@@ -27,6 +27,7 @@ done:
   return status;
 }
 
+enum { ROUNDS = 6 }; // of recovery: what one facet could not have may be free after others have theirs
 enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
 
 // Floods from both sides of all facets; place[t] holds the side and the facets of each tetrahedron.
@@ -118,8 +119,8 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   cw_facets_locate(&mesh, input->point_count, &facets);
-  if (facets.missing_count) {
-    CW_TRY(cw_kernel_recover(&mesh, &facets));
+  for (int round = 0; round < ROUNDS && facets.missing_count; round++) {
+    CW_TRY(cw_kernel_recover(&mesh, &facets, round));
     cw_facets_locate(&mesh, input->point_count, &facets);
   }
   if (facets.missing_count) {

@@ -10,7 +10,8 @@
 
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-enum { STEPS = 400 };
+// Flips that only prepare others, before the other end is tried; tries of an edge.
+enum { HOLD = 16, TRIES = 12 };
 
 // What is to be recovered: the edge of the first two points, or the face of all three.
 typedef struct {
@@ -61,9 +62,16 @@ typedef struct {
   CwFlips flips;
   const CwFacets *facets;
   Goal goal;
+  uint32_t random;
 } Recovery;
 
-// Takes the edge p-q away: at once, or after flips of the faces and edges round it have made its ring smaller.
+static int draw(Recovery *r, int below) {
+  r->random = r->random * 1664525u + 1013904223u;
+  return (int)((r->random >> 16) % (uint32_t)below);
+}
+
+// Takes the edge p-q away: at once (*moved = 2), or in steps: a flip of a face or edge next to it that adds no crossings
+// (*moved = 1), found by chance, for there may be circles.
 static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int depth, int *moved) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
@@ -71,10 +79,12 @@ static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int dep
   *moved = 0;
   if (cw_facets_has_edge(r->facets, p, q)) goto done;
   CW_TRY(cw_flips_edge(flips, t, p, q, moved));
+  *moved *= 2;
   if (*moved || depth == 0) goto done;
-  int n = cw_flips_ring(flips, t, p, q, tet, ring), slack = flips->slack;
+  int n = cw_flips_ring(flips, t, p, q, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
   flips->slack = 1; // no more crossings than before
-  for (int k = 0; k < n && !*moved; k++) {
+  for (int step = 0; step < n && !*moved; step++) {
+    int k = (first + step) % n;
     const CwDelaunayTet *now = &flips->mesh->tet[tet[k]];
     int32_t far = ring[(k + 1) % n];
     const int32_t face[3] = {p, q, ring[k]};
@@ -85,6 +95,7 @@ static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int dep
     for (int end = 0; end < 2 && !*moved; end++) CW_TRY(clear_edge(r, tet[k], end ? p : q, ring[k], depth - 1, moved));
   }
   flips->slack = slack;
+  *moved = *moved > 0;
 done:
   return status;
 }
@@ -130,7 +141,12 @@ static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *fou
     }
     if (cw_facets_find(r->facets, f) >= 0) goto done;
     CW_TRY(cw_flips_face(flips, t, at, moved));
-    for (int i = 0; i < 3 && !*moved; i++) CW_TRY(clear_edge(r, t, f[i], f[(i + 1) % 3], depth, moved));
+    *moved *= 2;
+    for (int level = 0; level <= depth && !*moved; level++) {
+      int first = level ? draw(r, 3) : 0;
+      for (int i = first; i < first + 3 && !*moved; i++)
+        CW_TRY(clear_edge(r, t, f[i % 3], f[(i + 1) % 3], level, moved));
+    }
     goto done;
   }
 done:
@@ -140,17 +156,15 @@ done:
 // From both ends in turn; deeper searches only where simple flips are stuck.
 static CwStatus recover_edge(Recovery *r, int32_t a, int32_t b, int *found) {
   CwStatus status = CW_OK;
-  int stuck = 0;
   r->goal.point[0] = a;
   r->goal.point[1] = b;
   r->flips.crossing = face_crosses_edge;
   r->flips.slack = 0;
-  for (int step = 0; step < STEPS; step++) {
-    int moved;
-    CW_TRY(clear_way(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
-    if (*found) goto done;
-    stuck = moved ? stuck : stuck + 1;
-    if (stuck >= 6) goto done;
+  for (int stuck = 0; stuck < TRIES; stuck++) {
+    for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
+      CW_TRY(clear_way(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
+      if (*found) goto done;
+    }
   }
 done:
   return status;
@@ -160,33 +174,35 @@ done:
 static CwStatus recover_face(Recovery *r, const int32_t corner[3], int *found) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
-  int stuck = 0;
   memcpy(r->goal.point, corner, sizeof r->goal.point);
   flips->crossing = edge_crosses_face;
   flips->slack = 0;
   *found = 0;
-  for (int step = 0; step < STEPS && stuck < 9; step++) {
+  for (int stuck = 0; stuck < TRIES; stuck++) {
     int32_t a = corner[stuck % 3], b = corner[(stuck + 1) % 3], c = corner[(stuck + 2) % 3], t;
     int32_t tet[CW_RING], ring[CW_RING];
-    int moved = 0;
-    CW_TRY(cw_flips_find_edge(flips, a, b, &t));
-    int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, tet, ring);
-    for (int k = 0; k < n && !*found; k++) *found = ring[k] == c;
-    if (*found) goto done;
-    for (int k = 0; k < n && !moved; k++) {
-      int32_t end[2] = {ring[k], ring[(k + 1) % n]};
-      if (edge_crosses_face(&r->goal, 2, end)) CW_TRY(clear_edge(r, tet[k], end[0], end[1], stuck / 3, &moved));
+    for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
+      moved = 0;
+      CW_TRY(cw_flips_find_edge(flips, a, b, &t));
+      int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, tet, ring);
+      for (int k = 0; k < n && !*found; k++) *found = ring[k] == c;
+      if (*found) goto done;
+      for (int k = 0; k < n && !moved; k++) {
+        int32_t end[2] = {ring[k], ring[(k + 1) % n]};
+        if (edge_crosses_face(&r->goal, 2, end))
+          CW_TRY(clear_edge(r, tet[k], end[0], end[1], stuck / 3, &moved));
+      }
     }
-    if (!moved) stuck++;
   }
 done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets) {
+CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round) {
   CwStatus status = CW_OK;
   Recovery r = {.facets = facets, .goal = {.mesh = mesh}};
   int lost_edges = 0, lost_faces = 0;
+  r.random = 20240611u + (uint32_t)round;
   CW_TRY(cw_flips_make(mesh, &r.flips));
   r.flips.context = &r.goal;
   for (int32_t f = 0; f < facets->count; f++) {

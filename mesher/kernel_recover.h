@@ -10,8 +10,8 @@ extern "C" {
 #endif
 
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered stay missing
-// (see cw_facets_locate afterwards). Deterministic.
-CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets);
+// (see cw_facets_locate afterwards). Another `round` tries other flips. Deterministic.
+CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round);
 
 #ifdef __cplusplus
 }
