@@ -81,6 +81,7 @@ CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
   }
   if (mesh->tet_count == mesh->tet_space) CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64));
   *tet = mesh->tet_count++;
+  mesh->tet[*tet] = (CwDelaunayTet){.square = 0.0};
 done:
   return status;
 }

@@ -8,8 +8,8 @@
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
+#include "mesher/kernel_improve.h"
 #include "mesher/kernel_recover.h"
-#include "mesher/tet_improve.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates.
@@ -69,36 +69,55 @@ done:
   return status;
 }
 
-// Takes the tetrahedra inside over: given boundary points first, then the inner points that are used, in the given order.
-static CwStatus take_inside(const CwFillInput *input, const CwDelaunay *mesh, const uint8_t *place, int32_t count,
-                            double (*x)[3], CwFill *fill) {
+// Frees all tetrahedra outside and cuts the others off them.
+static CwStatus keep_inside(const CwFillInput *input, CwDelaunay *mesh, const uint8_t *place) {
   CwStatus status = CW_OK;
-  int32_t *number = NULL, kept = 0, points = input->point_count;
-  CW_NEW(number, count);
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const int32_t *corner = mesh->tet[t].corner;
-    if (corner[0] < 0 || (place[t] & SIDE) != INSIDE) continue;
-    kept++;
+  int32_t count = mesh->tet_count;
+  for (int32_t t = 0; t < count; t++) {
+    CwDelaunayTet *tet = &mesh->tet[t];
+    if (tet->corner[0] < 0) continue;
+    if ((place[t] & SIDE) != INSIDE) {
+      CW_TRY(cw_delaunay_free_tet(mesh, t));
+      continue;
+    }
     for (int i = 0; i < 4; i++) {
-      CW_REQUIRE(corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
+      if (place[t] & 4 << i) tet->neighbour[i] = -1;
+      CW_REQUIRE(tet->corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
                  "%s: nothing lies inside the boundary: its normals point inward", input->name);
-      number[mesh->source[corner[i]]] = 1;
     }
   }
-  for (int32_t p = 0; p < count; p++) {
-    if (p >= input->point_count && number[p]) memcpy(x[points], x[p], sizeof *x);
-    if (p < input->point_count) number[p] = p;
-    else if (number[p]) number[p] = points++;
-  }
-  fill->tetrahedron = malloc((size_t)kept * sizeof *fill->tetrahedron);
-  CW_REQUIRE(fill->tetrahedron, CW_ERR_MEMORY, "%s: out of memory: %d tetrahedra", input->name, kept);
+done:
+  return status;
+}
+
+// All tetrahedra; the given boundary points first, then the inner points that are used, in the order of their sources.
+static CwStatus take(const CwFillInput *input, const CwDelaunay *mesh, int32_t source_count, CwFill *fill) {
+  CwStatus status = CW_OK;
+  int32_t *number = NULL, kept = 0, points = input->point_count;
+  CW_NEW(number, source_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *corner = mesh->tet[t].corner;
-    if (corner[0] < 0 || (place[t] & SIDE) != INSIDE) continue;
+    if (corner[0] < 0) continue;
+    kept++;
+    for (int i = 0; i < 4; i++) number[mesh->source[corner[i]]] = 1;
+  }
+  for (int32_t p = 0; p < source_count; p++) {
+    if (p < input->point_count) number[p] = p;
+    else number[p] = number[p] ? points++ : -1;
+  }
+  fill->tetrahedron = malloc((size_t)kept * sizeof *fill->tetrahedron);
+  fill->x = malloc((size_t)points * sizeof *fill->x);
+  CW_REQUIRE(fill->tetrahedron && fill->x, CW_ERR_MEMORY, "%s: out of memory: %d tetrahedra", input->name, kept);
+  for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh->point_count; p++) {
+    int32_t to = number[mesh->source[p]];
+    if (to >= 0) memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
+  }
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *corner = mesh->tet[t].corner;
+    if (corner[0] < 0) continue;
     int32_t *made = fill->tetrahedron[fill->tetrahedron_count++];
     for (int i = 0; i < 4; i++) made[i] = number[mesh->source[corner[i]]];
   }
-  fill->x = x;
   fill->point_count = points;
 done:
   free(number);
@@ -117,6 +136,8 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(cw_fill_check_closed(input));
   CW_TRY(all_points(input, &count, &x));
   CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
+  free(x);
+  x = NULL;
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   cw_facets_locate(&mesh, input->point_count, &facets);
   for (int round = 0; round < ROUNDS && facets.missing_count; round++) {
@@ -130,11 +151,12 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   }
   CW_NEW(place, mesh.tet_count);
   CW_TRY(classify(input, &mesh, &facets, place));
-  CW_TRY(take_inside(input, &mesh, place, count, x, fill));
-  x = NULL;
   cw_facets_free(&facets);
-  cw_delaunay_free(&mesh);
-  CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
+  CW_TRY(keep_inside(input, &mesh, place));
+  free(place);
+  place = NULL;
+  CW_TRY(cw_kernel_improve(&mesh, input->point_count, &count, &improved));
+  CW_TRY(take(input, &mesh, count, fill));
   cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
                input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
                improved.points_moved, improved.points_added, improved.least_before, improved.least_after);

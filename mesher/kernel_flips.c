@@ -115,12 +115,11 @@ static Side side_of(const int32_t corner[4], int i, int32_t owner) {
   return s;
 }
 
-// Puts `count` tetrahedra in the place of the `old_count` ones, which fill the same cavity.
-static CwStatus replace(CwFlips *flips, int old_count, const int32_t *old, int count, const int32_t (*corner)[4]) {
+CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                          int32_t *slot) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = flips->mesh;
-  Side side[8 * CW_RING];
-  int32_t slot[2 * CW_RING];
+  Side side[8 * CW_FLIP];
   int sides = 0;
   for (int k = 0; k < old_count; k++) {
     const CwDelaunayTet *tet = &mesh->tet[old[k]];
@@ -140,10 +139,10 @@ static CwStatus replace(CwFlips *flips, int old_count, const int32_t *old, int c
     memcpy(tet->corner, corner[k], sizeof tet->corner);
     tet->square = 0.0;
     for (int i = 0; i < 4; i++) {
-      flips->tet_at[corner[k][i]] = slot[k];
+      if (flips->tet_at) flips->tet_at[corner[k][i]] = slot[k];
       Side one = side_of(corner[k], i, 4 * slot[k] + i);
       int m = 0;
-      while (m < sides && memcmp(side[m].p, one.p, sizeof one.p)) m++;
+      while (m < sides && (side[m].p[0] != one.p[0] || side[m].p[1] != one.p[1] || side[m].p[2] != one.p[2])) m++;
       if (m == sides) {
         side[sides++] = one;
         continue;
@@ -172,7 +171,7 @@ static int crossings(const CwFlips *flips, int count, int32_t a, int32_t b, int3
 CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped) {
   CwStatus status = CW_OK;
   const CwDelaunayTet *tet = &flips->mesh->tet[t];
-  int32_t other = tet->neighbour[i], made[3][4];
+  int32_t other = tet->neighbour[i], made[3][4], slot[3];
   *flipped = 0;
   if (other < 0) goto done;
   const int32_t old[2] = {t, other / 4};
@@ -186,7 +185,7 @@ CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped) {
   int before = crossings(flips, 3, f[0], f[1], f[2]), after = crossings(flips, 2, below, above, -1);
   for (int k = 0; k < 3; k++) after += crossings(flips, 3, below, above, f[k]);
   if (after >= before + flips->slack) goto done;
-  CW_TRY(replace(flips, 2, old, 3, (const int32_t(*)[4])made));
+  CW_TRY(cw_flips_replace(flips, 2, old, 3, (const int32_t(*)[4])made, slot));
   *flipped = 1;
 done:
   return status;
@@ -214,7 +213,7 @@ static int ring_tets(const RingTable *table, const int32_t *ring, int32_t a, int
 
 CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *flipped) {
   CwStatus status = CW_OK;
-  int32_t old[CW_RING], ring[CW_RING], tet[2 * CW_RING][4];
+  int32_t old[CW_RING], ring[CW_RING], tet[CW_FLIP][4], slot[CW_FLIP];
   RingTable table;
   *flipped = 0;
   int n = cw_flips_ring(flips, t, a, b, old, ring);
@@ -246,7 +245,7 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
   }
   if (table.least[0][n - 1] >= never || table.least[0][n - 1] >= before + flips->slack) goto done;
   int count = ring_tets(&table, ring, a, b, 0, n - 1, tet, 0);
-  CW_TRY(replace(flips, n, old, count, (const int32_t(*)[4])tet));
+  CW_TRY(cw_flips_replace(flips, n, old, count, (const int32_t(*)[4])tet, slot));
   *flipped = 1;
 done:
   return status;

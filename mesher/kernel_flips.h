@@ -14,14 +14,14 @@
 extern "C" {
 #endif
 
-enum { CW_RING = 24 }; // tetrahedra round an edge that is removed, at most
+enum { CW_RING = 24, CW_FLIP = 2 * CW_RING }; // tetrahedra round an edge that is removed, and in a flip, at most
 
 // How much the edge (count = 2) or face (count = 3) with these points is in the way; 0: not at all.
 typedef int (*CwCrossing)(const void *context, int count, const int32_t *point);
 
 typedef struct {
   CwDelaunay *mesh;
-  int32_t *tet_at;        // one tetrahedron of each point
+  int32_t *tet_at;        // one tetrahedron of each point; not kept where it is NULL
   double stamp;           // of the last star, in the tetrahedra's square
   int32_t *star, star_count, star_space;
   CwCrossing crossing;
@@ -45,6 +45,10 @@ int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int32_t
 CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped);
 // Takes the edge a-b of t away; of all valid ways the one with the fewest crossings. *flipped as above.
 CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *flipped);
+
+// Puts `count` tetrahedra in the place of the `old_count` ones, which fill the same cavity; slot[k] is where each is now.
+CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                          int32_t *slot);
 
 #ifdef __cplusplus
 }
