@@ -28,13 +28,14 @@ done:
 }
 
 enum { ROUNDS = 6 }; // of recovery: what one facet could not have may be free after others have theirs
+enum { AHEAD = 12 };   // places of the queue whose tetrahedra are on their way from memory
 enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
 
 // Floods from both sides of all facets; place[t] holds the side and the facets of each tetrahedron.
 static CwStatus classify(const CwFillInput *input, const CwDelaunay *mesh, const CwFacets *facets, uint8_t *place) {
   CwStatus status = CW_OK;
-  int32_t *stack = NULL, count = 0;
-  CW_NEW(stack, mesh->tet_count);
+  int32_t *queue = NULL, head = 0, count = 0;
+  CW_NEW(queue, mesh->tet_count);
   for (int32_t f = 0; f < facets->count; f++) {
     int32_t face[2] = {facets->inner[f], mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4]};
     for (int k = 0; k < 2; k++) {
@@ -43,19 +44,20 @@ static CwStatus classify(const CwFillInput *input, const CwDelaunay *mesh, const
       CW_REQUIRE((*here & SIDE) == OPEN || (*here & SIDE) == side, CW_ERR_MESH,
                  "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                  input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
-      if ((*here & SIDE) == OPEN) stack[count++] = face[k] / 4;
+      if ((*here & SIDE) == OPEN) queue[count++] = face[k] / 4;
       *here |= (uint8_t)(side | 4 << face[k] % 4);
     }
   }
-  while (count) {
-    int32_t t = stack[--count];
+  while (head < count) {
+    if (head + AHEAD < count) __builtin_prefetch(&mesh->tet[queue[head + AHEAD]]);
+    int32_t t = queue[head++];
     const CwDelaunayTet *tet = &mesh->tet[t];
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] < 0 || place[t] & 4 << i) continue;
       uint8_t *next = &place[tet->neighbour[i] / 4];
       if ((*next & SIDE) == OPEN) {
         *next |= place[t] & SIDE;
-        stack[count++] = tet->neighbour[i] / 4;
+        queue[count++] = tet->neighbour[i] / 4;
         continue;
       }
       const double *x = mesh->point[tet->corner[0]].x;
@@ -65,7 +67,7 @@ static CwStatus classify(const CwFillInput *input, const CwDelaunay *mesh, const
     }
   }
 done:
-  free(stack);
+  free(queue);
   return status;
 }
 
