@@ -11,6 +11,7 @@
 // Sines: tetrahedra with an angle below 27 (or above 153) degrees are improved, below 18 also with new points.
 static const double limit_improve = 0.454, limit_insert = 0.31;
 static const double gain = 1e-6; // least improvement, so that no two changes undo one another for ever
+static const double step_gain = 2e-3; // least gain of a move: smaller ones cost much and give little
 enum { PASSES = 8, RING = 8, STAR = 96, SPLIT = 16 };
 
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -208,8 +209,8 @@ static double best_place(Hollow *hollow, double p[3], double start) {
     for (int tries = 0, k = last; tries < 14; tries++, k = (k + 1) % 14) {
       double scale = k < 6 ? step : step * 0.57735026918962573, there[3];
       for (int i = 0; i < 3; i++) there[i] = p[i] + scale * way[k][i];
-      q = hollow_quality(hollow, there, best + gain);
-      if (q <= best + gain) continue;
+      q = hollow_quality(hollow, there, best + step_gain);
+      if (q <= best + step_gain) continue;
       best = q;
       memcpy(p, there, sizeof there);
       last = k;
@@ -260,7 +261,7 @@ static CwStatus smooth(Improver *w, int32_t t, int32_t point, int *done_it) {
   }
   if (n == 0) goto done;
   memcpy(p, at(w, point), sizeof p);
-  if (!(best_place(&hollow, p, least) > least + gain)) goto done;
+  if (!(best_place(&hollow, p, least) > least + step_gain)) goto done;
   memcpy(w->mesh->point[point].x, p, sizeof p);
   for (int k = 0; k < n; k++) {
     const int32_t *c = w->mesh->tet[star[k]].corner;
