@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "mesher/delaunay.h"
-#include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
 #include "mesher/kernel_improve.h"
+#include "mesher/kernel_points.h"
 #include "mesher/kernel_recover.h"
 #include "pipeline/log.h"
 
@@ -17,7 +17,7 @@ static CwStatus all_points(const CwFillInput *input, int32_t *count, double (**x
   CwStatus status = CW_OK;
   double(*inner)[3] = NULL;
   int32_t inner_count = 0;
-  CW_TRY(cw_fill_points(input, 1.0, &inner_count, &inner));
+  CW_TRY(cw_kernel_points(input, &inner_count, &inner));
   CW_NEW(*x, input->point_count + inner_count);
   memcpy(*x, input->x, (size_t)input->point_count * sizeof **x);
   memcpy(*x + input->point_count, inner, (size_t)inner_count * sizeof **x);
