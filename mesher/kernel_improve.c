@@ -205,7 +205,7 @@ static double best_place(Hollow *hollow, double p[3], double start) {
     memcpy(p, mean, sizeof mean);
   }
   int last = 0;
-  for (double step = 0.2 * sqrt(square), end = 0.05 * step; step > end; step *= 0.5) {
+  for (double step = 0.2 * sqrt(square), end = 0.2 * step; step > end; step *= 0.5) {
     for (int tries = 0, k = last; tries < 14; tries++, k = (k + 1) % 14) {
       double scale = k < 6 ? step : step * 0.57735026918962573, there[3];
       for (int i = 0; i < 3; i++) there[i] = p[i] + scale * way[k][i];

@@ -11,7 +11,7 @@ typedef struct {
   double area[4]; // squares of the doubled areas, opposite a, b, c, d
 } CwKernelShape;
 
-static inline CwKernelShape cw_kernel_shape(const double a[3], const double b[3], const double c[3],
+static inline __attribute__((always_inline)) CwKernelShape cw_kernel_shape(const double a[3], const double b[3], const double c[3],
                                             const double d[3]) {
   CwKernelShape s;
   double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
