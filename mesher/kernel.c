@@ -92,33 +92,39 @@ done:
   return status;
 }
 
-// All tetrahedra; the given boundary points first, then the inner points that are used, in the order of their sources.
-static CwStatus take(const CwFillInput *input, const CwDelaunay *mesh, int32_t source_count, CwFill *fill) {
+// All tetrahedra; the given boundary points first, then the inner points that are used, in the order of their sources. The
+// corners are moved together in the mesh's own memory, which goes over to the fill: no second copy at the peak.
+static CwStatus take(const CwFillInput *input, CwDelaunay *mesh, int32_t source_count, CwFill *fill) {
   CwStatus status = CW_OK;
   int32_t *number = NULL, kept = 0, points = input->point_count;
+  int32_t(*made)[4] = (int32_t(*)[4])(void *)mesh->tet;
   CW_NEW(number, source_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const int32_t *corner = mesh->tet[t].corner;
+    int32_t corner[4];
+    memcpy(corner, mesh->tet[t].corner, sizeof corner);
     if (corner[0] < 0) continue;
-    kept++;
-    for (int i = 0; i < 4; i++) number[mesh->source[corner[i]]] = 1;
+    for (int i = 0; i < 4; i++) {
+      corner[i] = mesh->source[corner[i]];
+      number[corner[i]] = 1;
+    }
+    memcpy(made[kept++], corner, sizeof corner);
   }
+  mesh->tet = NULL;
+  fill->tetrahedron = realloc(made, (size_t)kept * sizeof *made);
+  if (!fill->tetrahedron) fill->tetrahedron = made;
+  fill->tetrahedron_count = kept;
   for (int32_t p = 0; p < source_count; p++) {
     if (p < input->point_count) number[p] = p;
     else number[p] = number[p] ? points++ : -1;
   }
-  fill->tetrahedron = malloc((size_t)kept * sizeof *fill->tetrahedron);
+  for (int32_t t = 0; t < kept; t++) {
+    for (int i = 0; i < 4; i++) fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
+  }
   fill->x = malloc((size_t)points * sizeof *fill->x);
-  CW_REQUIRE(fill->tetrahedron && fill->x, CW_ERR_MEMORY, "%s: out of memory: %d tetrahedra", input->name, kept);
+  CW_REQUIRE(fill->x, CW_ERR_MEMORY, "%s: out of memory: %d points", input->name, points);
   for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh->point_count; p++) {
     int32_t to = number[mesh->source[p]];
     if (to >= 0) memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
-  }
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const int32_t *corner = mesh->tet[t].corner;
-    if (corner[0] < 0) continue;
-    int32_t *made = fill->tetrahedron[fill->tetrahedron_count++];
-    for (int i = 0; i < 4; i++) made[i] = number[mesh->source[corner[i]]];
   }
   fill->point_count = points;
 done:
