@@ -29,6 +29,7 @@ typedef struct {
   int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
   int32_t list_count;   // triangles that reach it, from list; 0: all of it is inside
   int64_t list;
+  int counts;           // its centre is inside: its leaves count for the fit of the spacing
 } Cell;
 
 typedef struct {
@@ -179,14 +180,14 @@ static void child_of(const int32_t at[3], int level, int child, int32_t corner[3
 static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count, int *kept) {
   CwStatus status = CW_OK;
   double centre[3], edge = tree->unit * (double)(1 << level);
-  int inside = 1;
+  int inside;
   *kept = 0;
   centre_of(tree, at, level, centre);
-  if (list_count == 0) CW_TRY(test_inside(tree, centre, &inside));
-  if (!inside) goto done;
   if (list_count == 0 || level == 0 || edge <= coarse * lattice_constant * size_at(tree->input, centre)) {
+    CW_TRY(test_inside(tree, centre, &inside));
+    if (list_count == 0 && !inside) goto done;
     ROOM(tree->cell, tree->cell_space, tree->cell_count + 1);
-    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list};
+    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, inside};
     *kept = 1;
     goto done;
   }
@@ -236,9 +237,11 @@ static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int leve
     }
     goto done;
   }
-  tree->found += 1.0;
-  tree->wanted += edge / asked * (edge / asked) * (edge / asked);
-  if (!store) goto done;
+  if (!store) {
+    tree->found += 1.0;
+    tree->wanted += edge / asked * (edge / asked) * (edge / asked);
+    goto done;
+  }
   ROOM(tree->place, tree->place_space, tree->place_count + 9);
   for (int k = 0; k < 9; k++) {
     int32_t there[3];
@@ -368,7 +371,7 @@ CwStatus cw_kernel_points(const CwFillInput *input, int32_t *count, double (**x)
     int store = round == 4;
     tree->wanted = tree->found = 0.0;
     for (int32_t c = 0; c < tree->cell_count; c++) {
-      CW_TRY(cut_fine(tree, c, tree->cell[c].at, tree->cell[c].level, store));
+      if (store || tree->cell[c].counts) CW_TRY(cut_fine(tree, c, tree->cell[c].at, tree->cell[c].level, store));
     }
     if (!store && tree->wanted > 0.0 && fabs(tree->found / tree->wanted - 1.0) >= 0.01)
       tree->fit *= cbrt(tree->found / tree->wanted);
