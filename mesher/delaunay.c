@@ -95,6 +95,26 @@ done:
   return status;
 }
 
+CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point) {
+  CwStatus status = CW_OK;
+  if (mesh->point_count == mesh->point_space) {
+    int32_t space = mesh->point_space + mesh->point_space / 8 + 64;
+    CwDelaunayPoint *points = realloc(mesh->point, (size_t)space * sizeof *points);
+    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", space);
+    mesh->point = points;
+    int32_t *sources = realloc(mesh->source, (size_t)space * sizeof *sources);
+    CW_REQUIRE(sources, CW_ERR_MEMORY, "out of memory: %d points", space);
+    mesh->source = sources;
+    mesh->point_space = space;
+  }
+  *point = mesh->point_count++;
+  memcpy(mesh->point[*point].x, x, sizeof mesh->point->x);
+  mesh->point[*point].mark = 0;
+  mesh->source[*point] = source;
+done:
+  return status;
+}
+
 static inline const double *at(const CwDelaunay *mesh, int32_t p) {
   return mesh->point[p].x;
 }
@@ -350,6 +370,7 @@ CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh)
   CW_TRY(cw_hilbert_order(count, x, order));
   CW_NEW(mesh->point, count + CW_DELAUNAY_CORNERS);
   CW_NEW(mesh->source, count + CW_DELAUNAY_CORNERS);
+  mesh->point_space = count + CW_DELAUNAY_CORNERS;
   CW_TRY(make_pool(mesh, 7 * (int64_t)count + 256));
   CW_TRY(enclose(mesh, count, x));
   for (int32_t k = 0; k < count; k++) {

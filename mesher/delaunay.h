@@ -28,7 +28,7 @@ typedef struct {
 } CwDelaunayPoint;
 
 typedef struct {
-  int32_t point_count;    // given ones and the four corners
+  int32_t point_count, point_space; // given ones and the four corners
   CwDelaunayPoint *point; // in the order of insertion
   int32_t *source;        // the given point that each is; -1 for the corners
   int32_t tet_count, tet_space; // with free places
@@ -47,6 +47,8 @@ void cw_delaunay_free(CwDelaunay *mesh);
 // A free place for a tetrahedron; the caller fills it.
 CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet);
 CwStatus cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet);
+// A point that no tetrahedron has yet.
+CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point);
 
 #ifdef __cplusplus
 }

@@ -149,7 +149,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   cw_facets_locate(&mesh, input->point_count, &facets);
   for (int round = 0; round < ROUNDS && facets.missing_count; round++) {
-    CW_TRY(cw_kernel_recover(&mesh, &facets, round));
+    CW_TRY(cw_kernel_recover(&mesh, &facets, round, &count));
     cw_facets_locate(&mesh, input->point_count, &facets);
   }
   if (facets.missing_count) {

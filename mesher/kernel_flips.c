@@ -28,6 +28,17 @@ void cw_flips_free(CwFlips *flips) {
   memset(flips, 0, sizeof *flips);
 }
 
+CwStatus cw_flips_add_point(CwFlips *flips, const double x[3], int32_t source, int32_t *point) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_delaunay_add_point(flips->mesh, x, source, point));
+  int32_t *grown = realloc(flips->tet_at, (size_t)flips->mesh->point_space * sizeof *grown);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d points", flips->mesh->point_space);
+  flips->tet_at = grown;
+  flips->tet_at[*point] = -1;
+done:
+  return status;
+}
+
 static int corner_of(const CwDelaunayTet *tet, int32_t point) {
   for (int i = 0; i < 4; i++) {
     if (tet->corner[i] == point) return i;

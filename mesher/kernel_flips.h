@@ -33,6 +33,9 @@ typedef struct {
 CwStatus cw_flips_make(CwDelaunay *mesh, CwFlips *flips);
 void cw_flips_free(CwFlips *flips);
 
+// A new point, in no tetrahedron yet.
+CwStatus cw_flips_add_point(CwFlips *flips, const double x[3], int32_t source, int32_t *point);
+
 // Tetrahedra of a point, into flips->star.
 CwStatus cw_flips_star(CwFlips *flips, int32_t point);
 // A tetrahedron with both points, -1 where they have no edge. Overwrites flips->star.

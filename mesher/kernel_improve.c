@@ -24,7 +24,7 @@ static const int8_t tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
-  int32_t fixed_count, source_count, point_space;
+  int32_t fixed_count, source_count;
   double stamp;
   uint64_t pass;
   int32_t *bad, bad_count, bad_space; // to look at in this pass
@@ -274,26 +274,6 @@ done:
   return status;
 }
 
-static CwStatus add_point(Improver *w, const double x[3], int32_t *point) {
-  CwStatus status = CW_OK;
-  CwDelaunay *mesh = w->mesh;
-  if (mesh->point_count == w->point_space) {
-    int32_t space = w->point_space + w->point_space / 8 + 64;
-    CwDelaunayPoint *points = realloc(mesh->point, (size_t)space * sizeof *points);
-    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", space);
-    mesh->point = points;
-    int32_t *source = realloc(mesh->source, (size_t)space * sizeof *source);
-    CW_REQUIRE(source, CW_ERR_MEMORY, "out of memory: %d points", space);
-    mesh->source = source;
-    w->point_space = space;
-  }
-  *point = mesh->point_count++;
-  memcpy(mesh->point[*point].x, x, sizeof mesh->point->x);
-  mesh->source[*point] = w->source_count++;
-done:
-  return status;
-}
-
 // A new point on an inner edge of t, moved to its best place. Flat tetrahedra with all corners on the boundary, which no flip
 // and no smoothing can raise, are cut from below this way.
 static CwStatus split_edge(Improver *w, int32_t t, int32_t a, int32_t b, int *done_it) {
@@ -319,7 +299,7 @@ static CwStatus split_edge(Improver *w, int32_t t, int32_t a, int32_t b, int *do
   }
   for (int i = 0; i < 3; i++) p[i] = 0.5 * (at(w, a)[i] + at(w, b)[i]);
   if (!(best_place(&hollow, p, hollow_quality(&hollow, p, -2.0)) > least + 0.02)) goto done;
-  CW_TRY(add_point(w, p, &point));
+  CW_TRY(cw_delaunay_add_point(w->mesh, p, w->source_count++, &point));
   for (int k = 0; k < 2 * n; k++) {
     tet[k][3] = point;
     quality[k] = quality_of(w, tet[k][0], tet[k][1], tet[k][2], point);
@@ -370,8 +350,7 @@ static double least_quality(const Improver *w) {
 
 CwStatus cw_kernel_improve(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count, CwTetImproved *improved) {
   CwStatus status = CW_OK;
-  Improver w = {.flips = {.mesh = mesh}, .mesh = mesh, .fixed_count = fixed_count, .source_count = *source_count,
-                .point_space = mesh->point_count};
+  Improver w = {.flips = {.mesh = mesh}, .mesh = mesh, .fixed_count = fixed_count, .source_count = *source_count};
   for (int32_t p = 0; p < mesh->point_count; p++) mesh->point[p].mark = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwDelaunayTet *tet = &mesh->tet[t];

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/kernel_clear.h"
 #include "mesher/kernel_flips.h"
 #include "mesher/predicates.h"
 #include "pipeline/log.h"
@@ -24,19 +25,6 @@ static int side(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32_t
   return cw_orient3d(p[a].x, p[b].x, p[c].x, p[d].x);
 }
 
-// Does the segment a-b meet the triangle (touching counts)? They share no point.
-static int meet(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t[3]) {
-  int below = side(mesh, t[0], t[1], t[2], a), above = side(mesh, t[0], t[1], t[2], b);
-  if (below * above > 0 || (below == 0 && above == 0)) return 0;
-  int s[3], low = 0, high = 0;
-  for (int k = 0; k < 3; k++) {
-    s[k] = side(mesh, a, b, t[k], t[(k + 1) % 3]);
-    low |= s[k] < 0;
-    high |= s[k] > 0;
-  }
-  return !(low && high);
-}
-
 static int shares(const int32_t *p, int m, const int32_t *q, int n) {
   for (int i = 0; i < m; i++) {
     for (int k = 0; k < n; k++) {
@@ -49,13 +37,13 @@ static int shares(const int32_t *p, int m, const int32_t *q, int n) {
 static int face_crosses_edge(const void *context, int count, const int32_t *point) {
   const Goal *goal = context;
   if (count != 3 || shares(point, 3, goal->point, 2)) return 0;
-  return meet(goal->mesh, goal->point[0], goal->point[1], point);
+  return cw_kernel_meet(goal->mesh, goal->point[0], goal->point[1], point);
 }
 
 static int edge_crosses_face(const void *context, int count, const int32_t *point) {
   const Goal *goal = context;
   if (count != 2 || shares(point, 2, goal->point, 3)) return 0;
-  return meet(goal->mesh, point[0], point[1], goal->point);
+  return cw_kernel_meet(goal->mesh, point[0], point[1], goal->point);
 }
 
 typedef struct {
@@ -198,7 +186,7 @@ done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round) {
+CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, int32_t *source_count) {
   CwStatus status = CW_OK;
   Recovery r = {.facets = facets, .goal = {.mesh = mesh}};
   int lost_edges = 0, lost_faces = 0;
@@ -217,6 +205,7 @@ CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round) 
     if (facets->inner[f] >= 0) continue;
     int found;
     CW_TRY(recover_face(&r, facets->corner[f], &found));
+    if (!found && round >= 2) CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &found));
     lost_faces += !found;
   }
   cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered", facets->missing_count,
