@@ -43,7 +43,8 @@ static void check(CwStatus status) {
   exit(status == CW_RETRY ? 1 : (int)status);
 }
 
-static void write_surface(const char *path, const Mesh *mesh) {
+// Triangles from `second` on belong to surface 2, those before to surface 1.
+static void write_surface(const char *path, const Mesh *mesh, int32_t second) {
   FILE *file = fopen(path, "w");
   if (!file) perror(path), exit(4);
   fprintf(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", mesh->point_count);
@@ -51,8 +52,8 @@ static void write_surface(const char *path, const Mesh *mesh) {
     fprintf(file, "%d %.17g %.17g %.17g\n", p + 1, mesh->x[p][0], mesh->x[p][1], mesh->x[p][2]);
   fprintf(file, "$EndNodes\n$Elements\n%d\n", mesh->triangle_count);
   for (int32_t t = 0; t < mesh->triangle_count; t++)
-    fprintf(file, "%d 2 2 1 1 %d %d %d\n", t + 1, mesh->triangle[t][0] + 1, mesh->triangle[t][1] + 1,
-            mesh->triangle[t][2] + 1);
+    fprintf(file, "%d 2 2 1 %d %d %d %d\n", t + 1, t < second ? 1 : 2, mesh->triangle[t][0] + 1,
+            mesh->triangle[t][1] + 1, mesh->triangle[t][2] + 1);
   fprintf(file, "$EndElements\n");
   if (fclose(file)) perror(path), exit(4);
 }
@@ -234,11 +235,12 @@ int main(int argc, char **argv) {
   if (argc == 4 && !strcmp(argv[1], "ring")) {
     double edge = atof(argv[2]);
     add_torus(&mesh, 0.1, 0.03, edge, 1);
+    int32_t outer = mesh.triangle_count;
     add_torus(&mesh, 0.1, 0.01, 0.5 * edge, 0);
-    write_surface(argv[3], &mesh);
+    write_surface(argv[3], &mesh, outer);
   } else if (argc == 4 && !strcmp(argv[1], "region")) {
     region_surface(argv[2], &mesh);
-    write_surface(argv[3], &mesh);
+    write_surface(argv[3], &mesh, mesh.triangle_count);
   } else if (argc == 3 && !strcmp(argv[1], "quality")) {
     read_mesh(argv[2], &mesh);
     printf("%d %d ", mesh.triangle_count, mesh.tetrahedron_count);

@@ -43,10 +43,12 @@ def run_ours(program, way, surface):
     return [int(words[0]), int(words[1]), float(words[2]), float(words[4]), *map(float, words[5:8])]
 
 
-def run_gmsh(folder, surface, *options):
+def run_gmsh(folder, surface, shells, *options):
     mesh = folder / "hxt.msh"
     script = folder / "hxt.geo"
-    script.write_text(f'Merge "{surface}";\nSurface Loop(1) = {{1}};\nVolume(1) = {{1}};\nMesh.SaveAll = 1;\n')
+    loops = "".join(f"Surface Loop({k}) = {{{k}}};\n" for k in range(1, shells + 1))
+    script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{", ".join(map(str, range(1, shells + 1)))}}};\n'
+                      "Mesh.SaveAll = 1;\n")
     mesh.unlink(missing_ok=True)
     child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-algo", "hxt", "-format", "msh2", "-o", str(mesh),
                               str(script)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -56,9 +58,9 @@ def run_gmsh(folder, surface, *options):
     return text, use.ru_maxrss * 1024, mesh
 
 
-def run_hxt(program, folder, surface):
-    _, before, _ = run_gmsh(folder, surface, "-2")
-    text, peak, mesh = run_gmsh(folder, surface, "-3")
+def run_hxt(program, folder, surface, shells):
+    _, before, _ = run_gmsh(folder, surface, shells, "-2")
+    text, peak, mesh = run_gmsh(folder, surface, shells, "-3")
     seconds = re.search(r"Done meshing 3D \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)", text)
     if not seconds or not mesh.exists():
         return "failed"
@@ -70,11 +72,11 @@ def run_hxt(program, folder, surface):
     return [int(words[0]), tets, float(seconds.group(1)), max(0, peak - before) / tets, *map(float, words[2:5])]
 
 
-def compare(program, folder, title, surface, repeat):
+def compare(program, folder, title, surface, shells, repeat):
     ways = [("kernel", lambda: run_ours(program, "kernel", surface)),
             ("tetgen", lambda: run_ours(program, "tetgen", surface))]
     if shutil.which("gmsh"):
-        ways.append(("hxt", lambda: run_hxt(program, folder, surface)))
+        ways.append(("hxt", lambda: run_hxt(program, folder, surface, shells)))
     best = {}
     for _ in range(repeat):
         for name, way in ways:
@@ -108,13 +110,13 @@ def main():
         surface = folder / "surface.msh"
         for edge in words.ring:
             subprocess.run([str(program), "ring", str(edge), str(surface)], check=True)
-            compare(program, folder, f"ring {edge}", surface, words.repeat)
+            compare(program, folder, f"ring {edge}", surface, 2, words.repeat)
         for run in words.run:
             for region in sorted((run / "mesh").glob("*.h5")):
                 if words.regions and region.stem not in words.regions:
                     continue
                 subprocess.run([str(program), "region", str(region), str(surface)], check=True)
-                compare(program, folder, region.stem, surface, words.repeat)
+                compare(program, folder, region.stem, surface, 1, words.repeat)
 
 
 if __name__ == "__main__":
