@@ -371,7 +371,7 @@ CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh)
   CW_NEW(mesh->point, count + CW_DELAUNAY_CORNERS);
   CW_NEW(mesh->source, count + CW_DELAUNAY_CORNERS);
   mesh->point_space = count + CW_DELAUNAY_CORNERS;
-  CW_TRY(make_pool(mesh, 7 * (int64_t)count + 256));
+  CW_TRY(make_pool(mesh, 9 * (int64_t)count + 256)); // 6.8 as a rule; pages that are not used cost nothing
   CW_TRY(enclose(mesh, count, x));
   for (int32_t k = 0; k < count; k++) {
     int32_t point = mesh->point_count, found = 0;

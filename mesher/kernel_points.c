@@ -14,7 +14,7 @@ static const double distance_factor = 0.62;               // of h, least distanc
 static const double sphere_factor = 1.05;                 // of the radius of a triangle's smallest circumscribed sphere
 static const double jitter = 1e-3;                        // of the cell: breaks the lattice's cospherical points
 static const double coarse = 2.2;                         // cells of lists, over wanted cells
-enum { DEPTH = 19, DIGIT = 11 };
+enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9 };
 
 typedef struct {
   float low[3], high[3]; // box of all places that the triangle can forbid, rounded outward
@@ -252,6 +252,40 @@ done:
   return status;
 }
 
+static CwStatus cut_cells(Tree *tree, int store) {
+  CwStatus status = CW_OK;
+  tree->wanted = tree->found = 0.0;
+  for (int32_t c = 0; c < tree->cell_count; c++) {
+    const Cell *cell = &tree->cell[c];
+    if (store || cell->counts) CW_TRY(cut_fine(tree, c, cell->at, cell->level, store));
+  }
+done:
+  return status;
+}
+
+// Finds the factor on the wanted spacing with which there are as many cells as the size field asks for. The count falls with the
+// factor, but in steps where sizes are nearly uniform: the best of the tried ones is taken.
+static CwStatus fit_spacing(Tree *tree) {
+  CwStatus status = CW_OK;
+  double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
+  for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
+    CW_TRY(cut_cells(tree, 0));
+    if (!(tree->wanted > 0.0)) break;
+    double ratio = tree->found / tree->wanted, error = fabs(log(ratio));
+    if (error < best_error) {
+      best = tree->fit;
+      best_error = error;
+    }
+    if (ratio > 1.0) low = tree->fit;
+    else high = tree->fit;
+    double next = tree->fit * cbrt(ratio);
+    tree->fit = next > low && next < high && round < 3 ? next : sqrt(low * high);
+  }
+  tree->fit = best;
+done:
+  return status;
+}
+
 // By key, stable. Bits that all keys have in common are left out.
 static CwStatus sort_places(Tree *tree) {
   CwStatus status = CW_OK;
@@ -367,16 +401,8 @@ CwStatus cw_kernel_points(const CwFillInput *input, int32_t *count, double (**x)
     tree->origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->unit * (double)(1 << (above + below));
   }
   CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, input->triangle_count, &kept));
-  for (int round = 0; round < 5; round++) {
-    int store = round == 4;
-    tree->wanted = tree->found = 0.0;
-    for (int32_t c = 0; c < tree->cell_count; c++) {
-      if (store || tree->cell[c].counts) CW_TRY(cut_fine(tree, c, tree->cell[c].at, tree->cell[c].level, store));
-    }
-    if (!store && tree->wanted > 0.0 && fabs(tree->found / tree->wanted - 1.0) >= 0.01)
-      tree->fit *= cbrt(tree->found / tree->wanted);
-    else if (!store) round = 3;
-  }
+  CW_TRY(fit_spacing(tree));
+  CW_TRY(cut_cells(tree, 1));
   CW_TRY(sort_places(tree));
   CW_TRY(collect(tree, count, x));
 done:
