@@ -8,12 +8,12 @@
 #include "mesher/hilbert.h"
 #include "mesher/predicates.h"
 
-// Relative band of the stored sphere within which the exact predicate decides, and the two conditions under which the
-// error of the sphere is within it: with P the product of the three edge lengths from one corner, the error of
-// the centre is below 32 eps P / |det| radii plus eps of its coordinates, and counts four times.
+// Relative band of the stored sphere within which the exact predicate decides, and the two conditions under
+// which the error of the sphere is within it: with P the product of the three edge lengths from one corner,
+// the error of the centre is below 32 eps P / |det| radii plus eps of its coordinates, and counts four times.
 static const double band = 1e-9;
-static const double slender = 2.4e9;     // on P^2 / det^2
-static const double far_centre = 5e-12;  // on radius^2 / centre^2
+static const double slender = 2.4e9;    // on P^2 / det^2
+static const double far_centre = 5e-12; // on radius^2 / centre^2
 
 // Corners of the face opposite corner i, outward.
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -37,7 +37,7 @@ typedef struct {
   int32_t side_count, side_space;
   Edge *edge;
   int32_t edge_space;
-  double (*arm)[4];    // from the new point to each point round the cavity, and its square
+  double (*arm)[4]; // from the new point to each point round the cavity, and its square
   int32_t arm_space;
   int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
 } Work;
@@ -56,7 +56,8 @@ done:
 
 #define ROOM(array, space, wanted)                                                                           \
   do {                                                                                                       \
-    if ((wanted) > (space)) CW_TRY(grow((void **)&(array), &(space), (wanted), sizeof *(array)));            \
+    if ((wanted) > (space))                                                                                  \
+      CW_TRY(grow((void **)&(array), &(space), (wanted), sizeof *(array)));                                  \
   } while (0)
 
 // Aligned to cache lines, which realloc is not. Pages not yet touched cost nothing.
@@ -65,7 +66,8 @@ static CwStatus make_pool(CwDelaunay *mesh, int64_t space) {
   CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
   CwDelaunayTet *pool = aligned_alloc(sizeof *pool, (size_t)space * sizeof *pool);
   CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
-  if (mesh->tet_count) memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
+  if (mesh->tet_count)
+    memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
   free(mesh->tet);
   mesh->tet = pool;
   mesh->tet_space = (int32_t)space;
@@ -79,7 +81,8 @@ CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
     *tet = mesh->spare[--mesh->spare_count];
     goto done;
   }
-  if (mesh->tet_count == mesh->tet_space) CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64));
+  if (mesh->tet_count == mesh->tet_space)
+    CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64));
   *tet = mesh->tet_count++;
   mesh->tet[*tet] = (CwDelaunayTet){.square = 0.0};
 done:
@@ -127,8 +130,10 @@ static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, con
 static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
   double x = p[0] - t->centre[0], y = p[1] - t->centre[1], z = p[2] - t->centre[2];
   double square = x * x + y * y + z * z;
-  if (square > t->square * (1.0 + band)) return 0;
-  if (square < t->square * (1.0 - band)) return 1;
+  if (square > t->square * (1.0 + band))
+    return 0;
+  if (square < t->square * (1.0 - band))
+    return 1;
   return in_sphere_exactly(mesh, t, p);
 }
 
@@ -150,22 +155,24 @@ static inline void set_sphere(CwDelaunayTet *t, const double p[3], const double 
   t->square = good ? square : NAN;
 }
 
-// A tetrahedron whose sphere holds p, from `start`: towards p through any face that has p beyond it. -1: p is a corner of
-// *last.
+// A tetrahedron whose sphere holds p, from `start`: towards p through any face that has p beyond it. -1: p is
+// a corner of *last.
 static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], int32_t *last) {
   int32_t t = start, from = -1;
   uint32_t turn = 0;
   int exact = 0;
   for (int64_t step = 0;; step++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
-    if (in_sphere(mesh, tet, p)) return t;
+    if (in_sphere(mesh, tet, p))
+      return t;
     int32_t next = -1;
     exact |= step > 4 * (int64_t)mesh->tet_count; // rounding might lead in circles
     for (int again = exact; again < 2 && next < 0; again++) {
       exact = again;
       for (int k = 0; k < 4 && next < 0; k++) {
         int i = (int)((turn + (uint32_t)k) & 3);
-        if (tet->neighbour[i] < 0 || (!again && tet->neighbour[i] >> 2 == from)) continue;
+        if (tet->neighbour[i] < 0 || (!again && tet->neighbour[i] >> 2 == from))
+          continue;
         const double *a = at(mesh, tet->corner[tet_face[i][0]]), *b = at(mesh, tet->corner[tet_face[i][1]]);
         const double *c = at(mesh, tet->corner[tet_face[i][2]]);
         int beyond;
@@ -177,7 +184,8 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
           double cx = c[0] - p[0], cy = c[1] - p[1], cz = c[2] - p[2];
           beyond = (ay * bz - az * by) * cx + (az * bx - ax * bz) * cy + (ax * by - ay * bx) * cz < 0.0;
         }
-        if (beyond) next = tet->neighbour[i] >> 2;
+        if (beyond)
+          next = tet->neighbour[i] >> 2;
       }
     }
     if (next < 0) {
@@ -206,7 +214,8 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
       int32_t outer = tet->neighbour[i];
       if (outer >= 0) {
         CwDelaunayTet *next = &mesh->tet[outer >> 2];
-        if (next->square == -1.0) continue;
+        if (next->square == -1.0)
+          continue;
         if (in_sphere(mesh, next, p)) {
           next->square = -1.0;
           work->cavity[work->cavity_count++] = outer >> 2;
@@ -214,7 +223,8 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
         }
       }
       Side *side = &work->side[work->side_count++];
-      for (int k = 0; k < 3; k++) side->corner[k] = tet->corner[tet_face[i][k]];
+      for (int k = 0; k < 3; k++)
+        side->corner[k] = tet->corner[tet_face[i][k]];
       side->outer = outer;
     }
   }
@@ -224,8 +234,10 @@ done:
 
 static int compare_edges(const void *left, const void *right) {
   const Edge *a = left, *b = right;
-  if (a->low != b->low) return a->low < b->low ? -1 : 1;
-  if (a->high != b->high) return a->high < b->high ? -1 : 1;
+  if (a->low != b->low)
+    return a->low < b->low ? -1 : 1;
+  if (a->high != b->high)
+    return a->high < b->high ? -1 : 1;
   return a->owner < b->owner ? -1 : 1;
 }
 
@@ -247,7 +259,8 @@ static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
     }
   }
   qsort(work->edge, (size_t)count, sizeof *work->edge, compare_edges);
-  for (int32_t k = 0; k + 1 < count; k += 2) join(mesh, work->edge[k].owner, work->edge[k + 1].owner);
+  for (int32_t k = 0; k + 1 < count; k += 2)
+    join(mesh, work->edge[k].owner, work->edge[k + 1].owner);
 done:
   return status;
 }
@@ -265,15 +278,19 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
       if (q->mark >> 32 != (uint64_t)point) {
         double *arm = work->arm[locals];
         q->mark = (uint64_t)point << 32 | (uint64_t)locals++;
-        for (int j = 0; j < 3; j++) arm[j] = q->x[j] - p[j];
+        for (int j = 0; j < 3; j++)
+          arm[j] = q->x[j] - p[j];
         arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
       }
       side->local[i] = (int32_t)(uint32_t)q->mark;
     }
-    if (k < work->cavity_count) side->tet = work->cavity[k];
-    else CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
+    if (k < work->cavity_count)
+      side->tet = work->cavity[k];
+    else
+      CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
   }
-  for (int32_t k = work->side_count; k < work->cavity_count; k++) CW_TRY(cw_delaunay_free_tet(mesh, work->cavity[k]));
+  for (int32_t k = work->side_count; k < work->cavity_count; k++)
+    CW_TRY(cw_delaunay_free_tet(mesh, work->cavity[k]));
   int tabled = locals <= LOCAL;
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
@@ -284,9 +301,11 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
     tet->corner[2] = side->corner[1];
     tet->corner[3] = point;
     tet->neighbour[3] = side->outer;
-    if (side->outer >= 0) mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
+    if (side->outer >= 0)
+      mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
     set_sphere(tet, p, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
-    if (!tabled) continue;
+    if (!tabled)
+      continue;
     table[l[1] * LOCAL + l[2]] = 4 * side->tet;
     table[l[2] * LOCAL + l[0]] = 4 * side->tet + 2;
     table[l[0] * LOCAL + l[1]] = 4 * side->tet + 1;
@@ -307,7 +326,8 @@ done:
   return status;
 }
 
-static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, const CwDelaunayTet *tet, int32_t *space) {
+static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, const CwDelaunayTet *tet,
+                               int32_t *space) {
   CwStatus status = CW_OK;
   ROOM(mesh->duplicate, *space, mesh->duplicate_count + 1);
   int32_t *pair = mesh->duplicate[mesh->duplicate_count++];
@@ -315,14 +335,15 @@ static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, c
   pair[1] = -1;
   for (int i = 0; i < 4; i++) {
     const double *a = at(mesh, tet->corner[i]), *b = at(mesh, point);
-    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) pair[1] = mesh->source[tet->corner[i]];
+    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2])
+      pair[1] = mesh->source[tet->corner[i]];
   }
 done:
   return status;
 }
 
-// A tetrahedron with corners at (1, 1, 1), (1, -1, -1), ... times `reach` round the points; its inscribed sphere has
-// the radius reach / sqrt(3).
+// A tetrahedron with corners at (1, 1, 1), (1, -1, -1), ... times `reach` round the points; its inscribed
+// sphere has the radius reach / sqrt(3).
 static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   CwStatus status = CW_OK;
   static const int sign[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
@@ -339,10 +360,12 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
     size = fmax(size, fabs(middle[i]));
   }
   reach = 4.0 * sqrt(reach) + 1e-3 * size;
-  if (!(reach > 0.0)) reach = 1.0;
+  if (!(reach > 0.0))
+    reach = 1.0;
   CwDelaunayTet *tet = &mesh->tet[0];
   for (int k = 0; k < 4; k++) {
-    for (int i = 0; i < 3; i++) mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
+    for (int i = 0; i < 3; i++)
+      mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
     mesh->source[k] = -1;
     tet->neighbour[k] = -1;
     tet->corner[k] = k;
@@ -363,8 +386,8 @@ CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh)
   Work *work = NULL;
   int32_t *order = NULL, last = 0, duplicate_space = 0;
   memset(mesh, 0, sizeof *mesh);
-  CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed", count,
-             INT32_MAX / 32 - 1);
+  CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed",
+             count, INT32_MAX / 32 - 1);
   CW_NEW(work, 1);
   CW_NEW(order, count);
   CW_TRY(cw_hilbert_order(count, x, order));
@@ -396,7 +419,8 @@ done:
   }
   free(work);
   free(order);
-  if (status != CW_OK) cw_delaunay_free(mesh);
+  if (status != CW_OK)
+    cw_delaunay_free(mesh);
   return status;
 }
 

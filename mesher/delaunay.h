@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Delaunay tetrahedra of points: incremental insertion (Bowyer, Watson) in a biased randomised order along Hilbert's
-// curve, with exact signs. The points lie inside one large tetrahedron, whose corners are points 0 to 3 here.
+// Delaunay tetrahedra of points: incremental insertion (Bowyer, Watson) in a biased randomised order along
+// Hilbert's curve, with exact signs. The points lie inside one large tetrahedron, whose corners are points 0
+// to 3 here.
 #ifndef CUTWATER_MESHER_DELAUNAY_H
 #define CUTWATER_MESHER_DELAUNAY_H
 
@@ -16,10 +17,10 @@ enum { CW_DELAUNAY_CORNERS = 4 }; // of the enclosing tetrahedron
 
 // One cache line, so that the test of a sphere touches no other.
 typedef struct {
-  double centre[3], square; // of the circumscribed sphere, radius^2; square is NaN where it is not known well enough;
-                            // of no use once the mesh is made, and free for marks
-  int32_t corner[4];        // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
-  int32_t neighbour[4];     // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
+  double centre[3], square; // of the circumscribed sphere, radius^2; square is NaN where it is not known well
+                            // enough; of no use once the mesh is made, and free for marks
+  int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
+  int32_t neighbour[4]; // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
 } CwDelaunayTet;
 
 typedef struct {
@@ -29,11 +30,11 @@ typedef struct {
 
 typedef struct {
   int32_t point_count, point_space; // given ones and the four corners
-  CwDelaunayPoint *point; // in the order of insertion
-  int32_t *source;        // the given point that each is; -1 for the corners
-  int32_t tet_count, tet_space; // with free places
+  CwDelaunayPoint *point;           // in the order of insertion
+  int32_t *source;                  // the given point that each is; -1 for the corners
+  int32_t tet_count, tet_space;     // with free places
   CwDelaunayTet *tet;
-  int32_t *spare;         // stack of free places
+  int32_t *spare; // stack of free places
   int32_t spare_count, spare_space;
   int32_t duplicate_count;
   int32_t (*duplicate)[2]; // given points that were left out, and the one at the same place

@@ -16,12 +16,12 @@ extern "C" {
 
 typedef struct {
   int32_t count;
-  int32_t (*corner)[3];  // points of the Delaunay mesh; normal out of the region
-  int32_t *inner;        // 4 * tetrahedron + face: the face of each facet, seen from inside; -1: missing
+  int32_t (*corner)[3]; // points of the Delaunay mesh; normal out of the region
+  int32_t *inner;       // 4 * tetrahedron + face: the face of each facet, seen from inside; -1: missing
   int32_t missing_count;
-  int32_t *table;        // hash table of facets by their points; -1: empty
-  uint32_t mask;         // its length less one
-  int32_t (*edge)[2];    // hash table of their edges, ascending; -1: empty
+  int32_t *table;     // hash table of facets by their points; -1: empty
+  uint32_t mask;      // its length less one
+  int32_t (*edge)[2]; // hash table of their edges, ascending; -1: empty
   uint32_t edge_mask;
 } CwFacets;
 

@@ -11,9 +11,9 @@
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
 static const double distance_factor = 0.62;               // of h, least distance to the boundary
-static const double sphere_factor = 1.05;                 // of the radius of a triangle's smallest circumscribed sphere
-static const double jitter = 1e-3;                        // of the cell: breaks the lattice's cospherical points
-static const double coarse = 2.2;                         // cells of lists, over wanted cells
+static const double sphere_factor = 1.05; // of the radius of a triangle's smallest circumscribed sphere
+static const double jitter = 1e-3;        // of the cell: breaks the lattice's cospherical points
+static const double coarse = 2.2;         // cells of lists, over wanted cells
 enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9 };
 
 typedef struct {
@@ -29,7 +29,7 @@ typedef struct {
   int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
   int32_t list_count;   // triangles that reach it, from list; 0: all of it is inside
   int64_t list;
-  int counts;           // its centre is inside: its leaves count for the fit of the spacing
+  int counts; // its centre is inside: its leaves count for the fit of the spacing
 } Cell;
 
 typedef struct {
@@ -74,7 +74,8 @@ static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
   double u[3], v[3], mean[3], square = 0.0;
-  for (int i = 0; i < 3; i++) mean[i] = (a[i] + b[i] + c[i]) / 3.0;
+  for (int i = 0; i < 3; i++)
+    mean[i] = (a[i] + b[i] + c[i]) / 3.0;
   double h = size_at(input, mean);
   CW_REQUIRE(h > 0.0 && isfinite(h), CW_ERR_MESH, "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm",
              input->name, h, 1e3 * mean[0], 1e3 * mean[1], 1e3 * mean[2]);
@@ -119,7 +120,8 @@ static double distance_square(const double x[3], const double a[3], const double
   double det = uu * vv - uv * uv, s = vv * wu - uv * wv, t = uu * wv - uv * wu;
   if (s >= 0.0 && t >= 0.0 && s + t <= det && det > 0.0) {
     double d[3];
-    for (int i = 0; i < 3; i++) d[i] = w[i] - (s * u[i] + t * v[i]) / det;
+    for (int i = 0; i < 3; i++)
+      d[i] = w[i] - (s * u[i] + t * v[i]) / det;
     return cw_dot(d, d);
   }
   const double *corner[3] = {a, b, c};
@@ -130,9 +132,11 @@ static double distance_square(const double x[3], const double a[3], const double
     cw_sub(x, corner[k], f);
     double ee = cw_dot(e, e), along = ee > 0.0 ? cw_dot(e, f) / ee : 0.0;
     along = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
-    for (int i = 0; i < 3; i++) f[i] -= along * e[i];
+    for (int i = 0; i < 3; i++)
+      f[i] -= along * e[i];
     double square = cw_dot(f, f);
-    if (square < least) least = square;
+    if (square < least)
+      least = square;
   }
   return least;
 }
@@ -149,9 +153,11 @@ static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3]) {
       continue;
     double d[3];
     cw_sub(x, tree->ball[t].centre, d);
-    if (cw_dot(d, d) < tree->ball[t].square) return 1;
+    if (cw_dot(d, d) < tree->ball[t].square)
+      return 1;
     const int32_t *q = input->triangle[t];
-    if (distance_square(x, input->x[q[0]], input->x[q[1]], input->x[q[2]]) < nearest * nearest) return 1;
+    if (distance_square(x, input->x[q[0]], input->x[q[1]], input->x[q[2]]) < nearest * nearest)
+      return 1;
   }
   return 0;
 }
@@ -163,21 +169,26 @@ static CwStatus test_inside(Tree *tree, const double x[3], int *inside) {
   const double *z;
   *inside = 0;
   CW_TRY(cw_columns_cut(tree->columns, x[0], x[1], &count, &z));
-  for (int32_t k = 0; k < count; k++) *inside ^= z[k] > x[2];
+  for (int32_t k = 0; k < count; k++)
+    *inside ^= z[k] > x[2];
 done:
   return status;
 }
 
 static void centre_of(const Tree *tree, const int32_t at[3], int level, double x[3]) {
-  for (int i = 0; i < 3; i++) x[i] = tree->origin[i] + tree->unit * (at[i] + 0.5 * (double)(1 << level));
+  for (int i = 0; i < 3; i++)
+    x[i] = tree->origin[i] + tree->unit * (at[i] + 0.5 * (double)(1 << level));
 }
 
 static void child_of(const int32_t at[3], int level, int child, int32_t corner[3]) {
-  for (int i = 0; i < 3; i++) corner[i] = at[i] + ((child >> i & 1) << (level - 1));
+  for (int i = 0; i < 3; i++)
+    corner[i] = at[i] + ((child >> i & 1) << (level - 1));
 }
 
-// Cuts down to coarse cells; the list of the cell's triangles stands at the end of tree->list. *kept: it is in use there.
-static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count, int *kept) {
+// Cuts down to coarse cells; the list of the cell's triangles stands at the end of tree->list. *kept: it is
+// in use there.
+static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
+                           int *kept) {
   CwStatus status = CW_OK;
   double centre[3], edge = tree->unit * (double)(1 << level);
   int inside;
@@ -185,7 +196,8 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
   centre_of(tree, at, level, centre);
   if (list_count == 0 || level == 0 || edge <= coarse * lattice_constant * size_at(tree->input, centre)) {
     CW_TRY(test_inside(tree, centre, &inside));
-    if (list_count == 0 && !inside) goto done;
+    if (list_count == 0 && !inside)
+      goto done;
     ROOM(tree->cell, tree->cell_space, tree->cell_count + 1);
     tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, inside};
     *kept = 1;
@@ -206,12 +218,13 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
       int32_t t = tree->list[list + k];
       const Box *b = &tree->box[t];
       tree->list[from + count] = t;
-      count += (b->low[0] <= high[0]) & (b->high[0] >= low[0]) & (b->low[1] <= high[1]) & (b->high[1] >= low[1]) &
-               (b->low[2] <= high[2]) & (b->high[2] >= low[2]);
+      count += (b->low[0] <= high[0]) & (b->high[0] >= low[0]) & (b->low[1] <= high[1]) &
+               (b->high[1] >= low[1]) & (b->low[2] <= high[2]) & (b->high[2] >= low[2]);
     }
     tree->list_count += count;
     CW_TRY(cut_coarse(tree, corner, level - 1, from, count, &kept_child));
-    if (!kept_child) tree->list_count = from;
+    if (!kept_child)
+      tree->list_count = from;
     *kept |= kept_child;
   }
 done:
@@ -245,7 +258,8 @@ static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int leve
   ROOM(tree->place, tree->place_space, tree->place_count + 9);
   for (int k = 0; k < 9; k++) {
     int32_t there[3];
-    for (int i = 0; i < 3; i++) there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
+    for (int i = 0; i < 3; i++)
+      there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
     tree->place[tree->place_count++] = (Place){key_of(there), cell, level};
   }
 done:
@@ -257,27 +271,32 @@ static CwStatus cut_cells(Tree *tree, int store) {
   tree->wanted = tree->found = 0.0;
   for (int32_t c = 0; c < tree->cell_count; c++) {
     const Cell *cell = &tree->cell[c];
-    if (store || cell->counts) CW_TRY(cut_fine(tree, c, cell->at, cell->level, store));
+    if (store || cell->counts)
+      CW_TRY(cut_fine(tree, c, cell->at, cell->level, store));
   }
 done:
   return status;
 }
 
-// Finds the factor on the wanted spacing with which there are as many cells as the size field asks for. The count falls with the
-// factor, but in steps where sizes are nearly uniform: the best of the tried ones is taken.
+// Finds the factor on the wanted spacing with which there are as many cells as the size field asks for. The
+// count falls with the factor, but in steps where sizes are nearly uniform: the best of the tried ones is
+// taken.
 static CwStatus fit_spacing(Tree *tree) {
   CwStatus status = CW_OK;
   double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
   for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
     CW_TRY(cut_cells(tree, 0));
-    if (!(tree->wanted > 0.0)) break;
+    if (!(tree->wanted > 0.0))
+      break;
     double ratio = tree->found / tree->wanted, error = fabs(log(ratio));
     if (error < best_error) {
       best = tree->fit;
       best_error = error;
     }
-    if (ratio > 1.0) low = tree->fit;
-    else high = tree->fit;
+    if (ratio > 1.0)
+      low = tree->fit;
+    else
+      high = tree->fit;
     double next = tree->fit * cbrt(ratio);
     tree->fit = next > low && next < high && round < 3 ? next : sqrt(low * high);
   }
@@ -302,9 +321,12 @@ static CwStatus sort_places(Tree *tree) {
       continue;
     }
     int64_t start[(1 << DIGIT) + 1] = {0};
-    for (int64_t k = 0; k < tree->place_count; k++) start[(tree->place[k].key >> shift & mask) + 1]++;
-    for (int d = 0; d < 1 << DIGIT; d++) start[d + 1] += start[d];
-    for (int64_t k = 0; k < tree->place_count; k++) other[start[tree->place[k].key >> shift & mask]++] = tree->place[k];
+    for (int64_t k = 0; k < tree->place_count; k++)
+      start[(tree->place[k].key >> shift & mask) + 1]++;
+    for (int d = 0; d < 1 << DIGIT; d++)
+      start[d + 1] += start[d];
+    for (int64_t k = 0; k < tree->place_count; k++)
+      other[start[tree->place[k].key >> shift & mask]++] = tree->place[k];
     swap = tree->place;
     tree->place = other;
     other = swap;
@@ -324,8 +346,8 @@ static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alon
   return (double)(z >> 11) * 0x1p-52 - 1.0;
 }
 
-// Of all places, each once, those that are inside and not forbidden. A line along z is cut once for all its places:
-// near the boundary, where the jitter would make a difference, they are forbidden.
+// Of all places, each once, those that are inside and not forbidden. A line along z is cut once for all its
+// places: near the boundary, where the jitter would make a difference, they are forbidden.
 static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3]) {
   CwStatus status = CW_OK;
   double(*points)[3] = NULL;
@@ -333,13 +355,15 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3]) {
   int64_t unique = 0;
   int32_t kept = 0, crossings = 0;
   uint64_t cut = ~0ull;
-  for (int64_t k = 0; k < tree->place_count; k++) unique += k == 0 || tree->place[k].key != tree->place[k - 1].key;
+  for (int64_t k = 0; k < tree->place_count; k++)
+    unique += k == 0 || tree->place[k].key != tree->place[k - 1].key;
   CW_REQUIRE(unique < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
   CW_NEW(points, unique);
   for (int64_t k = 0; k < tree->place_count; k++) {
     const Place *place = &tree->place[k];
-    if (k && place->key == place[-1].key) continue;
+    if (k && place->key == place[-1].key)
+      continue;
     const Cell *cell = &tree->cell[place->cell];
     const int32_t half[3] = {(int32_t)(place->key >> 21 & 0x1fffff), (int32_t)(place->key >> 42),
                              (int32_t)(place->key & 0x1fffff)};
@@ -354,8 +378,10 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3]) {
         CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));
       }
       int inside = 0;
-      for (int32_t c = 0; c < crossings; c++) inside ^= z[c] > fixed[2];
-      if (!inside || is_forbidden(tree, cell, p)) continue;
+      for (int32_t c = 0; c < crossings; c++)
+        inside ^= z[c] > fixed[2];
+      if (!inside || is_forbidden(tree, cell, p))
+        continue;
     }
     memcpy(points[kept++], p, sizeof p);
   }
@@ -388,7 +414,8 @@ CwStatus cw_kernel_points(const CwFillInput *input, int32_t *count, double (**x)
       high[k % 3] = value > high[k % 3] ? value : high[k % 3];
     }
   }
-  for (int i = 0; i < 3; i++) extent = fmax(extent, high[i] - low[i]);
+  for (int i = 0; i < 3; i++)
+    extent = fmax(extent, high[i] - low[i]);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
   double edge = lattice_constant * exp(weight / area);
   while (edge * (double)(1 << above) < 1.001 * extent) {

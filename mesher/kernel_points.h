@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Inner points for the kernel: the lattice and the distances of fill_points, made faster: the boundary is looked at cell by coarse
-// cell, and a whole line of the lattice is cut by it at once.
+// Inner points for the kernel: the lattice and the distances of fill_points, made faster: the boundary is
+// looked at cell by coarse cell, and a whole line of the lattice is cut by it at once.
 #ifndef CUTWATER_MESHER_KERNEL_POINTS_H
 #define CUTWATER_MESHER_KERNEL_POINTS_H
 

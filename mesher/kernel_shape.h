@@ -11,8 +11,8 @@ typedef struct {
   double area[4]; // squares of the doubled areas, opposite a, b, c, d
 } CwKernelShape;
 
-static inline __attribute__((always_inline)) CwKernelShape cw_kernel_shape(const double a[3], const double b[3], const double c[3],
-                                            const double d[3]) {
+static inline __attribute__((always_inline)) CwKernelShape
+cw_kernel_shape(const double a[3], const double b[3], const double c[3], const double d[3]) {
   CwKernelShape s;
   double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
   double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
@@ -20,7 +20,7 @@ static inline __attribute__((always_inline)) CwKernelShape cw_kernel_shape(const
   double ux = py * qz - pz * qy, uy = pz * qx - px * qz, uz = px * qy - py * qx; // p x q, opposite d
   double vx = qy * rz - qz * ry, vy = qz * rx - qx * rz, vz = qx * ry - qy * rx; // q x r, opposite b
   double wx = ry * pz - rz * py, wy = rz * px - rx * pz, wz = rx * py - ry * px; // r x p, opposite c
-  double nx = ux + vx + wx, ny = uy + vy + wy, nz = uz + vz + wz;                // (q - p) x (r - p), opposite a
+  double nx = ux + vx + wx, ny = uy + vy + wy, nz = uz + vz + wz; // (q - p) x (r - p), opposite a
   double ex = qx - px, ey = qy - py, ez = qz - pz, fx = rx - px, fy = ry - py, fz = rz - pz;
   double gx = rx - qx, gy = ry - qy, gz = rz - qz;
   s.six = ux * rx + uy * ry + uz * rz;
@@ -53,23 +53,26 @@ static inline void cw_kernel_edges(const CwKernelShape *s, double *shortest, dou
                             cw_kernel_more(l[4], l[5]));
 }
 
-// As cw_tet_quality: least sine of the dihedral angles, and not above 1.35 shortest / longest edge; -1 where it is not positive.
-// The sine at an edge is 6 V times the edge over the (doubled) areas of its two faces.
-static inline double cw_kernel_quality(const double a[3], const double b[3], const double c[3], const double d[3]) {
+// As cw_tet_quality: least sine of the dihedral angles, and not above 1.35 shortest / longest edge; -1 where
+// it is not positive. The sine at an edge is 6 V times the edge over the (doubled) areas of its two faces.
+static inline double cw_kernel_quality(const double a[3], const double b[3], const double c[3],
+                                       const double d[3]) {
   CwKernelShape s = cw_kernel_shape(a, b, c, d);
-  if (!(s.six > 0.0)) return -1.0;
+  if (!(s.six > 0.0))
+    return -1.0;
   const double *l = s.edge, *n = s.area;
   double least = cw_kernel_less(cw_kernel_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
                                 cw_kernel_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
   least = cw_kernel_less(least, cw_kernel_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   double shortest, longest;
   cw_kernel_edges(&s, &shortest, &longest);
-  return sqrt(cw_kernel_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest));
+  return sqrt(
+      cw_kernel_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest));
 }
 
 // Is that quality below `limit`? Without division.
-static inline int cw_kernel_is_below(const double a[3], const double b[3], const double c[3], const double d[3],
-                                     double limit) {
+static inline int cw_kernel_is_below(const double a[3], const double b[3], const double c[3],
+                                     const double d[3], double limit) {
   CwKernelShape s = cw_kernel_shape(a, b, c, d);
   const double *l = s.edge, *n = s.area;
   double f = s.six > 0.0 ? s.six * s.six : 0.0, g = limit * limit, shortest, longest;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Compares the ways to fill a closed surface: our kernel, TetGen behind the same call, and Gmsh's HXT on the same surface.
+"""Compares the ways to fill a closed surface: our kernel, TetGen behind the same call, and Gmsh's HXT.
 
-Use, from the top of the source: tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...]
-                                 [--regions NAME ...] [--repeat N]
-Surfaces are a ring with a void, for each edge length in m (of 0.2 m across), and the inner boundaries of the regions
-that a run of the mesher left in RUN_DIR/mesh. Seconds are user time of one core, the least of N runs in turn; memory is the
-peak less what stood before. HXT chooses its own number of tetrahedra.
+Use, from the top of the source:
+  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...] [--repeat N]
+Surfaces are a ring with a void, for each edge length in m (of 0.26 m across), and the inner boundaries of the
+regions that a run of the mesher left in RUN_DIR/mesh. Seconds are user time of one core, the least of N runs
+in turn; memory is the peak less what stood before. HXT chooses its own number of tetrahedra.
 """
 import argparse
 import os
@@ -22,14 +22,12 @@ SOURCE = Path(__file__).resolve().parents[2]
 
 def compile_program(build, folder):
     program = folder / "fill"
-    hdf5 = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5-openmpi"], check=True, capture_output=True,
-                          text=True).stdout.split()
-    flags = subprocess.run(["pkg-config", "--libs", "libfyaml", "jansson"], check=True, capture_output=True,
-                           text=True).stdout.split()
+    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5-openmpi", "libfyaml", "jansson"],
+                           check=True, capture_output=True, text=True).stdout.split()
     subprocess.run(["mpicc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", f"-I{SOURCE}",
                     str(SOURCE / "tests/bench/fill.c"), "-o", str(program),
                     str(build / "mesher/libcutwater_mesher_room.a"),
-                    str(build / "pipeline/libcutwater_pipeline.a"), "-ltet", *hdf5, *flags, "-lgmp", "-lmpfr",
+                    str(build / "pipeline/libcutwater_pipeline.a"), "-ltet", *flags, "-lgmp", "-lmpfr",
                     "-lstdc++", "-lm"], check=True)
     return program
 
@@ -47,11 +45,12 @@ def run_gmsh(folder, surface, shells, *options):
     mesh = folder / "hxt.msh"
     script = folder / "hxt.geo"
     loops = "".join(f"Surface Loop({k}) = {{{k}}};\n" for k in range(1, shells + 1))
-    script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{", ".join(map(str, range(1, shells + 1)))}}};\n'
-                      "Mesh.SaveAll = 1;\n")
+    numbers = ", ".join(str(k) for k in range(1, shells + 1))
+    script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n')
     mesh.unlink(missing_ok=True)
-    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-algo", "hxt", "-format", "msh2", "-o", str(mesh),
-                              str(script)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-algo", "hxt", "-format", "msh2", "-o",
+                              str(mesh), str(script)],
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     text = child.stdout.read()
     _, status, use = os.wait4(child.pid, 0)
     child.returncode = status
@@ -69,7 +68,8 @@ def run_hxt(program, folder, surface, shells):
     tets = int(words[1])
     if tets == 0:
         return "failed"
-    return [int(words[0]), tets, float(seconds.group(1)), max(0, peak - before) / tets, *map(float, words[2:5])]
+    return [int(words[0]), tets, float(seconds.group(1)), max(0, peak - before) / tets,
+            *map(float, words[2:5])]
 
 
 def compare(program, folder, title, surface, shells, repeat):
@@ -90,12 +90,13 @@ def compare(program, folder, title, surface, shells, repeat):
             print(f"{title:22s} {'':8s} {name:7s} {row}", flush=True)
             continue
         triangles, tets, seconds, size, mean, most, least = row
-        print(f"{title:22s} {triangles:8d} {name:7s} {tets:9d} {seconds:8.3f} {tets / seconds:9.0f} {size:6.0f} "
-              f"{mean:6.3f} {most:6.2f} {least:6.2f}", flush=True)
+        print(f"{title:22s} {triangles:8d} {name:7s} {tets:9d} {seconds:8.3f} {tets / seconds:9.0f} "
+              f"{size:6.0f} {mean:6.3f} {most:6.2f} {least:6.2f}", flush=True)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=Path)
     parser.add_argument("--ring", type=float, nargs="*", default=[0.003, 0.002])
     parser.add_argument("--run", type=Path, nargs="*", default=[])
@@ -105,8 +106,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         program = compile_program(words.build, folder)
-        print(f"{'surface':22s} {'facets':>8s} {'way':7s} {'tets':>9s} {'seconds':>8s} {'tets/s':>9s} {'B/tet':>6s} "
-              f"{'aspect':>6s} {'max':>6s} {'least':>6s}", flush=True)
+        print(f"{'surface':22s} {'facets':>8s} {'way':7s} {'tets':>9s} {'seconds':>8s} {'tets/s':>9s} "
+              f"{'B/tet':>6s} {'aspect':>6s} {'max':>6s} {'least':>6s}", flush=True)
         surface = folder / "surface.msh"
         for edge in words.ring:
             subprocess.run([str(program), "ring", str(edge), str(surface)], check=True)

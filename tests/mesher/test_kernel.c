@@ -21,9 +21,13 @@ static double constant_size(const void *context, const double x[3]) {
 }
 
 static CwFillInput input_of(const Surface *s, const double *size) {
-  return (CwFillInput){.point_count = s->point_count, .x = (const double(*)[3])s->x,
-                       .triangle_count = s->triangle_count, .triangle = (const int32_t(*)[3])s->triangle,
-                       .size = constant_size, .size_context = size, .name = "rotor region 3"};
+  return (CwFillInput){.point_count = s->point_count,
+                       .x = (const double(*)[3])s->x,
+                       .triangle_count = s->triangle_count,
+                       .triangle = (const int32_t(*)[3])s->triangle,
+                       .size = constant_size,
+                       .size_context = size,
+                       .name = "rotor region 3"};
 }
 
 static int compare_triples(const void *a, const void *b) {
@@ -32,7 +36,8 @@ static int compare_triples(const void *a, const void *b) {
 
 static void least_first(const int32_t p[3], int32_t out[3]) {
   int least = p[0] < p[1] ? (p[0] < p[2] ? 0 : 2) : (p[1] < p[2] ? 1 : 2);
-  for (int k = 0; k < 3; k++) out[k] = p[(least + k) % 3];
+  for (int k = 0; k < 3; k++)
+    out[k] = p[(least + k) % 3];
 }
 
 typedef struct {
@@ -51,7 +56,8 @@ static Shape check(const Surface *s, const CwFill *fill) {
   assert_true(fill->point_count >= s->point_count);
   assert_memory_equal(fill->x, s->x, (size_t)s->point_count * sizeof *s->x);
   assert_int_equal(cw_tet_neighbours(fill->point_count, fill->tetrahedron_count,
-                                     (const int32_t(*)[4])fill->tetrahedron, neighbour), CW_OK);
+                                     (const int32_t(*)[4])fill->tetrahedron, neighbour),
+                   CW_OK);
   for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
     const int32_t *p = fill->tetrahedron[t];
     const double *x[4];
@@ -66,18 +72,21 @@ static Shape check(const Surface *s, const CwFill *fill) {
     worst.dihedral_least = fmin(worst.dihedral_least, shape.dihedral_least);
     worst.aspect_mean += shape.edge_longest / shape.edge_shortest / fill->tetrahedron_count;
     for (int i = 0; i < 4; i++) {
-      if (neighbour[t][i] >= 0) continue;
+      if (neighbour[t][i] >= 0)
+        continue;
       assert_true(opened < s->triangle_count);
       const int32_t q[3] = {p[face[i][0]], p[face[i][1]], p[face[i][2]]};
       least_first(q, open[opened++]);
     }
   }
   assert_int_equal(opened, s->triangle_count);
-  for (int32_t t = 0; t < s->triangle_count; t++) least_first(s->triangle[t], given[t]);
+  for (int32_t t = 0; t < s->triangle_count; t++)
+    least_first(s->triangle[t], given[t]);
   qsort(open, (size_t)opened, sizeof *open, compare_triples);
   qsort(given, (size_t)opened, sizeof *given, compare_triples);
   assert_memory_equal(open, given, (size_t)opened * sizeof *open);
-  for (int32_t p = 0; p < fill->point_count; p++) assert_true(used[p]);
+  for (int32_t p = 0; p < fill->point_count; p++)
+    assert_true(used[p]);
   NEAR(six / 6.0, volume, 1e-12 * volume);
   free(neighbour);
   free(open);
@@ -90,8 +99,10 @@ static Shape fill_and_check(const Surface *s, double size) {
   CwFillInput input = input_of(s, &size);
   CwFill fill;
   CwStatus status = cw_kernel_fill(&input, &fill);
-  if (status == CW_RETRY) fail_msg("not recovered");
-  if (status != CW_OK) fail_msg("%s", cw_fail_message());
+  if (status == CW_RETRY)
+    fail_msg("not recovered");
+  if (status != CW_OK)
+    fail_msg("%s", cw_fail_message());
   Shape shape = check(s, &fill);
   cw_fill_free(&fill);
   return shape;
@@ -146,26 +157,32 @@ static void thin_slabs(void **unused) {
 static int has_edge(const Surface *s, int32_t a, int32_t b) {
   for (int32_t t = 0; t < s->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
-      if (s->triangle[t][k] == a && s->triangle[t][(k + 1) % 3] == b) return 1;
+      if (s->triangle[t][k] == a && s->triangle[t][(k + 1) % 3] == b)
+        return 1;
     }
   }
   return 0;
 }
 
-// Turns the diagonal of two triangles wherever `seed` says so, none twice: a surface that is far from Delaunay.
+// Turns the diagonal of two triangles wherever `seed` says so, none twice: a surface that is far from
+// Delaunay.
 static int turn_diagonals(Surface *s, uint32_t seed, int one_in) {
   uint8_t *done = calloc((size_t)s->triangle_count, 1);
   int turned = 0;
   for (int32_t t = 0; t < s->triangle_count; t++) {
     seed = seed * 1664525u + 1013904223u;
-    if (done[t] || (seed >> 16) % (uint32_t)one_in) continue;
+    if (done[t] || (seed >> 16) % (uint32_t)one_in)
+      continue;
     int32_t a = s->triangle[t][0], b = s->triangle[t][1], c = s->triangle[t][2];
     for (int32_t o = 0; o < s->triangle_count; o++) {
       int k = 0;
-      while (k < 3 && !(s->triangle[o][k] == b && s->triangle[o][(k + 1) % 3] == a)) k++;
-      if (k == 3) continue;
+      while (k < 3 && !(s->triangle[o][k] == b && s->triangle[o][(k + 1) % 3] == a))
+        k++;
+      if (k == 3)
+        continue;
       int32_t d = s->triangle[o][(k + 2) % 3];
-      if (done[o] || d == c || has_edge(s, c, d) || has_edge(s, d, c)) break;
+      if (done[o] || d == c || has_edge(s, c, d) || has_edge(s, d, c))
+        break;
       done[t] = done[o] = 1;
       const int32_t one[3] = {a, d, c}, two[3] = {d, b, c};
       memcpy(s->triangle[t], one, sizeof one);
@@ -208,7 +225,8 @@ static void equal_bits_twice(void **unused) {
   assert_int_equal(one.point_count, two.point_count);
   assert_int_equal(one.tetrahedron_count, two.tetrahedron_count);
   assert_memory_equal(one.x, two.x, (size_t)one.point_count * sizeof *one.x);
-  assert_memory_equal(one.tetrahedron, two.tetrahedron, (size_t)one.tetrahedron_count * sizeof *one.tetrahedron);
+  assert_memory_equal(one.tetrahedron, two.tetrahedron,
+                      (size_t)one.tetrahedron_count * sizeof *one.tetrahedron);
   cw_fill_free(&one);
   cw_fill_free(&two);
   surface_free(&s);
@@ -240,15 +258,15 @@ static void boundaries_that_cannot_be_filled(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sphere),
-    cmocka_unit_test(cube),
-    cmocka_unit_test(coarse_without_inner_points),
-    cmocka_unit_test(shell_in_a_void_of_a_shell),
-    cmocka_unit_test(thin_slabs),
-    cmocka_unit_test(wrong_diagonals_are_recovered),
-    cmocka_unit_test(stretched_triangles),
-    cmocka_unit_test(equal_bits_twice),
-    cmocka_unit_test(boundaries_that_cannot_be_filled),
+      cmocka_unit_test(sphere),
+      cmocka_unit_test(cube),
+      cmocka_unit_test(coarse_without_inner_points),
+      cmocka_unit_test(shell_in_a_void_of_a_shell),
+      cmocka_unit_test(thin_slabs),
+      cmocka_unit_test(wrong_diagonals_are_recovered),
+      cmocka_unit_test(stretched_triangles),
+      cmocka_unit_test(equal_bits_twice),
+      cmocka_unit_test(boundaries_that_cannot_be_filled),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

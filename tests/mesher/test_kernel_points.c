@@ -24,9 +24,13 @@ static double size_at(const void *context, const double x[3]) {
 }
 
 static CwFillInput input_of(const Surface *s, const Field *field) {
-  return (CwFillInput){.point_count = s->point_count, .x = (const double(*)[3])s->x,
-                       .triangle_count = s->triangle_count, .triangle = (const int32_t(*)[3])s->triangle,
-                       .size = size_at, .size_context = field, .name = "rotor region 3"};
+  return (CwFillInput){.point_count = s->point_count,
+                       .x = (const double(*)[3])s->x,
+                       .triangle_count = s->triangle_count,
+                       .triangle = (const int32_t(*)[3])s->triangle,
+                       .size = size_at,
+                       .size_context = field,
+                       .name = "rotor region 3"};
 }
 
 static const double origin[3] = {0, 0, 0};
@@ -45,7 +49,8 @@ static void box_is_cut_in_two_places(void **unused) {
     double x = 0.5 * (k % 9), y = 0.5 * (k / 9); // on lines and corners of the triangles too
     assert_int_equal(cw_columns_cut(columns, x, y, &count, &z), CW_OK);
     assert_int_equal(count % 2, 0);
-    if (k % 9 == 0 || k % 9 == 8 || k / 9 == 0 || k / 9 == 8) continue; // upright walls: either
+    if (k % 9 == 0 || k % 9 == 8 || k / 9 == 0 || k / 9 == 8)
+      continue; // upright walls: either
     assert_int_equal(count, 2);
     NEAR(fmin(z[0], z[1]), 1.0, 1e-14);
     NEAR(fmax(z[0], z[1]), 3.0, 1e-14);
@@ -91,7 +96,8 @@ static void ball_with_a_void_is_cut_in_four(void **unused) {
 static int32_t make(const Surface *s, const Field *field, double (**x)[3]) {
   CwFillInput input = input_of(s, field);
   int32_t count;
-  if (cw_kernel_points(&input, &count, x) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_kernel_points(&input, &count, x) != CW_OK)
+    fail_msg("%s", cw_fail_message());
   return count;
 }
 
@@ -121,7 +127,8 @@ static void graded_ball(void **unused) {
   surface_add_sphere(&s, origin, 0.05, 4, 1);
   Field field = {0.0015, 0.045};
   int32_t count = make(&s, &field, &x), inner = 0;
-  for (int32_t p = 0; p < count; p++) inner += x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2] < 2.116e-3;
+  for (int32_t p = 0; p < count; p++)
+    inner += x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2] < 2.116e-3;
   for (int k = 0; k < 1000; k++) { // integral of 2 / a^3 over the ball of radius 0.046
     double r = 0.046 * (k + 0.5) / 1000, at[3] = {r, 0, 0}, a = lattice * size_at(&field, at);
     wanted += 4.0 * 3.141592653589793 * r * r * 0.046 / 1000 * 2.0 / (a * a * a);
@@ -140,7 +147,8 @@ static void equal_bits_twice_and_no_duplicates(void **unused) {
   assert_int_equal(make(&s, &field, &two), count);
   assert_memory_equal(one, two, (size_t)count * sizeof *one);
   for (int32_t p = 0; p < count; p++) {
-    for (int i = 0; i < 3; i++) assert_true(one[p][i] > 0.0 && one[p][i] < 0.04);
+    for (int i = 0; i < 3; i++)
+      assert_true(one[p][i] > 0.0 && one[p][i] < 0.04);
     for (int32_t q = 0; q < p; q++) {
       double d = hypot(hypot(one[p][0] - one[q][0], one[p][1] - one[q][1]), one[p][2] - one[q][2]);
       assert_true(d > 0.001);
@@ -168,12 +176,9 @@ static void wrong_size_field_is_an_error(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(box_is_cut_in_two_places),
-    cmocka_unit_test(ball_with_a_void_is_cut_in_four),
-    cmocka_unit_test(uniform_ball_with_a_void),
-    cmocka_unit_test(graded_ball),
-    cmocka_unit_test(equal_bits_twice_and_no_duplicates),
-    cmocka_unit_test(wrong_size_field_is_an_error),
+      cmocka_unit_test(box_is_cut_in_two_places),           cmocka_unit_test(ball_with_a_void_is_cut_in_four),
+      cmocka_unit_test(uniform_ball_with_a_void),           cmocka_unit_test(graded_ball),
+      cmocka_unit_test(equal_bits_twice_and_no_duplicates), cmocka_unit_test(wrong_size_field_is_an_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
