@@ -363,6 +363,7 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   if (!(reach > 0.0))
     reach = 1.0;
   CwDelaunayTet *tet = &mesh->tet[0];
+  *tet = (CwDelaunayTet){.square = NAN};
   for (int k = 0; k < 4; k++) {
     for (int i = 0; i < 3; i++)
       mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
@@ -374,7 +375,6 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
     tet->corner[0] = 1;
     tet->corner[1] = 0;
   }
-  tet->square = NAN;
   mesh->tet_count = 1;
   mesh->point_count = CW_DELAUNAY_CORNERS;
 done:
