@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Fills a closed triangulated boundary with tetrahedra by our own Delaunay kernel: boundary and inner points
+// at once, then the few boundary triangles that are missing are recovered, the inside is kept and improved.
+#ifndef CUTWATER_MESHER_KERNEL_H
+#define CUTWATER_MESHER_KERNEL_H
+
+#include "mesher/fill.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Promises and errors of cw_fill, and CW_RETRY where a triangle of the boundary cannot be recovered: the
+// caller goes on with cw_fill, which also finds out whether the boundary crosses itself. Thread-safe if the
+// size field is.
+CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

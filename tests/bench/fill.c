@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Fills closed surfaces and prints a row: tetrahedra, seconds of one core, tetrahedra per second, bytes a
+// tetrahedron (peak memory less that before), mean and greatest longest/shortest edge, least dihedral angle
+// in degrees. Use: fill ring EDGE_LENGTH SURFACE       writes a ring-shaped surface with a ring-shaped void
+//      fill region REGION.h5 SURFACE       writes the inner boundary of a region of the mesher
+//      fill kernel|tetgen SURFACE          fills it
+//      fill quality MESH                   of a mesh of somebody else
+// Surfaces and meshes are MSH 2.2 files (text).
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "mesher/fill.h"
+#include "mesher/fill_shape.h"
+#include "mesher/kernel.h"
+#include "mesher/quality.h"
+#include "mesher/region_file.h"
+#include "mesher/size_grid.h"
+#include "pipeline/log.h"
+
+typedef struct {
+  int32_t point_count, triangle_count, tetrahedron_count;
+  double (*x)[3];
+  int32_t (*triangle)[3], (*tetrahedron)[4];
+} Mesh;
+
+static void *take(size_t count, size_t size) {
+  void *memory = calloc(count ? count : 1, size);
+  if (!memory) {
+    fprintf(stderr, "out of memory\n");
+    exit(5);
+  }
+  return memory;
+}
+
+static void check(CwStatus status) {
+  if (status == CW_OK)
+    return;
+  fprintf(stderr, "%s\n", status == CW_RETRY ? "the boundary was not recovered" : cw_fail_message());
+  exit(status == CW_RETRY ? 1 : (int)status);
+}
+
+// Triangles from `second` on belong to surface 2, those before to surface 1.
+static void write_surface(const char *path, const Mesh *mesh, int32_t second) {
+  FILE *file = fopen(path, "w");
+  if (!file)
+    perror(path), exit(4);
+  fprintf(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", mesh->point_count);
+  for (int32_t p = 0; p < mesh->point_count; p++)
+    fprintf(file, "%d %.17g %.17g %.17g\n", p + 1, mesh->x[p][0], mesh->x[p][1], mesh->x[p][2]);
+  fprintf(file, "$EndNodes\n$Elements\n%d\n", mesh->triangle_count);
+  for (int32_t t = 0; t < mesh->triangle_count; t++)
+    fprintf(file, "%d 2 2 1 %d %d %d %d\n", t + 1, t < second ? 1 : 2, mesh->triangle[t][0] + 1,
+            mesh->triangle[t][1] + 1, mesh->triangle[t][2] + 1);
+  fprintf(file, "$EndElements\n");
+  if (fclose(file))
+    perror(path), exit(4);
+}
+
+static void read_mesh(const char *path, Mesh *mesh) {
+  char line[512];
+  int32_t items, number, *name = NULL, names = 0;
+  FILE *file = fopen(path, "r");
+  if (!file)
+    perror(path), exit(4);
+  memset(mesh, 0, sizeof *mesh);
+  while (fgets(line, sizeof line, file)) {
+    if (!strncmp(line, "$Nodes", 6)) {
+      if (fscanf(file, "%d", &mesh->point_count) != 1)
+        break;
+      mesh->x = take((size_t)mesh->point_count, sizeof *mesh->x);
+      name = take(16 * (size_t)mesh->point_count + 1024, sizeof *name);
+      names = 16 * mesh->point_count + 1024;
+      for (int32_t p = 0; p < mesh->point_count; p++) {
+        if (fscanf(file, "%d %lf %lf %lf", &number, &mesh->x[p][0], &mesh->x[p][1], &mesh->x[p][2]) != 4 ||
+            number < 0 || number >= names)
+          fprintf(stderr, "%s: bad node\n", path), exit(3);
+        name[number] = p;
+      }
+    } else if (!strncmp(line, "$Elements", 9)) {
+      if (fscanf(file, "%d\n", &items) != 1)
+        break;
+      mesh->triangle = take((size_t)items, sizeof *mesh->triangle);
+      mesh->tetrahedron = take((size_t)items, sizeof *mesh->tetrahedron);
+      for (int32_t e = 0; e < items && fgets(line, sizeof line, file); e++) {
+        int kind, tags, at = 0, more;
+        if (sscanf(line, "%d %d %d%n", &number, &kind, &tags, &at) != 3)
+          continue;
+        for (int k = 0; k < tags; k++, at += more)
+          sscanf(line + at, "%*d%n", &more);
+        int32_t p[4];
+        if (kind == 2 && sscanf(line + at, "%d %d %d", p, p + 1, p + 2) == 3) {
+          for (int k = 0; k < 3; k++)
+            mesh->triangle[mesh->triangle_count][k] = name[p[k]];
+          mesh->triangle_count++;
+        } else if (kind == 4 && sscanf(line + at, "%d %d %d %d", p, p + 1, p + 2, p + 3) == 4) {
+          for (int k = 0; k < 4; k++)
+            mesh->tetrahedron[mesh->tetrahedron_count][k] = name[p[k]];
+          mesh->tetrahedron_count++;
+        }
+      }
+    }
+  }
+  free(name);
+  fclose(file);
+}
+
+// A torus of triangles; rows are shifted by half a triangle.
+static void add_torus(Mesh *mesh, double great, double small, double edge, int outward) {
+  int rows = 2 * (int)ceil(3.141592653589793 * 2.0 * small / (edge * 0.8660254) / 2.0);
+  int columns = (int)ceil(6.283185307179586 * great / edge);
+  int32_t base = mesh->point_count;
+  size_t points = (size_t)base + (size_t)(rows * columns), triangles = (size_t)mesh->triangle_count;
+  mesh->x = realloc(mesh->x, points * sizeof *mesh->x);
+  mesh->triangle =
+      realloc(mesh->triangle, (triangles + 2 * (size_t)(rows * columns)) * sizeof *mesh->triangle);
+  if (!mesh->x || !mesh->triangle)
+    exit(5);
+  for (int r = 0; r < rows; r++) {
+    for (int c = 0; c < columns; c++) {
+      double u = 6.283185307179586 * (c + 0.5 * (r % 2)) / columns, v = 6.283185307179586 * r / rows;
+      double *x = mesh->x[mesh->point_count++];
+      x[0] = (great + small * cos(v)) * cos(u);
+      x[1] = (great + small * cos(v)) * sin(u);
+      x[2] = small * sin(v);
+      int d = (c + 1) % columns, above = (r + 1) % rows;
+      int32_t a = base + r * columns + c, b = base + r * columns + d;
+      int32_t e = base + above * columns + c, f = base + above * columns + d;
+      const int32_t even[2][3] = {{a, b, e}, {b, f, e}}, odd[2][3] = {{a, b, f}, {a, f, e}};
+      for (int k = 0; k < 2; k++) {
+        int32_t *t = mesh->triangle[mesh->triangle_count++];
+        memcpy(t, r % 2 ? odd[k] : even[k], sizeof *mesh->triangle);
+        if (!outward) {
+          int32_t swap = t[1];
+          t[1] = t[2];
+          t[2] = swap;
+        }
+      }
+    }
+  }
+}
+
+// Open faces of the tetrahedra of a region: the front of its layers, its caps and dividing faces.
+static void region_surface(const char *path, Mesh *mesh) {
+  static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  CwRegionMesh region;
+  check(cw_region_read(path, &region));
+  int32_t(*neighbour)[4] = take((size_t)region.tetrahedron_count, sizeof *neighbour);
+  int32_t *number = take((size_t)region.point_count, sizeof *number);
+  check(cw_tet_neighbours(region.point_count, region.tetrahedron_count,
+                          (const int32_t(*)[4])region.tetrahedron, neighbour));
+  memset(mesh, 0, sizeof *mesh);
+  mesh->x = take((size_t)region.point_count, sizeof *mesh->x);
+  mesh->triangle = take(4 * (size_t)region.tetrahedron_count, sizeof *mesh->triangle);
+  for (int32_t t = 0; t < region.tetrahedron_count; t++) {
+    for (int i = 0; i < 4; i++) {
+      if (neighbour[t][i] >= 0)
+        continue;
+      int32_t *made = mesh->triangle[mesh->triangle_count++];
+      for (int k = 0; k < 3; k++) {
+        int32_t p = region.tetrahedron[t][face[i][k]];
+        if (!number[p]) {
+          memcpy(mesh->x[mesh->point_count], region.x[p], sizeof *mesh->x);
+          number[p] = ++mesh->point_count;
+        }
+        made[k] = number[p] - 1;
+      }
+    }
+  }
+  free(neighbour);
+  free(number);
+  cw_region_free(&region);
+}
+
+static double distance(const double a[3], const double b[3]) {
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+static double size_at(const void *context, const double x[3]) {
+  return cw_size_grid_at(context, x);
+}
+
+// Sizes as the surface has them, growing by 0.15 a length into the inside.
+static void make_size(const Mesh *mesh, CwSizeGrid *grid) {
+  double low[3], high[3], mean = 0.0;
+  for (int i = 0; i < 3; i++) {
+    low[i] = high[i] = mesh->x[0][i];
+    for (int32_t p = 0; p < mesh->point_count; p++) {
+      low[i] = fmin(low[i], mesh->x[p][i]);
+      high[i] = fmax(high[i], mesh->x[p][i]);
+    }
+  }
+  double *length = take((size_t)mesh->triangle_count, sizeof *length);
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    for (int k = 0; k < 3; k++)
+      length[t] += distance(mesh->x[mesh->triangle[t][k]], mesh->x[mesh->triangle[t][(k + 1) % 3]]) / 3.0;
+    mean += length[t] / mesh->triangle_count;
+  }
+  check(cw_size_grid_make(low, high, mean, 2000000, grid));
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    double x[3] = {0, 0, 0};
+    for (int k = 0; k < 9; k++)
+      x[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3.0;
+    cw_size_grid_seed(grid, x, length[t]);
+  }
+  cw_size_grid_spread(grid, 0.15);
+  free(length);
+}
+
+static double seconds(void) {
+  struct rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  return (double)use.ru_utime.tv_sec + 1e-6 * (double)use.ru_utime.tv_usec;
+}
+
+static double resident(void) {
+  long pages = 0;
+  FILE *file = fopen("/proc/self/statm", "r");
+  if (file && fscanf(file, "%*d %ld", &pages) != 1)
+    pages = 0;
+  if (file)
+    fclose(file);
+  return (double)pages * (double)sysconf(_SC_PAGESIZE);
+}
+
+static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const double (*x)[3]) {
+  double mean = 0.0, most = 0.0, least = 180.0;
+  for (int32_t t = 0; t < count; t++) {
+    CwTetShape shape;
+    const double *corner[4];
+    for (int i = 0; i < 4; i++)
+      corner[i] = x[tetrahedron[t][i]];
+    if (cw_tet_volume6(corner[0], corner[1], corner[2], corner[3]) < 0.0) {
+      const double *swap = corner[0];
+      corner[0] = corner[1];
+      corner[1] = swap;
+    }
+    cw_tet_shape(corner, &shape);
+    mean += shape.edge_longest / shape.edge_shortest / count;
+    most = fmax(most, shape.edge_longest / shape.edge_shortest);
+    least = fmin(least, shape.dihedral_least);
+  }
+  printf("%.3f %.2f %.2f\n", mean, most, least);
+}
+
+int main(int argc, char **argv) {
+  Mesh mesh = {0};
+  if (argc == 4 && !strcmp(argv[1], "ring")) {
+    double edge = atof(argv[2]);
+    add_torus(&mesh, 0.1, 0.03, edge, 1);
+    int32_t outer = mesh.triangle_count;
+    add_torus(&mesh, 0.1, 0.01, 0.5 * edge, 0);
+    write_surface(argv[3], &mesh, outer);
+  } else if (argc == 4 && !strcmp(argv[1], "region")) {
+    region_surface(argv[2], &mesh);
+    write_surface(argv[3], &mesh, mesh.triangle_count);
+  } else if (argc == 3 && !strcmp(argv[1], "quality")) {
+    read_mesh(argv[2], &mesh);
+    printf("%d %d ", mesh.triangle_count, mesh.tetrahedron_count);
+    print_quality(mesh.tetrahedron_count, (const int32_t(*)[4])mesh.tetrahedron, (const double(*)[3])mesh.x);
+  } else if (argc == 3 && (!strcmp(argv[1], "kernel") || !strcmp(argv[1], "tetgen"))) {
+    CwSizeGrid grid;
+    CwFill fill;
+    check(cw_log_open("bench", NULL, 1, getenv("CUTWATER_VERBOSE") != NULL));
+    read_mesh(argv[2], &mesh);
+    make_size(&mesh, &grid);
+    CwFillInput input = {.point_count = mesh.point_count,
+                         .x = (const double(*)[3])mesh.x,
+                         .triangle_count = mesh.triangle_count,
+                         .triangle = (const int32_t(*)[3])mesh.triangle,
+                         .size = size_at,
+                         .size_context = &grid,
+                         .name = "surface"};
+    double before = resident(), start = seconds();
+    check(argv[1][0] == 'k' ? cw_kernel_fill(&input, &fill) : cw_fill(&input, &fill));
+    double used = seconds() - start, bytes = (double)cw_peak_memory_bytes() - before;
+    printf("%d %d %.3f %.0f %.0f ", mesh.triangle_count, fill.tetrahedron_count, used,
+           fill.tetrahedron_count / used, bytes / fill.tetrahedron_count);
+    print_quality(fill.tetrahedron_count, (const int32_t(*)[4])fill.tetrahedron, (const double(*)[3])fill.x);
+    cw_fill_free(&fill);
+    cw_size_grid_free(&grid);
+  } else {
+    fprintf(
+        stderr,
+        "use: fill ring EDGE_LENGTH SURFACE | region REGION.h5 SURFACE | kernel SURFACE | tetgen SURFACE | "
+        "quality MESH\n");
+    return 2;
+  }
+  free(mesh.x);
+  free(mesh.triangle);
+  free(mesh.tetrahedron);
+  return 0;
+}
