@@ -174,6 +174,7 @@ CwStatus cw_domain_number(CwDomain *domain, const CwCase *table) {
                                       .domain = domain->name,
                                       .layer_count = table->walls.layer_count,
                                       .growth_max = table->walls.growth_ratio,
+                                      .fill = table->mesh.fill,
                                       .first_height = domain->first_height};
   CW_TRY(cw_region_context_make(&domain->context));
 done:

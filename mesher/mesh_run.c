@@ -19,7 +19,7 @@ static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is
 // 8.2 per h^3; the cells that fit it to the front come on top, the more so the fewer there are across a channel.
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
-  return 10.6 + 2.4 * fmax(0, scale - 1);
+  return 11.3 + 2.4 * fmax(0, scale - 1);
 }
 
 static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};

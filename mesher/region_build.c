@@ -7,8 +7,10 @@
 
 #include "mesher/fill.h"
 #include "mesher/hash.h"
+#include "mesher/kernel.h"
 #include "mesher/layer_heights.h"
 #include "mesher/vec.h"
+#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
 
@@ -80,7 +82,7 @@ void cw_region_context_free(CwRegionContext *context) {
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
   const CwSkeleton *skeleton = context->skeleton;
   CwHash hash = cw_hash_start();
-  double numbers[3] = {context->layer_count, context->growth_max, (double)context->shared_count};
+  double numbers[4] = {context->layer_count, context->growth_max, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
@@ -343,6 +345,16 @@ done:
   return status;
 }
 
+// By the kernel, where the case does not ask for TetGen and the kernel recovers the boundary; else by TetGen.
+static CwStatus fill(const CwRegionContext *context, const CwFillInput *input, CwFill *result) {
+  if (context->fill == CW_FILL_KERNEL) {
+    CwStatus status = cw_kernel_fill(input, result);
+    if (status != CW_RETRY) return status;
+    cw_log_debug("%s: left to TetGen", input->name);
+  }
+  return cw_fill(input, result);
+}
+
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   Build build = {.context = context, .region = region};
@@ -361,7 +373,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
                        .size = context->skeleton->size_at,
                        .size_context = context->skeleton->size,
                        .name = name};
-  CW_TRY(cw_fill(&input, &build.fill));
+  CW_TRY(fill(context, &input, &build.fill));
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);

@@ -5,6 +5,7 @@
 
 #include "mesher/region_file.h"
 #include "mesher/skeleton.h"
+#include "pipeline/case.h"
 
 // What all regions of a domain share.
 typedef struct {
@@ -12,6 +13,7 @@ typedef struct {
   const char *domain;
   int layer_count;
   double growth_max;
+  CwFillMethod fill;
   const double *first_height; // of each wall vertex, m
   // Filled by cw_region_context_make:
   int64_t *shared_base;       // of each skeleton node: first shared number of its column (or its own), -1: not shared

@@ -25,6 +25,7 @@ typedef enum { CW_ROTATION_COUNTER_CLOCKWISE, CW_ROTATION_CLOCKWISE } CwRotation
 typedef enum { CW_AREA_LAW_ANGULAR_MOMENTUM, CW_AREA_LAW_VELOCITY } CwAreaLaw;
 typedef enum { CW_SECTION_TRAPEZOID, CW_SECTION_RECTANGLE, CW_SECTION_CIRCLE } CwVoluteSectionKind;
 typedef enum { CW_DISCHARGE_TANGENTIAL, CW_DISCHARGE_RADIAL } CwDischarge;
+typedef enum { CW_FILL_KERNEL, CW_FILL_TETGEN } CwFillMethod;
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
 
@@ -117,6 +118,7 @@ typedef struct {
 
 typedef struct {
   int64_t cells;             // asked number of cells, rotor and stator together
+  CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
   int64_t cells_per_region;  // about this many; at least four regions a domain in any case
   double gradation;          // growth of size with distance, d(size)/d(distance)
   double curvature_angle;    // rad of turn of the surface normal across one edge, at relative size 1

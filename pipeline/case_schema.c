@@ -16,6 +16,7 @@ static const char *const area_laws[] = {"angular_momentum", "velocity", NULL};
 static const char *const sections[] = {"trapezoid", "rectangle", "circle", NULL};
 static const char *const discharges[] = {"tangential", "radial", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
+static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
 #define AT(field) offsetof(CwCase, field)
@@ -172,6 +173,8 @@ const CwCaseKey cw_case_keys[] = {
      "cells of rotor and stator together; --cells on the command line goes before it"},
     {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 20000, 4e6, 400000, NULL,
      AT(mesh.cells_per_region), "about this many cells a region; at least four regions a domain in any case"},
+    CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
+           "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen alone"),
     REAL_DEFAULT("mesh", "gradation", "", 0.05, 1, 0.25, mesh.gradation,
                  "growth of the cell size with distance: change of size per distance"),
     REAL_DEFAULT("mesh", "curvature_angle_deg", "deg", 2, 60, 20, mesh.curvature_angle,
