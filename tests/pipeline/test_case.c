@@ -120,7 +120,7 @@ static const BadCase bad_cases[] = {
     {20, "  name: x", "20:3: mesh.name: unknown key here; allowed: the key name in the top of the file"},
     {1, "name: test\ncells: 5", "2:1: cells: unknown key here; allowed: the key cells in section mesh"},
     {20, "  <<: {cells: 5}",
-     "20:3: mesh.<<: unknown key; allowed: the keys of docs/case-reference.md, the nearest is cells"},
+     "20:3: mesh.<<: unknown key; allowed: the keys of docs/case-reference.md, the nearest is fill"},
     {8, "  blade_count: 6\n  : 7",
      "8:16: impeller.(nothing): the key is empty; allowed: the keys of docs/case-reference.md"},
     // Wrong types.

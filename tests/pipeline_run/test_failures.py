@@ -10,7 +10,7 @@ from cutwater import CELLS, PAPER, error_lines, fresh, stage, start, with_geomet
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
-    ("outlet_diameter_mm: 200", "outlet_diameter_m: 0.2", "outlet_diameter_m"),
+    ("outlet_diameter_mm: 200", "outlet_diameter_kg: 0.2", "outlet_diameter_kg"),
     ("outlet_diameter_mm: 200", "outlet_diameter_mm: 20000", "out of range"),
     ("outlet_diameter_mm: 200", "outlet_diameter_mm: two", "outlet_diameter_mm"),
     ("outlet_diameter_mm: 200", "outlet_diameter_mm: 200\n  outlet_diameter_mm: 201", "outlet_diameter_mm"),
