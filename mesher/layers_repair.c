@@ -5,7 +5,7 @@
 #include "mesher/layers_inner.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
-static const double GOOD = 0.12;         // least prism quality
+static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
 static const double THIN = 0.8;          // what a thinned column keeps
 static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
 static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
@@ -98,6 +98,7 @@ typedef struct {
   double (*front)[3];
   int32_t *bad, bad_count;
   uint8_t *mark;        // vertices to turn or to thin
+  double limit;         // prism quality asked for
   int32_t point_count;  // walls, front, obstacles: the surfaces that must not cross
   double (*x)[3];
   int32_t triangle_count, (*triangle)[3];
@@ -108,7 +109,7 @@ static void find_bad(Repair *repair) {
   memset(repair->mark, 0, work->n);
   repair->bad_count = 0;
   for (int32_t f = 0; f < work->in->triangle_count; f++) {
-    if (cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= GOOD) continue;
+    if (cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= repair->limit) continue;
     repair->bad[repair->bad_count++] = f;
     for (int i = 0; i < 3; i++) repair->mark[work->in->triangle[f][i]] = 1;
   }
@@ -214,6 +215,8 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
   CW_TRY(collect_surfaces(&repair));
   for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, front[v]);
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
+    // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
+    repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;
     find_bad(&repair);
     if (repair.bad_count) {
       for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
