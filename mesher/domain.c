@@ -43,8 +43,6 @@ static CwStatus integrate(CwDomain *domain, const CwCase *table) {
     if (!cw_face_is_wall(domain->cad, face)) continue;
     double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
     double thickness = cw_domain_thickness(domain, table, cw_cad_face_patch(domain->cad, face));
-    domain->wall_area += area;
-    domain->layer_volume += area * thickness;
     domain->prism_integral += area / (h * h);
     domain->tet_integral -= area * thickness / (h * h * h);
   }

@@ -15,8 +15,6 @@ typedef struct {
   CwInside *inside;
   CwSize *size;
   double *relative_size, *patch_first_height; // of each patch; m
-  double wall_area;                           // m2
-  double layer_volume;                        // m3, target thickness times area
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
   double tet_integral;                        // integral of h^-3 over the domain less its layers, at scale 1
   CwPlan plan;

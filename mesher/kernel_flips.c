@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/predicates.h"
+#include "mesher/ring.h"
 
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
@@ -233,19 +234,6 @@ typedef struct {
 
 static const int never = 1000000;
 
-static int ring_tets(const RingTable *table, const int32_t *ring, int32_t a, int32_t b, int i, int j,
-                     int32_t (*tet)[4], int count) {
-  if (j - i < 2)
-    return count;
-  int k = table->cut[i][j];
-  count = ring_tets(table, ring, a, b, i, k, tet, count);
-  count = ring_tets(table, ring, a, b, k, j, tet, count);
-  const int32_t up[4] = {ring[i], ring[k], ring[j], b}, down[4] = {ring[i], ring[j], ring[k], a};
-  memcpy(tet[count++], up, sizeof up);
-  memcpy(tet[count++], down, sizeof down);
-  return count;
-}
-
 CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *flipped) {
   CwStatus status = CW_OK;
   int32_t old[CW_RING], ring[CW_RING], tet[CW_FLIP][4], slot[CW_FLIP];
@@ -284,7 +272,7 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
   }
   if (table.least[0][n - 1] >= never || table.least[0][n - 1] >= before + flips->slack)
     goto done;
-  int count = ring_tets(&table, ring, a, b, 0, n - 1, tet, 0);
+  int count = cw_ring_tets(&table.cut[0][0], CW_RING, ring, a, b, 0, n - 1, tet, 0);
   CW_TRY(cw_flips_replace(flips, n, old, count, (const int32_t(*)[4])tet, slot));
   *flipped = 1;
 done:

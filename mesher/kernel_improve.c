@@ -7,6 +7,7 @@
 
 #include "mesher/kernel_flips.h"
 #include "mesher/kernel_shape.h"
+#include "mesher/ring.h"
 
 // Sines: tetrahedra with an angle below 25 (or above 155) degrees are improved, below 18 also with new
 // points. More than 25 costs time and gives no better worst ones.
@@ -84,19 +85,6 @@ typedef struct {
   int8_t cut[RING][RING];
 } RingTable;
 
-static int ring_tets(const RingTable *table, const int32_t *ring, int32_t a, int32_t b, int i, int j,
-                     int32_t (*tet)[4], int count) {
-  if (j - i < 2)
-    return count;
-  int k = table->cut[i][j];
-  count = ring_tets(table, ring, a, b, i, k, tet, count);
-  count = ring_tets(table, ring, a, b, k, j, tet, count);
-  const int32_t up[4] = {ring[i], ring[k], ring[j], b}, down[4] = {ring[i], ring[j], ring[k], a};
-  memcpy(tet[count++], up, sizeof up);
-  memcpy(tet[count++], down, sizeof down);
-  return count;
-}
-
 // Removes the edge a-b of t where that raises the least quality round it.
 static CwStatus remove_edge(Improver *w, int32_t t, int32_t a, int32_t b, int *done_it) {
   CwStatus status = CW_OK;
@@ -142,7 +130,7 @@ static CwStatus remove_edge(Improver *w, int32_t t, int32_t a, int32_t b, int *d
   }
   if (!(table.best[0][n - 1] > least))
     goto done;
-  int count = ring_tets(&table, ring, a, b, 0, n - 1, tet, 0);
+  int count = cw_ring_tets(&table.cut[0][0], RING, ring, a, b, 0, n - 1, tet, 0);
   for (int k = 0; k < count; k++)
     quality[k] = quality_of(w, tet[k][0], tet[k][1], tet[k][2], tet[k][3]);
   CW_TRY(replace(w, n, old, count, (const int32_t(*)[4])tet, quality));

@@ -15,7 +15,6 @@ typedef struct {
 } Part;
 
 typedef struct {
-  const CwPlanOptions *options;
   CwPlanScorer *scorer;
   CwPlan *plan;
 } Planner;
@@ -73,7 +72,7 @@ CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const Cw
   CwStatus status = CW_OK;
   CwPlanScorer scorer = {0};
   Part whole = {{0}, 0, NULL};
-  Planner planner = {options, &scorer, plan};
+  Planner planner = {&scorer, plan};
   memset(plan, 0, sizeof *plan);
   plan->region_count = options->region_count;
   CW_NEW(plan->node, options->region_count);

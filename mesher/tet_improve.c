@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/tet_improve_mesh.h"
+#include "mesher/ring.h"
 
 // Sines: tetrahedra with an angle below 27 (or above 153) degrees are improved, below 18 also with new
 // points.
@@ -25,19 +26,6 @@ typedef struct {
   double best[RING][RING];
   int8_t cut[RING][RING];
 } RingTable;
-
-static int ring_tets(const RingTable *table, const int32_t *ring, int32_t a, int32_t b, int i, int j,
-                     int32_t (*tet)[4], int count) {
-  if (j - i < 2)
-    return count;
-  int k = table->cut[i][j];
-  count = ring_tets(table, ring, a, b, i, k, tet, count);
-  count = ring_tets(table, ring, a, b, k, j, tet, count);
-  const int32_t up[4] = {ring[i], ring[k], ring[j], b}, down[4] = {ring[i], ring[j], ring[k], a};
-  memcpy(tet[count++], up, sizeof up);
-  memcpy(tet[count++], down, sizeof down);
-  return count;
-}
 
 // Removes the edge of corners i and j of t where that raises the least quality round it.
 static CwStatus remove_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_it) {
@@ -75,7 +63,7 @@ static CwStatus remove_edge(CwTetMesh *mesh, int32_t t, int i, int j, int *done_
   }
   if (!(table.best[0][n - 1] > least + gain))
     goto done;
-  int count = ring_tets(&table, ring, a, b, 0, n - 1, tet, 0);
+  int count = cw_ring_tets(&table.cut[0][0], RING, ring, a, b, 0, n - 1, tet, 0);
   for (int k = 0; k < count; k++)
     quality[k] = quality_of(mesh, tet[k][0], tet[k][1], tet[k][2], tet[k][3]);
   CW_TRY(cw_tet_mesh_replace(mesh, n, old, count, (const int32_t(*)[4])tet, quality));
