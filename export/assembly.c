@@ -14,18 +14,19 @@ static const double ROUNDING = 1e-12; // m
 typedef struct {
   CwOpenFace *open;
   int64_t open_count, open_room;
-  CwInterfaceFace *interface[CW_EXPORT_DOMAINS];
-  int64_t interface_count[CW_EXPORT_DOMAINS], interface_room[CW_EXPORT_DOMAINS];
-  double *least[CW_EXPORT_DOMAINS],
-      *most[CW_EXPORT_DOMAINS];  // coordinates of each shared point over the regions
+  CwInterfaceFace *interface[CW_EXPORT_DOMAINS_MOST][2];
+  int64_t interface_count[CW_EXPORT_DOMAINS_MOST][2], interface_room[CW_EXPORT_DOMAINS_MOST][2];
+  double *least[CW_EXPORT_DOMAINS_MOST],
+      *most[CW_EXPORT_DOMAINS_MOST]; // coordinates of each shared point over the regions
   double *volume, *least_volume; // by region
   int64_t *open_counts;          // by region
 } Collected;
 
 static void collected_free(Collected *c) {
   free(c->open);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
-    free(c->interface[d]);
+  for (int d = 0; d < CW_EXPORT_DOMAINS_MOST; ++d) {
+    free(c->interface[d][0]);
+    free(c->interface[d][1]);
     free(c->least[d]);
     free(c->most[d]);
   }
@@ -39,9 +40,10 @@ void cw_assembly_free(CwAssembly *assembly) {
   free(assembly->parts);
   free(assembly->patches);
   free(assembly->across);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < CW_EXPORT_DOMAINS_MOST; ++d) {
     free(assembly->shared[d]);
-    free(assembly->interface[d]);
+    free(assembly->interface[d][0]);
+    free(assembly->interface[d][1]);
   }
   memset(assembly, 0, sizeof *assembly);
 }
@@ -63,9 +65,9 @@ done:
 // Numbers that follow from the manifest alone.
 static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
   CwStatus status = CW_OK;
-  int64_t cells = 0;
+  int64_t cells = 0, points = 0;
   CW_NEW(a->places, mesh->region_count);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < mesh->domain_count; ++d) {
     CwDomainTotal *t = &a->totals[d];
     const CwMeshDomain *domain = &mesh->domains[d];
     t->points = domain->shared_points;
@@ -83,6 +85,8 @@ static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
       cells += line->tetrahedra + line->pyramids + line->prisms;
     }
     t->cells = t->tetrahedra + t->pyramids + t->prisms;
+    t->first_point = points;
+    points += t->points;
   }
 done:
   return status;
@@ -156,28 +160,38 @@ static void add_interface_face(CwInterfaceFace *face, int64_t place, const CwReg
 
 // `place` of the interface faces counts within the region here; settle_interface() makes it the one in the
 // patch. The region goes into its upper half, so that nothing else need be kept.
+static CwStatus collect_interface(const CwMesh *mesh, int region, const CwRegionData *data, const CwAssembly *a,
+                                  int i, int side, Collected *c) {
+  CwStatus status = CW_OK;
+  int patch = mesh->interfaces[i].patch[side], local = patch - mesh->domains[data->domain].first_patch;
+  const CwPatchPart *part = &a->parts[(size_t)region * (size_t)mesh->patch_count + (size_t)patch];
+  int64_t *count = &c->interface_count[i][side], place = (int64_t)region << 32;
+  CW_TRY(reserve((void **)&c->interface[i][side], &c->interface_room[i][side], *count,
+                 part->triangles + part->quads, sizeof(CwInterfaceFace)));
+  for (int32_t f = 0; f < data->triangle_count; ++f)
+    if (data->triangle_patch[f] == local)
+      add_interface_face(&c->interface[i][side][(*count)++], place++, data, data->triangles[f], 3);
+  place = (int64_t)region << 32;
+  for (int32_t f = 0; f < data->quad_count; ++f)
+    if (data->quad_patch[f] == local)
+      add_interface_face(&c->interface[i][side][(*count)++], place++, data, data->quads[f], 4);
+done:
+  return status;
+}
+
 static CwStatus collect_patches(const CwMesh *mesh, int region, const CwRegionData *data, CwAssembly *a,
                                 Collected *c) {
   CwStatus status = CW_OK;
   const CwMeshDomain *domain = &mesh->domains[data->domain];
   CwPatchPart *parts = a->parts + (size_t)region * (size_t)mesh->patch_count;
-  int interface = cw_mesh_patch_of_kind(mesh, data->domain, CW_KIND_INTERFACE);
   for (int32_t i = 0; i < data->triangle_count; ++i)
     add_patch_face(&parts[domain->first_patch + data->triangle_patch[i]], data, data->triangles[i], 3);
   for (int32_t i = 0; i < data->quad_count; ++i)
     add_patch_face(&parts[domain->first_patch + data->quad_patch[i]], data, data->quads[i], 4);
-
-  int64_t *count = &c->interface_count[data->domain];
-  CW_TRY(reserve((void **)&c->interface[data->domain], &c->interface_room[data->domain], *count,
-                 parts[interface].triangles + parts[interface].quads, sizeof(CwInterfaceFace)));
-  int64_t place = (int64_t)region << 32;
-  for (int32_t i = 0; i < data->triangle_count; ++i)
-    if (domain->first_patch + data->triangle_patch[i] == interface)
-      add_interface_face(&c->interface[data->domain][(*count)++], place++, data, data->triangles[i], 3);
-  place = (int64_t)region << 32;
-  for (int32_t i = 0; i < data->quad_count; ++i)
-    if (domain->first_patch + data->quad_patch[i] == interface)
-      add_interface_face(&c->interface[data->domain][(*count)++], place++, data, data->quads[i], 4);
+  for (int i = 0; i < mesh->interface_count; ++i)
+    for (int side = 0; side < 2; ++side)
+      if (mesh->patches[mesh->interfaces[i].patch[side]].domain == data->domain)
+        CW_TRY(collect_interface(mesh, region, data, a, i, side, c));
 done:
   return status;
 }
@@ -238,7 +252,7 @@ static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
 
 static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
     const CwMeshDomain *domain = &a->mesh->domains[d];
     int count = (int)(3 * domain->shared_points);
     MPI_Allreduce(MPI_IN_PLACE, c->least[d], count, MPI_DOUBLE, MPI_MIN, ranks->comm);
@@ -310,25 +324,20 @@ done:
 static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
   CwOpenFace *all = NULL;
-  int64_t total = 0, rotor = 0;
+  int64_t total = 0;
   CW_NEW(a->across, a->open_count);
   CW_TRY(cw_ranks_gather(ranks, c->open, c->open_count, sizeof *all, (void **)&all, &total));
-  // Rotor first: a stable split by domain, as both number their shared points from 0.
+  // A stable split by domain, as each numbers its shared points from 0.
   if (ranks->rank == 0) {
     CwOpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
-    if (split) {
-      int64_t at = 0;
-      for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
-        for (int64_t i = 0; i < total; ++i)
-          if (a->mesh->regions[all[i].region].domain == d)
-            split[at++] = all[i];
-        rotor = d == 0 ? at : rotor;
-      }
-      status = pair_open_faces(a, split, rotor);
-      if (status == CW_OK)
-        status = pair_open_faces(a, split + rotor, total - rotor);
-    } else {
+    if (!split)
       status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on dividing planes", (long long)total);
+    for (int d = 0; d < a->mesh->domain_count && status == CW_OK; ++d) {
+      int64_t count = 0;
+      for (int64_t i = 0; i < total; ++i)
+        if (a->mesh->regions[all[i].region].domain == d)
+          split[count++] = all[i];
+      status = pair_open_faces(a, split, count);
     }
     free(split);
   }
@@ -340,26 +349,22 @@ done:
   return status;
 }
 
-static CwStatus settle_interface(const CwRanks *ranks, CwAssembly *a, Collected *c) {
+static CwStatus settle_interface(const CwRanks *ranks, int interface, int side, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
-  CwInterfaceFace *all = NULL;
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
-    int patch = cw_mesh_patch_of_kind(a->mesh, d, CW_KIND_INTERFACE);
-    int64_t total = 0;
-    CW_TRY(
-        cw_ranks_gather(ranks, c->interface[d], c->interface_count[d], sizeof *all, (void **)&all, &total));
-    a->interface[d] = calloc(total ? (size_t)total : 1, sizeof *all);
-    CW_TRY(cw_ranks_agree(ranks, a->interface[d] ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
-    for (int64_t i = 0; i < total; ++i) {
-      int region = (int)(all[i].place >> 32);
-      const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
-      int64_t place = all[i].place & 0xffffffff;
-      place += all[i].count == 3 ? part->triangle : a->patches[patch].triangles + part->quad;
-      a->interface[d][place] = all[i];
-      a->interface[d][place].place = place;
-    }
-    free(all);
-    all = NULL;
+  CwInterfaceFace *all = NULL, *placed;
+  int patch = a->mesh->interfaces[interface].patch[side];
+  int64_t total = 0;
+  CW_TRY(cw_ranks_gather(ranks, c->interface[interface][side], c->interface_count[interface][side], sizeof *all,
+                         (void **)&all, &total));
+  placed = a->interface[interface][side] = calloc(total ? (size_t)total : 1, sizeof *all);
+  CW_TRY(cw_ranks_agree(ranks, placed ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory")));
+  for (int64_t i = 0; i < total; ++i) {
+    int region = (int)(all[i].place >> 32);
+    const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
+    int64_t place = all[i].place & 0xffffffff;
+    place += all[i].count == 3 ? part->triangle : a->patches[patch].triangles + part->quad;
+    placed[place] = all[i];
+    placed[place].place = place;
   }
 done:
   free(all);
@@ -369,7 +374,7 @@ done:
 static CwStatus check_surface(const CwAssembly *a) {
   CwStatus status = CW_OK;
   const CwMesh *mesh = a->mesh;
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < mesh->domain_count; ++d) {
     double area = 0, vector[3] = {0};
     const CwMeshDomain *domain = &mesh->domains[d];
     for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p) {
@@ -398,7 +403,7 @@ static CwStatus prepare(const CwMesh *mesh, CwAssembly *a, Collected *c) {
   CW_NEW(c->volume, mesh->region_count);
   CW_NEW(c->least_volume, mesh->region_count);
   CW_NEW(c->open_counts, mesh->region_count);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
     CW_NEW(c->least[d], 3 * mesh->domains[d].shared_points);
     CW_NEW(c->most[d], 3 * mesh->domains[d].shared_points);
     for (int64_t i = 0; i < 3 * mesh->domains[d].shared_points; ++i) {
@@ -426,7 +431,9 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CW_TRY(cw_ranks_agree(ranks, settle_points(ranks, a, &c)));
   CW_TRY(settle_open_faces(ranks, a, &c));
   CW_TRY(check_surface(a));
-  CW_TRY(settle_interface(ranks, a, &c));
+  for (int i = 0; i < mesh->interface_count; ++i)
+    for (int side = 0; side < 2; ++side)
+      CW_TRY(settle_interface(ranks, i, side, a, &c));
 done:
   collected_free(&c);
   return status;

@@ -13,7 +13,7 @@
 typedef struct {
   int64_t own_point;                    // its first own point
   int64_t tetrahedron, pyramid, prism;  // its first cell of each type among those of the domain
-  int64_t cell;                         // its first cell, cells counted region by region over both domains
+  int64_t cell;                         // its first cell, cells counted region by region over all domains
   int64_t open;                         // its first open face in CwAssembly.across
   int64_t inner_triangles, inner_quads; // faces between its own cells
   int64_t outer_triangles, outer_quads; // open faces whose other cell has the larger number
@@ -26,7 +26,7 @@ typedef struct {
   double area, vector[3]; // m2
 } CwPatchPart;
 
-// A face of the interface: nodes in m, 3 or 4, and its place in its patch, triangles first.
+// A face of an interface: nodes in m, 3 or 4, and its place in its patch, triangles first.
 typedef struct {
   int64_t place;
   int32_t count;
@@ -34,20 +34,21 @@ typedef struct {
 } CwInterfaceFace;
 
 typedef struct {
+  int64_t first_point; // points of the domains before
   int64_t points, tetrahedra, pyramids, prisms, cells;
   double volume, least_volume; // m3
 } CwDomainTotal;
 
 typedef struct {
   const CwMesh *mesh;
-  CwDomainTotal totals[CW_EXPORT_DOMAINS];
+  CwDomainTotal totals[CW_EXPORT_DOMAINS_MOST];
   CwRegionPlace *places; // by region
   CwPatchPart *parts;    // by region, then patch
   CwPatchPart *patches;  // by patch: the sums over the regions
-  double (*shared[CW_EXPORT_DOMAINS])[3];
+  double (*shared[CW_EXPORT_DOMAINS_MOST])[3];
   int64_t *across; // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
   int64_t open_count;
-  CwInterfaceFace *interface[CW_EXPORT_DOMAINS]; // on rank 0 only, by place
+  CwInterfaceFace *interface[CW_EXPORT_DOMAINS_MOST][2]; // by interface and side; on rank 0 only, by place
 } CwAssembly;
 
 // Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a point is used

@@ -51,14 +51,14 @@ done:
   return status;
 }
 
-static CwStatus write_points(hid_t file, int domain, int64_t first, int64_t count,
+static CwStatus write_points(hid_t file, const CwMesh *mesh, int domain, int64_t first, int64_t count,
                              const double (*points)[3]) {
   CwStatus status = CW_OK;
   double *one = NULL;
   CW_NEW(one, count);
   for (int k = 0; k < 3; ++k) {
     char path[100];
-    snprintf(path, sizeof path, "/pump/%s/GridCoordinates/Coordinate%c/ data", cw_cgns_zone_name(domain),
+    snprintf(path, sizeof path, "/pump/%s/GridCoordinates/Coordinate%c/ data", mesh->domains[domain].zone,
              "XYZ"[k]);
     for (int64_t i = 0; i < count; ++i)
       one[i] = points[i][k];
@@ -71,8 +71,9 @@ done:
 
 CwStatus cw_cgns_write_shared(hid_t file, const CwAssembly *a) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d)
-    CW_TRY(write_points(file, d, 0, a->mesh->domains[d].shared_points, (const double(*)[3])a->shared[d]));
+  for (int d = 0; d < a->mesh->domain_count; ++d)
+    CW_TRY(write_points(file, a->mesh, d, 0, a->mesh->domains[d].shared_points,
+                        (const double(*)[3])a->shared[d]));
 done:
   return status;
 }
@@ -92,7 +93,7 @@ static CwStatus write_elements(hid_t file, const CwAssembly *a, int region, cons
     if (!patch_of || patch_of[i] == local_patch)
       for (int n = 0; n < section->nodes; ++n)
         out[used++] = (int32_t)cw_point_number(a, region, data, elements[i * section->nodes + n]) + 1;
-  snprintf(path, sizeof path, "/pump/%s/%s/ElementConnectivity/ data", cw_cgns_zone_name(data->domain),
+  snprintf(path, sizeof path, "/pump/%s/%s/ElementConnectivity/ data", a->mesh->domains[data->domain].zone,
            section->name);
   CW_TRY(write_stretch(file, path, H5T_NATIVE_INT32, first * section->nodes, used, out));
 done:
@@ -105,7 +106,7 @@ CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const
   CwSection *sections = NULL;
   int count = 0;
   const CwRegionPlace *place = &a->places[region];
-  CW_TRY(write_points(file, data->domain, place->own_point, data->point_count - data->shared_count,
+  CW_TRY(write_points(file, a->mesh, data->domain, place->own_point, data->point_count - data->shared_count,
                       (const double(*)[3])data->points + data->shared_count));
   CW_TRY(cw_cgns_sections(a, data->domain, &sections, &count));
   for (int s = 0; s < count; ++s) {

@@ -4,10 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *cw_cgns_zone_name(int domain) {
-  return domain == CW_EXPORT_ROTOR ? "ROTOR" : "STATOR";
-}
-
 int64_t cw_cgns_patch_first(const CwAssembly *a, int patch) {
   int domain = a->mesh->patches[patch].domain;
   int64_t first = a->totals[domain].cells + 1;

@@ -42,7 +42,7 @@ CwStatus cw_foam_mesh_plan(const CwAssembly *a, const char *folder, CwFoamMesh *
   CW_NEW(mesh->first_label, a->mesh->region_count);
   CW_NEW(mesh->patch_face, a->mesh->patch_count);
   CW_NEW(mesh->patch_label, a->mesh->patch_count);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
     mesh->points += a->totals[d].points;
     mesh->cells += a->totals[d].cells;
   }
@@ -150,12 +150,13 @@ static CwStatus write_boundary(const CwFoamMesh *mesh) {
     if (count == 0)
       continue;
     fprintf(out, "    %s\n    {\n", patch->name);
+    int side = 0, between = cw_mesh_interface_of(input, p, &side);
     if (patch->kind == CW_KIND_INTERFACE)
       fprintf(out,
               "        type            cyclicAMI;\n        inGroups        1(cyclicAMI);\n"
               "        matchTolerance  0.0001;\n        transform       noOrdering;\n"
               "        neighbourPatch  %s;\n        lowWeightCorrection 0.2;\n",
-              input->patches[cw_mesh_patch_of_kind(input, 1 - patch->domain, CW_KIND_INTERFACE)].name);
+              input->patches[input->interfaces[between].patch[1 - side]].name);
     else if (patch->kind == CW_KIND_WALL)
       fprintf(out, "        type            wall;\n        inGroups        1(wall);\n");
     else
@@ -183,8 +184,9 @@ static CwStatus write_zones(const CwFoamMesh *mesh) {
   CW_REQUIRE(out, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
   fprintf(out, "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       regIOobject;\n"
                "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
-               "    object      cellZones;\n}\n\n2\n(\n");
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+               "    object      cellZones;\n}\n\n%d\n(\n",
+          mesh->assembly->mesh->domain_count);
+  for (int d = 0; d < mesh->assembly->mesh->domain_count; ++d) {
     int64_t count = mesh->assembly->totals[d].cells;
     fprintf(out, "%s\n{\n    type            cellZone;\n    cellLabels      List<label>\n%lld\n(",
             mesh->assembly->mesh->domains[d].name, (long long)count);
@@ -217,9 +219,9 @@ CwStatus cw_foam_mesh_create(CwFoamMesh *mesh) {
   int length = snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)mesh->labels);
   CW_TRY(put(mesh, CW_FOAM_FACES, text, length, mesh->label_start - length));
   CW_TRY(put(mesh, CW_FOAM_FACES, ")\n", 2, mesh->label_start + 4 * mesh->labels));
-  for (int d = 0, before = 0; d < CW_EXPORT_DOMAINS; before += (int)a->totals[d++].points)
+  for (int d = 0; d < a->mesh->domain_count; ++d)
     CW_TRY(put(mesh, CW_FOAM_POINTS, a->shared[d], 24 * a->mesh->domains[d].shared_points,
-               mesh->start[CW_FOAM_POINTS] + 24 * (int64_t)before));
+               mesh->start[CW_FOAM_POINTS] + 24 * a->totals[d].first_point));
   CW_TRY(write_boundary(mesh));
   CW_TRY(write_zones(mesh));
 done:
@@ -254,7 +256,7 @@ static void stretch_free(Stretch *s) {
 static void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data,
                         int32_t cell, int face, int64_t neighbour) {
   const CwAssembly *a = mesh->assembly;
-  int64_t points_before = data->domain ? a->totals[0].points : 0;
+  int64_t points_before = a->totals[data->domain].first_point;
   int32_t nodes[4];
   int count = cw_cell_face(data, cell, face, nodes);
   s->offsets[s->faces] = (int32_t)(s->first_label + s->labels_used);
@@ -342,7 +344,7 @@ CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwR
   CwStatus status = CW_OK;
   const CwAssembly *a = mesh->assembly;
   const CwMeshDomain *domain = &a->mesh->domains[data->domain];
-  int64_t first_point = (data->domain ? a->totals[0].points : 0) + a->places[region].own_point;
+  int64_t first_point = a->totals[data->domain].first_point + a->places[region].own_point;
   CW_TRY(put(mesh, CW_FOAM_POINTS, data->points + data->shared_count,
              24 * (int64_t)(data->point_count - data->shared_count),
              mesh->start[CW_FOAM_POINTS] + 24 * first_point));

@@ -7,18 +7,19 @@
 
 static const double RELATIVE_TOLERANCE = 1e-4;
 
-// Donor faces by the bins of (angle, z) that they reach into.
+// Donor faces by the bins of the surface's coordinates that they reach into. On a cylinder the first goes round.
 typedef struct {
-  int angles, heights;
-  double z0, dz, dangle;
-  int64_t *start; // angles * heights + 1
+  int round;
+  int number[2];
+  double first[2], step[2];
+  int64_t *start; // number[0] * number[1] + 1
   int64_t *faces;
 } Bins;
 
 void cw_interface_free(CwInterface *interface) {
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
-    free(interface->donor[d]);
-    free(interface->place[d]);
+  for (int s = 0; s < 2; ++s) {
+    free(interface->donor[s]);
+    free(interface->place[s]);
   }
   memset(interface, 0, sizeof *interface);
 }
@@ -28,34 +29,58 @@ static double unwrap(double angle, double near) {
   return near + remainder(angle - near, 2 * M_PI);
 }
 
-// The nodes of a face as (angle, z), continuous across the half plane where atan2 jumps.
-static void unroll(const CwInterfaceFace *face, double flat[4][2]) {
+// The nodes of a face in the surface's coordinates, continuous across the half plane where atan2 jumps.
+static void unroll(const CwInterface *in, const CwInterfaceFace *face, double flat[4][2]) {
   for (int i = 0; i < face->count; ++i) {
-    double angle = atan2(face->nodes[i][1], face->nodes[i][0]);
+    const double *x = face->nodes[i];
+    if (in->is_flat) {
+      for (int k = 0; k < 2; ++k)
+        flat[i][k] = (x[0] - in->centre[0]) * in->axis[k][0] + (x[1] - in->centre[1]) * in->axis[k][1] +
+                     (x[2] - in->centre[2]) * in->axis[k][2];
+      continue;
+    }
+    double angle = atan2(x[1], x[0]);
     flat[i][0] = i ? unwrap(angle, flat[0][0]) : angle;
-    flat[i][1] = face->nodes[i][2];
+    flat[i][1] = x[2];
   }
 }
 
+static int within(int value, int number) {
+  return value < 0 ? 0 : value >= number ? number - 1 : value;
+}
+
+static int bin_at(const Bins *bins, int k, double value) {
+  return (int)floor((value - bins->first[k]) / bins->step[k]);
+}
+
+static int around(const Bins *bins, int a) {
+  return (a % bins->number[0] + bins->number[0]) % bins->number[0];
+}
+
 // Calls for the bins that the box of a face reaches: counts (faces NULL) or fills.
-static void bin_face(const Bins *bins, const CwInterfaceFace *face, int64_t place, int64_t *start,
-                     int64_t *faces) {
-  double flat[4][2], low[2], high[2];
-  unroll(face, flat);
+static void bin_face(const CwInterface *in, const Bins *bins, const CwInterfaceFace *face, int64_t place,
+                     int64_t *start, int64_t *faces) {
+  double flat[4][2];
+  int low[2], high[2];
+  unroll(in, face, flat);
   for (int k = 0; k < 2; ++k) {
-    low[k] = high[k] = flat[0][k];
+    double least = flat[0][k], most = flat[0][k];
     for (int i = 1; i < face->count; ++i) {
-      low[k] = fmin(low[k], flat[i][k]);
-      high[k] = fmax(high[k], flat[i][k]);
+      least = fmin(least, flat[i][k]);
+      most = fmax(most, flat[i][k]);
+    }
+    low[k] = bin_at(bins, k, least);
+    high[k] = bin_at(bins, k, most);
+    if (k || !bins->round) {
+      low[k] = within(low[k], bins->number[k]);
+      high[k] = within(high[k], bins->number[k]);
     }
   }
-  int a0 = (int)floor((low[0] + M_PI) / bins->dangle), a1 = (int)floor((high[0] + M_PI) / bins->dangle);
-  int h0 = (int)floor((low[1] - bins->z0) / bins->dz), h1 = (int)floor((high[1] - bins->z0) / bins->dz);
-  if (a1 >= a0 + bins->angles)
-    a1 = a0 + bins->angles - 1;
-  for (int a = a0; a <= a1; ++a)
-    for (int h = h0 < 0 ? 0 : h0; h <= (h1 >= bins->heights ? bins->heights - 1 : h1); ++h) {
-      int bin = ((a % bins->angles + bins->angles) % bins->angles) * bins->heights + h;
+  if (high[0] >= low[0] + bins->number[0])
+    high[0] = low[0] + bins->number[0] - 1;
+  for (int a = low[0]; a <= high[0]; ++a)
+    for (int h = low[1]; h <= high[1]; ++h) {
+      int bin = around(bins, a) * bins->number[1] + h;
       if (faces)
         faces[start[bin]++] = place;
       else
@@ -63,26 +88,29 @@ static void bin_face(const Bins *bins, const CwInterfaceFace *face, int64_t plac
     }
 }
 
-static CwStatus make_bins(const CwInterfaceFace *faces, int64_t count, const CwInterfaceSide *side,
-                          Bins *bins) {
+static CwStatus make_bins(const CwInterface *in, const CwInterfaceFace *faces, int64_t count,
+                          const CwInterfaceSide *side, Bins *bins) {
   CwStatus status = CW_OK;
-  double height = side->z_most - side->z_least, around = 2 * M_PI * side->radius_most;
+  double height = side->most[1] - side->least[1];
+  double width = in->is_flat ? side->most[0] - side->least[0] : 2 * M_PI * in->radius;
   // About as many bins as faces, and square ones.
-  double size = sqrt(around * height / (double)count);
-  bins->angles = (int)fmax(1, around / size);
-  bins->heights = (int)fmax(1, height / size);
-  bins->z0 = side->z_least;
-  bins->dz = height / bins->heights * (1 + 1e-12);
-  bins->dangle = 2 * M_PI / bins->angles;
-  int bin_count = bins->angles * bins->heights;
+  double size = sqrt(width * height / (double)count);
+  bins->round = !in->is_flat;
+  bins->number[0] = (int)fmax(1, width / size);
+  bins->number[1] = (int)fmax(1, height / size);
+  bins->first[0] = in->is_flat ? side->least[0] : -M_PI;
+  bins->first[1] = side->least[1];
+  bins->step[0] = (in->is_flat ? width * (1 + 1e-12) : 2 * M_PI) / bins->number[0];
+  bins->step[1] = height / bins->number[1] * (1 + 1e-12);
+  int bin_count = bins->number[0] * bins->number[1];
   CW_NEW(bins->start, bin_count + 1);
   for (int64_t i = 0; i < count; ++i)
-    bin_face(bins, &faces[i], i, bins->start, NULL);
+    bin_face(in, bins, &faces[i], i, bins->start, NULL);
   for (int b = 0; b < bin_count; ++b)
     bins->start[b + 1] += bins->start[b];
   CW_NEW(bins->faces, bins->start[bin_count]);
   for (int64_t i = 0; i < count; ++i)
-    bin_face(bins, &faces[i], i, bins->start, bins->faces);
+    bin_face(in, bins, &faces[i], i, bins->start, bins->faces);
   // Each start has moved to the end of its bin: shift back.
   memmove(bins->start + 1, bins->start, (size_t)bin_count * sizeof *bins->start);
   bins->start[0] = 0;
@@ -90,11 +118,11 @@ done:
   return status;
 }
 
-// Where (angle, z) lies in a face: r, s. Returns how far inside, below 0 outside, in parts of the face.
-static double locate(const CwInterfaceFace *face, const double point[2], double rs[2]) {
+// Where a point lies in a face: r, s. Returns how far inside, below 0 outside, in parts of the face.
+static double locate(const CwInterface *in, const CwInterfaceFace *face, const double point[2], double rs[2]) {
   double f[4][2], x[2];
-  unroll(face, f);
-  x[0] = unwrap(point[0], f[0][0]);
+  unroll(in, face, f);
+  x[0] = in->is_flat ? point[0] : unwrap(point[0], f[0][0]);
   x[1] = point[1];
   // A triangle is linear: one step is exact. A quadrilateral takes Newton steps on its bilinear map.
   double r = face->count == 3 ? 0 : 0.5, s = r;
@@ -125,23 +153,25 @@ static double locate(const CwInterfaceFace *face, const double point[2], double 
 
 // The donor that holds the point, or where rounding leaves it just outside all of them, the nearest in its
 // own parameters. Looks into wider rings of bins until one has been found.
-static int64_t find_donor(const Bins *bins, const CwInterfaceFace *donors, const double point[2],
-                          double rs[2]) {
-  int a0 = (int)floor((point[0] + M_PI) / bins->dangle), h0 = (int)floor((point[1] - bins->z0) / bins->dz);
-  h0 = h0 < 0 ? 0 : h0 >= bins->heights ? bins->heights - 1 : h0;
+static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInterfaceFace *donors,
+                          const double point[2], double rs[2]) {
+  int a0 = bin_at(bins, 0, point[0]), h0 = within(bin_at(bins, 1, point[1]), bins->number[1]);
+  if (!bins->round)
+    a0 = within(a0, bins->number[0]);
   int64_t best = -1;
   double best_inside = -INFINITY;
-  int widest = bins->angles > bins->heights ? bins->angles : bins->heights;
+  int widest = bins->number[0] > bins->number[1] ? bins->number[0] : bins->number[1];
   for (int ring = 0; ring <= widest; ++ring) {
     for (int a = a0 - ring; a <= a0 + ring; ++a)
       for (int h = h0 - ring; h <= h0 + ring; ++h) {
         int rim = abs(a - a0) == ring || abs(h - h0) == ring;
-        if (!rim || h < 0 || h >= bins->heights)
+        int off = !bins->round && (a < 0 || a >= bins->number[0]);
+        if (!rim || off || h < 0 || h >= bins->number[1])
           continue;
-        int bin = ((a % bins->angles + bins->angles) % bins->angles) * bins->heights + h;
+        int bin = around(bins, a) * bins->number[1] + h;
         for (int64_t i = bins->start[bin]; i < bins->start[bin + 1]; ++i) {
           double here[2] = {0};
-          double inside = locate(&donors[bins->faces[i]], point, here);
+          double inside = locate(in, &donors[bins->faces[i]], point, here);
           if (inside > best_inside || (inside == best_inside && bins->faces[i] < best)) {
             best_inside = inside;
             best = bins->faces[i];
@@ -157,67 +187,125 @@ static int64_t find_donor(const Bins *bins, const CwInterfaceFace *donors, const
   return best;
 }
 
-static CwStatus measure_side(const CwAssembly *a, int d, int64_t count, double radius,
-                             CwInterfaceSide *side) {
+// The plane of a flat interface: through the mean of the nodes of side 0, normal to its area vector.
+static void make_plane(const CwAssembly *a, int number, CwInterface *in) {
+  const CwPatchPart *part = &a->patches[a->mesh->interfaces[number].patch[0]];
+  double nodes = 0, length = 0;
+  int least = 0;
+  for (int64_t i = 0; i < in->count[0]; ++i)
+    for (int n = 0; n < a->interface[number][0][i].count; ++n, ++nodes)
+      for (int k = 0; k < 3; ++k)
+        in->centre[k] += a->interface[number][0][i].nodes[n][k];
+  for (int k = 0; k < 3; ++k) {
+    in->centre[k] /= nodes;
+    length += part->vector[k] * part->vector[k];
+  }
+  double *n = in->axis[2], *u = in->axis[0], *v = in->axis[1];
+  for (int k = 0; k < 3; ++k) {
+    n[k] = part->vector[k] / sqrt(length);
+    if (fabs(n[k]) < fabs(n[least]))
+      least = k;
+  }
+  double across = sqrt(1 - n[least] * n[least]);
+  for (int k = 0; k < 3; ++k)
+    u[k] = ((k == least) - n[least] * n[k]) / across;
+  for (int k = 0; k < 3; ++k)
+    v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+}
+
+// How far a node is off the surface, m.
+static double off_surface(const CwInterface *in, const double x[3]) {
+  if (!in->is_flat)
+    return fabs(hypot(x[0], x[1]) - in->radius);
+  double off = 0;
+  for (int k = 0; k < 3; ++k)
+    off += in->axis[2][k] * (x[k] - in->centre[k]);
+  return fabs(off);
+}
+
+static CwStatus measure_side(const CwAssembly *a, int number, int s, double tolerance, CwInterface *in) {
   CwStatus status = CW_OK;
-  const CwInterfaceFace *faces = a->interface[d];
-  int patch = cw_mesh_patch_of_kind(a->mesh, d, CW_KIND_INTERFACE);
-  *side = (CwInterfaceSide){INFINITY, 0, INFINITY, -INFINITY, a->patches[patch].area};
-  for (int64_t i = 0; i < count; ++i)
-    for (int n = 0; n < faces[i].count; ++n) {
-      const double *x = faces[i].nodes[n];
-      double r = hypot(x[0], x[1]);
-      CW_REQUIRE(
-          fabs(r - radius) <= RELATIVE_TOLERANCE * radius, CW_ERR_INPUT,
-          "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.6g mm; the interface has %.6g mm",
-          a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * r, 1e3 * radius);
-      side->radius_least = fmin(side->radius_least, r);
-      side->radius_most = fmax(side->radius_most, r);
-      side->z_least = fmin(side->z_least, x[2]);
-      side->z_most = fmax(side->z_most, x[2]);
+  int patch = a->mesh->interfaces[number].patch[s];
+  CwInterfaceSide *side = &in->sides[s];
+  *side = (CwInterfaceSide){a->patches[patch].area, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  for (int64_t i = 0; i < in->count[s]; ++i) {
+    const CwInterfaceFace *face = &a->interface[number][s][i];
+    double flat[4][2];
+    unroll(in, face, flat);
+    for (int n = 0; n < face->count; ++n) {
+      const double *x = face->nodes[n];
+      double off = off_surface(in, x);
+      CW_REQUIRE(off <= tolerance, CW_ERR_INPUT,
+                 "patch '%s': node at (%.6g, %.6g, %.6g) mm is %.3g mm off the interface's %s%.*g mm",
+                 a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * off,
+                 in->is_flat ? "plane; allowed: " : "cylinder, whose radius is ", 6,
+                 1e3 * (in->is_flat ? tolerance : in->radius));
+      for (int k = 0; k < 2; ++k) {
+        side->least[k] = fmin(side->least[k], flat[n][k]);
+        side->most[k] = fmax(side->most[k], flat[n][k]);
+      }
     }
+  }
 done:
   return status;
 }
 
-CwStatus cw_interface_make(const CwAssembly *a, double radius, CwInterface *interface) {
+static CwStatus check_ends(const CwAssembly *a, int number, double tolerance, const CwInterface *in) {
+  CwStatus status = CW_OK;
+  const int *patch = a->mesh->interfaces[number].patch;
+  const CwInterfaceSide *s = in->sides;
+  for (int k = in->is_flat ? 0 : 1; k < 2; ++k)
+    CW_REQUIRE(fabs(s[0].least[k] - s[1].least[k]) <= tolerance && fabs(s[0].most[k] - s[1].most[k]) <= tolerance,
+               CW_ERR_INPUT, "the interface reaches from %s = %.6g to %.6g mm on patch '%s', but from %.6g to %.6g mm on '%s'",
+               in->is_flat ? (k ? "v" : "u") : "z", 1e3 * s[0].least[k], 1e3 * s[0].most[k],
+               a->mesh->patches[patch[0]].name, 1e3 * s[1].least[k], 1e3 * s[1].most[k],
+               a->mesh->patches[patch[1]].name);
+done:
+  return status;
+}
+
+static CwStatus find_donors(const CwAssembly *a, int number, int side, CwInterface *in) {
   CwStatus status = CW_OK;
   Bins bins = {0};
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
-    int patch = cw_mesh_patch_of_kind(a->mesh, d, CW_KIND_INTERFACE);
-    interface->count[d] = a->patches[patch].triangles + a->patches[patch].quads;
-    CW_TRY(measure_side(a, d, interface->count[d], radius, &interface->sides[d]));
-  }
-  const CwInterfaceSide *s = interface->sides;
-  CW_REQUIRE(
-      fabs(s[0].z_least - s[1].z_least) <= RELATIVE_TOLERANCE * radius &&
-          fabs(s[0].z_most - s[1].z_most) <= RELATIVE_TOLERANCE * radius,
-      CW_ERR_INPUT,
-      "the interface reaches from z = %.6g to %.6g mm in the rotor, but from %.6g to %.6g mm in the stator",
-      1e3 * s[0].z_least, 1e3 * s[0].z_most, 1e3 * s[1].z_least, 1e3 * s[1].z_most);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
-    int other = 1 - d;
-    CW_TRY(make_bins(a->interface[other], interface->count[other], &s[other], &bins));
-    CW_NEW(interface->donor[d], interface->count[d]);
-    CW_NEW(interface->place[d], interface->count[d]);
-    for (int64_t i = 0; i < interface->count[d]; ++i) {
-      const CwInterfaceFace *face = &a->interface[d][i];
-      double flat[4][2], centre[2] = {0};
-      unroll(face, flat);
-      for (int n = 0; n < face->count; ++n)
-        for (int k = 0; k < 2; ++k)
-          centre[k] += flat[n][k] / face->count;
+  const CwInterfaceFace *mine = a->interface[number][side], *others = a->interface[number][1 - side];
+  CW_TRY(make_bins(in, others, in->count[1 - side], &in->sides[1 - side], &bins));
+  CW_NEW(in->donor[side], in->count[side]);
+  CW_NEW(in->place[side], in->count[side]);
+  for (int64_t i = 0; i < in->count[side]; ++i) {
+    double flat[4][2], centre[2] = {0};
+    unroll(in, &mine[i], flat);
+    for (int n = 0; n < mine[i].count; ++n)
+      for (int k = 0; k < 2; ++k)
+        centre[k] += flat[n][k] / mine[i].count;
+    if (!in->is_flat)
       centre[0] = remainder(centre[0], 2 * M_PI);
-      interface->donor[d][i] = find_donor(&bins, a->interface[other], centre, interface->place[d][i]);
-      CW_REQUIRE(interface->donor[d][i] >= 0, CW_ERR_INPUT,
-                 "interface face %lld has no face on the other side", (long long)i);
-    }
-    free(bins.start);
-    free(bins.faces);
-    bins = (Bins){0};
+    in->donor[side][i] = find_donor(in, &bins, others, centre, in->place[side][i]);
+    CW_REQUIRE(in->donor[side][i] >= 0, CW_ERR_INPUT, "interface face %lld has no face on the other side",
+               (long long)i);
   }
 done:
   free(bins.start);
   free(bins.faces);
+  return status;
+}
+
+CwStatus cw_interface_make(const CwAssembly *a, int number, double radius, CwInterface *in) {
+  CwStatus status = CW_OK;
+  in->is_flat = number > 0;
+  in->radius = radius;
+  for (int s = 0; s < 2; ++s) {
+    const CwPatchPart *sum = &a->patches[a->mesh->interfaces[number].patch[s]];
+    in->count[s] = sum->triangles + sum->quads;
+  }
+  if (in->is_flat)
+    make_plane(a, number, in);
+  double size = in->is_flat ? sqrt(a->patches[a->mesh->interfaces[number].patch[0]].area / M_PI) : radius;
+  for (int s = 0; s < 2; ++s)
+    CW_TRY(measure_side(a, number, s, RELATIVE_TOLERANCE * size, in));
+  // The ends of a disc are corners of a polygon: those that its rim shares with the other side's.
+  CW_TRY(check_ends(a, number, (in->is_flat ? 100 : 1) * RELATIVE_TOLERANCE * size, in));
+  for (int s = 0; s < 2; ++s)
+    CW_TRY(find_donors(a, number, s, in));
+done:
   return status;
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/mesh_input.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const domain_names[CW_EXPORT_DOMAINS] = {"rotor", "stator"};
+static const char *const first_domains[] = {"rotor", "stator"};
 
 // The longest patch name: "_triangles" is added to it, and CGNS names have at most 32 characters.
-enum { LONGEST_PATCH_NAME = 22 };
+enum { LONGEST_PATCH_NAME = 22, LONGEST_DOMAIN_NAME = 14 }; // "_to_" stands between two domains
 
 void cw_mesh_free(CwMesh *mesh) {
   for (int i = 0; mesh->regions && i < mesh->region_count; ++i)
@@ -27,10 +28,18 @@ int cw_mesh_patch_find(const CwMesh *mesh, const char *name) {
   return -1;
 }
 
-int cw_mesh_patch_of_kind(const CwMesh *mesh, int domain, CwPatchKind kind) {
+int cw_mesh_end(const CwMesh *mesh, CwPatchKind kind) {
   for (int i = 0; i < mesh->patch_count; ++i)
-    if (mesh->patches[i].domain == domain && mesh->patches[i].kind == kind)
+    if (mesh->patches[i].kind == kind)
       return i;
+  return -1;
+}
+
+int cw_mesh_interface_of(const CwMesh *mesh, int patch, int *side) {
+  for (int i = 0; i < mesh->interface_count; ++i)
+    for (*side = 0; *side < 2; ++*side)
+      if (mesh->interfaces[i].patch[*side] == patch)
+        return i;
   return -1;
 }
 
@@ -53,12 +62,12 @@ static CwStatus read_patch(CwMesh *mesh, int domain, const json_t *item, const c
   const char *kind = json_string_value(json_object_get(item, "kind"));
   CwMeshPatch *patch = &mesh->patches[mesh->patch_count];
   CW_REQUIRE(name && kind, CW_ERR_INPUT, "%s: domain %s: patch %d needs 'name' and 'kind'", file,
-             domain_names[domain], mesh->patch_count - mesh->domains[domain].first_patch + 1);
+             mesh->domains[domain].name, mesh->patch_count - mesh->domains[domain].first_patch + 1);
   CW_REQUIRE(name[0] && strlen(name) <= LONGEST_PATCH_NAME &&
                  strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
                      strlen(name),
              CW_ERR_INPUT, "%s: domain %s: patch name '%s'; allowed are 1 to %d letters, digits and _", file,
-             domain_names[domain], name, LONGEST_PATCH_NAME);
+             mesh->domains[domain].name, name, LONGEST_PATCH_NAME);
   CW_REQUIRE(cw_mesh_patch_find(mesh, name) < 0, CW_ERR_INPUT, "%s: patch '%s' is named twice", file, name);
   static const char *const kinds[] = {"wall", "inlet", "outlet", "interface"};
   int k = 0;
@@ -120,10 +129,20 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
   const json_t *regions = json_object_get(item, "regions");
   const json_t *line;
   size_t i;
-  CW_REQUIRE(name && strcmp(name, domain_names[domain]) == 0, CW_ERR_INPUT,
-             "%s: domain %d must be '%s', not '%s'", file, domain + 1, domain_names[domain],
-             name ? name : "");
-  snprintf(d->name, sizeof d->name, "%s", name);
+  CW_REQUIRE(name && (domain > CW_EXPORT_STATOR || strcmp(name, first_domains[domain]) == 0), CW_ERR_INPUT,
+             "%s: domain %d must be '%s', not '%s'", file, domain + 1,
+             domain > CW_EXPORT_STATOR ? "named" : first_domains[domain], name ? name : "");
+  CW_REQUIRE(name[0] && strlen(name) <= LONGEST_DOMAIN_NAME &&
+                 strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") == strlen(name),
+             CW_ERR_INPUT, "%s: domain %d is named '%s'; allowed are 1 to %d small letters, digits and _", file,
+             domain + 1, name, LONGEST_DOMAIN_NAME);
+  for (int other = 0; other < domain; ++other)
+    CW_REQUIRE(strcmp(name, mesh->domains[other].name) != 0, CW_ERR_INPUT, "%s: domain '%s' is named twice", file,
+               name);
+  for (size_t k = 0; k <= strlen(name); ++k) {
+    d->name[k] = name[k];
+    d->zone[k] = (char)toupper((unsigned char)name[k]);
+  }
   CW_REQUIRE(json_is_number(volume) && json_number_value(volume) > 0, CW_ERR_INPUT,
              "%s: domain %s: 'solid_volume_m3' must be a number above 0", file, name);
   d->solid_volume = json_number_value(volume);
@@ -134,20 +153,57 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
   json_array_foreach(patches, i, line) {
     CW_TRY(read_patch(mesh, domain, line, file));
   }
-  CwPatchKind ends[] = {domain == CW_EXPORT_ROTOR ? CW_KIND_INLET : CW_KIND_OUTLET, CW_KIND_INTERFACE};
-  for (int e = 0; e < 2; ++e) {
-    int count = 0;
-    for (int p = d->first_patch; p < mesh->patch_count; ++p)
-      count += mesh->patches[p].kind == ends[e];
-    CW_REQUIRE(count == 1, CW_ERR_INPUT, "%s: domain %s has %d patches of kind %s; it must have one", file,
-               name, count,
-               e                           ? "interface"
-               : domain == CW_EXPORT_ROTOR ? "inlet"
-                                           : "outlet");
-  }
   d->first_region = mesh->region_count;
   json_array_foreach(regions, i, line) {
     CW_TRY(read_region_line(mesh, domain, line, run, file));
+  }
+done:
+  return status;
+}
+
+static CwStatus check_ends(const CwMesh *mesh, const char *file) {
+  CwStatus status = CW_OK;
+  static const CwPatchKind ends[] = {CW_KIND_INLET, CW_KIND_OUTLET};
+  for (int e = 0; e < 2; ++e) {
+    int count = 0;
+    for (int p = 0; p < mesh->patch_count; ++p)
+      count += mesh->patches[p].kind == ends[e];
+    CW_REQUIRE(count == 1, CW_ERR_INPUT, "%s: %d patches of kind %s; there must be one", file, count,
+               e ? "outlet" : "inlet");
+  }
+done:
+  return status;
+}
+
+// Each patch of kind interface must be one side of one interface.
+static CwStatus read_interfaces(CwMesh *mesh, const json_t *list, const char *file) {
+  CwStatus status = CW_OK;
+  const json_t *pair;
+  size_t i;
+  CW_REQUIRE(json_array_size(list) > 0 && json_array_size(list) <= CW_EXPORT_DOMAINS_MOST, CW_ERR_INPUT,
+             "%s: 'interfaces' must list 1 to %d pairs of patches", file, CW_EXPORT_DOMAINS_MOST);
+  json_array_foreach(list, i, pair) {
+    CwMeshInterface found = {{-1, -1}};
+    for (int s = 0; s < 2; ++s) {
+      const char *name = json_string_value(json_array_get(pair, (size_t)s));
+      int other_side;
+      found.patch[s] = name ? cw_mesh_patch_find(mesh, name) : -1;
+      CW_REQUIRE(found.patch[s] >= 0 && mesh->patches[found.patch[s]].kind == CW_KIND_INTERFACE, CW_ERR_INPUT,
+                 "%s: interface %zu: '%s' is no patch of kind interface", file, i + 1, name ? name : "");
+      CW_REQUIRE(cw_mesh_interface_of(mesh, found.patch[s], &other_side) < 0, CW_ERR_INPUT,
+                 "%s: interface %zu: patch '%s' is a side of another one", file, i + 1, name);
+    }
+    int domain[2] = {mesh->patches[found.patch[0]].domain, mesh->patches[found.patch[1]].domain};
+    CW_REQUIRE(domain[0] != domain[1], CW_ERR_INPUT, "%s: interface %zu has both sides in domain %s", file, i + 1,
+               mesh->domains[domain[0]].name);
+    CW_REQUIRE(i > 0 || (domain[0] == CW_EXPORT_ROTOR && domain[1] == CW_EXPORT_STATOR), CW_ERR_INPUT,
+               "%s: interface 1 must be between rotor and stator", file);
+    mesh->interfaces[mesh->interface_count++] = found;
+  }
+  for (int p = 0; p < mesh->patch_count; ++p) {
+    int side;
+    CW_REQUIRE(mesh->patches[p].kind != CW_KIND_INTERFACE || cw_mesh_interface_of(mesh, p, &side) >= 0, CW_ERR_INPUT,
+               "%s: patch '%s' of kind interface has no other side in 'interfaces'", file, mesh->patches[p].name);
   }
 done:
   return status;
@@ -169,17 +225,20 @@ CwStatus cw_mesh_manifest_read(const char *run, CwMesh *mesh) {
              "%s: 'case' must be a name of at most %zu characters", file, sizeof mesh->case_name - 1);
   snprintf(mesh->case_name, sizeof mesh->case_name, "%s", name);
   const json_t *domains = json_object_get(root, "domains");
-  CW_REQUIRE(json_array_size(domains) == CW_EXPORT_DOMAINS, CW_ERR_INPUT,
-             "%s: 'domains' must list two, rotor and stator", file);
+  CW_REQUIRE(json_array_size(domains) >= 2 && json_array_size(domains) <= CW_EXPORT_DOMAINS_MOST, CW_ERR_INPUT,
+             "%s: 'domains' must list rotor, stator and at most %d more", file, CW_EXPORT_DOMAINS_MOST - 2);
+  mesh->domain_count = (int)json_array_size(domains);
   size_t patches = 0, regions = 0;
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < mesh->domain_count; ++d) {
     patches += json_array_size(json_object_get(json_array_get(domains, d), "patches"));
     regions += json_array_size(json_object_get(json_array_get(domains, d), "regions"));
   }
   CW_NEW(mesh->patches, patches);
   CW_NEW(mesh->regions, regions);
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d)
-    CW_TRY(read_domain(mesh, d, json_array_get(domains, d), run, file));
+  for (int d = 0; d < mesh->domain_count; ++d)
+    CW_TRY(read_domain(mesh, d, json_array_get(domains, (size_t)d), run, file));
+  CW_TRY(check_ends(mesh, file));
+  CW_TRY(read_interfaces(mesh, json_object_get(root, "interfaces"), file));
 done:
   json_decref(root);
   free(file);

@@ -7,7 +7,7 @@
 
 #include "pipeline/status.h"
 
-enum { CW_EXPORT_NAME_SIZE = 33, CW_EXPORT_ROTOR = 0, CW_EXPORT_STATOR = 1, CW_EXPORT_DOMAINS = 2 };
+enum { CW_EXPORT_NAME_SIZE = 33, CW_EXPORT_ROTOR = 0, CW_EXPORT_STATOR = 1, CW_EXPORT_DOMAINS_MOST = 8 };
 
 typedef enum { CW_KIND_WALL, CW_KIND_INLET, CW_KIND_OUTLET, CW_KIND_INTERFACE } CwPatchKind;
 
@@ -20,23 +20,31 @@ typedef struct {
 // One line of the manifest: a region file and the counts it must have.
 typedef struct {
   char *path; // of the region file
-  int domain; // CW_EXPORT_ROTOR or CW_EXPORT_STATOR
+  int domain; // CW_EXPORT_ROTOR, CW_EXPORT_STATOR or one of the others
   int region; // 1-based in its domain
   int64_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
 } CwMeshRegion;
 
 typedef struct {
-  char name[CW_EXPORT_NAME_SIZE];
+  char name[CW_EXPORT_NAME_SIZE], zone[CW_EXPORT_NAME_SIZE]; // zone: the name in capitals, for CGNS and CFX
   int64_t shared_points;
   double solid_volume;            // m3
   int first_patch, patch_count;   // into CwMesh.patches
   int first_region, region_count; // into CwMesh.regions
 } CwMeshDomain;
 
-// The manifest: rotor first, stator second; patches and regions of both in one list each.
+// One surface that two domains have in common: a patch of either.
+typedef struct {
+  int patch[2];
+} CwMeshInterface;
+
+// The manifest: rotor first, stator second, then the others; patches and regions of all in one list each. The
+// first interface is the one between rotor and stator.
 typedef struct {
   char case_name[CW_EXPORT_NAME_SIZE];
-  CwMeshDomain domains[CW_EXPORT_DOMAINS];
+  int domain_count, interface_count;
+  CwMeshDomain domains[CW_EXPORT_DOMAINS_MOST];
+  CwMeshInterface interfaces[CW_EXPORT_DOMAINS_MOST];
   int patch_count, region_count;
   CwMeshPatch *patches;
   CwMeshRegion *regions;
@@ -49,8 +57,11 @@ void cw_mesh_free(CwMesh *mesh);
 // The patch called `name`, or -1.
 int cw_mesh_patch_find(const CwMesh *mesh, const char *name);
 
-// The one patch of `kind` in `domain`, or -1.
-int cw_mesh_patch_of_kind(const CwMesh *mesh, int domain, CwPatchKind kind);
+// The inlet or the outlet of the pump.
+int cw_mesh_end(const CwMesh *mesh, CwPatchKind kind);
+
+// The interface that `patch` is a side of and which side it is, or -1.
+int cw_mesh_interface_of(const CwMesh *mesh, int patch, int *side);
 
 // A region in memory, as its file has it; see docs/file-formats.md for shapes and orders.
 typedef struct {

@@ -10,8 +10,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/picture.h"
-#include "geometry/rotor.h"
-#include "geometry/stator.h"
+#include "geometry/pump_solids.h"
 #include "geometry/step_file.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
@@ -21,7 +20,7 @@
 static const CwStageUsage usage = {
     .stage = "geometry",
     .summary = "Designs the pump of the case file and writes its solids, with named faces, to DIR/geometry:\n"
-               "rotor.brep, stator.brep, faces.csv, pump.step, design.json, record.json and pictures.\n",
+               "a .brep file a domain, faces.csv, interfaces.csv, pump.step, design.json, record.json and pictures.\n",
 };
 
 static const double degree = M_PI / 180;
@@ -91,52 +90,57 @@ done:
   return status;
 }
 
-static CwStatus build(const CwDesign *design, CwRecord *record, CwSolid *solid[2], CwMeasuredPump *measured) {
+static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwRecord *record,
+                      CwPumpSolids *pump, CwMeasuredPump *measured) {
   CwStatus status = CW_OK;
+  CwMeasuredSolid zone;
   double begin = cw_seconds();
-  CW_TRY(cw_rotor_build(design, &solid[0]));
-  CW_TRY(cw_record_step(record, "rotor", cw_seconds() - begin, cw_solid_face_count(solid[0]), "faces"));
+  int64_t faces = 0;
+  char key[40];
+  CW_TRY(cw_pump_solids_build(table, design, stubs, pump));
+  for (int i = 0; i < pump->count; i++)
+    faces += cw_solid_face_count(pump->solid[i]);
+  CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, faces, "faces"));
   begin = cw_seconds();
-  CW_TRY(cw_stator_build(&design->volute, &solid[1]));
-  for (int i = 0; i < 2 && design->rotation == CW_ROTATION_CLOCKWISE; i++)
-    CW_TRY(cw_solid_mirror(solid[i]));
-  CW_TRY(cw_record_step(record, "stator", cw_seconds() - begin, cw_solid_face_count(solid[1]), "faces"));
-  begin = cw_seconds();
-  CW_TRY(cw_measure_solid(solid[0], &measured->rotor));
-  CW_TRY(check_solid(solid[0], &measured->rotor));
-  CW_TRY(cw_measure_solid(solid[1], &measured->stator));
-  CW_TRY(check_solid(solid[1], &measured->stator));
-  CW_TRY(cw_measure_rotor(solid[0], &measured->rotor_dimensions));
-  CW_TRY(cw_measure_stator(solid[1], &measured->stator_dimensions));
+  for (int i = 0; i < pump->count; i++) {
+    CwMeasuredSolid *into = i == CW_PUMP_ROTOR ? &measured->rotor : i == CW_PUMP_STATOR ? &measured->stator : &zone;
+    CW_TRY(cw_measure_solid(pump->solid[i], into));
+    CW_TRY(check_solid(pump->solid[i], into));
+    if (into != &zone)
+      continue;
+    snprintf(key, sizeof key, "%s_volume_m3", cw_solid_domain(pump->solid[i]));
+    CW_TRY(cw_record_number(record, key, zone.volume));
+  }
+  CW_TRY(cw_measure_rotor(pump->solid[CW_PUMP_ROTOR], &measured->rotor_dimensions));
+  CW_TRY(cw_measure_stator(pump->solid[CW_PUMP_STATOR], &measured->stator_dimensions));
   show_rotor(&measured->rotor_dimensions);
   CW_TRY(check_interface(&measured->rotor_dimensions, &measured->stator_dimensions));
-  CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin,
-                        measured->rotor.face_count + measured->stator.face_count, "faces"));
+  CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin, faces, "faces"));
 done:
   return status;
 }
 
-// Files of the stage. Each appears whole; record.json, written last by main(), says that all are there.
-static CwStatus write_file(const CwSolid *const solid[2], const CwDesign *design,
-                           const CwMeasuredPump *measured, const char *path, int file) {
+// Files of the stage besides those of each solid. Each appears whole; record.json, written last by main(), says
+// that all are there.
+static CwStatus write_file(const CwPumpSolids *pump, const CwDesign *design, const CwMeasuredPump *measured,
+                           const char *path, int file) {
+  const CwSolid *const *solids = (const CwSolid *const *)pump->solid;
   switch (file) {
   case 0:
-    return cw_solid_write_brep(solid[0], path);
+    return cw_faces_table_write(solids, pump->count, path);
   case 1:
-    return cw_solid_write_brep(solid[1], path);
+    return cw_interfaces_table_write(pump, path);
   case 2:
-    return cw_faces_table_write(solid, 2, path);
+    return cw_step_write(solids, pump->count, path);
   case 3:
-    return cw_step_write(solid, 2, path);
-  case 4:
     return cw_design_file_write(design, measured, path);
-  case 5:
+  case 4:
     return cw_picture_meridional(design, path);
-  case 6:
+  case 5:
     return cw_picture_blade_to_blade(design, path);
-  case 7:
+  case 6:
     return cw_picture_velocity_triangles(design, path);
-  case 8:
+  case 7:
     return cw_picture_blade_angle(design, path);
   default:
     return cw_picture_volute_sections(design, path);
@@ -149,31 +153,54 @@ static CwStatus in_folder(const CwStageArgs *args, const char *name, char **path
   return cw_stage_path(args, inside, path);
 }
 
+// A run into a folder that held more zones must not leave their solids behind.
+static CwStatus remove_old_solids(const CwStageArgs *args) {
+  CwStatus status = CW_OK;
+  static const char *const names[] = {"suction.brep", "discharge.brep"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    char *path = NULL;
+    CW_TRY(in_folder(args, names[i], &path));
+    remove(path);
+    free(path);
+  }
+done:
+  return status;
+}
+
 static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
-  static const char *const names[] = {"rotor.brep",         "stator.brep",
-                                      "faces.csv",          "pump.step",
-                                      "design.json",        "meridional_section.svg",
-                                      "blade_to_blade.svg", "velocity_triangles.svg",
-                                      "blade_angle.svg",    "volute_sections.svg"};
+  static const char *const names[] = {"faces.csv",           "interfaces.csv",         "pump.step",
+                                      "design.json",         "meridional_section.svg", "blade_to_blade.svg",
+                                      "velocity_triangles.svg", "blade_angle.svg",     "volute_sections.svg"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
   CwDesign design;
+  CwPipeStubs stubs;
   CwMeasuredPump measured = {0};
-  CwSolid *solid[2] = {NULL, NULL};
+  CwPumpSolids pump = {0};
   char *folder = NULL, *path = NULL;
   CW_TRY(cw_hydraulic_design(table, &design));
+  CW_TRY(cw_pump_pipe_stubs(table, &design, &stubs));
   show_design(&design);
-  CW_TRY(build(&design, record, solid, &measured));
+  CW_TRY(build(table, &design, &stubs, record, &pump, &measured));
   const double begin = cw_seconds();
   CW_TRY(cw_stage_path(args, "geometry", &folder));
   CW_TRY(cw_make_directory(folder));
-  for (int i = 0; i < FILES; i++) {
-    CW_TRY(in_folder(args, names[i], &path));
-    CW_TRY(write_file((const CwSolid *const *)solid, &design, &measured, path, i));
+  CW_TRY(remove_old_solids(args));
+  for (int i = 0; i < pump.count; i++) {
+    char name[40];
+    snprintf(name, sizeof name, "%s.brep", cw_solid_domain(pump.solid[i]));
+    CW_TRY(in_folder(args, name, &path));
+    CW_TRY(cw_solid_write_brep(pump.solid[i], path));
     free(path);
     path = NULL;
   }
-  CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES, "files"));
+  for (int i = 0; i < FILES; i++) {
+    CW_TRY(in_folder(args, names[i], &path));
+    CW_TRY(write_file(&pump, &design, &measured, path, i));
+    free(path);
+    path = NULL;
+  }
+  CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + pump.count, "files"));
   CW_TRY(cw_record_json(record, "measured", cw_measured_json(&measured)));
   CW_TRY(cw_record_number(record, "predicted_head_m", design.predicted_head));
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
@@ -181,8 +208,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
 done:
   free(folder);
   free(path);
-  cw_solid_free(&solid[0]);
-  cw_solid_free(&solid[1]);
+  cw_pump_solids_free(&pump);
   return status;
 }
 

@@ -26,7 +26,7 @@ typedef struct {
 
 typedef struct {
   double wrap_angle;       // mean line at mid-span, leading edge to trailing edge, blade 1, rad
-  double inlet_diameter;   // of the inlet disk, m
+  double inlet_diameter;   // of the inlet disk, or of the one towards the suction zone, m
   double outlet_diameter;  // of the blade's cut, m
   double outlet_width;     // axial extent of the interface, m
   double interface_radius; // m

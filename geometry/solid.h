@@ -13,7 +13,7 @@ extern "C" {
 typedef struct CwSolid CwSolid; // solid.hpp shows its members to the C++ bridges
 
 void cw_solid_free(CwSolid **solid);
-const char *cw_solid_domain(const CwSolid *solid); // "rotor" or "stator"
+const char *cw_solid_domain(const CwSolid *solid); // "rotor", "stator", "suction" or "discharge"
 int cw_solid_face_count(const CwSolid *solid);
 const char *cw_solid_face_patch(const CwSolid *solid, int face);
 const char *cw_solid_face_kind(const CwSolid *solid, int face); // "wall", "inlet", "outlet" or "interface"

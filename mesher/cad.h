@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The exact geometry of one domain (rotor or stator), read from the geometry stage. The one bridge of the
+// The exact geometry of one domain (rotor, stator or a pipe), read from the geometry stage. The one bridge of the
 // mesher to OpenCASCADE. All lengths are metres here; the B-rep itself is in millimetres. Indices are
 // 0-based.
 #ifndef CUTWATER_MESHER_CAD_H

@@ -126,7 +126,6 @@ CwStatus cw_domain_start(CwDomain *domain) {
   skeleton->size_at = cw_size_at;
   skeleton->size = domain->size;
   CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
-  CW_TRY(cw_skeleton_wall_curves(skeleton));
 done:
   return status;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// One domain (rotor or stator) on its way from exact geometry to regions: everything a rank holds of it.
+// One domain (rotor, stator or a pipe) on its way from exact geometry to regions: everything a rank holds of it.
 #ifndef CUTWATER_MESHER_DOMAIN_H
 #define CUTWATER_MESHER_DOMAIN_H
 
@@ -41,7 +41,8 @@ double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patc
 CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
                         double tet_factor, void **bytes, int64_t *byte_count);
 
-// Starts the skeleton anew at the present scale of the size field: curve network and wall curves.
+// Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
+// cw_skeleton_wall_curves.
 CwStatus cw_domain_start(CwDomain *domain);
 
 // First heights and targets of all wall vertices, once the walls are merged.

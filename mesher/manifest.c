@@ -37,16 +37,26 @@ static json_t *regions_json(const CwMeshRun *run, int d) {
   return regions;
 }
 
+static json_t *interfaces_json(const CwDomainTable *table) {
+  json_t *interfaces = json_array();
+  for (int i = 0; i < table->interface_count; i++) {
+    const CwDomainInterface *between = &table->interface[i];
+    json_array_append_new(interfaces, json_pack("[s, s]", between->patch[0], between->patch[1]));
+  }
+  return interfaces;
+}
+
 static json_t *manifest_json(const CwMeshRun *run) {
   json_t *domains = json_array();
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     const CwDomain *domain = &run->domain[d];
     json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
                                              (json_int_t)domain->context.shared_count, "solid_volume_m3",
                                              cw_json_number(cw_cad_volume(domain->cad)), "patches",
                                              patches_json(domain), "regions", regions_json(run, d)));
   }
-  return json_pack("{s:i, s:s, s:o}", "format", 1, "case", run->table->name, "domains", domains);
+  return json_pack("{s:i, s:s, s:o, s:o}", "format", 1, "case", run->table->name, "domains", domains, "interfaces",
+                   interfaces_json(&run->domains));
 }
 
 // Layers on one patch: how many faces carry them, how many have their first height, and why not the others.
@@ -155,7 +165,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_REQUIRE(manifest && domains, CW_ERR_MEMORY, "out of memory: manifest");
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run->run_path);
   CW_TRY(cw_json_write(manifest, path));
-  for (int d = 0; d < CW_DOMAINS; d++) json_array_append_new(domains, domain_json(run, d));
+  for (int d = 0; d < run->domains.count; d++) json_array_append_new(domains, domain_json(run, d));
   CW_TRY(cw_record_integer(run->record, "ranks", run->ranks));
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
   CW_TRY(cw_record_integer(run->record, "cells", run->cells));

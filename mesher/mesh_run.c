@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/coupled_rim.h"
 #include "mesher/pass_state.h"
 #include "mesher/schedule.h"
 #include "pipeline/atomic_file.h"
@@ -22,8 +23,6 @@ static double tets_per_volume(double scale) {
   return 11.3 + 2.4 * fmax(0, scale - 1);
 }
 
-static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};
-
 typedef struct {
   CwMeshRun *run;
   const CwMeshTask *task;
@@ -35,7 +34,7 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
   return step->step(step->run, step->task[index], bytes, size);
 }
 
-// Runs a step over tasks of both domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
+// Runs a step over tasks of all domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
 // pointers); seconds[d][i] likewise where seconds is given.
 static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
                          const CwMeshTask *task, void ***bytes, double **seconds) {
@@ -69,23 +68,24 @@ done:
   return status;
 }
 
-// Arrays of results of both domains, freed with their contents.
+// Arrays of results of all domains, freed with their contents.
 typedef struct {
-  int32_t count[CW_DOMAINS];
-  void **bytes[CW_DOMAINS];
+  int32_t count[CW_DOMAINS_MOST];
+  void **bytes[CW_DOMAINS_MOST];
 } Results;
 
-static CwStatus results_make(Results *results, int32_t rotor, int32_t stator) {
+static CwStatus results_make(Results *results, int domains, const int32_t *count) {
   CwStatus status = CW_OK;
-  results->count[0] = rotor;
-  results->count[1] = stator;
-  for (int d = 0; d < CW_DOMAINS; d++) CW_NEW(results->bytes[d], results->count[d]);
+  for (int d = 0; d < domains; d++) {
+    results->count[d] = count[d];
+    CW_NEW(results->bytes[d], results->count[d]);
+  }
 done:
   return status;
 }
 
 static void results_free(Results *results) {
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) {
     for (int32_t i = 0; results->bytes[d] && i < results->count[d]; i++) free(results->bytes[d][i]);
     free(results->bytes[d]);
     results->bytes[d] = NULL;
@@ -103,7 +103,7 @@ double cw_predicted_cells(const CwMeshRun *run, int domain) {
 
 static double all_cells_at(const CwMeshRun *run, double scale) {
   double cells = 0;
-  for (int d = 0; d < CW_DOMAINS; d++) cells += cells_at(run, d, scale);
+  for (int d = 0; d < run->domains.count; d++) cells += cells_at(run, d, scale);
   return cells;
 }
 
@@ -119,15 +119,22 @@ static void solve_scale(CwMeshRun *run) {
     }
   }
   run->scale = sqrt(low * high);
-  for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, run->scale);
+  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, run->scale);
+}
+
+static void face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
+  for (int d = 0; d < run->domains.count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
 }
 
 // Costs of faces: predicted triangles.
 static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTask **tasks) {
   CwStatus status = CW_OK;
+  int32_t faces[CW_DOMAINS_MOST], all = 0;
   *count = 0;
-  CW_NEW(*tasks, cw_cad_face_count(run->domain[0].cad) + cw_cad_face_count(run->domain[1].cad));
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  face_counts(run, faces);
+  for (int d = 0; d < run->domains.count; d++) all += faces[d];
+  CW_NEW(*tasks, all);
+  for (int d = 0; d < run->domains.count; d++) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
       if (cw_face_is_wall(domain->cad, f) != walls) continue;
@@ -140,21 +147,36 @@ done:
   return status;
 }
 
-// Walls of both domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
+// Skeletons with all wall curves, those along interfaces divided alike on both sides.
+static CwStatus start_walls(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_start(&run->domain[d]));
+  for (int i = 0; i < run->domains.interface_count; i++) {
+    const CwDomainInterface *between = &run->domains.interface[i];
+    CW_TRY(cw_couple_rims(&run->domain[between->domain[0]].skeleton, between->patch[0],
+                          &run->domain[between->domain[1]].skeleton, between->patch[1]));
+  }
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_wall_curves(&run->domain[d].skeleton));
+done:
+  return status;
+}
+
+// Walls of all domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
 // is asked.
 static CwStatus mesh_walls(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
   CwMeshTask *task = NULL;
-  int32_t count;
+  int32_t count, faces[CW_DOMAINS_MOST];
   CW_TRY(face_tasks(run, 1, &count, &task));
+  face_counts(run, faces);
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
     double integral = 0;
-    for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_start(&run->domain[d]));
-    CW_TRY(results_make(&results, cw_cad_face_count(run->domain[0].cad), cw_cad_face_count(run->domain[1].cad)));
+    CW_TRY(start_walls(run));
+    CW_TRY(results_make(&results, run->domains.count, faces));
     CW_TRY(run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
-    for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int d = 0; d < run->domains.count; d++) {
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
       triangles += run->domain[d].skeleton.wall_triangle_count;
       integral += run->domain[d].prism_integral;
@@ -167,7 +189,7 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     if (fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
     solve_scale(run);
   }
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_targets(&run->domain[d], run->table));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_targets(&run->domain[d], run->table));
 done:
   results_free(&results);
   free(task);
@@ -177,13 +199,15 @@ done:
 // Runs a step that has one task a domain.
 static CwStatus run_domains(CwMeshRun *run, const char *name, CwMeshStep body, Results *results) {
   CwStatus status = CW_OK;
-  CwMeshTask task[CW_DOMAINS];
-  CW_TRY(results_make(results, 1, 1));
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  CwMeshTask task[CW_DOMAINS_MOST];
+  int32_t one[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) one[d] = 1;
+  CW_TRY(results_make(results, run->domains.count, one));
+  for (int d = 0; d < run->domains.count; d++) {
     double cost = fmax(run->domain[d].skeleton.wall_count, run->domain[d].background.triangle_count);
     task[d] = (CwMeshTask){d, 0, cost};
   }
-  CW_TRY(run_step(run, name, "domains", body, CW_DOMAINS, task, results->bytes, NULL));
+  CW_TRY(run_step(run, name, "domains", body, run->domains.count, task, results->bytes, NULL));
 done:
   return status;
 }
@@ -192,7 +216,7 @@ static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
   CW_TRY(run_domains(run, "layers", cw_step_layers, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
 done:
   results_free(&results);
   return status;
@@ -202,24 +226,28 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results caps = {0}, interfaces = {0};
   CwMeshTask *task = NULL;
-  int32_t count, made = 0;
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
-  CW_TRY(results_make(&caps, cw_cad_face_count(run->domain[0].cad), cw_cad_face_count(run->domain[1].cad)));
+  int32_t count, made = 0, counts[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
+  face_counts(run, counts);
+  CW_TRY(results_make(&caps, run->domains.count, counts));
   CW_TRY(face_tasks(run, 0, &count, &task));
   CW_TRY(run_step(run, "caps", "faces", cw_step_cap, count, task, caps.bytes, NULL));
   free(task);
   task = NULL;
-  int32_t outlines[CW_DOMAINS];
-  for (int d = 0; d < CW_DOMAINS; d++) outlines[d] = run->domain[d].skeleton.outline_count;
-  CW_TRY(results_make(&interfaces, outlines[0], outlines[1]));
-  CW_NEW(task, outlines[0] + outlines[1]);
-  for (int d = 0; d < CW_DOMAINS; d++) {
-    for (int32_t i = 0; i < outlines[d]; i++) {
+  count = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    counts[d] = run->domain[d].skeleton.outline_count;
+    count += counts[d];
+  }
+  CW_TRY(results_make(&interfaces, run->domains.count, counts));
+  CW_NEW(task, count);
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int32_t i = 0; i < counts[d]; i++) {
       task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
     }
   }
   CW_TRY(run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
     CW_TRY(cw_domain_number(&run->domain[d], run->table));
   }
@@ -234,9 +262,10 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
   CwMeshTask *task = NULL;
-  int32_t regions[CW_DOMAINS], count = 0;
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
+  for (int d = 0; d < run->domains.count; d++) {
     regions[d] = run->domain[d].plan.region_count;
+    all += regions[d];
     free(run->summary[d]);
     free(run->region_seconds[d]);
     run->summary[d] = NULL;
@@ -244,16 +273,16 @@ static CwStatus mesh_regions(CwMeshRun *run) {
     CW_NEW(run->summary[d], regions[d]);
     CW_NEW(run->region_seconds[d], regions[d]);
   }
-  CW_NEW(task, regions[0] + regions[1]);
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
     for (int32_t r = 0; r < regions[d]; r++) {
       task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
     }
   }
-  CW_TRY(results_make(&results, regions[0], regions[1]));
+  CW_TRY(results_make(&results, run->domains.count, regions));
   CW_TRY(run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
   run->cells = 0;
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     for (int32_t r = 0; r < regions[d]; r++) {
       memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
       const CwRegionSummary *made = &run->summary[d][r];
@@ -269,7 +298,7 @@ done:
 // Sets the factor of the tetrahedra to what the last pass made of them.
 static void learn_tets(CwMeshRun *run) {
   double made = 0, integral = 0;
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
     integral += run->domain[d].tet_integral;
   }
@@ -287,17 +316,18 @@ static CwStatus open_domains(CwMeshRun *run) {
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
   CW_TRY(cw_flow_scales_read(path, &scales));
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
-  for (int d = 0; d < CW_DOMAINS; d++) {
-    CW_TRY(cw_domain_open(&run->domain[d], DOMAIN_NAMES[d], path, run->table, &scales));
+  CW_TRY(cw_domain_table_read(path, &run->domains));
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path, run->table, &scales));
     CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
-               "%s: %s has %d patches; at most %d are allowed", path, DOMAIN_NAMES[d],
+               "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
-    cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
+    cw_log("%s: %d faces, %d background triangles", run->domains.name[d], cw_cad_face_count(run->domain[d].cad),
            run->domain[d].background.triangle_count);
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, 2, "domains"));
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
   CW_TRY(run_domains(run, "size field", cw_step_size, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
   }
 done:
@@ -310,7 +340,7 @@ static CwStatus plan_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
   CW_TRY(run_domains(run, "decomposition", cw_step_plan, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     double worst = 1;
     CW_TRY(cw_plan_unpack(results.bytes[d][0], &domain->plan));
@@ -350,7 +380,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   }
   CW_TRY(plan_domains(run));
   CwPassState state = {.pass = 1};
-  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, fingerprint));
+  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
   cw_pass_state_read(run->run_path, fingerprint, &state);
   if (state.pass > 1) {
     run->prism_factor = state.prism_factor;
@@ -385,7 +415,7 @@ done:
 }
 
 void cw_mesh_run_free(CwMeshRun *run) {
-  for (int d = 0; d < CW_DOMAINS; d++) {
+  for (int d = 0; d < run->domains.count; d++) {
     cw_domain_close(&run->domain[d]);
     free(run->summary[d]);
     free(run->region_seconds[d]);

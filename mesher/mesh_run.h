@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The whole work of the mesher on a case: both domains, in step, over all ranks.
+// The whole work of the mesher on a case: all domains, in step, over all ranks.
 #ifndef CUTWATER_MESHER_MESH_RUN_H
 #define CUTWATER_MESHER_MESH_RUN_H
 
 #include "mesher/audit.h"
 #include "mesher/domain.h"
+#include "mesher/domain_table.h"
 #include "pipeline/record.h"
 
-enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
+enum { CW_PATCH_LIMIT = 32 };
 
 // What is known of a finished region; travels between ranks as bytes.
 typedef struct {
@@ -21,9 +22,10 @@ typedef struct {
   const char *run_path;
   int rank, ranks;
   CwRecord *record;
-  CwDomain domain[CW_DOMAINS];
-  CwRegionSummary *summary[CW_DOMAINS];
-  double *region_seconds[CW_DOMAINS];
+  CwDomainTable domains;
+  CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
+  CwRegionSummary *summary[CW_DOMAINS_MOST];
+  double *region_seconds[CW_DOMAINS_MOST];
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
   int passes;

@@ -25,9 +25,10 @@ done:
   return status;
 }
 
-CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, char fingerprint[33]) {
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
+                             char fingerprint[33]) {
   CwStatus status = CW_OK;
-  static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "design.json"};
+  static const char *const FILES[] = {"faces.csv", "interfaces.csv", "design.json"};
   CwHash hash = cw_hash_start();
   const CwWalls *walls = &table->walls;
   const CwMeshTable *mesh = &table->mesh;
@@ -39,6 +40,11 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, char fin
                           mesh->size_pipe, mesh->size_interface, table->fluid.kinematic_viscosity};
   cw_hash_bytes(&hash, value, sizeof value);
   for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++) CW_TRY(hash_file(&hash, run_path, FILES[i]));
+  for (int d = 0; d < domains->count; d++) {
+    char name[CW_NAME_SIZE + 8];
+    snprintf(name, sizeof name, "%s.brep", domains->name[d]);
+    CW_TRY(hash_file(&hash, run_path, name));
+  }
   cw_hash_hex(&hash, fingerprint);
 done:
   return status;

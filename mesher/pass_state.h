@@ -4,7 +4,7 @@
 #ifndef CUTWATER_MESHER_PASS_STATE_H
 #define CUTWATER_MESHER_PASS_STATE_H
 
-#include "pipeline/case.h"
+#include "mesher/domain_table.h"
 
 typedef struct {
   int pass;                        // the pass to run, from 1
@@ -12,7 +12,8 @@ typedef struct {
 } CwPassState;
 
 // Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.
-CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, char fingerprint[33]);
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
+                             char fingerprint[33]);
 
 // Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise. Never fails.
 void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state);

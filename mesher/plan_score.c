@@ -24,6 +24,9 @@ static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5, ROOM = 1.5;
 static const double ALONG_EDGE = 0.35;     // sine of the least angle between a plane and a CAD edge that it crosses
 static const double SHARP_PLANE = 0.7;     // least plane-to-wall measure of a plane that is not penalised
 
+static const double LONG_PIECE = 0.4;      // of what is to be divided, along the direction tried
+static const double GOLDEN = 0.6180339887498949;
+
 static void triangle_normal(const CwBackground *background, int32_t t, double normal[3], double *area) {
   const double *a = background->x[background->triangle[t][0]], *b = background->x[background->triangle[t][1]],
                *c = background->x[background->triangle[t][2]];
@@ -212,15 +215,25 @@ static int compare_marks(const void *a, const void *b) {
 static void mark_work(const CwPlanScorer *scorer, const CwPieces *pieces, int32_t sample_count, const int32_t *sample,
                       const double direction[3], Mark *mark, double *total) {
   int32_t count = 0;
+  double least = INFINITY, most = -INFINITY;
   CwPlane plane = {{direction[0], direction[1], direction[2]}, 0};
   for (int32_t i = 0; i < sample_count; i++) {
-    mark[count++] = (Mark){cw_plane_distance(&plane, scorer->sample_x[sample[i]]), scorer->sample_work[sample[i]]};
+    mark[count] = (Mark){cw_plane_distance(&plane, scorer->sample_x[sample[i]]), scorer->sample_work[sample[i]]};
+    least = fmin(least, mark[count].place);
+    most = fmax(most, mark[count++].place);
   }
   for (int32_t i = 0; i < pieces->count; i++) {
     int32_t first = pieces->start[i], corners = pieces->start[i + 1] - first;
     double work = scorer->density[pieces->triangle[i]] *
                   polygon_area(corners, (const double(*)[3])(pieces->corner + first));
-    mark[count++] = (Mark){cw_plane_distance(&plane, pieces->corner[first]), work};
+    double low = INFINITY, high = -INFINITY, place = cw_plane_distance(&plane, pieces->corner[first]);
+    for (int32_t c = first; c < first + corners; c++) {
+      low = fmin(low, cw_plane_distance(&plane, pieces->corner[c]));
+      high = fmax(high, cw_plane_distance(&plane, pieces->corner[c]));
+    }
+    // A straight pipe is covered by strips from end to end: their marks are spread evenly.
+    if (high - low > LONG_PIECE * (most - least)) place = low + fmod(GOLDEN * (i + 1), 1) * (high - low);
+    mark[count++] = (Mark){place, work};
   }
   qsort(mark, (size_t)count, sizeof *mark, compare_marks);
   *total = 0;
@@ -326,13 +339,20 @@ static int runs_in_layers(const CwPlanScorer *scorer, const double start[3], con
 
 // How the lines of the new plane with its ancestors fare: 0 fine; 1 cramped: a line leaves the domain too near to a CAD
 // edge, is hardly longer than the layers at its ends, meets a third plane within them, or runs along a wall in its layers; 2: a line runs along a third
-// plane, so that two lines coincide on one interface.
+// plane, so that two lines coincide on one interface, or the plane lies on its ancestor.
 static int judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
                        double reach) {
   int verdict = 0;
   for (int32_t a = plan->node[node].parent; a >= 0; a = plan->node[a].parent) {
     double point[3], direction[3], step = 2 * reach / (LINE_SAMPLES - 1);
-    if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) continue;
+    if (!cw_plane_line(&plan->node[a].plane, plane, point, direction)) {
+      // Parallel, or the same plane turned round: between both there must be room for a region.
+      const CwPlane *other = &plan->node[a].plane;
+      double apart = cw_dot(other->normal, plane->normal) > 0 ? plane->offset - other->offset
+                                                               : plane->offset + other->offset;
+      if (fabs(apart) < 2 * scorer->spacing) return 2;
+      continue;
+    }
     double run = 0, along = 0, taken = 0; // lengths: inside so far, of that beside a third plane, of layers
     double start[3];
     for (int i = 0; i < LINE_SAMPLES; i++) {

@@ -6,6 +6,8 @@
 
 void cw_skeleton_free(CwSkeleton *skeleton) {
   cw_network_free(&skeleton->network);
+  for (int32_t i = 0; i < skeleton->rim_count; i++) free(skeleton->rim[i].t);
+  free(skeleton->rim);
   free(skeleton->wall_x);
   free(skeleton->guide);
   free(skeleton->corner_vertex);

@@ -32,10 +32,18 @@ typedef struct {
   int32_t *corner;       // skeleton nodes
 } CwInterfaceOutline;
 
+// A CAD edge whose division is given: parameters of its points but for corners of the network, ascending.
+typedef struct {
+  int32_t edge, count;
+  double *t;
+} CwSkeletonRim;
+
 typedef struct {
   const CwCad *cad;
   const CwPlan *plan;
   CwNetwork network;
+  int32_t rim_count;
+  CwSkeletonRim *rim; // of edges shared with another domain, by cw_couple_rims
   CwSizeAt size_at;
   const void *size;
 
@@ -61,7 +69,7 @@ typedef struct {
   int32_t (*interface_triangle)[3], (*interface_region)[2]; // normal from region [0] to region [1]
 } CwSkeleton;
 
-// Discretises all wall curves; makes their vertices. The network must be made.
+// Discretises all wall curves; makes their vertices. The network must be made, and the rims be coupled.
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton);
 
 // Meshes the wall face `face` (any rank); the result is a byte buffer for cw_skeleton_merge_walls.

@@ -94,6 +94,32 @@ done:
   return status;
 }
 
+// Division of a piece of a rim: arc lengths by the fine polyline, whose steps are even in the parameter. NULL where
+// the division is not given.
+static CwStatus divide_rim(const CwSkeleton *skeleton, const CwCurve *curve, int32_t *count, double **place) {
+  CwStatus status = CW_OK;
+  const CwSkeletonRim *rim = NULL;
+  *count = 0;
+  int32_t last = curve->fine_count - 1;
+  double from = curve->fine_parameter[0][0], to = curve->fine_parameter[last][0];
+  for (int32_t i = 0; i < skeleton->rim_count && curve->kind == CW_CURVE_EDGE; i++) {
+    if (skeleton->rim[i].edge == curve->edge) rim = &skeleton->rim[i];
+  }
+  if (!rim) goto done;
+  CW_NEW(*place, rim->count + 2);
+  *count = 1;
+  for (int32_t i = 0; i < rim->count; i++) {
+    double steps = (rim->t[i] - from) / (to - from) * last;
+    if (steps <= 0 || steps >= last) continue;
+    int32_t step = (int32_t)fmin(floor(steps), last - 1);
+    (*place)[(*count)++] =
+        curve->fine_length[step] + (steps - step) * (curve->fine_length[step + 1] - curve->fine_length[step]);
+  }
+  (*place)[(*count)++] = curve->fine_length[last];
+done:
+  return status;
+}
+
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   CwNetwork *network = &skeleton->network;
@@ -110,8 +136,11 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     CwCurve *curve = &network->curve[i];
     if (!curve->wall) continue;
     int32_t count, closed = curve->corner[0] == curve->corner[1];
-    CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], closed ? 3 : 1, &count,
-                           &place));
+    CW_TRY(divide_rim(skeleton, curve, &count, &place));
+    if (!place) {
+      CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], closed ? 3 : 1, &count,
+                             &place));
+    }
     CW_NEW(curve->node, count);
     CW_NEW(curve->parameter, count);
     curve->point_count = count;

@@ -55,12 +55,16 @@ void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *
     } else if (starts_with(name, "hub") || starts_with(name, "shroud")) {
       relative_size[p] = mesh->size_hub_shroud;
       y_plus = walls->y_plus_hub_shroud, speed = scales->relative_speed, length = scales->blade_length;
+    } else if (!strcmp(name, "rotor_to_suction") || !strcmp(name, "suction_to_rotor") ||
+               !strcmp(name, "stator_to_discharge") || !strcmp(name, "discharge_to_stator")) {
+      relative_size[p] = mesh->size_pipe;
     } else if (kind == CW_PATCH_INTERFACE || !strcmp(name, "neck") || !strcmp(name, "step")) {
       relative_size[p] = mesh->size_interface;
-    } else if (!strcmp(name, "suction_pipe") || kind == CW_PATCH_INLET) {
+    } else if (!strcmp(name, "suction_pipe") || !strcmp(name, "inlet_pipe") || kind == CW_PATCH_INLET) {
       relative_size[p] = mesh->size_pipe;
       y_plus = walls->y_plus_pipe, speed = scales->suction_speed, length = scales->pipe_length;
-    } else if (!strcmp(name, "discharge") || !strcmp(name, "diffuser") || kind == CW_PATCH_OUTLET) {
+    } else if (!strcmp(name, "discharge") || !strcmp(name, "diffuser") ||
+               !strcmp(name, "outlet_pipe") || kind == CW_PATCH_OUTLET) {
       relative_size[p] = mesh->size_pipe;
       y_plus = walls->y_plus_pipe, speed = scales->discharge_speed, length = scales->pipe_length;
     }

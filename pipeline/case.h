@@ -25,6 +25,7 @@ typedef enum { CW_ROTATION_COUNTER_CLOCKWISE, CW_ROTATION_CLOCKWISE } CwRotation
 typedef enum { CW_AREA_LAW_ANGULAR_MOMENTUM, CW_AREA_LAW_VELOCITY } CwAreaLaw;
 typedef enum { CW_SECTION_TRAPEZOID, CW_SECTION_RECTANGLE, CW_SECTION_CIRCLE } CwVoluteSectionKind;
 typedef enum { CW_DISCHARGE_TANGENTIAL, CW_DISCHARGE_RADIAL } CwDischarge;
+typedef enum { CW_PIPE_WITH_NEIGHBOUR, CW_PIPE_OWN_ZONE } CwPipeZone;
 typedef enum { CW_FILL_KERNEL, CW_FILL_TETGEN } CwFillMethod;
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
@@ -83,6 +84,7 @@ typedef struct {
   double nut_length;              // m, of the hub's nose before the hub
   double nut_flat_diameter;       // m, of its flat end
   double suction_pipe_length;     // m, from the shroud's inlet
+  CwPipeZone suction_pipe_zone;   // whether most of it is a zone of its own
 } CwImpellerTable;
 
 typedef struct {
@@ -103,6 +105,7 @@ typedef struct {
   CwDischarge discharge;     // which way the discharge pipe points
   double outlet_diameter;    // DN, m
   double discharge_pipe_length; // m
+  CwPipeZone discharge_pipe_zone; // whether most of it is a zone of its own
 } CwVoluteTable;
 
 // Prism layers. The first height follows from y+ with the velocity and length scales of the wall.

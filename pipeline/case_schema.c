@@ -15,6 +15,8 @@ static const char *const rotations[] = {"counter_clockwise", "clockwise", NULL};
 static const char *const area_laws[] = {"angular_momentum", "velocity", NULL};
 static const char *const sections[] = {"trapezoid", "rectangle", "circle", NULL};
 static const char *const discharges[] = {"tangential", "radial", NULL};
+static const char *const suction_zones[] = {"rotor", "own", NULL};
+static const char *const discharge_zones[] = {"stator", "own", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
 static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
@@ -112,6 +114,8 @@ const CwCaseKey cw_case_keys[] = {
                  "share of the pitch from a blade's pressure side to the next splitter"),
     REAL_COMPUTED("impeller", "suction_pipe_length_mm", "mm", 1, 100000, impeller.suction_pipe_length,
                   "straight pipe before the shroud's inlet"),
+    CHOICE("impeller", "suction_pipe_zone", suction_zones, CW_PIPE_WITH_NEIGHBOUR, impeller.suction_pipe_zone,
+           "own: the suction pipe is a stationary zone, coupled at a disc D1/4 before the hub's nut"),
 
     REAL_COMPUTED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter,
                   "D3, base circle of the spiral"),
@@ -148,6 +152,8 @@ const CwCaseKey cw_case_keys[] = {
                   "DN, of the discharge"),
     REAL_COMPUTED("volute", "discharge_pipe_length_mm", "mm", 1, 100000, volute.discharge_pipe_length,
                   "straight pipe behind the diffuser"),
+    CHOICE("volute", "discharge_pipe_zone", discharge_zones, CW_PIPE_WITH_NEIGHBOUR, volute.discharge_pipe_zone,
+           "own: the discharge pipe is a zone, coupled at a disc DN/4 behind the diffuser"),
 
     REAL_DEFAULT("walls", "roughness_um", "um", 0, 5000, 0, walls.roughness,
                  "equivalent sand grain roughness of all walls"),

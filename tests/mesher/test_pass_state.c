@@ -14,7 +14,9 @@
 #include "mesher/pass_state.h"
 
 static char run[] = "pass-state-XXXXXX";
-static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "design.json"};
+static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "interfaces.csv", "design.json"};
+enum { FILE_COUNT = sizeof FILES / sizeof *FILES };
+static const CwDomainTable domains = {.count = 2, .name = {"rotor", "stator"}};
 
 static void path_of(char *path, const char *name) {
   sprintf(path, "%s/%s", run, name);
@@ -36,7 +38,7 @@ static int make_run(void **state) {
   mkdir(path, 0777);
   path_of(path, "mesh");
   mkdir(path, 0777);
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < FILE_COUNT; i++) {
     sprintf(path, "geometry/%s", FILES[i]);
     write_file(path, FILES[i]);
   }
@@ -45,7 +47,7 @@ static int make_run(void **state) {
 
 static int remove_run(void **state) {
   char path[128], name[64];
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < FILE_COUNT; i++) {
     sprintf(name, "geometry/%s", FILES[i]);
     path_of(path, name);
     unlink(path);
@@ -63,7 +65,7 @@ static void state_comes_back_as_written(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
   char fingerprint[33];
-  assert_int_equal(cw_pass_fingerprint(&table, run, fingerprint), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, fingerprint), CW_OK);
   const CwPassState written = {3, 12.2450980392, 10.8712345678};
   assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
   CwPassState read = {1, 0, 0};
@@ -77,16 +79,16 @@ static void another_case_or_geometry_starts_anew(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
   char before[33], after[33];
-  assert_int_equal(cw_pass_fingerprint(&table, run, before), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, before), CW_OK);
   table.mesh.cells++;
-  assert_int_equal(cw_pass_fingerprint(&table, run, after), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
   assert_string_not_equal(before, after);
   CwPassState read = {1, 0, 0};
   cw_pass_state_read(run, after, &read);
   assert_int_equal(read.pass, 1);
   table.mesh.cells--;
   write_file("geometry/faces.csv", "changed");
-  assert_int_equal(cw_pass_fingerprint(&table, run, after), CW_OK);
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
   assert_string_not_equal(before, after);
 }
 
@@ -101,7 +103,7 @@ static void missing_geometry_is_named(void **unused) {
   CwCase table;
   cw_case_defaults(&table);
   char fingerprint[33];
-  assert_int_equal(cw_pass_fingerprint(&table, "nowhere", fingerprint), CW_ERR_IO);
+  assert_int_equal(cw_pass_fingerprint(&table, "nowhere", &domains, fingerprint), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "nowhere/geometry/rotor.brep"));
 }
 
