@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "export/patch_role.h"
 #include "export/template.h"
@@ -16,6 +17,153 @@ static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
 
 static int is_stator_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_EXPORT_STATOR && patch->kind == CW_KIND_WALL;
+}
+
+// Text that grows, for blocks of which a case has as many as its mesh has domains and interfaces.
+typedef struct {
+  char *text;
+  size_t size;
+  FILE *out;
+} Blocks;
+
+static CwStatus blocks_open(Blocks *blocks) {
+  CwStatus status = CW_OK;
+  blocks->out = open_memstream(&blocks->text, &blocks->size);
+  CW_REQUIRE(blocks->out, CW_ERR_MEMORY, "out of memory");
+done:
+  return status;
+}
+
+// Adds the part `name` of templates/cfx_parts, without its first line (the licence), filled with the values.
+static CwStatus blocks_add(Blocks *blocks, const char *name, const CwValues *values) {
+  CwStatus status = CW_OK;
+  char *filled = NULL;
+  const char *text = NULL;
+  for (int i = 0; i < cw_template_count; ++i)
+    if (strncmp(cw_templates[i].path, "cfx_parts/", 10) == 0 && strcmp(cw_templates[i].path + 10, name) == 0)
+      text = strchr(cw_templates[i].text, '\n') + 1;
+  CW_REQUIRE(text, CW_ERR_EXPORT, "no template cfx_parts/%s", name);
+  CW_TRY(cw_template_fill(name, text, values, &filled));
+  fputs(filled, blocks->out);
+done:
+  free(filled);
+  return status;
+}
+
+// Sets `key` to the blocks and frees them.
+static CwStatus blocks_close(Blocks *blocks, const char *key, CwValues *values) {
+  CwStatus status = CW_OK;
+  if (!blocks->out)
+    return status;
+  int failed = fclose(blocks->out) != 0;
+  CW_REQUIRE(!failed, CW_ERR_MEMORY, "out of memory");
+  if (key)
+    CW_TRY(cw_values_set(values, key, "%s", blocks->text));
+done:
+  free(blocks->text);
+  *blocks = (Blocks){0};
+  return status;
+}
+
+static int turns(const CwMesh *mesh, int interface) {
+  int turning = 0;
+  for (int side = 0; side < 2; ++side)
+    turning |= mesh->patches[mesh->interfaces[interface].patch[side]].domain == CW_EXPORT_ROTOR;
+  return turning;
+}
+
+// What names the two sides of an interface: its name, "ROTOR STATOR", zones and patches.
+static CwStatus set_interface(const CwMesh *mesh, int interface, CwValues *values) {
+  CwStatus status = CW_OK;
+  const CwMeshPatch *side[2];
+  for (int s = 0; s < 2; ++s)
+    side[s] = &mesh->patches[mesh->interfaces[interface].patch[s]];
+  CW_TRY(cw_values_set(values, "zone_a", "%s", mesh->domains[side[0]->domain].zone));
+  CW_TRY(cw_values_set(values, "zone_b", "%s", mesh->domains[side[1]->domain].zone));
+  CW_TRY(cw_values_set(values, "between", "%s %s", mesh->domains[side[0]->domain].zone,
+                       mesh->domains[side[1]->domain].zone));
+  CW_TRY(cw_values_set(values, "patch_a", "%s", side[0]->name));
+  CW_TRY(cw_values_set(values, "patch_b", "%s", side[1]->name));
+done:
+  return status;
+}
+
+// Inlet and outlet, where they lie in the domain, and its sides of interfaces.
+static CwStatus set_boundaries(const CwMesh *mesh, int domain, const char *ends_key, const char *sides_key,
+                               CwValues *values) {
+  CwStatus status = CW_OK;
+  Blocks blocks = {0};
+  CW_TRY(blocks_open(&blocks));
+  if (mesh->patches[cw_mesh_end(mesh, CW_KIND_INLET)].domain == domain)
+    CW_TRY(blocks_add(&blocks, "inlet.ccl", values));
+  if (mesh->patches[cw_mesh_end(mesh, CW_KIND_OUTLET)].domain == domain)
+    CW_TRY(blocks_add(&blocks, "outlet.ccl", values));
+  CW_TRY(blocks_close(&blocks, ends_key, values));
+  CW_TRY(blocks_open(&blocks));
+  for (int i = 0; i < mesh->interface_count; ++i)
+    for (int side = 0; side < 2; ++side) {
+      const CwMeshPatch *patch = &mesh->patches[mesh->interfaces[i].patch[side]];
+      if (patch->domain != domain)
+        continue;
+      CW_TRY(set_interface(mesh, i, values));
+      CW_TRY(cw_values_set(values, "side", "%d", side + 1));
+      CW_TRY(cw_values_set(values, "side_patch", "%s", patch->name));
+      CW_TRY(blocks_add(&blocks, "interface_side.ccl", values));
+    }
+  CW_TRY(blocks_close(&blocks, sides_key, values));
+done:
+  blocks_close(&blocks, NULL, values);
+  return status;
+}
+
+// The domains beside rotor and stator, each with one wall of all its wall patches, and their LES.
+static CwStatus set_more_domains(const CwAssembly *a, CwValues *values) {
+  CwStatus status = CW_OK;
+  const CwMesh *mesh = a->mesh;
+  Blocks domains = {0}, les = {0};
+  CW_TRY(blocks_open(&domains));
+  CW_TRY(blocks_open(&les));
+  for (int d = CW_EXPORT_STATOR + 1; d < mesh->domain_count; ++d) {
+    Blocks walls = {0};
+    CW_TRY(blocks_open(&walls));
+    for (int p = 0, first = 1; p < mesh->patch_count; ++p)
+      if (mesh->patches[p].domain == d && mesh->patches[p].kind == CW_KIND_WALL &&
+          a->patches[p].triangles + a->patches[p].quads > 0) {
+        fprintf(walls.out, "%s%s", first ? "" : ",", mesh->patches[p].name);
+        first = 0;
+      }
+    CW_TRY(blocks_close(&walls, "zone_walls", values));
+    CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
+    CW_TRY(cw_values_set(values, "zone_wall_name", "%s walls", mesh->domains[d].name));
+    CW_TRY(set_boundaries(mesh, d, "zone_ends", "zone_sides", values));
+    CW_TRY(blocks_add(&domains, "domain.ccl", values));
+    CW_TRY(blocks_add(&les, "transient_domain.ccl", values));
+  }
+  CW_TRY(blocks_close(&domains, "more_domains", values));
+  CW_TRY(blocks_close(&les, "more_les", values));
+done:
+  blocks_close(&domains, NULL, values);
+  blocks_close(&les, NULL, values);
+  return status;
+}
+
+static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
+  CwStatus status = CW_OK;
+  Blocks steady = {0}, transient = {0};
+  CW_TRY(blocks_open(&steady));
+  CW_TRY(blocks_open(&transient));
+  for (int i = 0; i < mesh->interface_count; ++i) {
+    CW_TRY(set_interface(mesh, i, values));
+    CW_TRY(blocks_add(&steady, turns(mesh, i) ? "interface_turning.ccl" : "interface_fixed.ccl", values));
+    if (turns(mesh, i))
+      CW_TRY(blocks_add(&transient, "transient_interface_turning.ccl", values));
+  }
+  CW_TRY(blocks_close(&steady, "interfaces", values));
+  CW_TRY(blocks_close(&transient, "transient_interfaces", values));
+done:
+  blocks_close(&steady, NULL, values);
+  blocks_close(&transient, NULL, values);
+  return status;
 }
 
 // A CFX location list: the patches with faces that `wanted` picks, with commas between.
@@ -50,10 +198,6 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAsse
   CW_TRY(cw_values_set(&values, "mass_flow", "%.9g", point->flow_rate * table->fluid.density));
   CW_TRY(cw_values_set(&values, "inlet_pressure", "%.9g", point->inlet_pressure));
   CW_TRY(cw_values_set(&values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
-  CW_TRY(cw_values_set(&values, "rotor_interface", "%s",
-                       mesh->patches[cw_mesh_patch_of_kind(mesh, CW_EXPORT_ROTOR, CW_KIND_INTERFACE)].name));
-  CW_TRY(cw_values_set(&values, "stator_interface", "%s",
-                       mesh->patches[cw_mesh_patch_of_kind(mesh, CW_EXPORT_STATOR, CW_KIND_INTERFACE)].name));
   // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of
   // OpenFOAM.
   if (table->walls.roughness > 0)
@@ -69,6 +213,10 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAsse
   CW_TRY(cw_values_set(&values, "time_step", "%.9g", point->time_step_angle / point->speed));
   CW_TRY(cw_values_set(&values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
   CW_TRY(cw_values_set(&values, "physical_timescale", "%.9g", 1 / point->speed));
+  CW_TRY(set_boundaries(mesh, CW_EXPORT_ROTOR, "rotor_ends", "rotor_sides", &values));
+  CW_TRY(set_boundaries(mesh, CW_EXPORT_STATOR, "stator_ends", "stator_sides", &values));
+  CW_TRY(set_more_domains(a, &values));
+  CW_TRY(set_interfaces(mesh, &values));
   CW_TRY(cw_templates_write("cfx/", folder, &values));
 done:
   cw_values_free(&values);

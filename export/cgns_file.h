@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// pump.cgns: the whole mesh with families, boundary conditions and the GGI connection of rotor and stator.
+// pump.cgns: the whole mesh with families, boundary conditions and the GGI connections of the domains.
 #ifndef CUTWATER_EXPORT_CGNS_FILE_H
 #define CUTWATER_EXPORT_CGNS_FILE_H
 
@@ -10,14 +10,15 @@
 #include "pipeline/case.h"
 
 // Lays down every node, with space for the coordinates and the connectivities. One rank calls it.
+// `interfaces`: those of the mesh.
 // CW_ERR_EXPORT where a zone has more than 2^31 - 1 elements, CW_ERR_IO, CW_ERR_LIBRARY.
-CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *assembly, const CwInterface *interface,
+CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *assembly, const CwInterface *interfaces,
                             const CwCase *table);
 
 // Opens a laid down file on all ranks (collective), for regions to be written from any rank in any order.
 CwStatus cw_cgns_open(const char *path, const CwRanks *ranks, hid_t *file);
 
-// Writes the coordinates of the shared points of both domains. One rank calls it.
+// Writes the coordinates of the shared points of all domains. One rank calls it.
 CwStatus cw_cgns_write_shared(hid_t file, const CwAssembly *assembly);
 
 // Writes the own points, cells and boundary faces of a region. `data` is that region.

@@ -27,7 +27,4 @@ CwStatus cw_cgns_sections(const CwAssembly *assembly, int domain, CwSection **se
 // 1-based number of the first boundary element of a patch in its zone.
 int64_t cw_cgns_patch_first(const CwAssembly *assembly, int patch);
 
-// ROTOR or STATOR.
-const char *cw_cgns_zone_name(int domain);
-
 #endif

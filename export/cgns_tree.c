@@ -61,7 +61,7 @@ static CwStatus put_families(hid_t base, const CwMesh *mesh) {
     H5Gclose(family);
     family = -1;
   }
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < mesh->domain_count; ++d) {
     char name[CW_EXPORT_NAME_SIZE];
     snprintf(name, sizeof name, "%.20s_domain", mesh->domains[d].name);
     CW_TRY(cw_cgns_node(base, name, "Family_t", "MT", 0, NULL, NULL, NULL));
@@ -136,31 +136,46 @@ done:
   return status;
 }
 
-static CwStatus put_connection(hid_t zone, const CwAssembly *a, const CwInterface *interface, int domain) {
+// The connection of one side of an interface, in the ZoneGridConnectivity of its zone.
+static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const CwInterface *interface, int side) {
   CwStatus status = CW_OK;
-  const int other = 1 - domain;
-  hid_t all = -1, one = -1;
+  const CwMesh *mesh = a->mesh;
+  const int *patch = mesh->interfaces[number].patch;
+  const CwMeshDomain *here = &mesh->domains[mesh->patches[patch[side]].domain];
+  const CwMeshDomain *there = &mesh->domains[mesh->patches[patch[1 - side]].domain];
+  hid_t one = -1;
   int32_t *donors = NULL;
-  int64_t count = interface->count[domain];
-  int first = (int)cw_cgns_patch_first(a, cw_mesh_patch_of_kind(a->mesh, domain, CW_KIND_INTERFACE));
-  int64_t donor_first = cw_cgns_patch_first(a, cw_mesh_patch_of_kind(a->mesh, other, CW_KIND_INTERFACE));
+  int64_t count = interface->count[side], donor_first = cw_cgns_patch_first(a, patch[1 - side]);
+  int first = (int)cw_cgns_patch_first(a, patch[side]);
+  char name[CW_EXPORT_NAME_SIZE];
   CW_NEW(donors, count);
   for (int64_t i = 0; i < count; ++i)
-    donors[i] = (int32_t)(donor_first + interface->donor[domain][i]);
-  CW_TRY(cw_cgns_node(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t", "MT", 0, NULL, NULL, &all));
-  CW_TRY(cw_cgns_text(all, domain == CW_EXPORT_ROTOR ? "rotor_to_stator" : "stator_to_rotor",
-                      "GridConnectivity_t", cw_cgns_zone_name(other), &one));
+    donors[i] = (int32_t)(donor_first + interface->donor[side][i]);
+  snprintf(name, sizeof name, "%.14s_to_%.14s", here->name, there->name);
+  CW_TRY(cw_cgns_text(all, name, "GridConnectivity_t", there->zone, &one));
   CW_TRY(cw_cgns_text(one, "GridConnectivityType", "GridConnectivityType_t", "Abutting", NULL));
   CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
   CW_TRY(put_point_range(one, (int[]){first, first + (int)count - 1}));
   CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors,
                       NULL));
   CW_TRY(cw_cgns_node(one, "InterpolantsDonor", "DataArray_t", "R8", 2, (hsize_t[]){(hsize_t)count, 2},
-                      interface->place[domain], NULL));
+                      interface->place[side], NULL));
 done:
   free(donors);
   if (one >= 0)
     H5Gclose(one);
+  return status;
+}
+
+static CwStatus put_connections(hid_t zone, const CwAssembly *a, const CwInterface *interfaces, int domain) {
+  CwStatus status = CW_OK;
+  hid_t all = -1;
+  CW_TRY(cw_cgns_node(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t", "MT", 0, NULL, NULL, &all));
+  for (int i = 0; i < a->mesh->interface_count; ++i)
+    for (int side = 0; side < 2; ++side)
+      if (a->mesh->patches[a->mesh->interfaces[i].patch[side]].domain == domain)
+        CW_TRY(put_connection(all, a, i, &interfaces[i], side));
+done:
   if (all >= 0)
     H5Gclose(all);
   return status;
@@ -185,7 +200,7 @@ done:
   return status;
 }
 
-static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *interface, const CwCase *table,
+static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *interfaces, const CwCase *table,
                          int domain) {
   CwStatus status = CW_OK;
   hid_t zone = -1;
@@ -202,7 +217,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
              a->mesh->domains[domain].name, (long long)total->points, (long long)elements, INT32_MAX);
   const int size[] = {(int)total->points, (int)total->cells, 0};
   CW_TRY(cw_cgns_sections(a, domain, &sections, &section_count));
-  CW_TRY(cw_cgns_node(base, cw_cgns_zone_name(domain), "Zone_t", "I4", 2, (hsize_t[]){3, 1}, size, &zone));
+  CW_TRY(cw_cgns_node(base, a->mesh->domains[domain].zone, "Zone_t", "I4", 2, (hsize_t[]){3, 1}, size, &zone));
   CW_TRY(cw_cgns_text(zone, "ZoneType", "ZoneType_t", "Unstructured", NULL));
   snprintf(family, sizeof family, "%.20s_domain", a->mesh->domains[domain].name);
   CW_TRY(cw_cgns_text(zone, "FamilyName", "FamilyName_t", family, NULL));
@@ -210,7 +225,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
   for (int s = 0; s < section_count; ++s)
     CW_TRY(put_section(zone, &sections[s]));
   CW_TRY(put_conditions(zone, a, domain));
-  CW_TRY(put_connection(zone, a, interface, domain));
+  CW_TRY(put_connections(zone, a, interfaces, domain));
   if (domain == CW_EXPORT_ROTOR)
     CW_TRY(put_rotation(zone, table->operating_point.speed));
 done:
@@ -220,7 +235,7 @@ done:
   return status;
 }
 
-CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interface,
+CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interfaces,
                             const CwCase *table) {
   CwStatus status = CW_OK;
   hid_t file = -1, base = -1;
@@ -240,8 +255,8 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
   CW_TRY(put_equations(base));
   CW_TRY(put_reference_state(base, table));
   CW_TRY(put_families(base, a->mesh));
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d)
-    CW_TRY(put_zone(base, a, interface, table, d));
+  for (int d = 0; d < a->mesh->domain_count; ++d)
+    CW_TRY(put_zone(base, a, interfaces, table, d));
 done:
   if (base >= 0)
     H5Gclose(base);

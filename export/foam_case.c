@@ -185,6 +185,25 @@ done:
   return status;
 }
 
+// The flow through the discs before the pipes, like that through the cylinder between rotor and stator.
+static CwStatus set_interface_flows(const CwMesh *mesh, CwValues *values) {
+  CwStatus status = CW_OK;
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
+  for (int i = 1; i < mesh->interface_count; ++i)
+    for (int side = 0; side < 2; ++side) {
+      const char *name = mesh->patches[mesh->interfaces[i].patch[side]].name;
+      fprintf(out, "flow_%s\n{\n    $flowInlet;\n    name            %s;\n}\n", name, name);
+    }
+  fclose(out);
+  CW_TRY(cw_values_set(values, "interface_flows", "%s", text));
+done:
+  free(text);
+  return status;
+}
+
 static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *values) {
   CwStatus status = CW_OK;
   const CwOperatingPoint *point = &table->operating_point;
@@ -192,15 +211,14 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   int resolved = cw_walls_resolved(mesh, &table->walls);
   const struct {
     const char *key;
-    int domain;
-    CwPatchKind kind;
-  } ends[] = {{"inlet", CW_EXPORT_ROTOR, CW_KIND_INLET},
-              {"outlet", CW_EXPORT_STATOR, CW_KIND_OUTLET},
-              {"rotor_interface", CW_EXPORT_ROTOR, CW_KIND_INTERFACE},
-              {"stator_interface", CW_EXPORT_STATOR, CW_KIND_INTERFACE}};
+    int patch;
+  } ends[] = {{"inlet", cw_mesh_end(mesh, CW_KIND_INLET)},
+              {"outlet", cw_mesh_end(mesh, CW_KIND_OUTLET)},
+              {"rotor_interface", mesh->interfaces[0].patch[0]},
+              {"stator_interface", mesh->interfaces[0].patch[1]}};
   for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i)
-    CW_TRY(cw_values_set(values, ends[i].key, "%s",
-                         mesh->patches[cw_mesh_patch_of_kind(mesh, ends[i].domain, ends[i].kind)].name));
+    CW_TRY(cw_values_set(values, ends[i].key, "%s", mesh->patches[ends[i].patch].name));
+  CW_TRY(set_interface_flows(mesh, values));
   CW_TRY(list_patches(a, cw_patch_rotates, values, "rotating_walls"));
   CW_TRY(list_patches(a, is_rotor_and_fixed, values, "rotor_fixed_patches"));
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
@@ -232,7 +250,7 @@ CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDes
       .assembly = a,
       .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
       .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
-  const CwPatchPart *outlet = &a->patches[cw_mesh_patch_of_kind(a->mesh, CW_EXPORT_STATOR, CW_KIND_OUTLET)];
+  const CwPatchPart *outlet = &a->patches[cw_mesh_end(a->mesh, CW_KIND_OUTLET)];
   for (int k = 0; k < 3; ++k)
     start.outlet_velocity[k] =
         table->operating_point.flow_rate * outlet->vector[k] / (outlet->area * outlet->area);

@@ -235,11 +235,13 @@ static CwStatus measure_side(const CwAssembly *a, int number, int s, double tole
     for (int n = 0; n < face->count; ++n) {
       const double *x = face->nodes[n];
       double off = off_surface(in, x);
+      CW_REQUIRE(off <= tolerance || in->is_flat, CW_ERR_INPUT,
+                 "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.6g mm; the interface has %.6g mm",
+                 a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * hypot(x[0], x[1]),
+                 1e3 * in->radius);
       CW_REQUIRE(off <= tolerance, CW_ERR_INPUT,
-                 "patch '%s': node at (%.6g, %.6g, %.6g) mm is %.3g mm off the interface's %s%.*g mm",
-                 a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * off,
-                 in->is_flat ? "plane; allowed: " : "cylinder, whose radius is ", 6,
-                 1e3 * (in->is_flat ? tolerance : in->radius));
+                 "patch '%s': node at (%.6g, %.6g, %.6g) mm is %.3g mm off the interface's plane; allowed: %.3g mm",
+                 a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * off, 1e3 * tolerance);
       for (int k = 0; k < 2; ++k) {
         side->least[k] = fmin(side->least[k], flat[n][k]);
         side->most[k] = fmax(side->most[k], flat[n][k]);

@@ -13,7 +13,8 @@ double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
     return walls->y_plus_blade;
   if (cw_patch_rotates(patch))
     return walls->y_plus_hub_shroud;
-  if (patch->domain == CW_EXPORT_ROTOR || strcmp(patch->name, "discharge") == 0)
+  if (patch->domain == CW_EXPORT_ROTOR || strcmp(patch->name, "discharge") == 0 ||
+      strcmp(patch->name, "inlet_pipe") == 0 || strcmp(patch->name, "outlet_pipe") == 0)
     return walls->y_plus_pipe;
   return walls->y_plus_volute;
 }

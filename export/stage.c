@@ -54,13 +54,14 @@ done:
 
 // What rank 0 does alone before the regions are written.
 static CwStatus begin_files(const CwCase *table, const CwDesign *design, const CwAssembly *assembly,
-                            CwInterface *interface, const Paths *paths, CwFoamMesh *foam) {
+                            CwInterface *interfaces, const Paths *paths, CwFoamMesh *foam) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_interface_make(assembly, design->interface_radius, interface));
+  for (int i = 0; i < assembly->mesh->interface_count; ++i)
+    CW_TRY(cw_interface_make(assembly, i, design->interface_radius, &interfaces[i]));
   CW_TRY(cw_folder_remove(paths->part));
   CW_TRY(cw_make_directory(paths->foam_mesh));
   CW_TRY(cw_make_directory(paths->cfx));
-  CW_TRY(cw_cgns_tree_write(paths->cgns, assembly, interface, table));
+  CW_TRY(cw_cgns_tree_write(paths->cgns, assembly, interfaces, table));
   CW_TRY(cw_foam_mesh_create(foam));
   CW_TRY(cw_foam_case_write(paths->foam, table, design, assembly));
   CW_TRY(cw_cfx_case_write(paths->cfx, table, assembly));
@@ -122,10 +123,25 @@ static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
   return cw_record_json(record, "patches", patches);
 }
 
-static CwStatus record_results(const CwAssembly *a, const CwInterface *interface, CwRecord *record) {
+static CwStatus record_interfaces(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {
+  json_t *list = json_array();
+  for (int i = 0; i < a->mesh->interface_count; ++i) {
+    const int *patch = a->mesh->interfaces[i].patch;
+    json_array_append_new(
+        list, json_pack("{s:[s,s], s:[s,s], s:[f,f], s:[I,I]}", "domains",
+                        a->mesh->domains[a->mesh->patches[patch[0]].domain].name,
+                        a->mesh->domains[a->mesh->patches[patch[1]].domain].name, "patches",
+                        a->mesh->patches[patch[0]].name, a->mesh->patches[patch[1]].name, "areas_m2",
+                        interfaces[i].sides[0].area, interfaces[i].sides[1].area, "faces",
+                        (json_int_t)interfaces[i].count[0], (json_int_t)interfaces[i].count[1]));
+  }
+  return cw_record_json(record, "interfaces", list);
+}
+
+static CwStatus record_results(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {
   CwStatus status = CW_OK;
   int64_t cells = 0;
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
     const CwDomainTotal *t = &a->totals[d];
     cells += t->cells;
     CW_TRY(
@@ -137,25 +153,29 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
-  CW_TRY(cw_record_number(record, "interface_area_rotor_m2", interface->sides[CW_EXPORT_ROTOR].area));
-  CW_TRY(cw_record_number(record, "interface_area_stator_m2", interface->sides[CW_EXPORT_STATOR].area));
+  CW_TRY(cw_record_number(record, "interface_area_rotor_m2", interfaces[0].sides[0].area));
+  CW_TRY(cw_record_number(record, "interface_area_stator_m2", interfaces[0].sides[1].area));
+  CW_TRY(record_interfaces(a, interfaces, record));
   CW_TRY(record_patches(a, record));
 done:
   return status;
 }
 
 // Worth a word, though the mesh can be used.
-static void warn(const CwAssembly *a, const CwInterface *interface) {
-  for (int d = 0; d < CW_EXPORT_DOMAINS; ++d) {
+static void warn(const CwAssembly *a, const CwInterface *interfaces) {
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
     double solid = a->mesh->domains[d].solid_volume, off = a->totals[d].volume / solid - 1;
     if (fabs(off) > 0.02)
       cw_log_warn("domain %s: the cells fill %.6g m3, the solid %.6g m3: %+.1f %%", a->mesh->domains[d].name,
                   a->totals[d].volume, solid, 100 * off);
   }
-  double ratio = interface->sides[0].area / interface->sides[1].area;
-  if (fabs(ratio - 1) > 0.02)
-    cw_log_warn("the interface has %.6g mm2 on the rotor and %.6g mm2 on the stator",
-                1e6 * interface->sides[0].area, 1e6 * interface->sides[1].area);
+  for (int i = 0; i < a->mesh->interface_count; ++i) {
+    const CwInterfaceSide *side = interfaces[i].sides;
+    const int *patch = a->mesh->interfaces[i].patch;
+    if (fabs(side[0].area / side[1].area - 1) > 0.02)
+      cw_log_warn("the interface has %.6g mm2 on patch '%s' and %.6g mm2 on '%s'", 1e6 * side[0].area,
+                  a->mesh->patches[patch[0]].name, 1e6 * side[1].area, a->mesh->patches[patch[1]].name);
+  }
   for (int p = 0; p < a->mesh->patch_count; ++p)
     if (a->patches[p].triangles + a->patches[p].quads == 0)
       cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
@@ -187,7 +207,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   CwDesign design = {0};
   CwCase whole = *table;
   CwAssembly assembly = {0};
-  CwInterface interface = {0};
+  CwInterface interfaces[CW_EXPORT_DOMAINS_MOST] = {{0}};
   CwFoamMesh foam = {0};
   CwRecord *record = NULL;
   char *path = NULL;
@@ -210,20 +230,23 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   checked = cw_seconds();
   status = cw_foam_mesh_plan(&assembly, paths.foam_mesh, &foam);
   if (status == CW_OK && ranks->rank == 0)
-    status = begin_files(&whole, &design, &assembly, &interface, &paths, &foam);
+    status = begin_files(&whole, &design, &assembly, interfaces, &paths, &foam);
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &paths, &foam));
   written = cw_seconds();
-  int64_t memory = cw_peak_memory_bytes(), cells = assembly.totals[0].cells + assembly.totals[1].cells;
+  int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
+  for (int d = 0; d < mesh.domain_count; ++d)
+    cells += assembly.totals[d].cells;
+  for (int i = 0; i < mesh.interface_count; ++i)
+    faces += interfaces[i].count[0] + interfaces[i].count[1];
   MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
   if (ranks->rank == 0) {
-    warn(&assembly, &interface);
+    warn(&assembly, interfaces);
     CW_TRY(cw_record_step(record, "check the mesh", checked - start, cells, "cells"));
-    CW_TRY(cw_record_step(record, "interface and tree", planned - checked,
-                          interface.count[0] + interface.count[1], "faces"));
+    CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
     CW_TRY(cw_record_step(record, "write the mesh", written - planned, cells, "cells"));
-    CW_TRY(record_results(&assembly, &interface, record));
+    CW_TRY(record_results(&assembly, interfaces, record));
     CW_TRY(cw_record_integer(record, "ranks", ranks->size));
     cw_record_set_peak_memory(record, memory);
     CW_TRY(finish_files(&paths));
@@ -240,7 +263,8 @@ done:
     rmdir(paths.folder); // only if nothing is in it
   }
   cw_foam_mesh_close(&foam);
-  cw_interface_free(&interface);
+  for (int i = 0; i < CW_EXPORT_DOMAINS_MOST; ++i)
+    cw_interface_free(&interfaces[i]);
   cw_assembly_free(&assembly);
   cw_mesh_free(&mesh);
   cw_record_free(record);

@@ -40,7 +40,7 @@ void cw_values_free(CwValues *values) {
 }
 
 static const char *find_value(const CwValues *values, const char *key, size_t length) {
-  for (int i = 0; i < values->count; ++i)
+  for (int i = values->count - 1; i >= 0; --i)
     if (strlen(values->list[i].key) == length && strncmp(values->list[i].key, key, length) == 0)
       return values->list[i].value;
   return NULL;

@@ -25,7 +25,7 @@ typedef struct {
   int count;
 } CwValues;
 
-// Sets a value (printf style). Values must be freed with cw_values_free().
+// Sets a value (printf style); a key's last value counts. Values must be freed with cw_values_free().
 CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void cw_values_free(CwValues *values);
