@@ -10,7 +10,7 @@
 
 #include "pipeline/report/json_read.h"
 
-static const char *const domain_names[CW_REPORT_DOMAINS] = {"rotor", "stator"};
+static const char *const first_names[] = {"rotor", "stator"};
 
 static CwStatus copy_text(const char *text, char **copy) {
   *copy = strdup(text);
@@ -83,13 +83,14 @@ CwStatus cw_report_mesh_read(const char *run, CwReportMesh *mesh) {
   CW_TRY(cw_json_text(root, path, "case", &name));
   CW_TRY(copy_text(name, &mesh->case_name));
   CW_TRY(cw_json_array(root, path, "domains", &domains));
-  CW_REQUIRE(json_array_size(domains) == CW_REPORT_DOMAINS, CW_ERR_INPUT, "%s: %zu domains; there must be %d",
-             path, json_array_size(domains), CW_REPORT_DOMAINS);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  CW_REQUIRE(json_array_size(domains) >= 2 && json_array_size(domains) <= CW_REPORT_DOMAINS_MOST, CW_ERR_INPUT,
+             "%s: %zu domains; there must be 2 to %d", path, json_array_size(domains), CW_REPORT_DOMAINS_MOST);
+  mesh->domain_count = (int)json_array_size(domains);
+  for (int d = 0; d < mesh->domain_count; d++) {
     json_t *item = json_array_get(domains, (size_t)d);
     CW_TRY(cw_json_text(item, path, "name", &name));
-    CW_REQUIRE(!strcmp(name, domain_names[d]), CW_ERR_INPUT, "%s: domain %d is %s; it must be %s", path,
-               d + 1, name, domain_names[d]);
+    CW_REQUIRE(d > CW_REPORT_STATOR || !strcmp(name, first_names[d]), CW_ERR_INPUT,
+               "%s: domain %d is %s; it must be %s", path, d + 1, name, first_names[d]);
     CW_TRY(copy_text(name, &mesh->domain[d].name));
     CW_TRY(domain_manifest(item, path, &mesh->domain[d]));
   }
@@ -99,7 +100,7 @@ done:
 }
 
 void cw_report_mesh_free(CwReportMesh *mesh) {
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < CW_REPORT_DOMAINS_MOST; d++) {
     CwReportDomain *domain = &mesh->domain[d];
     for (int p = 0; p < domain->patch_count; p++)
       free(domain->patch[p]);

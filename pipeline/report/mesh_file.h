@@ -7,7 +7,7 @@
 
 #include "pipeline/status.h"
 
-enum { CW_REPORT_DOMAINS = 2, CW_REPORT_ROTOR = 0, CW_REPORT_STATOR = 1, CW_REPORT_PATCHES = 64 };
+enum { CW_REPORT_DOMAINS_MOST = 8, CW_REPORT_ROTOR = 0, CW_REPORT_STATOR = 1, CW_REPORT_PATCHES = 64 };
 
 typedef struct {
   char *file; // within RUN/mesh
@@ -26,7 +26,8 @@ typedef struct {
 typedef struct {
   char *folder; // RUN/mesh
   char *case_name;
-  CwReportDomain domain[CW_REPORT_DOMAINS]; // rotor, stator
+  int domain_count;
+  CwReportDomain domain[CW_REPORT_DOMAINS_MOST]; // rotor, stator, then pipes that are zones of their own
 } CwReportMesh;
 
 // Reads RUN/mesh/manifest.json. CW_ERR_IO, CW_ERR_INPUT. Free with cw_report_mesh_free, also after a failure.

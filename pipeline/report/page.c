@@ -147,7 +147,7 @@ static void write_picture(FILE *page, const CwReportPicture *picture) {
 void cw_page_picture_list(FILE *page, const CwReportData *data, CwPictureSection section) {
   fputs("<div class=\"grid\">\n", page);
   for (int k = 0; k < data->pictures.count; k++) {
-    if (data->pictures.picture[k].section == section)
+    if (data->pictures.picture[k].section == section && !data->pictures.picture[k].absent)
       write_picture(page, &data->pictures.picture[k]);
   }
   fputs("</div>\n", page);
@@ -168,7 +168,7 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
   snprintf(where, sizeof where, "%s/mesh/record.json: results", data->run);
   CW_TRY(cw_page_mesh_results(data, &results));
   CW_TRY(cw_json_count(results, where, "asked_cells", &asked));
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     const CwReportDomain *domain = &data->mesh.domain[d];
     regions += domain->region_count;
     for (int r = 0; r < domain->region_count; r++) {
@@ -203,9 +203,13 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
   snprintf(label, sizeof label, "prisms, %s of all cells",
            cw_format_percent((double)prisms / (double)cells, more));
   tile(page, cw_format_count(prisms, text), "", label);
-  snprintf(text, sizeof text, "%d + %d", data->mesh.domain[0].region_count,
-           data->mesh.domain[1].region_count);
-  tile(page, text, "", "regions of rotor and stator");
+  size_t used = 0, named = (size_t)snprintf(label, sizeof label, "regions of ");
+  for (int d = 0, last = data->mesh.domain_count - 1; d <= last && used < sizeof text && named < sizeof label; d++) {
+    used += (size_t)snprintf(text + used, sizeof text - used, d ? " + %d" : "%d", data->mesh.domain[d].region_count);
+    named += (size_t)snprintf(label + named, sizeof label - named, "%s%s", d == 0 ? "" : d == last ? " and " : ", ",
+                              data->mesh.domain[d].name);
+  }
+  tile(page, text, "", label);
   snprintf(label, sizeof label, "predicted head; %s&#8239;m asked",
            cw_format_number(table->operating_point.head, 4, more));
   tile(page, cw_format_number(cw_json_real(data->design, "predicted_head_m"), 4, text), "m", label);

@@ -8,10 +8,12 @@
 #include "pipeline/report/html.h"
 #include "pipeline/report/json_read.h"
 #include "pipeline/report/page.h"
+#include "pipeline/report/picture_list.h"
 #include "pipeline/report/plot.h"
 
 enum { ASPECT_CLASSES = 8, DIHEDRAL_BINS = 18, JACOBIAN_BINS = 20 };
-static const uint32_t rotor_colour = 0x4f8fc0, stator_colour = 0xd9a24e, paper_colour = 0x9aa5b1;
+enum { DOMAINS_MOST = CW_REPORT_DOMAINS_MOST };
+static const uint32_t paper_colour = 0x9aa5b1;
 
 static void count_cell(FILE *page, int64_t count) {
   char text[CW_FORMAT_SIZE];
@@ -23,20 +25,47 @@ static void number_cell(FILE *page, double value, int significant) {
   cw_html_number_cell(page, cw_format_number(value, significant, text));
 }
 
-static void figure_row(FILE *page, const char *label, const char *unit, json_t *const domain[2],
-                       const char *key, double scale, int significant) {
+// A domain's name with a capital.
+static void write_name(FILE *page, const CwReportData *data, int d) {
+  const char *name = data->mesh.domain[d].name;
+  fprintf(page, "%c%s", name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + 'A' : name[0], name + 1);
+}
+
+// The head of a table with a column a domain, up to and without what follows these columns.
+static void domain_heads(FILE *page, const CwReportData *data, const char *class_name) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
+    fprintf(page, "<th class=\"%s\">", class_name);
+    write_name(page, data, d);
+    fputs("</th>", page);
+  }
+}
+
+static void figure_row(FILE *page, const CwReportData *data, const char *label, const char *unit,
+                       json_t *const *domain, const char *key, double scale, int significant) {
   fprintf(page, "<tr><td>%s</td>", label);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++)
+  for (int d = 0; d < data->mesh.domain_count; d++)
     number_cell(page, cw_json_real(domain[d], key) * scale, significant);
   fprintf(page, "<td>%s</td></tr>\n", unit);
 }
 
-static CwStatus both_domains(const CwReportData *data, json_t *domain[2]) {
+static CwStatus all_domains(const CwReportData *data, json_t **domain) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++)
+  for (int d = 0; d < data->mesh.domain_count; d++)
     CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
 done:
   return status;
+}
+
+static void count_row(FILE *page, const CwReportData *data, const char *row, const char *label,
+                      const int64_t *count) {
+  int64_t all = 0;
+  fprintf(page, "%s<td>%s</td>", row, label);
+  for (int d = 0; d < data->mesh.domain_count; d++) {
+    count_cell(page, count[d]);
+    all += count[d];
+  }
+  count_cell(page, all);
+  fputs("</tr>\n", page);
 }
 
 CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
@@ -49,17 +78,16 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
               {"Pyramids", offsetof(CwReportRegion, pyramids)},
               {"Boundary triangles", offsetof(CwReportRegion, triangles)},
               {"Boundary quadrilaterals", offsetof(CwReportRegion, quads)}};
-  json_t *domain[2];
+  json_t *domain[DOMAINS_MOST];
   char where[4096];
-  int64_t cells[2] = {0, 0}, points[2];
-  CW_TRY(both_domains(data, domain));
-  fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th><th class=\"n\">Rotor</th><th "
-        "class=\"n\">Stator</th>"
-        "<th class=\"n\">Together</th></tr>\n",
-        page);
+  int64_t cells[DOMAINS_MOST] = {0}, points[DOMAINS_MOST], regions[DOMAINS_MOST];
+  CW_TRY(all_domains(data, domain));
+  fputs("<div class=\"grid\">\n<div><table class=\"plain\"><tr><th></th>", page);
+  domain_heads(page, data, "n");
+  fputs("<th class=\"n\">Together</th></tr>\n", page);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-    int64_t sum[2] = {0, 0};
-    for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    int64_t sum[DOMAINS_MOST] = {0};
+    for (int d = 0; d < data->mesh.domain_count; d++) {
       for (int r = 0; r < data->mesh.domain[d].region_count; r++) {
         int64_t count;
         memcpy(&count, (const char *)&data->mesh.domain[d].region[r] + rows[k].member, sizeof count);
@@ -68,42 +96,28 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
       if (k < 3)
         cells[d] += sum[d];
     }
-    fprintf(page, "<tr><td>%s</td>", rows[k].label);
-    count_cell(page, sum[0]);
-    count_cell(page, sum[1]);
-    count_cell(page, sum[0] + sum[1]);
-    fputs("</tr>\n", page);
-    if (k != 2)
-      continue;
-    fputs("<tr class=\"t\"><td>Cells</td>", page);
-    count_cell(page, cells[0]);
-    count_cell(page, cells[1]);
-    count_cell(page, cells[0] + cells[1]);
-    fputs("</tr>\n", page);
+    count_row(page, data, "<tr>", rows[k].label, sum);
+    if (k == 2)
+      count_row(page, data, "<tr class=\"t\">", "Cells", cells);
   }
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domain[d].name);
     CW_TRY(cw_json_count(domain[d], where, "points", &points[d]));
+    regions[d] = data->mesh.domain[d].region_count;
   }
-  fputs("<tr><td>Points</td>", page);
-  count_cell(page, points[0]);
-  count_cell(page, points[1]);
-  count_cell(page, points[0] + points[1]);
-  fputs("</tr>\n<tr><td>Regions</td>", page);
-  count_cell(page, data->mesh.domain[0].region_count);
-  count_cell(page, data->mesh.domain[1].region_count);
-  count_cell(page, data->mesh.domain[0].region_count + data->mesh.domain[1].region_count);
-  fputs("</tr>\n</table>\n<h3>Volume</h3>\n<table><tr><th></th><th class=\"n p\">Rotor</th>"
-        "<th class=\"n p\">Stator</th><th>Unit</th></tr>\n",
-        page);
-  figure_row(page, "Of all cells", "cm&sup3;", domain, "mesh_volume_m3", 1e6, 6);
-  figure_row(page, "Of the solid", "cm&sup3;", domain, "solid_volume_m3", 1e6, 6);
-  figure_row(page, "Difference", "%", domain, "volume_error", 100, 3);
-  figure_row(page, "Least cell", "mm&sup3;", domain, "least_cell_volume_m3", 1e9, 3);
+  count_row(page, data, "<tr>", "Points", points);
+  count_row(page, data, "<tr>", "Regions", regions);
+  fputs("</table>\n<h3>Volume</h3>\n<table><tr><th></th>", page);
+  domain_heads(page, data, "n p");
+  fputs("<th>Unit</th></tr>\n", page);
+  figure_row(page, data, "Of all cells", "cm&sup3;", domain, "mesh_volume_m3", 1e6, 6);
+  figure_row(page, data, "Of the solid", "cm&sup3;", domain, "solid_volume_m3", 1e6, 6);
+  figure_row(page, data, "Difference", "%", domain, "volume_error", 100, 3);
+  figure_row(page, data, "Least cell", "mm&sup3;", domain, "least_cell_volume_m3", 1e9, 3);
   fputs("</table></div>\n<div><table><tr><th>Domain</th><th>Patch</th><th>Kind</th><th class=\"n p\">Area, "
         "cm&sup2;</th></tr>\n",
         page);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     size_t k;
     json_t *patch, *patches = json_object_get(domain[d], "patches");
     json_array_foreach(patches, k, patch) {
@@ -154,8 +168,7 @@ static CwStatus balance_chart(FILE *page, const CwReportData *data, int d, json_
     labels[r] = label[r];
     notes[r] = note[r];
   }
-  CwPlotSeries series[2] = {{"prisms", d ? stator_colour : rotor_colour, prisms},
-                            {"tetrahedra", d ? 0xecd3a6 : 0xb4d0e6, tets}};
+  CwPlotSeries series[2] = {{"prisms", cw_domain_colour(d, 0), prisms}, {"tetrahedra", cw_domain_colour(d, 1), tets}};
   CwPlot plot = {.axis = "thousand cells; dashed: mean of the domain",
                  .label = labels,
                  .count = count,
@@ -177,27 +190,27 @@ done:
 
 CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
-  json_t *domain[2];
-  CW_TRY(both_domains(data, domain));
+  json_t *domain[DOMAINS_MOST];
+  CW_TRY(all_domains(data, domain));
   fputs(
       "<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
       "colours; the mesh is the same for any number of ranks.</p>\n",
       page);
   cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
   fputs("<h3>Balance</h3>\n<div class=\"grid\">\n", page);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     fputs("<figure>", page);
     CW_TRY(balance_chart(page, data, d, domain[d]));
     fprintf(page, "<figcaption>Cells and meshing time of each region of the %s.</figcaption></figure>\n",
             data->mesh.domain[d].name);
   }
-  fputs(
-      "</div>\n<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n",
-      page);
-  figure_row(page, "Largest region over mean", "", domain, "region_balance", 1, 3);
-  figure_row(page, "Largest error of the predicted share", "%", domain, "region_prediction_error", 100, 2);
-  figure_row(page, "Interface polygons", "", domain, "interfaces", 1, 9);
-  figure_row(page, "Colours (longest chain)", "", domain, "colours", 1, 9);
+  fputs("</div>\n<table><tr><th></th>", page);
+  domain_heads(page, data, "n p");
+  fputs("<th></th></tr>\n", page);
+  figure_row(page, data, "Largest region over mean", "", domain, "region_balance", 1, 3);
+  figure_row(page, data, "Largest error of the predicted share", "%", domain, "region_prediction_error", 100, 2);
+  figure_row(page, data, "Interface polygons", "", domain, "interfaces", 1, 9);
+  figure_row(page, data, "Colours (longest chain)", "", domain, "colours", 1, 9);
   fputs("</table>\n", page);
 done:
   return status;
@@ -227,35 +240,40 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
       "4\342\200\2235",   "5\342\200\2237",   "7\342\200\22310", "> 10"};
   // The paper's Table 1, proposed algorithm.
   static const double paper[ASPECT_CLASSES] = {4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1, NAN};
-  double aspect[2][ASPECT_CLASSES], dihedral[2][DIHEDRAL_BINS], jacobian[2][JACOBIAN_BINS];
+  double aspect[DOMAINS_MOST][ASPECT_CLASSES], dihedral[DOMAINS_MOST][DIHEDRAL_BINS],
+      jacobian[DOMAINS_MOST][JACOBIAN_BINS];
   char label[JACOBIAN_BINS][16];
   const char *labels[JACOBIAN_BINS];
-  json_t *domain[2];
-  CW_TRY(both_domains(data, domain));
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  json_t *domain[DOMAINS_MOST];
+  CW_TRY(all_domains(data, domain));
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     CW_TRY(shares(data, domain[d], "tetrahedron_aspect_class", ASPECT_CLASSES, aspect[d]));
     CW_TRY(shares(data, domain[d], "least_dihedral_bins", DIHEDRAL_BINS, dihedral[d]));
     CW_TRY(shares(data, domain[d], "prism_scaled_jacobian_bins", JACOBIAN_BINS, jacobian[d]));
   }
-  fputs("<table><tr><th></th><th class=\"n p\">Rotor</th><th class=\"n p\">Stator</th><th></th></tr>\n",
-        page);
-  figure_row(page, "Tetrahedra: longest over shortest edge, mean", "2.98 in the paper", domain,
+  int domains = data->mesh.domain_count;
+  fputs("<table><tr><th></th>", page);
+  domain_heads(page, data, "n p");
+  fputs("<th></th></tr>\n", page);
+  figure_row(page, data, "Tetrahedra: longest over shortest edge, mean", "2.98 in the paper", domain,
              "tetrahedron_aspect_mean", 1, 4);
-  figure_row(page, "Tetrahedra: longest over shortest edge, greatest", "8.8 in the paper", domain,
+  figure_row(page, data, "Tetrahedra: longest over shortest edge, greatest", "8.8 in the paper", domain,
              "tetrahedron_aspect_max", 1, 4);
-  figure_row(page, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
-  figure_row(page, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
-  figure_row(page, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
+  figure_row(page, data, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
+  figure_row(page, data, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
+  figure_row(page, data, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
   fputs("</table>\n<figure>", page);
-  CwPlotSeries series[3] = {{"rotor", rotor_colour, aspect[0]},
-                            {"stator", stator_colour, aspect[1]},
-                            {"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper}};
+  CwPlotSeries series[DOMAINS_MOST + 1];
+  for (int d = 0; d < domains; d++)
+    series[d] = (CwPlotSeries){data->mesh.domain[d].name, cw_domain_colour(d, 0), aspect[d]};
+  series[domains] =
+      (CwPlotSeries){"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper};
   cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
                                   .category_axis = "longest edge over shortest edge",
                                   .label = aspect_label,
                                   .count = ASPECT_CLASSES,
                                   .series = series,
-                                  .series_count = 3,
+                                  .series_count = domains + 1,
                                   .decimals = 1,
                                   .width = 980});
   fputs("<figcaption><b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the "
@@ -268,14 +286,14 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
     snprintf(label[k], sizeof label[k], "%d\342\200\223%d", 10 * k, 10 * k + 10);
     labels[k] = label[k];
   }
-  series[0].value = dihedral[0];
-  series[1].value = dihedral[1];
+  for (int d = 0; d < domains; d++)
+    series[d].value = dihedral[d];
   cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
                                   .category_axis = "least dihedral angle, degrees",
                                   .label = labels,
                                   .count = bins,
                                   .series = series,
-                                  .series_count = 2,
+                                  .series_count = domains,
                                   .decimals = 1,
                                   .width = 560});
   fputs("<figcaption><b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular "
@@ -286,14 +304,14 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
     snprintf(label[k], sizeof label[k], k % 4 == 0 ? "%.1f" : "", k / 20.0);
     labels[k] = label[k];
   }
-  series[0].value = jacobian[0];
-  series[1].value = jacobian[1];
+  for (int d = 0; d < domains; d++)
+    series[d].value = jacobian[d];
   cw_plot_columns(page, &(CwPlot){.axis = "% of the prisms",
                                   .category_axis = "scaled Jacobian, from",
                                   .label = labels,
                                   .count = JACOBIAN_BINS,
                                   .series = series,
-                                  .series_count = 2,
+                                  .series_count = domains,
                                   .decimals = -1,
                                   .width = 560});
   fputs("<figcaption><b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right prism on an "
@@ -306,23 +324,25 @@ done:
 static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces",
                                            "thinned_by_gradation_faces", "thinned_by_repair_faces"};
 
-static CwStatus coverage_chart(FILE *page, json_t *const list[2]) {
+static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *const *list) {
   CwStatus status = CW_OK;
   static const char *const names[] = {"full thickness", "thinned by a gap", "thinned by gradation",
                                       "thinned by repair"};
   static const uint32_t colours[] = {0x5f9e7c, 0xe0b653, 0x8db4da, 0xc8665a};
-  size_t count = json_array_size(list[0]) + json_array_size(list[1]), row = 0;
+  size_t count = 0, row = 0;
   double *share[4] = {NULL};
   const char **label = NULL;
   char(*words)[64] = NULL;
   CwPlotSeries series[4];
+  for (int d = 0; d < data->mesh.domain_count; d++)
+    count += json_array_size(list[d]);
   CW_NEW(label, count);
   CW_NEW(words, count);
   for (int s = 0; s < 4; s++) {
     CW_NEW(share[s], count);
     series[s] = (CwPlotSeries){names[s], colours[s], share[s]};
   }
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     size_t k;
     json_t *patch;
     json_array_foreach(list[d], k, patch) {
@@ -357,11 +377,11 @@ done:
 
 CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
-  json_t *domain[2], *list[2];
+  json_t *domain[DOMAINS_MOST], *list[DOMAINS_MOST];
   char where[4096], text[CW_FORMAT_SIZE];
   double all = 0, met = 0;
-  CW_TRY(both_domains(data, domain));
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  CW_TRY(all_domains(data, domain));
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domain[d].name);
     CW_TRY(cw_json_array(domain[d], where, "layer_coverage", &list[d]));
     for (size_t k = 0; k < json_array_size(list[d]); k++) {
@@ -376,7 +396,7 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
   fprintf(page, "it is met within 10&#8239;%% on %s of the wall faces.</p>\n<figure>",
           cw_format_percent(met / all, text));
-  CW_TRY(coverage_chart(page, list));
+  CW_TRY(coverage_chart(page, data, list));
   fputs(
       "<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
       "why the "
@@ -387,10 +407,12 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th "
       "class=\"n\"><br>repair</th></tr>\n",
       page);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
     size_t k;
     json_t *patch;
-    fprintf(page, "<tr class=\"s\"><td colspan=\"10\">%s</td></tr>\n", d ? "Stator" : "Rotor");
+    fputs("<tr class=\"s\"><td colspan=\"10\">", page);
+    write_name(page, data, d);
+    fputs("</td></tr>\n", page);
     json_array_foreach(list[d], k, patch) {
       const char *name = json_string_value(json_object_get(patch, "patch"));
       double faces = cw_json_real(patch, "wall_faces");

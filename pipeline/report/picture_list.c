@@ -165,7 +165,7 @@ const CwPictureSpec cw_picture_list[] = {
      .width = 1560,
      .height = 560,
      .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .sees = CW_SEES_ALL,
      .plane = CW_PLANE_MERIDIONAL,
      .inset_of = -1},
     {.section = CW_SECTION_CUT,
@@ -174,7 +174,7 @@ const CwPictureSpec cw_picture_list[] = {
      .width = 760,
      .height = 600,
      .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .sees = CW_SEES_ALL,
      .plane = CW_PLANE_MERIDIONAL,
      .target = CW_TARGET_NECK,
      .span = 0.1,
@@ -186,7 +186,7 @@ const CwPictureSpec cw_picture_list[] = {
      .width = 760,
      .height = 600,
      .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .sees = CW_SEES_ALL,
      .plane = CW_PLANE_MERIDIONAL,
      .target = CW_TARGET_SHROUD,
      .span = 0.09,
@@ -202,7 +202,7 @@ const CwPictureSpec cw_picture_list[] = {
      .width = 1560,
      .height = 1010,
      .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .sees = CW_SEES_ALL,
      .plane = CW_PLANE_Z0,
      .inset_of = -1},
     {.section = CW_SECTION_CUT,
@@ -211,7 +211,7 @@ const CwPictureSpec cw_picture_list[] = {
      .width = 760,
      .height = 600,
      .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .sees = CW_SEES_ALL,
      .plane = CW_PLANE_Z0,
      .target = CW_TARGET_PLACE,
      .place = CW_PLACE_TRAILING_EDGE,
@@ -224,13 +224,38 @@ const CwPictureSpec cw_picture_list[] = {
      .width = 760,
      .height = 600,
      .colour = CW_COLOUR_CUT,
-     .sees = CW_SEES_ROTOR | CW_SEES_STATOR,
+     .sees = CW_SEES_ALL,
      .plane = CW_PLANE_Z0,
      .target = CW_TARGET_PLACE,
      .place = CW_PLACE_TONGUE,
      .span = 0.12,
      .inset_of = Z0,
      .inset_name = "d"},
+    // 17
+    {.section = CW_SECTION_GEOMETRY,
+     .title = "All zones",
+     .caption = "The rotor, the stator and the pipes that are zones of their own, with all boundary patches.",
+     .wide = 1,
+     .width = 1180,
+     .height = 760,
+     .sees = CW_SEES_ALL,
+     .needs_pipes = 1,
+     .hidden = "",
+     .towards = {-0.95, 0.1, -0.6},
+     .up = {1, 0, 0},
+     .inset_of = -1},
+    {.section = CW_SECTION_DECOMPOSITION,
+     .title = "Regions of the pipes",
+     .caption = "Boundary of the pipes that are zones of their own, coloured by region.",
+     .width = 760,
+     .height = 640,
+     .colour = CW_COLOUR_REGION,
+     .sees = CW_SEES_PIPES,
+     .needs_pipes = 1,
+     .hidden = "",
+     .towards = {-0.95, 0.1, -0.6},
+     .up = {1, 0, 0},
+     .inset_of = -1},
 };
 const int cw_picture_list_count = sizeof cw_picture_list / sizeof *cw_picture_list;
 
@@ -255,12 +280,26 @@ uint32_t cw_patch_colour(const char *name, int index) {
                {"tongue", 0xd9584f},
                {"diffuser", 0xc9c6a0},
                {"discharge", 0xc3ccd4},
-               {"outlet", 0x8fb7d9}};
+               {"outlet", 0x8fb7d9},
+               {"inlet_pipe", 0xd7dde2},
+               {"outlet_pipe", 0xd7dde2},
+               {"rotor_to_suction", 0xa8d5ba},
+               {"suction_to_rotor", 0xa8d5ba},
+               {"stator_to_discharge", 0xa8d5ba},
+               {"discharge_to_stator", 0xa8d5ba}};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
     if (!strcmp(name, known[k].name))
       return known[k].colour;
   }
   return cw_region_colour(index);
+}
+
+uint32_t cw_domain_colour(int domain, int shade) {
+  static const uint32_t colour[][3] = {{0x4f8fc0, 0x8db4da, 0xdbe7f2},
+                                       {0xd9a24e, 0xe2bb78, 0xf6ecd6},
+                                       {0x5f9e7c, 0x9cc9af, 0xe0efe6},
+                                       {0xb9728a, 0xdaaab9, 0xf4e4e9}};
+  return colour[(size_t)domain % (sizeof colour / sizeof *colour)][shade];
 }
 
 uint32_t cw_region_colour(int index) {

@@ -5,7 +5,7 @@
 
 #include "pipeline/report/pictures.h"
 
-enum { CW_SEES_ROTOR = 1, CW_SEES_STATOR = 2 };
+enum { CW_SEES_ROTOR = 1, CW_SEES_STATOR = 2, CW_SEES_PIPES = 4, CW_SEES_ALL = 7 };
 
 typedef enum { CW_COLOUR_PATCH, CW_COLOUR_REGION, CW_COLOUR_CUT } CwPictureColour;
 typedef enum { CW_PLANE_NONE, CW_PLANE_MERIDIONAL, CW_PLANE_Z0 } CwPicturePlane;
@@ -24,6 +24,7 @@ typedef struct {
   CwPictureColour colour;
   unsigned sees;
   const char *hidden; // names of patches that are left out, "|a|b|"
+  int needs_pipes;    // only where pipes are zones of their own
   int upper_half;     // of the stator, what lies at z < 0 is cut off
   int hollow_white;   // faces of the rotor seen from within the metal are left white
   int edges;          // with the edges of the faces
@@ -44,5 +45,8 @@ extern const int cw_picture_list_count;
 // Colour of a patch by its name; of an unknown one by its index.
 uint32_t cw_patch_colour(const char *name, int index);
 uint32_t cw_region_colour(int index);
+
+// Colour of a domain in charts and cuts: 0 full, 1 for its prisms, 2 for its tetrahedra.
+uint32_t cw_domain_colour(int domain, int shade);
 
 #endif

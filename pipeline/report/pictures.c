@@ -12,8 +12,6 @@
 #include "pipeline/report/picture_list.h"
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
-static const uint32_t cut_colour[2][2] = {{0xdbe7f2, 0x8db4da},
-                                          {0xf6ecd6, 0xe2bb78}}; // domain; tetrahedra, prisms
 static const uint32_t pyramid_colour = 0xb98fc0;
 enum { PATCHES = CW_REPORT_PATCHES, FIT_MARGIN = 28, METAL = 65000 };
 
@@ -25,19 +23,20 @@ typedef struct {
   CwCutPlane plane;
   CwCanvas canvas;
   const char *lacking; // what is not there; then nothing is drawn
-  char hidden[CW_REPORT_DOMAINS][PATCHES];
-  char seen[CW_REPORT_DOMAINS][PATCHES];
+  char hidden[CW_REPORT_DOMAINS_MOST][PATCHES];
+  char seen[CW_REPORT_DOMAINS_MOST][PATCHES];
 } Drawing;
 
 static int sees(const CwPictureSpec *spec, int d) {
-  return (spec->sees & (d == CW_REPORT_ROTOR ? CW_SEES_ROTOR : CW_SEES_STATOR)) != 0;
+  const unsigned of[] = {CW_SEES_ROTOR, CW_SEES_STATOR, CW_SEES_PIPES};
+  return (spec->sees & of[d > CW_REPORT_STATOR ? 2 : d]) != 0;
 }
 
 static void mark_hidden(const CwReportMesh *mesh, Drawing *drawing) {
   char name[80];
   if (!drawing->spec->hidden)
     return;
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < mesh->domain_count; d++) {
     for (int p = 0; p < mesh->domain[d].patch_count; p++) {
       snprintf(name, sizeof name, "|%s|", mesh->domain[d].patch[p]);
       drawing->hidden[d][p] = strstr(drawing->spec->hidden, name) != NULL;
@@ -201,7 +200,9 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
 static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int region,
                        const CwReportCells *cells) {
   const CwPictureSpec *spec = drawing->spec;
-  int region_index = region + (d == CW_REPORT_STATOR ? mesh->domain[0].region_count : 0);
+  int region_index = region;
+  for (int before = 0; before < d; before++)
+    region_index += mesh->domain[before].region_count;
   for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
     Face face = face_at(cells, f);
     if (!face_shown(drawing, d, &face))
@@ -278,11 +279,11 @@ static CwStatus draw_cut(Drawing *drawing, int d, const CwReportCells *cells) {
   for (int32_t i = 0; i < cells->points; i++)
     distance[i] = cw_cut_distance(&drawing->plane, cells->x[i]);
   for (int32_t c = 0; c < cells->tetrahedra; c++)
-    draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedron[c], cut_colour[d][0], d + 1);
+    draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedron[c], cw_domain_colour(d, 2), d + 1);
   for (int32_t c = 0; c < cells->pyramids; c++)
     draw_cut_cell(drawing, cells, distance, 5, cells->pyramid[c], pyramid_colour, d + 1);
   for (int32_t c = 0; c < cells->prisms; c++)
-    draw_cut_cell(drawing, cells, distance, 6, cells->prism[c], cut_colour[d][1], d + 1);
+    draw_cut_cell(drawing, cells, distance, 6, cells->prism[c], cw_domain_colour(d, 1), d + 1);
 done:
   free(distance);
   return status;
@@ -293,7 +294,7 @@ static void mark_seen(Drawing *drawing) {
   size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
   for (size_t i = 0; i < samples; i++) {
     int group = drawing->canvas.group[i] - 1;
-    if (group >= 0 && group < CW_REPORT_DOMAINS * PATCHES)
+    if (group >= 0 && group < CW_REPORT_DOMAINS_MOST * PATCHES)
       drawing->seen[group / PATCHES][group % PATCHES] = 1;
   }
 }
@@ -313,15 +314,17 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
 }
 
 static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
-  static const char *const cut_label[2][2] = {{"rotor tetrahedra", "rotor prisms"},
-                                              {"stator tetrahedra", "stator prisms"}};
+  static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
   if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0)
     return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
-    for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
-      for (int k = 0; k < 2; k++)
-        add_legend(picture, cut_label[d][k], cut_colour[d][k]);
+    for (int d = 0; d < mesh->domain_count; d++) {
+      for (int k = 1; k >= 0; k--) {
+        char label[40];
+        snprintf(label, sizeof label, "%.20s %s", mesh->domain[d].name, kind[k]);
+        add_legend(picture, label, cw_domain_colour(d, k + 1));
+      }
       for (int r = 0; r < mesh->domain[d].region_count; r++)
         pyramids |= mesh->domain[d].region[r].pyramids > 0;
     }
@@ -329,7 +332,7 @@ static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwRepo
       add_legend(picture, "pyramids", pyramid_colour);
     return;
   }
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < mesh->domain_count; d++) {
     for (int p = 0; p < mesh->domain[d].patch_count; p++) {
       const char *name = mesh->domain[d].patch[p];
       if (drawing->seen[d][p])
@@ -386,7 +389,7 @@ done:
 static CwStatus survey_all(const CwReportMesh *mesh, Drawing *drawings, CwSurvey *survey) {
   CwStatus status = CW_OK;
   CwReportCells cells = {0};
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  for (int d = 0; d < mesh->domain_count; d++) {
     for (int r = 0; r < mesh->domain[d].region_count; r++) {
       CW_TRY(cw_report_cells_read(mesh, d, r, 0, &cells));
       cw_survey_add(survey, &mesh->domain[d], &cells);
@@ -406,8 +409,11 @@ static CwStatus draw_all(const CwReportMesh *mesh, Drawing *drawings) {
   CwStatus status = CW_OK;
   CwReportCells cells = {0};
   int64_t drawn = 0;
-  cw_progress_start("pictures", mesh->domain[0].region_count + mesh->domain[1].region_count, "regions");
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+  int regions = 0;
+  for (int d = 0; d < mesh->domain_count; d++)
+    regions += mesh->domain[d].region_count;
+  cw_progress_start("pictures", regions, "regions");
+  for (int d = 0; d < mesh->domain_count; d++) {
     for (int r = 0; r < mesh->domain[d].region_count; r++) {
       CW_TRY(cw_report_cells_read(mesh, d, r, 1, &cells));
       for (int k = 0; k < cw_picture_list_count; k++) {
@@ -470,6 +476,7 @@ CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *si
     picture->wide = spec->wide;
     picture->width = spec->width;
     picture->height = spec->height;
+    picture->absent = spec->needs_pipes && mesh->domain_count <= 2;
     CW_TRY(finish(mesh, drawings, k, picture));
   }
 done:

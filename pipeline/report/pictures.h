@@ -27,6 +27,7 @@ typedef struct {
   int width, height;   // px
   CwPng png;           // no bytes: the mesh lacks what the picture shows
   const char *lacking; // then: what
+  int absent;          // shows zones that this pump does not have: left out
   CwLegendItem legend[2 * CW_REPORT_PATCHES];
   int legend_count;
 } CwReportPicture;
