@@ -320,6 +320,8 @@ static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwRepo
     return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
+      if (!sees(drawing->spec, d))
+        continue;
       for (int k = 1; k >= 0; k--) {
         char label[40];
         snprintf(label, sizeof label, "%.20s %s", mesh->domain[d].name, kind[k]);
