@@ -482,7 +482,8 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
     json_decref(stator);
     return -1;
   }
-  json_t *root = json_pack("{s:i, s:s, s:[o, o]}", "format", 1, "case", "paper", "domains", rotor, stator);
+  json_t *root = json_pack("{s:i, s:s, s:[o, o], s:[[s, s]]}", "format", 1, "case", "paper", "domains", rotor,
+                           stator, "interfaces", "rotor_interface", "stator_interface");
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);

@@ -47,17 +47,19 @@ static void make_pair(Pair *p) {
   memset(p, 0, sizeof *p);
   p->names[0] = (CwMeshPatch){"rotor_interface", CW_KIND_INTERFACE, 0};
   p->names[1] = (CwMeshPatch){"stator_interface", CW_KIND_INTERFACE, 1};
+  p->mesh.interfaces[0] = (CwMeshInterface){{0, 1}};
+  p->mesh.interface_count = 1;
   p->mesh.patches = p->names;
   p->mesh.patch_count = 2;
   p->assembly.mesh = &p->mesh;
   p->assembly.patches = p->sums;
-  p->sums[0].triangles = make_ring(36, 5, 1, 0.02, &p->assembly.interface[0]);
-  p->sums[1].quads = make_ring(50, 7, 0, 0.3, &p->assembly.interface[1]);
+  p->sums[0].triangles = make_ring(36, 5, 1, 0.02, &p->assembly.interface[0][0]);
+  p->sums[1].quads = make_ring(50, 7, 0, 0.3, &p->assembly.interface[0][1]);
 }
 
 static void free_pair(Pair *p) {
-  free(p->assembly.interface[0]);
-  free(p->assembly.interface[1]);
+  free(p->assembly.interface[0][0]);
+  free(p->assembly.interface[0][1]);
 }
 
 // The place that (r, s) means in a face, as angle and z.
@@ -82,13 +84,13 @@ static void every_centre_lies_where_its_donor_says(void **state) {
   Pair p;
   CwInterface interface = {0};
   make_pair(&p);
-  assert_int_equal(cw_interface_make(&p.assembly, RADIUS, &interface), CW_OK);
+  assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_OK);
   for (int d = 0; d < 2; ++d) {
     assert_int_equal(interface.count[d], d ? 350 : 360);
     for (int64_t i = 0; i < interface.count[d]; ++i) {
-      const CwInterfaceFace *face = &p.assembly.interface[d][i];
+      const CwInterfaceFace *face = &p.assembly.interface[0][d][i];
       double place[2], x[3] = {0};
-      place_in(&p.assembly.interface[1 - d][interface.donor[d][i]], interface.place[d][i], place);
+      place_in(&p.assembly.interface[0][1 - d][interface.donor[d][i]], interface.place[d][i], place);
       for (int c = 0; c < face->count; ++c)
         for (int k = 0; k < 3; ++k)
           x[k] += face->nodes[c][k] / face->count;
@@ -109,8 +111,8 @@ static void a_radial_gap_is_told(void **state) {
   for (int64_t i = 0; i < 350; ++i)
     for (int c = 0; c < 4; ++c)
       for (int k = 0; k < 2; ++k)
-        p.assembly.interface[1][i].nodes[c][k] *= 1.01;
-  assert_int_equal(cw_interface_make(&p.assembly, RADIUS, &interface), CW_ERR_INPUT);
+        p.assembly.interface[0][1][i].nodes[c][k] *= 1.01;
+  assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "patch 'stator_interface'"));
   assert_non_null(strstr(cw_fail_message(), "has the radius 101 mm; the interface has 100 mm"));
   cw_interface_free(&interface);
@@ -124,11 +126,104 @@ static void different_ends_are_told(void **state) {
   make_pair(&p);
   for (int64_t i = 0; i < 350; ++i)
     for (int c = 0; c < 4; ++c)
-      p.assembly.interface[1][i].nodes[c][2] += 1e-3;
-  assert_int_equal(cw_interface_make(&p.assembly, RADIUS, &interface), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "from z = -10 to 10 mm in the rotor, but from -9 to 11 mm"));
+      p.assembly.interface[0][1][i].nodes[c][2] += 1e-3;
+  assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "from z = -10 to 10 mm on patch 'rotor_interface', but from -9 to 11 mm"));
   cw_interface_free(&interface);
   free_pair(&p);
+}
+
+// A disc inscribed in the circle of RADIUS, as triangles round its middle in `rings`; tilted by 30 degrees about x.
+static int64_t make_disc(int around, int rings, CwInterfaceFace **faces) {
+  const double tilt = M_PI / 6;
+  *faces = calloc((size_t)(around * (2 * rings - 1)), sizeof **faces);
+  int64_t count = 0;
+  for (int r = 0; r < rings; ++r)
+    for (int i = 0; i < around; ++i)
+      for (int half = 0; half < (r ? 2 : 1); ++half) {
+        const int ring[2][3] = {{r, r + 1, r + 1}, {r, r + 1, r}}, step[2][3] = {{0, 0, 1}, {0, 1, 1}};
+        CwInterfaceFace *face = &(*faces)[count];
+        face->place = count++;
+        face->count = 3;
+        for (int c = 0; c < 3; ++c) {
+          double radius = RADIUS * ring[half][c] / rings, angle = 2 * M_PI * (i + step[half][c]) / around;
+          double x = radius * cos(angle), y = radius * sin(angle);
+          memcpy(face->nodes[c], (double[]){x, y * cos(tilt), y * sin(tilt) + 0.3}, sizeof face->nodes[c]);
+        }
+      }
+  return count;
+}
+
+// Both sides have the same rim; inside, one is much finer.
+static void make_discs(Pair *p) {
+  make_pair(p);
+  p->mesh.interfaces[1] = p->mesh.interfaces[0];
+  p->mesh.interface_count = 2;
+  for (int side = 0; side < 2; ++side) {
+    p->sums[side] = (CwPatchPart){.area = M_PI * RADIUS * RADIUS,
+                                  .vector = {0, (side ? 1 : -1) * sin(M_PI / 6), (side ? -1 : 1) * cos(M_PI / 6)}};
+    p->sums[side].triangles = make_disc(24, side ? 7 : 3, &p->assembly.interface[1][side]);
+  }
+}
+
+static void free_discs(Pair *p) {
+  for (int side = 0; side < 2; ++side)
+    free(p->assembly.interface[1][side]);
+  free_pair(p);
+}
+
+static void a_disc_finds_its_donors_in_its_plane(void **state) {
+  (void)state;
+  Pair p;
+  CwInterface interface = {0};
+  make_discs(&p);
+  assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_OK);
+  for (int d = 0; d < 2; ++d) {
+    assert_int_equal(interface.count[d], d ? 24 * 13 : 24 * 5);
+    for (int64_t i = 0; i < interface.count[d]; ++i) {
+      const CwInterfaceFace *face = &p.assembly.interface[1][d][i];
+      const CwInterfaceFace *donor = &p.assembly.interface[1][1 - d][interface.donor[d][i]];
+      const double r = interface.place[d][i][0], s = interface.place[d][i][1], w[3] = {1 - r - s, r, s};
+      for (int k = 0; k < 3; ++k) {
+        double centre = 0, place = 0;
+        for (int c = 0; c < 3; ++c) {
+          centre += face->nodes[c][k] / 3;
+          place += w[c] * donor->nodes[c][k];
+        }
+        assert_float_equal(place, centre, 1e-12);
+      }
+    }
+  }
+  cw_interface_free(&interface);
+  free_discs(&p);
+}
+
+static void a_node_off_the_disc_is_told(void **state) {
+  (void)state;
+  Pair p;
+  CwInterface interface = {0};
+  make_discs(&p);
+  p.assembly.interface[1][1][40].nodes[1][2] += 1e-3;
+  assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "patch 'stator_interface'"));
+  assert_non_null(strstr(cw_fail_message(), "is 0.866 mm off the interface's plane; allowed: 0.01 mm"));
+  cw_interface_free(&interface);
+  free_discs(&p);
+}
+
+static void discs_of_different_size_are_told(void **state) {
+  (void)state;
+  Pair p;
+  CwInterface interface = {0};
+  make_discs(&p);
+  for (int64_t i = 0; i < p.sums[1].triangles; ++i)
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k)
+        p.assembly.interface[1][1][i].nodes[c][k] += 0.03 * (p.assembly.interface[1][1][i].nodes[c][k] - (k == 2) * 0.3);
+  assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "'rotor_interface', but from -103 to 103 mm"));
+  cw_interface_free(&interface);
+  free_discs(&p);
 }
 
 int main(void) {
@@ -136,6 +231,9 @@ int main(void) {
       cmocka_unit_test(every_centre_lies_where_its_donor_says),
       cmocka_unit_test(a_radial_gap_is_told),
       cmocka_unit_test(different_ends_are_told),
+      cmocka_unit_test(a_disc_finds_its_donors_in_its_plane),
+      cmocka_unit_test(a_node_off_the_disc_is_told),
+      cmocka_unit_test(discs_of_different_size_are_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

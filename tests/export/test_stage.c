@@ -139,7 +139,9 @@ static void a_manifest_that_does_not_fit_is_told(void **state) {
       {"s/\"format\": 1/\"format\": 9/", "'format' must be 1"},
       {"s/\"kind\": \"outlet\"/\"kind\": \"exit\"/", "patch 'outlet': kind 'exit'; allowed are wall, inlet"},
       {"s/\"kind\": \"outlet\"/\"kind\": \"wall\"/",
-       "domain stator has 0 patches of kind outlet; it must have one"},
+       "0 patches of kind outlet; there must be one"},
+      {"s/^ *\"rotor_interface\",/\"hub\",/", "interface 1: 'hub' is no patch of kind interface"},
+      {"s/\"interfaces\"/\"faces\"/", "'interfaces' must list 1 to 8 pairs of patches"},
       {"s/\"name\": \"tongue\"/\"name\": \"volute\"/", "patch 'volute' is named twice"},
       {"$ d", "manifest.json:"},
   };

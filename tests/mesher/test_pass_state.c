@@ -104,7 +104,7 @@ static void missing_geometry_is_named(void **unused) {
   cw_case_defaults(&table);
   char fingerprint[33];
   assert_int_equal(cw_pass_fingerprint(&table, "nowhere", &domains, fingerprint), CW_ERR_IO);
-  assert_non_null(strstr(cw_fail_message(), "nowhere/geometry/rotor.brep"));
+  assert_non_null(strstr(cw_fail_message(), "nowhere/geometry/faces.csv"));
 }
 
 int main(void) {

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Suction and discharge pipe as domains of their own: what is cut off is what the others lose, both sides of a
+// disc have the same outline, and the case is told when there is no room for a zone.
+#include <cmath>
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <BRep_Tool.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <gp_Pnt.hxx>
+
+extern "C" {
+#include <cmocka.h>
+}
+
+#include "geometry/measure.h"
+#include "geometry/pump_solids.h"
+#include "geometry/solid.hpp"
+#include "pipeline/case.h"
+
+static CwCase read_case(const char *name) {
+  CwCase table;
+  const std::string path = std::string(CUTWATER_SOURCE_DIR "/cases/") + name + "/case.yaml";
+  assert_int_equal(cw_case_read(path.c_str(), &table), CW_OK);
+  return table;
+}
+
+static CwPumpSolids build(const CwCase &table, CwDesign *design) {
+  CwPipeStubs stubs;
+  CwPumpSolids pump = {};
+  assert_int_equal(cw_hydraulic_design(&table, design), CW_OK);
+  assert_int_equal(cw_pump_pipe_stubs(&table, design, &stubs), CW_OK);
+  if (cw_pump_solids_build(&table, design, &stubs, &pump) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  return pump;
+}
+
+static CwMeasuredSolid measure(const CwSolid *solid) {
+  CwMeasuredSolid measured;
+  assert_int_equal(cw_measure_solid(solid, &measured), CW_OK);
+  assert_true(measured.valid && measured.closed && measured.largest_tolerance < 1e-6);
+  return measured;
+}
+
+// Ends and middles of the edges of the one face of a patch, mm.
+static std::vector<gp_Pnt> outline(const CwSolid *solid, const char *patch, const char *kind) {
+  std::vector<gp_Pnt> points;
+  for (const CwSolidFace &face : solid->faces) {
+    if (face.patch != patch)
+      continue;
+    assert_true(points.empty());
+    assert_string_equal(face.kind.c_str(), kind);
+    for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next()) {
+      double first, last;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last);
+      for (double s : {0.0, 0.5, 1.0})
+        points.push_back(curve->Value(first + s * (last - first)));
+    }
+  }
+  assert_false(points.empty());
+  return points;
+}
+
+static void same_outline(const CwSolid *a, const char *patch_a, const CwSolid *b, const char *patch_b) {
+  const std::vector<gp_Pnt> p = outline(a, patch_a, "interface"), q = outline(b, patch_b, "interface");
+  assert_int_equal(p.size(), q.size());
+  for (const gp_Pnt &point : p) {
+    double least = HUGE_VAL;
+    for (const gp_Pnt &other : q)
+      least = std::fmin(least, point.Distance(other));
+    assert_true(least < 1e-9);
+  }
+}
+
+static void check_zones(CwCase table) {
+  CwDesign design, whole_design;
+  CwPumpSolids zones = build(table, &design);
+  table.impeller.suction_pipe_zone = table.volute.discharge_pipe_zone = CW_PIPE_WITH_NEIGHBOUR;
+  table.impeller.suction_pipe_length = design.suction_pipe_length;
+  CwPumpSolids whole = build(table, &whole_design);
+  assert_int_equal(whole.count, 2);
+  assert_int_equal(whole.interface_count, 1);
+  assert_int_equal(zones.count, 4);
+  assert_int_equal(zones.interface_count, 3);
+  assert_string_equal(cw_solid_domain(zones.solid[2]), "suction");
+  assert_string_equal(cw_solid_domain(zones.solid[3]), "discharge");
+  const char *names[] = {"rotor", "stator"};
+  for (int i = 0; i < 2; i++) {
+    assert_string_equal(cw_solid_domain(zones.solid[i]), names[i]);
+    const double all = measure(whole.solid[i]).volume, rest = measure(zones.solid[i]).volume,
+                 pipe = measure(zones.solid[2 + i]).volume;
+    assert_float_equal(rest + pipe, all, 1e-5 * all);
+    assert_true(pipe > 0.05 * all);
+  }
+  // The whole pipes: length times section.
+  const double d1 = design.inlet_diameter, dn = design.discharge_diameter;
+  assert_float_equal(measure(zones.solid[3]).volume,
+                     M_PI / 4 * dn * dn * (design.discharge_pipe_length - 0.25 * dn), 1e-9 * dn);
+  assert_true(measure(zones.solid[2]).volume < M_PI / 4 * d1 * d1 * (design.suction_pipe_length - 0.25 * d1) * 1.000001);
+  for (int i = 0; i < 3; i++) {
+    const CwPumpInterface *between = &zones.interface[i];
+    int found[2] = {-1, -1};
+    for (int d = 0; d < zones.count; d++)
+      for (int s = 0; s < 2; s++)
+        if (!std::strcmp(cw_solid_domain(zones.solid[d]), between->domain[s]))
+          found[s] = d;
+    assert_true(found[0] >= 0 && found[1] >= 0);
+    if (i > 0)
+      same_outline(zones.solid[found[0]], between->patch[0], zones.solid[found[1]], between->patch[1]);
+  }
+  outline(zones.solid[2], "inlet", "inlet");
+  outline(zones.solid[3], "outlet", "outlet");
+  cw_pump_solids_free(&zones);
+  cw_pump_solids_free(&whole);
+}
+
+static void zones_add_up_to_the_whole(void **) {
+  check_zones(read_case("zones"));
+}
+
+static void the_other_hand_has_zones_too(void **) {
+  CwCase table = read_case("zones");
+  table.impeller.rotation = CW_ROTATION_CLOCKWISE;
+  check_zones(table);
+}
+
+static void radial_discharge_and_splitters_have_zones_too(void **) {
+  CwCase table = read_case("splitters");
+  table.impeller.suction_pipe_zone = table.volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
+  table.volute.discharge = CW_DISCHARGE_RADIAL;
+  table.volute.diffuser_length = 0.25;
+  check_zones(table);
+}
+
+static void a_short_pipe_is_refused(void **) {
+  CwCase table = read_case("zones");
+  CwDesign design;
+  CwPipeStubs stubs;
+  table.impeller.suction_pipe_length = 0.03;
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
+  assert_non_null(std::strstr(cw_fail_message(), "raise suction_pipe_length_mm to at least"));
+  table = read_case("zones");
+  table.volute.discharge_pipe_length = 0.02; // DN is 50 mm: 12.5 mm stay with the stator
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
+  assert_non_null(std::strstr(cw_fail_message(), "raise discharge_pipe_length_mm to at least 25.0"));
+}
+
+static void an_open_length_leaves_a_diameter_to_the_zone(void **) {
+  CwCase table = read_case("zones");
+  CwDesign design;
+  CwPipeStubs stubs;
+  table.impeller.suction_pipe_length = NAN;
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_OK);
+  assert_float_equal(design.suction_pipe_length - stubs.suction, design.inlet_diameter, 1e-12);
+  assert_true(stubs.suction >= 0.25 * design.inlet_diameter);
+  assert_float_equal(stubs.discharge, 0.25 * design.discharge_diameter, 1e-12);
+}
+
+int main() {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(zones_add_up_to_the_whole),
+      cmocka_unit_test(the_other_hand_has_zones_too),
+      cmocka_unit_test(radial_discharge_and_splitters_have_zones_too),
+      cmocka_unit_test(a_short_pipe_is_refused),
+      cmocka_unit_test(an_open_length_leaves_a_diameter_to_the_zone),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
