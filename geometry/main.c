@@ -142,8 +142,10 @@ static CwStatus write_file(const CwPumpSolids *pump, const CwDesign *design, con
     return cw_picture_velocity_triangles(design, path);
   case 7:
     return cw_picture_blade_angle(design, path);
-  default:
+  case 8:
     return cw_picture_volute_sections(design, path);
+  default:
+    return cw_picture_volute_plan(design, path);
   }
 }
 
@@ -170,7 +172,8 @@ done:
 static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
   static const char *const names[] = {"faces.csv",           "interfaces.csv",         "pump.step",
                                       "design.json",         "meridional_section.svg", "blade_to_blade.svg",
-                                      "velocity_triangles.svg", "blade_angle.svg",     "volute_sections.svg"};
+                                      "velocity_triangles.svg", "blade_angle.svg",     "volute_sections.svg",
+                                      "volute_plan.svg"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
   CwDesign design;

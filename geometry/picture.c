@@ -90,3 +90,18 @@ void cw_picture_text(CwPicture *picture, CwTextAlign align, double x, double y, 
   }
   fputs("</text>\n", picture->file.stream);
 }
+
+void cw_picture_scale(CwPicture *picture, double x, double y, double pixels_per_mm) {
+  const double step[] = {1, 2, 5};
+  double best = 1e-3;
+  for (int k = 0; k < 24; k++) {
+    const double length = pow(10, -3 + k / 3) * step[k % 3];
+    if (length * pixels_per_mm <= 170)
+      best = length;
+  }
+  const double end = x + best * pixels_per_mm;
+  cw_picture_segment(picture, CW_STROKE_WALL, x, y, end, y);
+  cw_picture_segment(picture, CW_STROKE_WALL, x, y - 5, x, y + 5);
+  cw_picture_segment(picture, CW_STROKE_WALL, end, y - 5, end, y + 5);
+  cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (x + end), y - 8, "%g mm", best);
+}

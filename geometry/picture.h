@@ -32,6 +32,8 @@ void cw_picture_circle(CwPicture *picture, CwStroke stroke, double x, double y, 
 // printf style; & < > in the text are escaped.
 void cw_picture_text(CwPicture *picture, CwTextAlign align, double x, double y, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+// A scale bar of a round length near 120 px, from (x, y) to the right, with its length above it.
+void cw_picture_scale(CwPicture *picture, double x, double y, double pixels_per_mm);
 
 // The pictures of the geometry stage.
 CwStatus cw_picture_meridional(const CwDesign *design, const char *path);         // section (z, r)
@@ -39,6 +41,7 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path);   
 CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path); // inlet and outlet
 CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path); // beta and area along the blade
 CwStatus cw_picture_volute_sections(const CwDesign *design, const char *path); // areas and outlines
+CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path);     // walls at z = 0
 
 #ifdef __cplusplus
 }

@@ -89,6 +89,12 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   cw_picture_line(&picture, CW_STROKE_FLOW, (const double(*)[2])arc, 40, 0);
   cw_picture_arrow(&picture, CW_STROKE_FLOW, arc[38][0], arc[38][1], arc[40][0] + 4, arc[40][1] + 4);
   cw_picture_text(&picture, CW_TEXT_RIGHT, arc[20][0] - 4, arc[20][1] + 4, "n");
+  cw_picture_text(&picture, CW_TEXT_MIDDLE, centre, centre + 20 + scale * design->inlet_diameter / 2 - 8,
+                  "D1 = %.1f mm", design->inlet_diameter * 1e3);
+  cw_picture_text(&picture, CW_TEXT_RIGHT, centre + 340, centre + 56 + scale * design->interface_radius,
+                  "D2 = %.1f mm, outer circle: interface, r = %.1f mm", design->outlet_diameter * 1e3,
+                  design->interface_radius * 1e3);
+  cw_picture_scale(&picture, 20, centre + 56 + scale * design->interface_radius, scale * 1e-3);
   CW_TRY(cw_picture_end(&picture));
 done:
   cw_picture_abandon(&picture);

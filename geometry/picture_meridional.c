@@ -79,7 +79,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   const double width = fmax(scale * length + 340, 700);
   CW_TRY(cw_picture_begin(&picture, path, width, scale * ri + 130));
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Meridional section: z = %d%s, nq = %.1f, passage %.0f to %.0f mm2", design->blade_count,
+                  "Meridional section: z = %d%s, nq = %.1f, passage area %.0f mm2 at the leading, %.0f at the trailing edge", design->blade_count,
                   design->splitter_start > 0 ? " with splitters" : "", design->specific_speed_nq,
                   design->passage_area_inlet * 1e6, design->passage_area_outlet * 1e6);
   draw_blade(&picture, &frame, &m);
@@ -114,6 +114,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   to_pixels(&frame, flow[0], a);
   to_pixels(&frame, flow[1], b);
   cw_picture_arrow(&picture, CW_STROKE_FLOW, a[0], a[1], b[0], b[1]);
+  cw_picture_scale(&picture, width - 220, scale * ri + 110, scale * 1e-3);
   CW_TRY(cw_picture_end(&picture));
 done:
   cw_picture_abandon(&picture);

@@ -16,7 +16,20 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
     cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
   cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (left + x1), base + 20, "u = %.2f", t->u);
   cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (left + xa) - 8, 0.5 * (base + ya) - 4, "c = %.2f", t->c);
-  cw_picture_text(picture, CW_TEXT_LEFT, 0.5 * (x1 + xa) + 8, 0.5 * (base + ya) - 8, "w = %.2f", t->w);
+  // Above w, or where the line without slip runs there, below it.
+  if (xa > left + 1)
+    cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (x1 + xa) - 4, base - 6, "w = %.2f", t->w);
+  else
+    cw_picture_text(picture, CW_TEXT_LEFT, 0.5 * (x1 + xa) + 8, 0.5 * (base + ya) - 8, "w = %.2f", t->w);
+}
+
+// w along the blade, as it would be without slip, with the same u and c_m; the gap between both apexes is the slip.
+static void without_slip(CwPicture *picture, double left, double base, double scale, const CwTriangle *t) {
+  const double c_u = t->u - t->c_m / tan(t->blade_angle);
+  const double x1 = left + scale * t->u, xa = left + scale * t->c_u, xb = left + scale * c_u, ya = base - scale * t->c_m;
+  cw_picture_segment(picture, CW_STROKE_AXIS, x1, base, xb, ya);
+  cw_picture_segment(picture, CW_STROKE_AXIS, xa, ya, xb, ya);
+  cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (xa + xb), ya - 8, "slip %.2f", c_u - t->c_u);
 }
 
 // The figures of a triangle as a row of the table.
@@ -43,7 +56,8 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
   static const char *const inlets[] = {"inlet, hub", "inlet, mid-span", "inlet, shroud"};
   static const char *const outlets[] = {"outlet, hub", "outlet, mid-span", "outlet, shroud"};
   const CwTriangle *in = design->inlet_triangle, *out = design->outlet_triangle;
-  const double scale = 560 / out[1].u;
+  // One scale for all: the outlet's triangle is 560 px wide, less where the three of the inlet want the room.
+  const double scale = fmin(560 / out[1].u, (860 - 70 - 2 * 85) / (in[0].u + in[1].u + in[2].u));
   double highest = 0;
   for (int j = 0; j < CW_TRIANGLE_SPANS; j++)
     highest = fmax(highest, in[j].c_m);
@@ -51,13 +65,15 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
   CW_TRY(cw_picture_begin(&picture, path, 940, table + 22 * 7 + 50));
   cw_picture_text(
       &picture, CW_TEXT_LEFT, 20, 28,
-      "Velocity triangles, m/s; inlet with blockage and without swirl, outlet behind the blades with slip");
+      "Velocity triangles, m/s, all to one scale; inlet with blockage and without swirl, outlet behind the "
+      "blades with slip");
   double left = 70;
   for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
-    triangle(&picture, left, first, 0.62 * scale, inlets[j], &in[j]);
-    left += 0.62 * scale * in[j].u + 85;
+    triangle(&picture, left, first, scale, inlets[j], &in[j]);
+    left += scale * in[j].u + 85;
   }
-  triangle(&picture, 70, second, scale, "outlet", &out[1]);
+  triangle(&picture, 70, second, scale, "outlet, mid-span; chain line: along the blade, without slip", &out[1]);
+  without_slip(&picture, 70, second, scale, &out[1]);
   for (int i = 0; i < 9; i++)
     cw_picture_text(&picture, CW_TEXT_RIGHT, 250 + 75 * i, table, "%s", heads[i]);
   cw_picture_segment(&picture, CW_STROKE_THIN, 40, table + 8, 860, table + 8);
