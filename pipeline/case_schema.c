@@ -176,7 +176,7 @@ const CwCaseKey cw_case_keys[] = {
                   "of all layers together; computed: from first height, count and growth ratio"),
 
     {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
-     "cells of rotor and stator together; --cells on the command line goes before it"},
+     "cells of all zones together; --cells on the command line goes before it"},
     {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 20000, 4e6, 400000, NULL,
      AT(mesh.cells_per_region), "about this many cells a region; at least four regions a domain in any case"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Random volutes over the range of radial pumps: each is built whole or refused in one clear line.
 // Usage: test_stator_random [DRAWS]
+#include <algorithm>
 #include <cmath>
 #include <csetjmp>
 #include <cstdarg>
@@ -11,11 +12,18 @@
 #include <map>
 #include <string>
 
+#include <BRep_Tool.hxx>
+#include <Geom_Curve.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+
 extern "C" {
 #include <cmocka.h>
 }
 
 #include "geometry/measure.h"
+#include "geometry/solid.hpp"
 #include "geometry/stator.h"
 
 static const double degree = M_PI / 180, gravity = 9.80665;
@@ -69,10 +77,24 @@ static CwVoluteInput draw() {
   return in;
 }
 
+// The shortest edge of a solid, mm.
+static double shortest_edge(const CwSolid *solid) {
+  double least = HUGE_VAL;
+  for (TopExp_Explorer at(solid->solid, TopAbs_EDGE); at.More(); at.Next()) {
+    double first, last, length = 0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last);
+    for (int k = 0; k < 200; k++)
+      length += curve->Value(first + (last - first) * k / 200).Distance(curve->Value(first + (last - first) * (k + 1) / 200));
+    least = std::min(least, length);
+  }
+  return least;
+}
+
 static void random_volutes(void **) {
   static const char *const section[] = {"trapezoid", "rectangle", "circle"};
   std::map<std::string, std::pair<int, int>> kinds; // built and drawn
   int built = 0;
+  double shortest = HUGE_VAL;
   state = 20;
   for (int i = 0; i < draws; i++) {
     CwVoluteInput in = draw();
@@ -89,6 +111,9 @@ static void random_volutes(void **) {
       assert_int_equal(cw_measure_solid(solid, &measured), CW_OK);
       assert_true(measured.valid && measured.closed && measured.face_count == 51);
       assert_true(measured.largest_tolerance < 1e-6 && measured.volume > 0);
+      const double edge = shortest_edge(solid);
+      shortest = std::min(shortest, edge);
+      assert_true(edge >= 0.05);
       kinds[kind].first++;
       built++;
     } else {
@@ -103,7 +128,7 @@ static void random_volutes(void **) {
   }
   for (const auto &one : kinds)
     print_message("%s: %d of %d built\n", one.first.c_str(), one.second.first, one.second.second);
-  print_message("%d of %d volutes built\n", built, draws);
+  print_message("%d of %d volutes built; shortest edge %.3f mm\n", built, draws, shortest);
   assert_true(built >= 0.95 * draws);
 }
 
