@@ -120,7 +120,7 @@ typedef struct {
 } CwWalls;
 
 typedef struct {
-  int64_t cells;             // asked number of cells, rotor and stator together
+  int64_t cells;             // asked number of cells, all zones together
   CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
   int64_t cells_per_region;  // about this many; at least four regions a domain in any case
   double gradation;          // growth of size with distance, d(size)/d(distance)

@@ -45,10 +45,11 @@ static int messages_have(const char *words) {
 // Two runs give the same bytes, and nothing is left under a temporary name.
 static void files_are_written_and_the_same_each_time(void **state) {
   static const char *const names[] = {"rotor.brep",         "stator.brep",
-                                      "faces.csv",          "pump.step",
-                                      "design.json",        "meridional_section.svg",
-                                      "blade_to_blade.svg", "velocity_triangles.svg",
-                                      "blade_angle.svg",    "volute_sections.svg"};
+                                      "faces.csv",          "interfaces.csv",
+                                      "pump.step",          "design.json",
+                                      "blade_to_blade.svg", "meridional_section.svg",
+                                      "blade_angle.svg",    "velocity_triangles.svg",
+                                      "volute_plan.svg",    "volute_sections.svg"};
   char command[300];
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "a"), 0);
   assert_true(messages_have("measured: wrap 71.0000 deg, D1 74.0000, D2 200.0000, b2 8.0000 mm"));
