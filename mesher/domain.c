@@ -100,13 +100,18 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = ceil(cells / (double)table->mesh.cells_per_region);
-  double *thickness = NULL;
+  double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
+  CW_NEW(least, cw_cad_patch_count(domain->cad));
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickness[p] = cw_domain_thickness(domain, table, p);
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
+    thickness[p] = cw_domain_thickness(domain, table, p);
+    least[p] = EVEN_LAYERS * table->walls.layer_count * domain->patch_first_height[p];
   }
   CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
                            .thickness = thickness,
+                           .least_thickness = least,
+                           .tallest = TALLEST_COLUMN,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
   CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan));
@@ -114,6 +119,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
 done:
   cw_plan_free(&plan);
   free(thickness);
+  free(least);
   return status;
 }
 
