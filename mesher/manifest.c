@@ -44,7 +44,7 @@ static json_t *manifest_json(const CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
                                              (json_int_t)domain->context.shared_count, "solid_volume_m3",
-                                             cw_json_number(cw_cad_volume(domain->cad)), "patches",
+                                             cw_json_number(domain->solid_volume), "patches",
                                              patches_json(domain), "regions", regions_json(run, d)));
   }
   return json_pack("{s:i, s:s, s:o}", "format", 1, "case", run->table->name, "domains", domains);
@@ -132,7 +132,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
                                                 cw_json_number(area[p])));
     if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, domain, p));
   }
-  double solid = cw_cad_volume(domain->cad);
+  double solid = domain->solid_volume;
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", regions, "interfaces",

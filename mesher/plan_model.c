@@ -14,7 +14,7 @@ static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that i
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
 // want a cell between them; beside a smooth edge only the surface triangles do.
 static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
-static const double WALL_STEP = 2e-3, WALL_CUBE = 4e-3; // m: points on walls, and the cubes they are kept in
+static const double WALL_STEP = 2e-3; // m: between points on walls, at most
 
 static void triangle_normal(const CwBackground *background, int32_t t, double normal[3]) {
   const int32_t *corner = background->triangle[t];
@@ -110,17 +110,10 @@ static int halve(Facet *facet, double limit, Facet *other) {
   return 1;
 }
 
-static size_t cube_of(const CwPlanWalls *walls, const double x[3], int32_t place[3]) {
-  for (int k = 0; k < 3; k++) {
-    double at = floor((x[k] - walls->low[k]) / walls->cell);
-    place[k] = (int32_t)fmin(fmax(at, 0), walls->count[k] - 1);
-  }
-  return ((size_t)place[2] * walls->count[1] + place[1]) * walls->count[0] + place[0];
-}
-
-// Visits points all over the walls: counts them in start[cube + 1], or stores them from next[cube] on.
-static void visit_walls(CwPlanModel *model, int32_t *next) {
+// Visits points all over the walls; stores them where there is room for them.
+static void visit_walls(CwPlanModel *model) {
   const CwBackground *background = model->background;
+  model->wall_count = 0;
   for (int32_t t = 0; t < background->triangle_count; t++) {
     Facet stack[PIECE_STACK];
     int top = 1;
@@ -133,80 +126,54 @@ static void visit_walls(CwPlanModel *model, int32_t *next) {
         stack[top++] = facet;
         continue;
       }
-      double centre[3];
-      int32_t place[3];
-      for (int k = 0; k < 3; k++) centre[k] = (facet.x[0][k] + facet.x[1][k] + facet.x[2][k]) / 3;
-      size_t cube = cube_of(&model->walls, centre, place);
-      if (!next) {
-        model->walls.start[cube + 1]++;
-        continue;
-      }
-      CwWallPoint *point = &model->walls.point[next[cube]++];
-      for (int k = 0; k < 3; k++) point->x[k] = (float)centre[k];
-      point->triangle = t;
+      int32_t at = model->wall_count++;
+      if (!model->wall_x) continue;
+      for (int k = 0; k < 3; k++) model->wall_x[at][k] = (facet.x[0][k] + facet.x[1][k] + facet.x[2][k]) / 3;
+      model->wall_triangle[at] = t;
     }
   }
 }
 
 static CwStatus sample_walls(CwPlanModel *model) {
   CwStatus status = CW_OK;
-  CwPlanWalls *walls = &model->walls;
-  const CwBackground *background = model->background;
-  int32_t *next = NULL;
-  walls->cell = WALL_CUBE;
-  for (int32_t t = 0; t < background->triangle_count; t++) walls->cell = fmax(walls->cell, 2 * model->thickness[t]);
-  size_t cubes = 1;
-  for (int k = 0; k < 3; k++) {
-    double high = -INFINITY;
-    walls->low[k] = INFINITY;
-    for (int32_t i = 0; i < background->point_count; i++) {
-      walls->low[k] = fmin(walls->low[k], background->x[i][k]);
-      high = fmax(high, background->x[i][k]);
-    }
-    walls->count[k] = (int32_t)fmin(floor((high - walls->low[k]) / walls->cell) + 1, 1024);
-    cubes *= (size_t)walls->count[k];
+  visit_walls(model);
+  CW_NEW(model->wall_triangle, model->wall_count);
+  CW_NEW(model->wall_x, model->wall_count);
+  visit_walls(model);
+  model->reach = WALL_STEP;
+  for (int32_t t = 0; t < model->background->triangle_count; t++) {
+    model->reach = fmax(model->reach, 2 * model->thickness[t]);
   }
-  CW_NEW(walls->start, cubes + 1);
-  visit_walls(model, NULL);
-  for (size_t i = 0; i < cubes; i++) walls->start[i + 1] += walls->start[i];
-  CW_NEW(walls->point, walls->start[cubes]);
-  CW_NEW(next, cubes);
-  memcpy(next, walls->start, cubes * sizeof *next);
-  visit_walls(model, next);
+  CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, model->reach, &model->walls));
 done:
-  free(next);
   return status;
 }
 
 double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double *distance) {
-  const CwPlanWalls *walls = &model->walls;
-  const CwWallPoint *nearest = NULL;
+  const CwCubes *walls = &model->walls;
+  int32_t nearest = -1, from[3], to[3];
   double best = INFINITY;
-  int32_t place[3], from[3], to[3];
-  cube_of(walls, x, place);
-  for (int k = 0; k < 3; k++) {
-    // Within half a cube of x: what lies farther is out of reach of the layers.
-    double at = (x[k] - walls->low[k]) / walls->cell - place[k];
-    from[k] = at < 0.5 && place[k] > 0 ? place[k] - 1 : place[k];
-    to[k] = at > 0.5 && place[k] + 1 < walls->count[k] ? place[k] + 1 : place[k];
-  }
+  cw_cubes_near(walls, x, model->reach, from, to);
   for (int32_t c = from[2]; c <= to[2]; c++) {
     for (int32_t b = from[1]; b <= to[1]; b++) {
-      size_t row = ((size_t)c * walls->count[1] + b) * walls->count[0];
-      for (int32_t i = walls->start[row + from[0]]; i < walls->start[row + to[0] + 1]; i++) {
-        const float *p = walls->point[i].x;
-        double d[3] = {p[0] - x[0], p[1] - x[1], p[2] - x[2]}, square = cw_dot(d, d);
-        if (square < best) best = square, nearest = &walls->point[i];
+      if (from[0] > to[0]) continue;
+      int32_t end = walls->start[cw_cube(walls, to[0], b, c) + 1];
+      for (int32_t i = walls->start[cw_cube(walls, from[0], b, c)]; i < end; i++) {
+        double d[3];
+        cw_sub(model->wall_x[walls->member[i]], x, d);
+        double square = cw_dot(d, d);
+        if (square < best) best = square, nearest = walls->member[i];
       }
     }
   }
   *distance = sqrt(best);
-  if (!nearest) return 0;
+  if (nearest < 0) return 0;
   // Beside a point the wall goes on: then its plane is what counts.
-  double d[3] = {x[0] - nearest->x[0], x[1] - nearest->x[1], x[2] - nearest->x[2]};
-  double off = fabs(cw_dot(d, model->normal[nearest->triangle]));
+  double d[3];
+  cw_sub(x, model->wall_x[nearest], d);
+  double off = fabs(cw_dot(d, model->normal[model->wall_triangle[nearest]]));
   if (best - off * off < WALL_STEP * WALL_STEP) *distance = off;
-  return model->thickness[nearest->triangle];
+  return model->thickness[model->wall_triangle[nearest]];
 }
 
 static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
@@ -284,7 +251,8 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->edge_tangent);
   free(model->edge_room);
   free(model->edge_end);
-  free(model->walls.start);
-  free(model->walls.point);
+  free(model->wall_x);
+  free(model->wall_triangle);
+  cw_cubes_free(&model->walls);
   memset(model, 0, sizeof *model);
 }

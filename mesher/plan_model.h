@@ -4,20 +4,8 @@
 #ifndef CUTWATER_MESHER_PLAN_MODEL_H
 #define CUTWATER_MESHER_PLAN_MODEL_H
 
+#include "mesher/cubes.h"
 #include "mesher/plan.h"
-
-typedef struct {
-  float x[3];
-  int32_t triangle; // of the background
-} CwWallPoint;
-
-// Points of the walls in cubes, for what lies near a place.
-typedef struct {
-  double low[3], cell;
-  int32_t count[3];
-  int32_t *start; // of each cube, x fastest; one more at the end
-  CwWallPoint *point;
-} CwPlanWalls;
 
 typedef struct {
   const CwInside *inside;
@@ -34,7 +22,11 @@ typedef struct {
   double (*edge_x)[3], (*edge_tangent)[3];
   double *edge_room;                   // m: how near a plane may come to each of them
   uint8_t *edge_end;                   // at a CAD vertex
-  CwPlanWalls walls;
+  int32_t wall_count;                  // points all over the walls
+  double (*wall_x)[3];
+  int32_t *wall_triangle;              // of each, the background triangle
+  double reach;                        // m: no layers are thicker than half of it
+  CwCubes walls;
   double mean_work;                    // of the regions to be
 } CwPlanModel;
 
@@ -65,8 +57,8 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
                            CwPlanPart *part);
 void cw_plan_part_free(CwPlanPart *part);
 
-// Thickness of the layers at the wall nearest to x and the distance to it, m; 0 and infinity where there is none within
-// twice the greatest thickness.
+// Thickness of the layers at the wall nearest to x and the distance to it, m; 0 and infinity where there is none
+// within twice the greatest thickness.
 double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double *distance);
 
 #endif
