@@ -7,23 +7,27 @@
 
 #include "mesher/plan_score.h"
 
-// Splits `part` into `regions` leaves under node `parent` (on its side `side`). `next_region` counts leaves.
+// Splits `part` into `regions` leaves under node `parent` (on its side `side`), or leaves it whole where no plane will do.
+// `next_region` counts leaves.
 static CwStatus split(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
                       int side, int32_t *next_region) {
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
-  if (regions == 1) {
+  int32_t first = 0, node = plan->node_count;
+  if (regions > 1) {
+    plan->node[node].parent = parent;
+    CW_TRY(cw_plan_best_plane(model, plan, node, part, regions, &plan->node[node].plane, &first,
+                              &plan->worst_angle[node]));
+  }
+  if (first == 0) {
     int32_t region = (*next_region)++;
     if (parent >= 0) plan->node[parent].child[side] = -1 - region;
     plan->predicted_cells[region] = part->work;
     goto done;
   }
-  int32_t first = 0, node = plan->node_count++;
-  plan->node[node].parent = parent;
+  plan->node_count++;
   if (parent >= 0) plan->node[parent].child[side] = node;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
-  CW_TRY(cw_plan_best_plane(model, plan, node, part, regions, &plan->node[node].plane, &first,
-                            &plan->worst_angle[node]));
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half[s]));
   cw_plan_part_free(part); // no more needed below
   CW_TRY(split(model, plan, &half[0], first, node, 0, next_region));
@@ -40,15 +44,14 @@ CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const Cw
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
   memset(plan, 0, sizeof *plan);
-  plan->region_count = options->region_count;
   CW_NEW(plan->node, options->region_count);
   CW_NEW(plan->worst_angle, options->region_count);
   CW_NEW(plan->predicted_cells, options->region_count);
   CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
   model.mean_work = whole.work / options->region_count;
-  int32_t next_region = 0;
-  CW_TRY(split(&model, plan, &whole, options->region_count, -1, 0, &next_region));
+  plan->region_count = 0;
+  CW_TRY(split(&model, plan, &whole, options->region_count, -1, 0, &plan->region_count));
 done:
   cw_plan_part_free(&whole);
   cw_plan_model_free(&model);

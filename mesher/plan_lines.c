@@ -81,21 +81,29 @@ static double plane_near(const Line *line, const double x[3], double room) {
   return best;
 }
 
-static int near_an_edge(const Line *line, const CwPlanPart *part, const double x[3]) {
+// 0 where there is all the room that is wanted, 1 where there is no more than the least.
+static double shortage(double room, double least, double wanted) {
+  return fmin(fmax((wanted - room) / (wanted - least), 0), 1);
+}
+
+static double near_an_edge(const Line *line, const CwPlanPart *part, const double x[3]) {
   const CwPlanModel *model = line->model;
+  double worst = 0;
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    if (cw_distance(model->edge_x[e], x) < model->edge_room[e]) return 1;
+    double room = model->edge_room[e], distance = cw_distance(model->edge_x[e], x);
+    if (distance < room) worst = fmax(worst, shortage(distance, room / 2, room));
   }
-  return 0;
+  return worst;
 }
 
 // One end of a run of the line through the domain.
 static double judge_end(const Line *line, const CwPlanPart *part, const double x[3], double *thickness) {
   double distance;
-  *thickness = cw_plan_wall_near(line->model, x, &distance);
-  if (near_an_edge(line, part, x)) return 1;
-  return plane_near(line, x, ROOM * *thickness) < ROOM * *thickness;
+  *thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
+  double cramped = near_an_edge(line, part, x);
+  if (*thickness == 0) return cramped;
+  return fmax(cramped, shortage(plane_near(line, x, ROOM * *thickness), *thickness / 2, ROOM * *thickness));
 }
 
 // A run of the line through the domain from `from` to `to`.
@@ -106,23 +114,22 @@ static void judge_run(const Line *line, const CwPlanPart *part, double from, dou
   at(line, to, end);
   double cramped = judge_end(line, part, start, &layers[0]);
   cramped = fmax(cramped, judge_end(line, part, end, &layers[1]));
-  if (run < ROOM * (layers[0] + layers[1])) cramped = 1;
+  double taken = layers[0] + layers[1];
+  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
   double margin = ROOM * fmax(layers[0], layers[1]);
   for (double s = from; s <= to + 0.5 * step; s += step) {
     double x[3], distance;
     at(line, s, x);
     double h = cw_size_at(line->model->size, x), near = plane_near(line, x, APART * h);
-    if (near < SAME_LINE * h) {
-      beside += step;
-    } else if (near < APART * h) {
-      cramped = fmax(cramped, (APART * h - near) / ((APART - SAME_LINE) * h) * 0.5);
-    }
+    if (near < SAME_LINE * h) beside += step;
+    cramped = fmax(cramped, shortage(near, SAME_LINE * h, APART * h));
     if (s - from < margin || to - s < margin) continue;
-    double thickness = cw_plan_wall_near(line->model, x, &distance);
-    if (distance < ROOM * thickness) cramped = 1;
+    double thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
+    if (thickness > 0) cramped = fmax(cramped, shortage(distance, thickness, ROOM * thickness));
   }
   if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->coincide = 1;
-  lines->cramped = fmax(lines->cramped, cramped);
+  lines->cramped += cramped;
+  lines->blocked += cramped >= 1;
 }
 
 static void judge_line(Line *line, int32_t node, const CwPlanPart *part, double sine, CwPlanLines *lines) {
@@ -149,7 +156,7 @@ static void judge_line(Line *line, int32_t node, const CwPlanPart *part, double 
 
 CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                           const CwPlane *plane) {
-  CwPlanLines lines = {0, 0, 1};
+  CwPlanLines lines = {.sharp = 1};
   for (int32_t a = plan->node[node].parent; a >= 0 && !lines.coincide; a = plan->node[a].parent) {
     Line line = {.model = model, .plan = plan, .above = a};
     double across[3];

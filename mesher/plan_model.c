@@ -140,20 +140,19 @@ static CwStatus sample_walls(CwPlanModel *model) {
   CW_NEW(model->wall_triangle, model->wall_count);
   CW_NEW(model->wall_x, model->wall_count);
   visit_walls(model);
-  model->reach = WALL_STEP;
   for (int32_t t = 0; t < model->background->triangle_count; t++) {
-    model->reach = fmax(model->reach, 2 * model->thickness[t]);
+    model->thickest = fmax(model->thickest, model->thickness[t]);
   }
-  CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, model->reach, &model->walls));
+  CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP, &model->walls));
 done:
   return status;
 }
 
-double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double *distance) {
+double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, double *distance) {
   const CwCubes *walls = &model->walls;
   int32_t nearest = -1, from[3], to[3];
   double best = INFINITY;
-  cw_cubes_near(walls, x, model->reach, from, to);
+  cw_cubes_near(walls, x, hypot(reach, 0.5 * WALL_STEP), from, to);
   for (int32_t c = from[2]; c <= to[2]; c++) {
     for (int32_t b = from[1]; b <= to[1]; b++) {
       if (from[0] > to[0]) continue;
@@ -216,7 +215,7 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   for (int32_t i = 0; i < model->sample_count; i++) {
     double h = cw_size_at(model->size, model->sample_x[i]), distance;
     model->sample_spacing = fmax(model->sample_spacing, cbrt(model->sample_volume[i]));
-    double thickness = cw_plan_wall_near(model, model->sample_x[i], &distance);
+    double thickness = cw_plan_wall_near(model, model->sample_x[i], model->thickest, &distance);
     if (distance >= thickness) model->sample_work[i] = options->tet_factor * model->sample_volume[i] / (h * h * h);
   }
 done:

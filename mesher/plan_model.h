@@ -25,7 +25,7 @@ typedef struct {
   int32_t wall_count;                  // points all over the walls
   double (*wall_x)[3];
   int32_t *wall_triangle;              // of each, the background triangle
-  double reach;                        // m: no layers are thicker than half of it
+  double thickest;                     // m, of the layers anywhere
   CwCubes walls;
   double mean_work;                    // of the regions to be
 } CwPlanModel;
@@ -57,8 +57,8 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
                            CwPlanPart *part);
 void cw_plan_part_free(CwPlanPart *part);
 
-// Thickness of the layers at the wall nearest to x and the distance to it, m; 0 and infinity where there is none
-// within twice the greatest thickness.
-double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double *distance);
+// Thickness of the layers at the wall nearest to x and the distance to it, m; 0 and infinity where there is none within
+// `reach` m or a little more.
+double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, double *distance);
 
 #endif

@@ -7,6 +7,7 @@
 #include "mesher/vec.h"
 
 enum { SAMPLES_MOST = 16000 }; // a section is seen well enough with these; smaller parts use all they have
+static const double END_WEIGHT = 2;    // of an end of a CAD edge, in points along it
 static const double ALONG_EDGE = 0.35; // sine of the least angle between a plane and a CAD edge that it crosses
 
 int cw_profile_bin(const CwPlanProfile *profile, double place) {
@@ -82,7 +83,11 @@ static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const do
     double place = cw_dot(n, model->edge_x[e]), room = model->edge_room[e];
     if (place + room < profile->low || place - room > profile->low + CW_PROFILE_BINS * profile->width) continue;
     int last = cw_profile_bin(profile, place + room);
-    for (int b = cw_profile_bin(profile, place - room); b <= last; b++) profile->grazed[b]++;
+    for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
+      // Full weight within half of the room, then less and less.
+      double off = fabs(profile->low + (b + 0.5) * profile->width - place);
+      profile->grazed[b] += (model->edge_end[e] ? END_WEIGHT : 1) * fmin(fmax(2 * (1 - off / room), 0), 1);
+    }
   }
 }
 

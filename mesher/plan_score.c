@@ -41,7 +41,7 @@ static void direction_of(int32_t d, double direction[3]) {
 
 // What an angle of this sine to a wall or another plane costs.
 static double sharpness(double sine) {
-  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 5 * (SHARP - sine) : 0);
+  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 15 * (SHARP - sine) : 0);
 }
 
 // All but the lines.
@@ -55,7 +55,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   *worst = profile->worst[bin];
   return 4 * load + 30 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
          0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + sharpness(*worst) +
-         (profile->grazed[bin] ? 3 + 0.02 * profile->grazed[bin] : 0);
+         fmin(0.5 * profile->grazed[bin], 3) + 0.02 * profile->grazed[bin];
 }
 
 // Numbers of regions to try below the plane: about half of them.
@@ -131,16 +131,17 @@ CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_
     direction_of(candidate[i].direction, plane.normal);
     CwPlanLines lines = cw_plan_lines(model, plan, node, part, &plane);
     if (lines.coincide) continue;
-    double score = candidate[i].score + 4 * lines.cramped + sharpness(lines.sharp);
+    double score = candidate[i].score + 2 * lines.cramped + 2 * lines.blocked + sharpness(lines.sharp);
     if (score >= least_score) continue;
     least_score = score;
     *best = plane;
     *first = candidate[i].below;
   }
-  CW_REQUIRE(least_score < INFINITY, CW_ERR_MESH,
-             "no plane divides what is left of the domain at node %d of the plan; ask for fewer regions "
-             "(mesh: cells_per_region)", node);
-  *worst_angle = plane_to_wall(model, &part->pieces, best);
+  if (least_score == INFINITY) {
+    *first = 0;
+  } else {
+    *worst_angle = plane_to_wall(model, &part->pieces, best);
+  }
 done:
   free(candidate);
   return status;
