@@ -30,7 +30,7 @@ typedef struct {
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
-  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over wall triangles crossed (1: normal to all walls)
+  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers (1: normal to all)
 } CwPlan;
 
 typedef struct {

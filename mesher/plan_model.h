@@ -7,6 +7,9 @@
 #include "mesher/cubes.h"
 #include "mesher/plan.h"
 
+// Layers as the planner sees them reach so much farther than they will: what stands close behind them is pinched.
+#define CW_LAYER_ROOM 1.2
+
 typedef struct {
   const CwInside *inside;
   const CwBackground *background;

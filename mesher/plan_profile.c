@@ -61,15 +61,17 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
     high = (high - origin) * scale;
     low = low < 0 ? 0 : low > end ? end : low;
     high = high < 0 ? 0 : high > end ? end : high;
-    double dot = cw_dot(n, model->normal[pieces->triangle[i]]), square = dot * dot;
-    int first = (int)low, last = (int)high;
-    if (first == last) {
-      work[first] += pieces->work[i];
-      if (square > steepest[first]) steepest[first] = square;
-      continue;
+    if ((int)low == (int)high) {
+      work[(int)low] += pieces->work[i];
+    } else {
+      spread(work, low, high, pieces->work[i]);
     }
-    spread(work, low, high, pieces->work[i]);
-    for (int b = first; b <= last; b++) {
+    int32_t t = pieces->triangle[i];
+    double dot = cw_dot(n, model->normal[t]), square = dot * dot;
+    double layers = CW_LAYER_ROOM * model->thickness[t] * dot * scale; // the front lies behind the wall by so much
+    low = layers > 0 ? fmax(low - layers, 0) : low;
+    high = layers < 0 ? fmin(high - layers, end) : high;
+    for (int b = (int)low; b <= (int)high; b++) {
       if (square > steepest[b]) steepest[b] = square;
     }
   }

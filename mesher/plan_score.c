@@ -96,21 +96,20 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
   return count;
 }
 
-// Least sqrt(1 - (n.m)^2) over the wall pieces that the plane crosses: 1 where it stands normal to all of them.
+// Least sqrt(1 - (n.m)^2) over the wall pieces that the plane crosses, they or their layers: 1 where it stands normal to
+// all of them.
 static double plane_to_wall(const CwPlanModel *model, const CwPieces *pieces, const CwPlane *plane) {
   double worst = 1;
   for (int32_t i = 0; i < pieces->count; i++) {
-    int below = 0, above = 0;
+    int32_t t = pieces->triangle[i];
+    double dot = cw_dot(plane->normal, model->normal[t]), layers = CW_LAYER_ROOM * model->thickness[t] * dot;
+    double low = INFINITY, high = -INFINITY;
     for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
-      if (cw_plane_distance(plane, pieces->corner[c]) > 0) {
-        above = 1;
-      } else {
-        below = 1;
-      }
+      double distance = cw_plane_distance(plane, pieces->corner[c]);
+      low = fmin(low, distance - fmax(layers, 0));
+      high = fmax(high, distance - fmin(layers, 0));
     }
-    if (!below || !above) continue;
-    double dot = cw_dot(plane->normal, model->normal[pieces->triangle[i]]);
-    worst = fmin(worst, sqrt(fmax(0, 1 - dot * dot)));
+    if (low <= 0 && high > 0) worst = fmin(worst, sqrt(fmax(0, 1 - dot * dot)));
   }
   return worst;
 }
