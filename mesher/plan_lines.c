@@ -115,6 +115,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, double from, dou
   double cramped = judge_end(line, part, start, &layers[0]);
   cramped = fmax(cramped, judge_end(line, part, end, &layers[1]));
   double taken = layers[0] + layers[1];
+  if (run < taken) lines->impossible = 1;
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
   double margin = ROOM * fmax(layers[0], layers[1]);
   for (double s = from; s <= to + 0.5 * step; s += step) {
@@ -126,8 +127,9 @@ static void judge_run(const Line *line, const CwPlanPart *part, double from, dou
     if (s - from < margin || to - s < margin) continue;
     double thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
     if (thickness > 0) cramped = fmax(cramped, shortage(distance, thickness, ROOM * thickness));
+    if (distance < thickness) lines->impossible = 1;
   }
-  if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->coincide = 1;
+  if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
   lines->cramped += cramped;
   lines->blocked += cramped >= 1;
 }
@@ -150,14 +152,14 @@ static void judge_line(Line *line, int32_t node, const CwPlanPart *part, double 
       judge_run(line, part, begun, s - step, step, lines);
     }
     inside_before = inside;
-    if (lines->coincide) return;
+    if (lines->impossible) return;
   }
 }
 
 CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                           const CwPlane *plane) {
   CwPlanLines lines = {.sharp = 1};
-  for (int32_t a = plan->node[node].parent; a >= 0 && !lines.coincide; a = plan->node[a].parent) {
+  for (int32_t a = plan->node[node].parent; a >= 0 && !lines.impossible; a = plan->node[a].parent) {
     Line line = {.model = model, .plan = plan, .above = a};
     double across[3];
     if (!cw_plane_line(&plan->node[a].plane, plane, line.point, line.direction)) continue;

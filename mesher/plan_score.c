@@ -129,7 +129,7 @@ CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_
     if (++judged > LINES_JUDGED && least_score < INFINITY) break;
     direction_of(candidate[i].direction, plane.normal);
     CwPlanLines lines = cw_plan_lines(model, plan, node, part, &plane);
-    if (lines.coincide) continue;
+    if (lines.impossible) continue;
     double score = candidate[i].score + 2 * lines.cramped + 2 * lines.blocked + sharpness(lines.sharp);
     if (score >= least_score) continue;
     least_score = score;
