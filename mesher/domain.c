@@ -89,7 +89,35 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
   CW_NEW(domain->patch_first_height, cw_cad_patch_count(domain->cad));
   cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_first_height);
-  CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->background));
+done:
+  return status;
+}
+
+CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  CwBackground background = {0};
+  double *volume = NULL;
+  if (part == 0) {
+    CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &background));
+    CW_TRY(cw_background_pack(&background, bytes, byte_count));
+  } else {
+    CW_NEW(volume, 1);
+    *volume = cw_cad_volume(domain->cad);
+    CW_REQUIRE(*volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
+    *bytes = volume;
+    *byte_count = sizeof *volume;
+    volume = NULL;
+  }
+done:
+  free(volume);
+  cw_background_free(&background);
+  return status;
+}
+
+CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_background_unpack(bytes[0], &domain->background));
+  memcpy(&domain->solid_volume, bytes[1], sizeof domain->solid_volume);
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));
@@ -97,10 +125,22 @@ done:
   return status;
 }
 
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count) {
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  if (!domain->seeds) {
+    CW_TRY(cw_size_seeds_start(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE,
+                               &domain->seeds));
+  }
+  CW_TRY(cw_size_seeds_of_face(domain->seeds, face, bytes, byte_count));
+done:
+  return status;
+}
+
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
+                             int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwSize *size = NULL;
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, &size));
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, seeds, &size));
   CW_TRY(cw_size_pack(size, bytes, byte_count));
 done:
   cw_size_free(&size);
@@ -109,6 +149,7 @@ done:
 
 CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes) {
   CwStatus status = CW_OK;
+  cw_size_seeds_free(&domain->seeds);
   CW_TRY(cw_size_unpack(bytes, &domain->size));
   CW_TRY(integrate(domain, table));
 done:
@@ -120,13 +161,18 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = ceil(cells / (double)table->mesh.cells_per_region);
-  double *thickness = NULL;
+  double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
+  CW_NEW(least, cw_cad_patch_count(domain->cad));
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickness[p] = cw_domain_thickness(domain, table, p);
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
+    thickness[p] = cw_domain_thickness(domain, table, p);
+    least[p] = EVEN_LAYERS * table->walls.layer_count * domain->patch_first_height[p];
   }
   CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
                            .thickness = thickness,
+                           .least_thickness = least,
+                           .tallest = TALLEST_COLUMN,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
   CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan));
@@ -134,6 +180,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
 done:
   cw_plan_free(&plan);
   free(thickness);
+  free(least);
   return status;
 }
 
@@ -211,6 +258,7 @@ void cw_domain_clear(CwDomain *domain) {
 void cw_domain_close(CwDomain *domain) {
   cw_domain_clear(domain);
   cw_plan_free(&domain->plan);
+  cw_size_seeds_free(&domain->seeds);
   cw_size_free(&domain->size);
   cw_inside_free(&domain->inside);
   cw_background_free(&domain->background);

@@ -19,7 +19,9 @@ typedef struct {
   const char *name;
   CwCad *cad;
   CwBackground background;
+  double solid_volume;                        // m3, exact
   CwInside *inside;
+  CwSizeSeeds *seeds;                         // while the seeds of the faces are made
   CwSize *size;
   double *relative_size, *patch_first_height; // of each patch; m
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
@@ -34,12 +36,18 @@ typedef struct {
   int32_t pair_count, (*pair)[2];             // adjacent regions
 } CwDomain;
 
-// Opens geometry and makes the background triangulation.
+// Opens the exact geometry.
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
 
-// Makes the size field, packed: a task of one rank. All ranks take it up with cw_domain_take_size.
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count);
+// What one rank makes for all, packed, and how all take it up: the background triangulation (part 0) and the exact volume
+// (part 1); the seeds of one face; the size field from the seeds of all faces.
+enum { CW_DOMAIN_PARTS = 2 };
+CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
+                             int64_t *byte_count);
 CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes);
 
 // Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.

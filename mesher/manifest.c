@@ -8,6 +8,7 @@
 #include "mesher/layer_heights.h"
 #include "mesher/mesh_run.h"
 #include "mesher/vec.h"
+#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
 static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
@@ -43,7 +44,7 @@ static json_t *manifest_json(const CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
                                              (json_int_t)domain->context.shared_count, "solid_volume_m3",
-                                             cw_json_number(cw_cad_volume(domain->cad)), "patches",
+                                             cw_json_number(domain->solid_volume), "patches",
                                              patches_json(domain), "regions", regions_json(run, d)));
   }
   return json_pack("{s:i, s:s, s:o}", "format", 1, "case", run->table->name, "domains", domains);
@@ -93,11 +94,16 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   CwQuality quality;
   int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
-  double area[CW_PATCH_LIMIT] = {0}, most = 0, sum = 0, error = 0, predicted_sum = 0;
+  double area[CW_PATCH_LIMIT] = {0}, most = 0, least = INFINITY, sum = 0, error = 0, predicted_sum = 0,
+         predicted_most = 0, predicted_least = INFINITY;
   int32_t regions = domain->plan.region_count;
   cw_quality_start(&quality);
   json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
-  for (int32_t r = 0; r < regions; r++) predicted_sum += domain->plan.predicted_cells[r];
+  for (int32_t r = 0; r < regions; r++) {
+    predicted_sum += domain->plan.predicted_cells[r];
+    predicted_most = fmax(predicted_most, domain->plan.predicted_cells[r]);
+    predicted_least = fmin(predicted_least, domain->plan.predicted_cells[r]);
+  }
   for (int32_t r = 0; r < regions; r++) {
     const CwRegionSummary *made = &run->summary[d][r];
     double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
@@ -106,7 +112,8 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     tets += made->tetrahedra;
     prisms += made->prisms;
     sum += cells;
-    if (cells > most) most = cells;
+    most = fmax(most, cells);
+    least = fmin(least, cells);
     for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
     json_array_append_new(region_list,
                           json_pack("{s:i, s:i, s:I, s:I, s:o, s:o}", "region", r + 1, "number", domain->number[r],
@@ -125,7 +132,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
                                                 cw_json_number(area[p])));
     if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, domain, p));
   }
-  double solid = cw_cad_volume(domain->cad);
+  double solid = domain->solid_volume;
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", regions, "interfaces",
@@ -133,6 +140,13 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
       "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
       "least_cell_volume_m3", cw_json_number(quality.least_volume));
   json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
+  json_object_set_new(result, "region_balance_least", cw_json_number(least / (sum / regions)));
+  json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted_most / (predicted_sum / regions)));
+  json_object_set_new(result, "region_balance_least_predicted",
+                      cw_json_number(predicted_least / (predicted_sum / regions)));
+  cw_log("%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name,
+         least / (sum / regions), most / (sum / regions), predicted_least / (predicted_sum / regions),
+         predicted_most / (predicted_sum / regions));
   json_object_set_new(result, "region_prediction_error", cw_json_number(error));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
   json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));

@@ -279,10 +279,60 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
+// Background triangulations and exact volumes: each made by one rank.
+static CwStatus measure_domains(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask task[CW_DOMAINS * CW_DOMAIN_PARTS];
+  int32_t count = 0;
+  CW_TRY(results_make(&results, CW_DOMAIN_PARTS, CW_DOMAIN_PARTS));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int part = 0; part < CW_DOMAIN_PARTS; part++) {
+      // Faces are measured in half the time that their triangles take.
+      task[count++] = (CwMeshTask){d, part, cw_cad_face_count(run->domain[d].cad) / (1.0 + part)};
+    }
+  }
+  CW_TRY(run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
+    cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
+           run->domain[d].background.triangle_count);
+  }
+done:
+  results_free(&results);
+  return status;
+}
+
+// The size fields: seeds face by face, then the fields they spread to.
+static CwStatus make_sizes(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results seeds = {0}, results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count = 0, faces[CW_DOMAINS];
+  for (int d = 0; d < CW_DOMAINS; d++) faces[d] = cw_cad_face_count(run->domain[d].cad);
+  CW_TRY(results_make(&seeds, faces[0], faces[1]));
+  CW_NEW(task, faces[0] + faces[1]);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwBackground *background = &run->domain[d].background;
+    for (int32_t f = 0; f < faces[d]; f++) task[count + f] = (CwMeshTask){d, f, 0};
+    for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
+    count += faces[d];
+    run->seeds[d] = seeds.bytes[d];
+  }
+  CW_TRY(run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
+  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
+  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
+done:
+  for (int d = 0; d < CW_DOMAINS; d++) run->seeds[d] = NULL;
+  results_free(&seeds);
+  results_free(&results);
+  free(task);
+  return status;
+}
+
 static CwStatus open_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwFlowScales scales;
-  Results results = {0};
   char path[4096];
   double started = cw_seconds();
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
@@ -293,16 +343,11 @@ static CwStatus open_domains(CwMeshRun *run) {
     CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
                "%s: %s has %d patches; at most %d are allowed", path, DOMAIN_NAMES[d],
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
-    cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
-           run->domain[d].background.triangle_count);
   }
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, 2, "domains"));
-  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) {
-    CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
-  }
+  CW_TRY(measure_domains(run));
+  CW_TRY(make_sizes(run));
 done:
-  results_free(&results);
   return status;
 }
 

@@ -24,6 +24,7 @@ typedef struct {
   CwDomain domain[CW_DOMAINS];
   CwRegionSummary *summary[CW_DOMAINS];
   double *region_seconds[CW_DOMAINS];
+  void **seeds[CW_DOMAINS];        // of the size field, by face, while it is made
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
   int passes;
@@ -45,6 +46,8 @@ typedef struct {
 
 // The steps that run as tasks; each a CwTask body over run->domain[task.domain].
 typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);

@@ -8,8 +8,16 @@
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
+CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_measure(&run->domain[task.domain], task.index, bytes, size);
+}
+
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_seed(&run->domain[task.domain], run->table, task.index, bytes, size);
+}
+
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_make_size(&run->domain[task.domain], run->table, bytes, size);
+  return cw_domain_make_size(&run->domain[task.domain], run->table, run->seeds[task.domain], bytes, size);
 }
 
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
