@@ -53,33 +53,37 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
                             cw_tet_more(l[4], l[5]));
 }
 
+// Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.
+#define CW_TET_FLAT 1e-16
+
 // Least sine of the dihedral angles, and not above 1.35 shortest / longest edge: 0.943 for the regular
-// tetrahedron, -1 where it is not positive. The sine at an edge is 6 V times the edge over the (doubled) areas of its two faces.
+// tetrahedron, -1 where it is flat or not positive. The sine at an edge is 6 V times the edge over the
+// (doubled) areas of its two faces.
 static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
-                                       const double d[3]) {
+                                    const double d[3]) {
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
-  if (!(s.six > 0.0))
+  double shortest, longest;
+  cw_tet_edges(&s, &shortest, &longest);
+  if (!(s.six > 0.0 && s.six * s.six > CW_TET_FLAT * longest * longest * longest))
     return -1.0;
   const double *l = s.edge, *n = s.area;
   double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
-                                cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
+                             cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
   least = cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
-  double shortest, longest;
-  cw_tet_edges(&s, &shortest, &longest);
   return sqrt(
       cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest));
 }
 
-// Is that quality below `limit`? Without division.
-static inline int cw_tet_is_below(const double a[3], const double b[3], const double c[3],
-                                     const double d[3], double limit) {
+// Is that quality below `limit` (above 0)? Without division.
+static inline int cw_tet_is_below(const double a[3], const double b[3], const double c[3], const double d[3],
+                                  double limit) {
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
   const double *l = s.edge, *n = s.area;
   double f = s.six > 0.0 ? s.six * s.six : 0.0, g = limit * limit, shortest, longest;
   cw_tet_edges(&s, &shortest, &longest);
   return (f * l[0] < g * (n[2] * n[3])) | (f * l[1] < g * (n[1] * n[3])) | (f * l[2] < g * (n[1] * n[2])) |
          (f * l[3] < g * (n[0] * n[3])) | (f * l[4] < g * (n[0] * n[2])) | (f * l[5] < g * (n[0] * n[1])) |
-         (1.8225 * shortest < g * longest);
+         (1.8225 * shortest < g * longest) | (f <= CW_TET_FLAT * longest * longest * longest);
 }
 
 #endif
