@@ -10,9 +10,9 @@
 
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
-static double distance_factor = 0.62;
-static double sphere_factor = 1.05; // of the radius of a triangle's smallest circumscribed sphere
-static double jitter = 1e-3;        // of the cell: breaks the lattice's cospherical points
+static const double distance_factor = 0.58;               // of h, least distance to the boundary
+static const double sphere_factor = 1.0;  // of the radius of a triangle's smallest circumscribed sphere
+static const double jitter = 1e-3;        // of the cell: breaks the lattice's cospherical points
 static const double coarse = 2.2;         // cells of lists, over wanted cells
 enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9 };
 
@@ -407,8 +407,6 @@ done:
 }
 
 CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3]) {
-  if (getenv("DF")) distance_factor = atof(getenv("DF"));
-  if (getenv("SF")) sphere_factor = atof(getenv("SF"));
   CwStatus status = CW_OK;
   Tree whole = {.input = input, .fit = 1.0, .clearance = clearance}, *tree = &whole;
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};

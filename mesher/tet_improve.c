@@ -53,10 +53,19 @@ done:
 static CwStatus improve_one(CwTetWork *w, int32_t t, int move, int insert, int *done_it) {
   CwStatus status = CW_OK;
   int32_t c[4];
+  int order[6];
   memcpy(c, w->mesh->tet[t].corner, sizeof c);
   *done_it = 0;
+  CwTetMeasures m =
+      cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+  for (int e = 0; e < 6; e++) { // longest first: the diagonals of a flat one
+    int k = e;
+    for (; k > 0 && m.edge[order[k - 1]] < m.edge[e]; k--)
+      order[k] = order[k - 1];
+    order[k] = e;
+  }
   for (int e = 0; e < 6 && !*done_it; e++)
-    CW_TRY(cw_tet_remove_edge(w, t, c[cw_tet_edge[e][0]], c[cw_tet_edge[e][1]], done_it));
+    CW_TRY(cw_tet_remove_edge(w, t, c[cw_tet_edge[order[e]][0]], c[cw_tet_edge[order[e]][1]], done_it));
   for (int i = 0; i < 4 && !*done_it; i++)
     CW_TRY(cw_tet_remove_face(w, t, i, done_it));
   for (int i = 0; i < 4 && move && !*done_it; i++)

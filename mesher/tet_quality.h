@@ -74,16 +74,4 @@ static inline double cw_tet_quality(const double a[3], const double b[3], const 
       cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest));
 }
 
-// Is that quality below `limit` (above 0)? Without division.
-static inline int cw_tet_is_below(const double a[3], const double b[3], const double c[3], const double d[3],
-                                  double limit) {
-  CwTetMeasures s = cw_tet_measures(a, b, c, d);
-  const double *l = s.edge, *n = s.area;
-  double f = s.six > 0.0 ? s.six * s.six : 0.0, g = limit * limit, shortest, longest;
-  cw_tet_edges(&s, &shortest, &longest);
-  return (f * l[0] < g * (n[2] * n[3])) | (f * l[1] < g * (n[1] * n[3])) | (f * l[2] < g * (n[1] * n[2])) |
-         (f * l[3] < g * (n[0] * n[3])) | (f * l[4] < g * (n[0] * n[2])) | (f * l[5] < g * (n[0] * n[1])) |
-         (1.8225 * shortest < g * longest) | (f <= CW_TET_FLAT * longest * longest * longest);
-}
-
 #endif

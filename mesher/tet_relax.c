@@ -6,20 +6,14 @@
 #include <string.h>
 
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
+static const double regular = 0.8; // a point stays where all round it are above; 0.866 in a lattice
 
-// Quality of a tetrahedron where it is below the limit, else 1; with its place in the list.
+// Sets the quality, and puts the tetrahedron into the list where it is below the limit.
 static CwStatus judge(CwTetWork *w, int32_t t) {
-  CwStatus status = CW_OK;
   CwDelaunayTet *tet = &w->mesh->tet[t];
-  const double *a = cw_tet_at(w, tet->corner[0]), *b = cw_tet_at(w, tet->corner[1]);
-  const double *c = cw_tet_at(w, tet->corner[2]), *d = cw_tet_at(w, tet->corner[3]);
-  tet->square = 1.0;
-  if (cw_tet_is_below(a, b, c, d, CW_TET_IMPROVE)) {
-    tet->square = cw_tet_quality(a, b, c, d);
-    CW_TRY(cw_tet_push(w, t));
-  }
-done:
-  return status;
+  const int32_t *c = tet->corner;
+  tet->square = cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
+  return tet->square < CW_TET_IMPROVE ? cw_tet_push(w, t) : CW_OK;
 }
 
 CwStatus cw_tet_scan(CwTetWork *w) {
@@ -83,7 +77,7 @@ static int is_spoilt(const CwTetWork *w, int32_t t, const Sum *old) {
                                       old[tet->corner[3]].x);
 }
 
-// Every inner point goes to the weighted mean of the centres round it (L. Chen and J. Xu, Optimal Delaunay
+// Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu, Optimal Delaunay
 // triangulations, J. Comp. Math. 22, 2004). Where that spoils a tetrahedron its points go back, and those of
 // others that are spoilt by this.
 CwStatus cw_tet_relax(CwTetWork *w) {
@@ -96,16 +90,22 @@ CwStatus cw_tet_relax(CwTetWork *w) {
   CW_NEW(moved, mesh->point_count);
   CW_NEW(checked, mesh->point_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (mesh->tet[t].corner[0] >= 0)
+    const int32_t *c = mesh->tet[t].corner;
+    if (c[0] >= 0 && mesh->tet[t].square < regular)
+      moved[c[0]] = moved[c[1]] = moved[c[2]] = moved[c[3]] = 1;
+  }
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *c = mesh->tet[t].corner;
+    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
       add_centre(w, t, sum);
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double old[3];
     memcpy(old, mesh->point[p].x, sizeof old);
-    if (mesh->source[p] >= w->fixed_count && sum[p].weight > 0.0) {
+    moved[p] = checked[p] = moved[p] && mesh->source[p] >= w->fixed_count && sum[p].weight > 0.0;
+    if (moved[p]) {
       for (int i = 0; i < 3; i++)
         mesh->point[p].x[i] = sum[p].x[i] / sum[p].weight;
-      moved[p] = checked[p] = 1;
       w->count.points_moved++;
     }
     memcpy(sum[p].x, old, sizeof old);

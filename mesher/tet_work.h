@@ -24,8 +24,7 @@ extern "C" {
 
 enum { CW_TET_STAR = 96 };
 
-// The quality of a tetrahedron stands in its square (1 where it is only known not to be below the limit), a
-// mark of the last star in its centre[0], the pass that put it into the list for the next in centre[1], and
+// The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it into the list for the next in centre[1], and
 // the pass in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
@@ -79,7 +78,7 @@ double cw_hollow_best(CwHollow *hollow, double p[3], double start);
 
 // Moves all inner points at once towards even spacing; then every tetrahedron below the limit is in the list.
 CwStatus cw_tet_relax(CwTetWork *w);
-// Finds all tetrahedra below the limit.
+// Sets all qualities and finds the tetrahedra below the limit.
 CwStatus cw_tet_scan(CwTetWork *w);
 
 #ifdef __cplusplus
