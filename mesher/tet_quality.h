@@ -56,7 +56,7 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 // Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.
 #define CW_TET_FLAT 1e-16
 
-// Least sine of the dihedral angles, and not above 1.35 shortest / longest edge: 0.943 for the regular
+// Least sine of the dihedral angles, and not above 2 shortest / longest edge: 0.943 for the regular
 // tetrahedron, -1 where it is flat or not positive. The sine at an edge is 6 V times the edge over the
 // (doubled) areas of its two faces.
 static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
@@ -71,7 +71,7 @@ static inline double cw_tet_quality(const double a[3], const double b[3], const 
                              cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
   least = cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   return sqrt(
-      cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest));
+      cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 4.0 * shortest / longest));
 }
 
 #endif
