@@ -72,10 +72,11 @@ CwStatus cw_fill_check_closed(const CwFillInput *input) {
       sum[edge[k].high] += edge[k].sign;
     for (int64_t k = start[p]; k < start[p + 1]; k++) { // all sums are 0 again, or it fails
       const double *a = input->x[p], *b = input->x[edge[k].high];
-      CW_REQUIRE(sum[edge[k].high] == 0, CW_ERR_MESH,
-                 "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
-                 "%.6g) mm",
-                 input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
+      CW_REQUIRE(
+          sum[edge[k].high] == 0, CW_ERR_MESH,
+          "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
+          "%.6g) mm",
+          input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
     }
   }
 done:

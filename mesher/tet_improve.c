@@ -38,8 +38,8 @@ CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
   return quality < CW_TET_IMPROVE ? cw_tet_push(w, t) : CW_OK;
 }
 
-CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
-                        const double *quality) {
+CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count,
+                        const int32_t (*corner)[4], const double *quality) {
   CwStatus status = CW_OK;
   int32_t slot[CW_FLIP];
   CW_TRY(cw_flips_replace(&w->flips, old_count, old, count, corner, slot));

@@ -156,7 +156,8 @@ CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
     memcpy(corner[s], one, sizeof one);
     quality[s] = cw_tet_quality_of(w, one[0], one[1], one[2], point);
   }
-  CW_TRY(cw_tet_replace(w, chosen.count, chosen.tet, chosen.side_count, (const int32_t(*)[4])corner, quality));
+  CW_TRY(
+      cw_tet_replace(w, chosen.count, chosen.tet, chosen.side_count, (const int32_t(*)[4])corner, quality));
   w->count.points_added++;
   *done_it = 1;
 done:

@@ -128,4 +128,3 @@ CwStatus cw_tet_smooth(CwTetWork *w, int32_t t, int32_t point, int *done_it) {
 done:
   return status;
 }
-

@@ -83,7 +83,8 @@ CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
   int32_t below = tet->corner[i], above = w->mesh->tet[old[1]].corner[other % 4];
   double least = w->mesh->tet[old[1]].square < tet->square ? w->mesh->tet[old[1]].square : tet->square;
   for (int k = 0; k < 3; k++) {
-    const int32_t one[4] = {tet->corner[cw_tet_face[i][k]], tet->corner[cw_tet_face[i][(k + 1) % 3]], below, above};
+    const int32_t one[4] = {tet->corner[cw_tet_face[i][k]], tet->corner[cw_tet_face[i][(k + 1) % 3]], below,
+                            above};
     quality[k] = cw_tet_quality_of(w, one[0], one[1], one[2], one[3]);
     if (quality[k] <= least + CW_TET_GAIN)
       goto done;
@@ -95,4 +96,3 @@ CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
 done:
   return status;
 }
-

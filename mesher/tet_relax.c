@@ -6,13 +6,15 @@
 #include <string.h>
 
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
-static const double regular = 0.8; // a point stays where all round it are above; 0.866 in a lattice
+static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
 
-// Sets the quality, and puts the tetrahedron into the list where it is below the limit.
+// Sets the quality (1 for all that are regular enough), and puts the tetrahedron into the list where it is
+// below the limit.
 static CwStatus judge(CwTetWork *w, int32_t t) {
   CwDelaunayTet *tet = &w->mesh->tet[t];
   const int32_t *c = tet->corner;
-  tet->square = cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
+  tet->square = cw_tet_quality_to(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]),
+                                  cw_tet_at(w, c[3]), regular);
   return tet->square < CW_TET_IMPROVE ? cw_tet_push(w, t) : CW_OK;
 }
 
@@ -77,9 +79,9 @@ static int is_spoilt(const CwTetWork *w, int32_t t, const Sum *old) {
                                       old[tet->corner[3]].x);
 }
 
-// Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu, Optimal Delaunay
-// triangulations, J. Comp. Math. 22, 2004). Where that spoils a tetrahedron its points go back, and those of
-// others that are spoilt by this.
+// Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and
+// J. Xu, Optimal Delaunay triangulations, J. Comp. Math. 22, 2004). Where that spoils a tetrahedron its
+// points go back, and those of others that are spoilt by this.
 CwStatus cw_tet_relax(CwTetWork *w) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;

@@ -24,8 +24,9 @@ extern "C" {
 
 enum { CW_TET_STAR = 96 };
 
-// The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it into the list for the next in centre[1], and
-// the pass in which something changed at a point in the point's mark.
+// The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that
+// put it into the list for the next in centre[1], and the pass in which something changed at a point in the
+// point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
@@ -58,8 +59,8 @@ static inline double cw_tet_quality_of(const CwTetWork *w, int32_t a, int32_t b,
 CwStatus cw_tet_push(CwTetWork *w, int32_t t);
 // Keeps a new quality, and the tetrahedron in mind where it is below the limit.
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality);
-CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
-                        const double *quality);
+CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count,
+                        const int32_t (*corner)[4], const double *quality);
 
 // Removes the edge a-b of t.
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it);
