@@ -104,7 +104,9 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness,
        "0.50 of the largest");
   TAKE(suction_pipe_length, given->suction_pipe_length,
-       fmax(d1 / 3, 1.2 * design->nut_length - 0.5625 * design->axial_length), "D1 / 3, past the nut");
+       fmax(d1 / 3, 1.2 * design->nut_length - design->outlet_width +
+                        (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
+       "D1 / 3, past the nut");
   value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
   TAKE(base_diameter, table->volute.base_diameter, value, source);
   value = CORRELATED(CW_CORRELATED_INLET_WIDTH);

@@ -22,6 +22,9 @@ extern "C" {
 
 enum { CW_MERIDIAN_STEPS = 256 };
 
+// The hub begins this many axial lengths before its end, near the plane where the shroud begins.
+#define CW_MERIDIAN_HUB_START 1.2
+
 // A cubic Bezier in the plane (r, z), m, with its arc length at equal steps of t.
 typedef struct {
   double pole[4][2];
