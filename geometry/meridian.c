@@ -115,6 +115,7 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
                          &meridian->shroud_leading));
   CW_TRY(curve_at_radius(&meridian->hub, r2, "trailing edge at the hub", &meridian->hub_trailing));
   CW_TRY(curve_at_radius(&meridian->shroud, r2, "trailing edge at the shroud", &meridian->shroud_trailing));
+  meridian->shaft_radius = design->through_shaft_diameter / 2;
   meridian->nut_disk_radius = design->nut_disk_radius;
   meridian->nut_end_z = hub[0][1] - design->nut_length;
   meridian->inlet_z = shroud[0][1] - design->suction_pipe_length;
@@ -185,5 +186,6 @@ double cw_meridian_volume(const CwMeridian *meridian) {
   return M_PI * r1 * r1 * (meridian->shroud.pole[0][1] - meridian->inlet_z) +
          curve_swept_volume(&meridian->shroud) +
          M_PI * ri * ri * (meridian->hub.pole[3][1] - meridian->shroud.pole[3][1]) -
-         curve_swept_volume(&meridian->hub) - nut;
+         curve_swept_volume(&meridian->hub) - nut -
+         M_PI * meridian->shaft_radius * meridian->shaft_radius * (meridian->nut_end_z - meridian->inlet_z);
 }

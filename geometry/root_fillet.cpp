@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/root_fillet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include <Standard_Failure.hxx>
+
+#include "geometry/bspline_fit.hpp"
+
+namespace {
+
+const double degree = M_PI / 180;
+const double least_angle = 45 * degree; // of a crease: a sharper one would want an endless fillet
+const double largest_mitre = 1.6;       // length of the mitre at a corner over L
+const double most_of_span = 0.85;       // that both fillets may take
+const double room_share = 0.4;          // of the room between D2 and the interface that the foot may take
+const double narrows_from = 0.85;       // share of the blade's length
+
+struct Vector {
+  double m, t; // downstream along the wall and in the sense of theta, m
+};
+double dot(const Vector &a, const Vector &b) {
+  return a.m * b.m + a.t * b.t;
+}
+
+double smooth_step(double x) {
+  x = x < 0 ? 0 : x > 1 ? 1 : x;
+  return x * x * x * (10 - 15 * x + 6 * x * x);
+}
+
+// The wall at one point of the outline: its metric, the height over it in a unit of span, and how far the
+// blade's mean surface leans over the wall per unit of height.
+struct Place {
+  double speed, radius, height;
+  Vector lean;
+};
+
+class Fillets {
+public:
+  Fillets(const CwDesign *from, const CwMeridian *section, const CwBladeShape *of, int on)
+      : design(from), meridian(section), shape(of), wall(on) {}
+  // Normals, tangent lengths and angles of a patch; `left`: the fluid lies to the left of the outline.
+  void normals(const CwBladePatch &patch, bool left);
+  // Feet of the patch `own`, with the mitres to the neighbours at its begin and end.
+  void feet(CwBladePatch &patch, const Fillets *before, bool before_end, const Fillets *after,
+            bool after_end) const;
+
+private:
+  const CwDesign *design;
+  const CwMeridian *meridian;
+  const CwBladeShape *shape;
+  int wall;
+  std::vector<Place> place;
+  std::vector<Vector> normal;
+  std::vector<double> length, angle;
+
+  Place place_at(double q) const;
+  Vector mitre(size_t i, const Fillets *other, bool other_end) const;
+};
+
+Place Fillets::place_at(double q) const {
+  const double span = wall == CW_HUB ? 0 : 1, apart = 1.0 / (CW_SPAN_POINTS - 1);
+  const CwBladeSection &on = shape->section[wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1];
+  const CwBladeSection &off = shape->section[wall == CW_HUB ? 1 : CW_SPAN_POINTS - 2];
+  const double inside = std::min(1.0, std::max(on.start, q)), p = (inside - on.start) / (1 - on.start);
+  double x[2], dx[2], y[2];
+  Place here;
+  cw_meridian_blade_point(meridian, span, q, x, dx);
+  here.speed = std::hypot(dx[0], dx[1]);
+  here.radius = x[0];
+  cw_meridian_blade_point(meridian, span, inside, x, dx);
+  cw_meridian_blade_point(meridian, std::fabs(span - apart), inside, y, nullptr);
+  const double speed = std::hypot(dx[0], dx[1]);
+  const double up = std::fabs((y[0] - x[0]) * dx[1] - (y[1] - x[1]) * dx[0]) / speed;
+  here.height = up / apart;
+  here.lean = {((y[0] - x[0]) * dx[0] + (y[1] - x[1]) * dx[1]) / speed / up,
+               x[0] * (cw_blade_theta(&off, p) - cw_blade_theta(&on, p)) / up};
+  return here;
+}
+
+void Fillets::normals(const CwBladePatch &patch, bool left) {
+  const size_t count = patch.u.size();
+  const int j = wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1;
+  std::vector<gp_Pnt2d> outline;
+  for (size_t i = 0; i < count; i++) {
+    const CwBladePoint &point = patch.points[i * CW_SPAN_POINTS + j];
+    outline.push_back(gp_Pnt2d(point.q, point.theta));
+  }
+  const Handle(Geom2d_BSplineCurve) curve = cw_bspline_curve_2d(patch.u, outline);
+  const double room = room_share * (design->interface_radius - design->outlet_diameter / 2);
+  for (size_t i = 0; i < count; i++) {
+    gp_Pnt2d point;
+    gp_Vec2d by_u;
+    curve->D1(patch.u[i], point, by_u);
+    place.push_back(place_at(point.X()));
+    const Place &here = place.back();
+    const double m = by_u.X() * here.speed, t = by_u.Y() * here.radius, size = std::hypot(m, t);
+    normal.push_back(left ? Vector{-t / size, m / size} : Vector{t / size, -m / size});
+    angle.push_back(std::max(least_angle, std::atan2(1, dot(here.lean, normal.back()))));
+    const double full = design->root_fillet_radius / std::tan(angle.back() / 2);
+    const double start = shape->section[0].start, p = (point.X() - start) / (1 - start);
+    const double narrow = smooth_step((p - narrows_from) / (1 - narrows_from));
+    length.push_back(full + narrow * (std::min(full, room) - full));
+  }
+}
+
+// Where the feet of two neighbours meet. The neighbour gives its last or first point.
+Vector Fillets::mitre(size_t i, const Fillets *other, bool other_end) const {
+  const size_t k = other_end ? other->normal.size() - 1 : 0;
+  const Vector &a = normal[i], &b = other->normal[k];
+  const double l = 0.5 * (length[i] + other->length[k]);
+  Vector sum = {a.m + b.m, a.t + b.t};
+  const double size = std::sqrt(dot(sum, sum)); // twice the cosine of half the corner's angle
+  const double scale = l * std::min(2 / size, largest_mitre) / size;
+  return {sum.m * scale, sum.t * scale};
+}
+
+void Fillets::feet(CwBladePatch &patch, const Fillets *before, bool before_end, const Fillets *after,
+                   bool after_end) const {
+  const size_t count = patch.u.size(), last = count - 1;
+  const Vector begin = mitre(0, before, before_end), end = mitre(last, after, after_end);
+  const size_t kb = before_end ? before->normal.size() - 1 : 0, ka = after_end ? after->normal.size() - 1 : 0;
+  const double first_u = patch.u.front(), range = patch.u.back() - first_u;
+  const bool narrow = count < 20; // bevel and cut: straight, so the foot is a straight line between its ends
+  for (size_t i = 0; i < count; i++) {
+    const double f = (patch.u[i] - first_u) / range;
+    const double wb = narrow ? 1 - f : 1 - smooth_step(f / 0.15), we = narrow ? f : smooth_step((f - 0.85) / 0.15);
+    const auto ends = [&](double own, double at_begin, double own_begin, double at_end, double own_end) {
+      return narrow ? at_begin * wb + at_end * we
+                    : own + wb * (at_begin - own_begin) + we * (at_end - own_end);
+    };
+    const Vector shift = {
+        ends(length[i] * normal[i].m, begin.m, length[0] * normal[0].m, end.m, length[last] * normal[last].m),
+        ends(length[i] * normal[i].t, begin.t, length[0] * normal[0].t, end.t, length[last] * normal[last].t)};
+    const double l = ends(length[i], 0.5 * (length[0] + before->length[kb]), length[0],
+                          0.5 * (length[last] + after->length[ka]), length[last]);
+    const double alpha = ends(angle[i], 0.5 * (angle[0] + before->angle[kb]), angle[0],
+                              0.5 * (angle[last] + after->angle[ka]), angle[last]);
+    const double phi = M_PI - alpha;
+    patch.foot[wall].push_back({shift.m / place[i].speed, shift.t / place[i].radius});
+    patch.reach[wall].push_back(l * std::sin(alpha) / place[i].height);
+    patch.handle[wall].push_back(4.0 / 3 * std::tan(phi / 4) / std::tan(phi / 2));
+  }
+}
+
+void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape) {
+  char text[200];
+  for (const CwBladePatch *patch : shape->patches())
+    for (size_t i = 0; i < patch->u.size(); i++) {
+      const double taken = patch->reach[CW_HUB][i] + patch->reach[CW_SHROUD][i];
+      if (taken <= most_of_span)
+        continue;
+      std::snprintf(text, sizeof text,
+                    "root fillets of %.2f mm take %.0f %% of the %s's height, %.0f %% are allowed: lower "
+                    "root_fillet_radius_mm to %.2f",
+                    design->root_fillet_radius * 1e3, 100 * taken, shape->name, 100 * most_of_span,
+                    design->root_fillet_radius * 1e3 * most_of_span / taken * 0.98);
+      throw Standard_Failure(text);
+    }
+  for (int wall : {CW_HUB, CW_SHROUD}) {
+    const CwBladeOnWall on = cw_blade_on_wall(meridian, wall);
+    const int j = wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1;
+    for (size_t i = 0; i < shape->leading.u.size(); i++) {
+      const double q = shape->leading.points[i * CW_SPAN_POINTS + j].q + shape->leading.foot[wall][i].q;
+      if (on.begin + q * on.length > 0.02 * on.begin)
+        continue;
+      std::snprintf(text, sizeof text,
+                    "root fillets of %.2f mm have no room before the %s's leading edge on the %s: lower "
+                    "root_fillet_radius_mm, or raise leading_edge_radius_%s_mm",
+                    design->root_fillet_radius * 1e3, shape->name, wall == CW_HUB ? "hub" : "shroud",
+                    wall == CW_HUB ? "hub" : "shroud");
+      throw Standard_Failure(text);
+    }
+  }
+}
+
+} // namespace
+
+void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape) {
+  for (int wall : {CW_HUB, CW_SHROUD}) {
+    Fillets pressure(design, meridian, shape, wall), suction = pressure, leading = pressure, bevel = pressure,
+                                                     trailing = pressure;
+    pressure.normals(shape->pressure, true);
+    leading.normals(shape->leading, true);
+    suction.normals(shape->suction, false);
+    if (shape->has_bevel)
+      bevel.normals(shape->bevel, false);
+    if (shape->has_trailing)
+      trailing.normals(shape->trailing, false);
+    const Fillets *behind_suction = shape->has_bevel ? &bevel : &trailing;
+    const Fillets *behind_pressure = shape->has_trailing ? &trailing : &bevel;
+    leading.feet(shape->leading, &suction, false, &pressure, false);
+    pressure.feet(shape->pressure, &leading, true, behind_pressure, true);
+    suction.feet(shape->suction, &leading, false, behind_suction, false);
+    if (shape->has_bevel)
+      bevel.feet(shape->bevel, &suction, true, shape->has_trailing ? &trailing : &pressure,
+                 !shape->has_trailing);
+    if (shape->has_trailing)
+      trailing.feet(shape->trailing, shape->has_bevel ? &bevel : &suction, true, &pressure, true);
+  }
+  check_room(design, meridian, shape);
+}
