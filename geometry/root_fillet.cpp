@@ -4,20 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 
 #include <Standard_Failure.hxx>
 
 #include "geometry/bspline_fit.hpp"
+#include "geometry/root_fillet_size.h"
 
 namespace {
 
-const double degree = M_PI / 180;
-const double least_angle = 45 * degree; // of a crease: a sharper one would want an endless fillet
 const double largest_mitre = 1.6;       // length of the mitre at a corner over L
 const double most_of_span = 0.85;       // that both fillets may take
-const double room_share = 0.4;          // of the room between D2 and the interface that the foot may take
-const double narrows_from = 0.85;       // share of the blade's length
 
 struct Vector {
   double m, t; // downstream along the wall and in the sense of theta, m
@@ -30,13 +26,6 @@ double smooth_step(double x) {
   x = x < 0 ? 0 : x > 1 ? 1 : x;
   return x * x * x * (10 - 15 * x + 6 * x * x);
 }
-
-// The wall at one point of the outline: its metric, the height over it in a unit of span, and how far the
-// blade's mean surface leans over the wall per unit of height.
-struct Place {
-  double speed, radius, height;
-  Vector lean;
-};
 
 class Fillets {
 public:
@@ -53,33 +42,12 @@ private:
   const CwMeridian *meridian;
   const CwBladeShape *shape;
   int wall;
-  std::vector<Place> place;
+  std::vector<CwFilletPlace> place;
   std::vector<Vector> normal;
   std::vector<double> length, angle;
 
-  Place place_at(double q) const;
   Vector mitre(size_t i, const Fillets *other, bool other_end) const;
 };
-
-Place Fillets::place_at(double q) const {
-  const double span = wall == CW_HUB ? 0 : 1, apart = 1.0 / (CW_SPAN_POINTS - 1);
-  const CwBladeSection &on = shape->section[wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1];
-  const CwBladeSection &off = shape->section[wall == CW_HUB ? 1 : CW_SPAN_POINTS - 2];
-  const double inside = std::min(1.0, std::max(on.start, q)), p = (inside - on.start) / (1 - on.start);
-  double x[2], dx[2], y[2];
-  Place here;
-  cw_meridian_blade_point(meridian, span, q, x, dx);
-  here.speed = std::hypot(dx[0], dx[1]);
-  here.radius = x[0];
-  cw_meridian_blade_point(meridian, span, inside, x, dx);
-  cw_meridian_blade_point(meridian, std::fabs(span - apart), inside, y, nullptr);
-  const double speed = std::hypot(dx[0], dx[1]);
-  const double up = std::fabs((y[0] - x[0]) * dx[1] - (y[1] - x[1]) * dx[0]) / speed;
-  here.height = up / apart;
-  here.lean = {((y[0] - x[0]) * dx[0] + (y[1] - x[1]) * dx[1]) / speed / up,
-               x[0] * (cw_blade_theta(&off, p) - cw_blade_theta(&on, p)) / up};
-  return here;
-}
 
 void Fillets::normals(const CwBladePatch &patch, bool left) {
   const size_t count = patch.u.size();
@@ -90,20 +58,18 @@ void Fillets::normals(const CwBladePatch &patch, bool left) {
     outline.push_back(gp_Pnt2d(point.q, point.theta));
   }
   const Handle(Geom2d_BSplineCurve) curve = cw_bspline_curve_2d(patch.u, outline);
-  const double room = room_share * (design->interface_radius - design->outlet_diameter / 2);
+  const CwBladeSection &on = shape->section[j];
+  const CwBladeSection &off = shape->section[wall == CW_HUB ? 1 : CW_SPAN_POINTS - 2];
   for (size_t i = 0; i < count; i++) {
     gp_Pnt2d point;
     gp_Vec2d by_u;
     curve->D1(patch.u[i], point, by_u);
-    place.push_back(place_at(point.X()));
-    const Place &here = place.back();
+    place.push_back(cw_root_fillet_place(meridian, &on, &off, point.X()));
+    const CwFilletPlace &here = place.back();
     const double m = by_u.X() * here.speed, t = by_u.Y() * here.radius, size = std::hypot(m, t);
     normal.push_back(left ? Vector{-t / size, m / size} : Vector{t / size, -m / size});
-    angle.push_back(std::max(least_angle, std::atan2(1, dot(here.lean, normal.back()))));
-    const double full = design->root_fillet_radius / std::tan(angle.back() / 2);
-    const double start = shape->section[0].start, p = (point.X() - start) / (1 - start);
-    const double narrow = smooth_step((p - narrows_from) / (1 - narrows_from));
-    length.push_back(full + narrow * (std::min(full, room) - full));
+    angle.push_back(cw_root_fillet_angle(&here, normal.back().m, normal.back().t));
+    length.push_back(cw_root_fillet_length(design, &on, point.X(), angle.back()));
   }
 }
 

@@ -409,10 +409,12 @@ void Rotor::blade_faces(int i) {
   const CwBladeShape &s = *b.shape;
   const std::string number = "_" + std::to_string(b.turns + 1);
   for (int band = 0; band < bands; band++) {
-    const std::string where = bands == 1 || band == 1 ? "" : band == 0 ? "_hub_fillet" : "_shroud_fillet";
+    const bool fillet = bands > 1 && band != 1;
+    const std::string root = band == 0 ? "_hub_root" : "_shroud_root";
     // A patch between its edges along both levels and across the span at its begin and end.
     const auto face = [&](const CwBladePatch &patch, const int *row, const int *row_before, const int *begin,
-                          const int *end, bool outward, const char *part, const char *patch_name) {
+                          const int *end, bool outward, const std::string &part, const std::string &more,
+                          const char *patch_name) {
       Handle(Geom_Surface) surface = Handle(Geom_Surface)::DownCast(patch.band[band]->Copy());
       surface->Rotate(gp::OZ(), b.turns * pitch);
       std::vector<CwEdgeUse> loop;
@@ -424,16 +426,17 @@ void Rotor::blade_faces(int i) {
       if (row_before && row_before[band + 1] >= 0)
         loop.push_back({row_before[band + 1], false, along_u(1)});
       loop.push_back({begin[band], false, along_v(patch.u.front())});
-      shell.face(surface, loop, outward, patch_name, "wall", std::string(s.name) + part + where + number);
+      shell.face(surface, loop, outward, patch_name, "wall", s.name + part + (fillet ? root : more) + number);
     };
-    face(s.leading, b.e_nose_p, b.e_nose_s, b.x_s, b.x_p, false, "_leading_edge", "blade_leading_edge");
-    face(s.pressure, b.e_p, nullptr, b.x_p, b.x_corner, false, "_pressure", "blade_pressure");
-    face(s.suction, b.e_s, nullptr, b.x_s, b.x_bevel0, true, "_suction", "blade_suction");
+    face(s.leading, b.e_nose_p, b.e_nose_s, b.x_s, b.x_p, false, "_leading", "_edge", "blade_leading_edge");
+    face(s.pressure, b.e_p, nullptr, b.x_p, b.x_corner, false, "_pressure", "", "blade_pressure");
+    face(s.suction, b.e_s, nullptr, b.x_s, b.x_bevel0, true, "_suction", "", "blade_suction");
     if (s.has_bevel)
       face(s.bevel, b.e_bevel, nullptr, b.x_bevel0, s.has_trailing ? b.x_bevel1 : b.x_corner, true,
-           "_trailing_bevel", "blade_trailing_edge");
+           fillet ? "_bevel" : "_trailing", "_bevel", "blade_trailing_edge");
     if (s.has_trailing)
-      face(s.trailing, b.e_te, nullptr, b.x_bevel1, b.x_corner, true, "_trailing_edge", "blade_trailing_edge");
+      face(s.trailing, b.e_te, nullptr, b.x_bevel1, b.x_corner, true, "_trailing", "_edge",
+           "blade_trailing_edge");
   }
 }
 
