@@ -168,7 +168,7 @@ void Maker::trailing_points(double p_bevel) {
 }
 
 void Maker::points() {
-  const int side_points = 81, nose_points = 33;
+  const int side_points = 121, nose_points = 49;
   const CwTrailingEdge edge = design->trailing_edge;
   const CwBladeSection &middle = shape.section[CW_SPAN_POINTS / 2];
   shape.has_bevel = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
@@ -180,11 +180,14 @@ void Maker::points() {
       (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner))
     throw Standard_Failure("the bevel is longer than the trailing edge: lower trailing_edge_bevel_mm or "
                            "trailing_edge_thickness_mm");
+  // Half-way between even steps on the ellipse and even turns of its normal, which the foot of a root fillet
+  // follows.
   for (int i = 0; i < nose_points; i++) {
-    shape.leading.u.push_back((double)i / (nose_points - 1));
+    const double f = (double)i / (nose_points - 1), even = M_PI * (f - 0.5);
+    const double turned = std::atan2(std::sin(even), design->leading_edge_ratio * std::cos(even));
+    shape.leading.u.push_back(f);
     for (int j = 0; j < CW_SPAN_POINTS; j++)
-      shape.leading.points.push_back(
-          cw_blade_leading_edge(&shape.section[j], M_PI * (shape.leading.u.back() - 0.5)));
+      shape.leading.points.push_back(cw_blade_leading_edge(&shape.section[j], 0.5 * (even + turned)));
   }
   // Parameters of the sides run from 0 at the leading to 1 at the trailing edge, closer together towards the
   // leading edge. The suction side ends where the bevel begins.

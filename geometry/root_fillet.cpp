@@ -31,10 +31,12 @@ class Fillets {
 public:
   Fillets(const CwDesign *from, const CwMeridian *section, const CwBladeShape *of, int on)
       : design(from), meridian(section), shape(of), wall(on) {}
-  // Normals, tangent lengths and angles of a patch; `left`: the fluid lies to the left of the outline.
-  void normals(const CwBladePatch &patch, bool left);
-  // Feet of the patch `own`, with the mitres to the neighbours at its begin and end.
-  void feet(CwBladePatch &patch, const Fillets *before, bool before_end, const Fillets *after,
+  // Normals, tangent lengths and angles of a patch; `left`: the fluid lies to the left of the outline; `round`:
+  // an edge that turns by half a circle.
+  void normals(const CwBladePatch &patch, bool left, bool round);
+  // Feet of the patch, with the mitres to the neighbours at its begin and end. `straight`: a facet, whose foot is
+  // the line between them.
+  void feet(CwBladePatch &patch, bool straight, const Fillets *before, bool before_end, const Fillets *after,
             bool after_end) const;
 
 private:
@@ -49,7 +51,7 @@ private:
   Vector mitre(size_t i, const Fillets *other, bool other_end) const;
 };
 
-void Fillets::normals(const CwBladePatch &patch, bool left) {
+void Fillets::normals(const CwBladePatch &patch, bool left, bool round) {
   const size_t count = patch.u.size();
   const int j = wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1;
   std::vector<gp_Pnt2d> outline;
@@ -68,8 +70,20 @@ void Fillets::normals(const CwBladePatch &patch, bool left) {
     const CwFilletPlace &here = place.back();
     const double m = by_u.X() * here.speed, t = by_u.Y() * here.radius, size = std::hypot(m, t);
     normal.push_back(left ? Vector{-t / size, m / size} : Vector{t / size, -m / size});
-    angle.push_back(cw_root_fillet_angle(&here, normal.back().m, normal.back().t));
-    length.push_back(cw_root_fillet_length(design, &on, point.X(), angle.back()));
+  }
+  // Round an edge the normal turns at once from rest: taken as it is it would kink the length of the fillet.
+  const double turn = std::atan2(normal[0].m * normal[count - 1].t - normal[0].t * normal[count - 1].m,
+                                 dot(normal[0], normal[count - 1]));
+  const Vector &middle = normal[count / 2];
+  const double sense = normal[0].m * middle.t - normal[0].t * middle.m > 0 ? 1 : -1;
+  const double whole = turn * sense > 0 ? turn : turn + sense * 2 * M_PI;
+  for (size_t i = 0; i < count; i++) {
+    const double f = round ? whole * smooth_step((patch.u[i] - patch.u[0]) / (patch.u[count - 1] - patch.u[0])) : 0;
+    const Vector &from = normal[round ? 0 : i];
+    angle.push_back(cw_root_fillet_angle(&place[i], from.m * std::cos(f) - from.t * std::sin(f),
+                                         from.m * std::sin(f) + from.t * std::cos(f)));
+    length.push_back(
+        cw_root_fillet_length(design, &on, patch.points[i * CW_SPAN_POINTS + j].q, angle.back()));
   }
 }
 
@@ -84,18 +98,17 @@ Vector Fillets::mitre(size_t i, const Fillets *other, bool other_end) const {
   return {sum.m * scale, sum.t * scale};
 }
 
-void Fillets::feet(CwBladePatch &patch, const Fillets *before, bool before_end, const Fillets *after,
+void Fillets::feet(CwBladePatch &patch, bool straight, const Fillets *before, bool before_end, const Fillets *after,
                    bool after_end) const {
   const size_t count = patch.u.size(), last = count - 1;
   const Vector begin = mitre(0, before, before_end), end = mitre(last, after, after_end);
   const size_t kb = before_end ? before->normal.size() - 1 : 0, ka = after_end ? after->normal.size() - 1 : 0;
   const double first_u = patch.u.front(), range = patch.u.back() - first_u;
-  const bool narrow = count < 20; // bevel and cut: straight, so the foot is a straight line between its ends
   for (size_t i = 0; i < count; i++) {
     const double f = (patch.u[i] - first_u) / range;
-    const double wb = narrow ? 1 - f : 1 - smooth_step(f / 0.15), we = narrow ? f : smooth_step((f - 0.85) / 0.15);
+    const double wb = straight ? 1 - f : 1 - smooth_step(f / 0.15), we = straight ? f : smooth_step((f - 0.85) / 0.15);
     const auto ends = [&](double own, double at_begin, double own_begin, double at_end, double own_end) {
-      return narrow ? at_begin * wb + at_end * we
+      return straight ? at_begin * wb + at_end * we
                     : own + wb * (at_begin - own_begin) + we * (at_end - own_end);
     };
     const Vector shift = {
@@ -149,23 +162,23 @@ void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBlade
   for (int wall : {CW_HUB, CW_SHROUD}) {
     Fillets pressure(design, meridian, shape, wall), suction = pressure, leading = pressure, bevel = pressure,
                                                      trailing = pressure;
-    pressure.normals(shape->pressure, true);
-    leading.normals(shape->leading, true);
-    suction.normals(shape->suction, false);
+    pressure.normals(shape->pressure, true, false);
+    leading.normals(shape->leading, true, true);
+    suction.normals(shape->suction, false, false);
     if (shape->has_bevel)
-      bevel.normals(shape->bevel, false);
+      bevel.normals(shape->bevel, false, false);
     if (shape->has_trailing)
-      trailing.normals(shape->trailing, false);
+      trailing.normals(shape->trailing, false, design->trailing_edge == CW_EDGE_ROUNDED);
     const Fillets *behind_suction = shape->has_bevel ? &bevel : &trailing;
     const Fillets *behind_pressure = shape->has_trailing ? &trailing : &bevel;
-    leading.feet(shape->leading, &suction, false, &pressure, false);
-    pressure.feet(shape->pressure, &leading, true, behind_pressure, true);
-    suction.feet(shape->suction, &leading, false, behind_suction, false);
+    leading.feet(shape->leading, false, &suction, false, &pressure, false);
+    pressure.feet(shape->pressure, false, &leading, true, behind_pressure, true);
+    suction.feet(shape->suction, false, &leading, false, behind_suction, false);
     if (shape->has_bevel)
-      bevel.feet(shape->bevel, &suction, true, shape->has_trailing ? &trailing : &pressure,
+      bevel.feet(shape->bevel, true, &suction, true, shape->has_trailing ? &trailing : &pressure,
                  !shape->has_trailing);
     if (shape->has_trailing)
-      trailing.feet(shape->trailing, shape->has_bevel ? &bevel : &suction, true, &pressure, true);
+      trailing.feet(shape->trailing, design->trailing_edge != CW_EDGE_ROUNDED, shape->has_bevel ? &bevel : &suction, true, &pressure, true);
   }
   check_room(design, meridian, shape);
 }
