@@ -244,6 +244,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
   return guarded(rotor, [&] {
     const Extent inlet = extent(rotor, "inlet"), interface = extent(rotor, "rotor_interface");
     measured->inlet_diameter = 2 * inlet.largest_r;
+    measured->inlet_area = inlet.area;
     measured->interface_radius = interface.largest_r;
     measured->interface_area = interface.area;
     measured->outlet_width = interface.largest_z - interface.least_z;

@@ -28,7 +28,8 @@ typedef struct {
 
 typedef struct {
   double wrap_angle;       // mean line at mid-span, leading edge to trailing edge, blade 1, rad
-  double inlet_diameter;   // of the inlet disk, m
+  double inlet_diameter;   // of the inlet, m
+  double inlet_area;       // m2
   double outlet_diameter;  // of the blade's cut, m
   double outlet_width;     // axial extent of the interface, m
   double interface_radius; // m
