@@ -85,6 +85,26 @@ double fluid_angle(const Side &a, const Side &b) {
   return into_b.Dot(a.normal) < 0 ? angle : 2 * M_PI - angle;
 }
 
+bool named(const CwSolidFace &face, const char *part) {
+  return face.name.find(part) != std::string::npos;
+}
+
+// Whether two faces of the rotor that meet should be tangent there.
+bool should_be_smooth(const CwSolidFace &a, const CwSolidFace &b) {
+  const auto pair = [&](const char *one, const char *other) {
+    return (a.patch == one && b.patch == other) || (a.patch == other && b.patch == one);
+  };
+  const bool a_root = named(a, "_root"), b_root = named(b, "_root");
+  const bool a_wall = a.patch == "hub" || a.patch == "shroud", b_wall = b.patch == "hub" || b.patch == "shroud";
+  if ((a_root && b_wall) || (b_root && a_wall))
+    return true;
+  if (a.patch == "blade_trailing_edge" && b.patch == a.patch) // bevel and cut meet in an edge
+    return a_root != b_root && named(a, "bevel") == named(b, "bevel");
+  return a.patch == b.patch || pair("blade_leading_edge", "blade_pressure") ||
+         pair("blade_leading_edge", "blade_suction") || pair("shroud", "suction_pipe") || pair("hub", "hub_nut") ||
+         pair("hub", "hub_shaft");
+}
+
 bool is_blade(const CwSolidFace &face) {
   return face.patch.compare(0, 6, "blade_") == 0;
 }
@@ -120,6 +140,28 @@ void each_angle(const CwSolid *solid,
 // Point of a face of blade 1 at mid-span: v = 0.5 at the given u of its parameter plane.
 gp_Pnt mid_span(const CwSolid *rotor, const char *name, double u) {
   return BRep_Tool::Surface(face_named(rotor, name).face)->Value(u, 0.5);
+}
+
+double length_of(const TopoDS_Shape &shape) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(shape, properties);
+  return properties.Mass() * metre;
+}
+
+// Shortest edge and narrowest face.
+void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
+  measured->shortest_edge = measured->narrowest_face = HUGE_VAL;
+  for (const CwSolidFace &face : solid->faces) {
+    double around = 0;
+    for (TopExp_Explorer explorer(face.face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
+      const double length = length_of(explorer.Current());
+      around += length;
+      measured->shortest_edge = std::min(measured->shortest_edge, length);
+    }
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face.face, properties);
+    measured->narrowest_face = std::min(measured->narrowest_face, properties.Mass() * metre * metre / (around / 2));
+  }
 }
 
 double polar(const gp_Pnt &point) {
@@ -194,6 +236,7 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
     measured->face_count = (int)solid->faces.size();
     measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * metre;
     measured->volume = properties.Mass() * metre * metre * metre;
+    measure_smallness(solid, measured);
   });
 }
 
@@ -201,6 +244,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
   return guarded(rotor, [&] {
     const Extent inlet = extent(rotor, "inlet"), interface = extent(rotor, "rotor_interface");
     measured->inlet_diameter = 2 * inlet.largest_r;
+    measured->inlet_area = inlet.area;
     measured->interface_radius = interface.largest_r;
     measured->interface_area = interface.area;
     measured->outlet_width = interface.largest_z - interface.least_z;
@@ -221,6 +265,13 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
       outlet = std::max(outlet, r);
     }
     measured->outlet_diameter = 2 * outlet * metre;
+    measured->kink.angle = 0;
+    each_angle(rotor, should_be_smooth, [&](const CwMeasuredAngle &found) {
+      CwMeasuredAngle kink = found;
+      kink.angle = std::fabs(found.angle - M_PI);
+      if (kink.angle > measured->kink.angle)
+        measured->kink = kink;
+    });
     measured->hub_crease.angle = measured->shroud_crease.angle = HUGE_VAL;
     measured->trailing_edge.angle = 0;
     for (const char *wall : {"hub", "shroud"}) {

@@ -82,6 +82,8 @@ typedef struct {
   double splitter_position;       // share of the pitch from a blade to the splitter behind its pressure side
   double nut_length;              // m, of the hub's nose before the hub
   double nut_flat_diameter;       // m, of its flat end
+  double through_shaft_diameter;  // m, of a shaft that goes out through the inlet; 0: none
+  double root_fillet_radius;      // m, between blades and hub and shroud; 0: none
   double suction_pipe_length;     // m, from the shroud's inlet
 } CwImpellerTable;
 
