@@ -188,13 +188,19 @@ done:
   return status;
 }
 
+// All ranks work on one domain after the other.
 static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  Results results = {0};
-  CW_TRY(run_domains(run, "layers", cw_step_layers, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
+  double started = cw_seconds();
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
+    CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target));
+    cw_progress(domain->skeleton.wall_triangle_count);
+    cw_progress_end();
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, CW_DOMAINS, "domains"));
 done:
-  results_free(&results);
   return status;
 }
 

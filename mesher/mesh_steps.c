@@ -21,11 +21,6 @@ CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
 
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  const CwDomain *domain = &run->domain[task.domain];
-  return cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target, bytes, size);
-}
-
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_cap(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
