@@ -277,9 +277,15 @@ static double relax(Part *part, int32_t i) {
   return moved;
 }
 
+static int is_wide(const Fan *fan) {
+  return fan->widen > 1.05;
+}
+
 // Relaxes the members outward and inward by turns: news of a source crosses the whole reach in one sweep. Only those are
-// looked at that are stirred: told to, or beside one that moved.
-static void solve(Part *part, int sweeps) {
+// looked at that are stirred: told to, or beside one that moved. `wide`: those alone where the fan was widened; elsewhere
+// the solution stands.
+static void solve(Part *part, int wide, int sweeps) {
+  for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] = is_wide(&part->fan[i]);
   for (int s = 0; s < sweeps; s++) {
     int32_t stirred = 0;
     for (int32_t k = 0; k < part->count; k++) {
@@ -290,8 +296,10 @@ static void solve(Part *part, int sweeps) {
       part->changed[i] = 1;
       if (relax(part, i) < SETTLED) continue;
       part->stirred[i] = 1;
-      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++)
-        if (part->near[l] < part->count) part->stirred[part->near[l]] = 1;
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        int32_t j = part->near[l];
+        if (j < part->count && (!wide || is_wide(&part->fan[j]))) part->stirred[j] = 1;
+      }
     }
     if (stirred == 0) break;
   }
@@ -347,7 +355,6 @@ static int32_t widen(Part *part) {
     poor++;
     for (int k = 0; k < 3; k++) {
       part->fan[local[k]].widen = fmin(part->fan[local[k]].widen * 1.4, WIDEST);
-      if (local[k] < part->count) part->stirred[local[k]] = 1;
     }
   }
   memset(part->changed, 0, (size_t)part->count);
@@ -359,10 +366,7 @@ static int32_t widen(Part *part) {
         double there = part->fan[part->near[l]].widen;
         if (there <= part->fan[i].widen) continue;
         double away = distance3(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
-        double wider = there * exp(-0.5 * away);
-        if (wider <= part->fan[i].widen) continue;
-        part->fan[i].widen = wider;
-        part->stirred[i] = 1;
+        part->fan[i].widen = fmax(part->fan[i].widen, there * exp(-0.5 * away));
       }
     }
   return poor;
@@ -413,7 +417,7 @@ static CwStatus solve_part(void *context, int32_t component, void **bytes, int64
     set_end(&part, i);
   }
   for (int round = 0; round <= WIDENINGS; round++) {
-    solve(&part, round ? MORE_SWEEPS : SWEEPS);
+    solve(&part, round > 0, round ? MORE_SWEEPS : SWEEPS);
     for (int32_t i = 0; i < part.count; i++) {
       if (!part.changed[i]) continue;
       part.touched[i] = 1;
