@@ -14,12 +14,13 @@ typedef struct {
   CwBackground background;
   CwInside *inside;
   CwSize *size;
-  double *relative_size, *patch_first_height; // of each patch; m
+  double *relative_size;                      // of each patch
+  CwLayerTarget *patch_layers;                // of each patch
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
   double tet_integral;                        // integral of h^-3 over the domain less its layers, at scale 1
   CwPlan plan;
   CwSkeleton skeleton;
-  double *first_height, *target;              // of each wall vertex, m
+  double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
   CwRegionContext context;
   int32_t *number, colours;                   // region numbers
   int32_t pair_count, (*pair)[2];             // adjacent regions
@@ -31,10 +32,7 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
 
 // Makes the size field, packed: a task of one rank. All ranks take it up with cw_domain_take_size.
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes);
-
-// Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.
-double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
+CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
 // packed (cw_plan_unpack): a task of one rank.

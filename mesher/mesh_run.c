@@ -304,7 +304,7 @@ static CwStatus open_domains(CwMeshRun *run) {
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, 2, "domains"));
   CW_TRY(run_domains(run, "size field", cw_step_size, &results));
   for (int d = 0; d < CW_DOMAINS; d++) {
-    CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
+    CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
   }
 done:
   results_free(&results);

@@ -78,6 +78,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CW_TRY(cw_audit_region(&mesh, &summary->quality));
   if (!current) CW_TRY(cw_region_write(path, &mesh));
   summarise(&mesh, summary);
+  CW_TRY(cw_layer_ratio(&mesh, run->table->walls.layer_count, CW_PATCH_LIMIT, summary->ratio_bin));
   *bytes = summary;
   *size = sizeof *summary;
   summary = NULL;

@@ -154,7 +154,8 @@ static void regions_fill_the_box(void **) {
   context.skeleton = &skeleton;
   context.domain = "box";
   context.layer_count = 4;
-  context.growth_max = 1.5;
+  std::vector<double> growth(skeleton.wall_count, 1.5);
+  context.growth = growth.data();
   context.first_height = first.data();
   Box::check(cw_region_context_make(&context));
   double volume = 0;
