@@ -9,10 +9,10 @@
 #include "mesher/wall_targets.h"
 
 // The layers over a piece of wall.
-typedef struct CwLayerSample {
+typedef struct {
   double density;          // area / h^3 at scale 1, m-1
   double size;             // h at scale 1, m
-  double thickness, least; // asked height of the columns, and that below which they never give way to h, m
+  CwLayerTarget target;
 } CwLayerSample;
 
 typedef struct {
@@ -23,14 +23,16 @@ typedef struct {
   CwInside *inside;
   CwSizeSeeds *seeds;                         // while the seeds of the faces are made
   CwSize *size;
-  double *relative_size, *patch_first_height; // of each patch; m
+  double *relative_size;                      // of each patch
+  CwLayerTarget *patch_layers;                // of each patch
+  int layer_count;
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
   double volume_integral;                     // integral of h^-3 over the domain, at scale 1
-  struct CwLayerSample *layer_sample;         // what the layers take of it: one for each background triangle of a wall
+  CwLayerSample *layer_sample;                // what the layers take of it: one for each background triangle of a wall
   int32_t layer_sample_count;
   CwPlan plan;
   CwSkeleton skeleton;
-  double *first_height, *target;              // of each wall vertex, m
+  double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
   CwRegionContext context;
   int32_t *number, colours;                   // region numbers
   int32_t pair_count, (*pair)[2];             // adjacent regions
@@ -48,10 +50,8 @@ CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
                              int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes);
+CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
 
-// Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.
-double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
 
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.

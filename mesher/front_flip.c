@@ -13,28 +13,19 @@ static const double WALL_SHARE = 0.6;    // of its least angle the wall keeps
 static const double FAIR_ANGLE = 0.35;   // rad: a wall triangle with angles above it is fair in any case
 static const double VALID_PRISM = 0.02;  // scaled Jacobian of a prism, least
 
-typedef struct {
-  int32_t a, b, triangle; // a < b
-} Side;
-
-static int compare_sides(const void *p, const void *q) {
-  const Side *x = p, *y = q;
-  if (x->a != y->a) return x->a < y->a ? -1 : 1;
-  if (x->b != y->b) return x->b < y->b ? -1 : 1;
-  return (x->triangle > y->triangle) - (x->triangle < y->triangle);
-}
-
+// Least angle of a triangle: the one across from its shortest edge.
 static double least_angle(const double (*x)[3], int32_t a, int32_t b, int32_t c) {
   const int32_t corner[3] = {a, b, c};
-  double least = M_PI;
+  double edge[3][3], square[3], n[3]; // edge k lies across from corner k
+  int least = 0;
   for (int k = 0; k < 3; k++) {
-    double u[3], v[3], n[3];
-    cw_sub(x[corner[(k + 1) % 3]], x[corner[k]], u);
-    cw_sub(x[corner[(k + 2) % 3]], x[corner[k]], v);
-    cw_cross(u, v, n);
-    least = fmin(least, atan2(cw_norm(n), cw_dot(u, v)));
+    cw_sub(x[corner[(k + 2) % 3]], x[corner[(k + 1) % 3]], edge[k]);
+    square[k] = cw_dot(edge[k], edge[k]);
+    if (square[k] < square[least]) least = k;
   }
-  return least;
+  const double *u = edge[(least + 1) % 3], *v = edge[(least + 2) % 3];
+  cw_cross(u, v, n);
+  return atan2(cw_norm(n), -cw_dot(u, v));
 }
 
 static void unit_normal(const double (*x)[3], int32_t a, int32_t b, int32_t c, double normal[3]) {
@@ -74,9 +65,9 @@ static int flat_pair(const double (*x)[3], const int32_t p[3], const int32_t q[3
   return cw_dot(n, m) > FLAT;
 }
 
-// Whether the edge a-b between c (left) and d is better as c-d.
-static int flip_helps(const double (*wall)[3], const double (*front)[3], int32_t a, int32_t b, int32_t c, int32_t d) {
-  double before = fmin(least_angle(front, a, b, c), least_angle(front, b, a, d));
+// Whether the edge a-b between c (left) and d is better as c-d; `before`: least angle of the front now.
+static int flip_helps(const double (*wall)[3], const double (*front)[3], double before, int32_t a, int32_t b, int32_t c,
+                      int32_t d) {
   double after = fmin(least_angle(front, c, d, b), least_angle(front, d, c, a));
   if (after < GAIN * before) return 0;
   double wall_before = fmin(least_angle(wall, a, b, c), least_angle(wall, b, a, d));
@@ -92,81 +83,127 @@ static int flip_helps(const double (*wall)[3], const double (*front)[3], int32_t
   return 1;
 }
 
-// The corner across the side a-b, and whether the triangle runs from a to b.
-static int32_t opposite(const int32_t corner[3], int32_t a, int32_t b, int *along) {
+// Triangles with their neighbours: near[t][k] across the side from corner k to the next, or -1.
+typedef struct {
+  int32_t (*triangle)[3], (*near)[3];
+} Mesh;
+
+static int corner_of(const Mesh *mesh, int32_t t, int32_t vertex) {
   for (int k = 0; k < 3; k++) {
-    int32_t p = corner[k], q = corner[(k + 1) % 3];
-    if ((p == a && q == b) || (p == b && q == a)) {
-      *along = p == a;
-      return corner[(k + 2) % 3];
-    }
+    if (mesh->triangle[t][k] == vertex) return k;
   }
   return -1;
 }
 
-static int edge_exists(const Side *side, int32_t count, int32_t a, int32_t b) {
-  int32_t low = 0, high = count;
-  if (a > b) {
-    int32_t swap = a;
-    a = b;
-    b = swap;
-  }
-  while (low < high) {
-    int32_t middle = (low + high) / 2;
-    if (side[middle].a < a || (side[middle].a == a && side[middle].b < b)) {
-      low = middle + 1;
-    } else {
-      high = middle;
+// Finds the neighbours. Sides that run the same way twice, or that three triangles share, have none.
+static CwStatus find_neighbours(int32_t point_count, int32_t triangle_count, Mesh *mesh) {
+  CwStatus status = CW_OK;
+  int32_t *start = NULL, *side = NULL;
+  CW_NEW(start, (size_t)point_count + 2);
+  CW_NEW(side, 3 * (size_t)triangle_count);
+  for (int32_t s = 0; s < 3 * triangle_count; s++) start[mesh->triangle[s / 3][s % 3] + 2]++;
+  for (int32_t v = 0; v < point_count; v++) start[v + 2] += start[v + 1];
+  for (int32_t s = 0; s < 3 * triangle_count; s++) side[start[mesh->triangle[s / 3][s % 3] + 1]++] = s;
+  for (int32_t s = 0; s < 3 * triangle_count; s++) { // sides that start at v now stand from start[v] to start[v + 1]
+    int32_t a = mesh->triangle[s / 3][s % 3], b = mesh->triangle[s / 3][(s % 3 + 1) % 3];
+    int32_t found = -1, others = 0;
+    for (int32_t i = start[b]; i < start[b + 1]; i++) {
+      if (mesh->triangle[side[i] / 3][(side[i] % 3 + 1) % 3] == a) found = side[i] / 3, others++;
     }
+    for (int32_t i = start[a]; i < start[a + 1]; i++) {
+      others += side[i] != s && mesh->triangle[side[i] / 3][(side[i] % 3 + 1) % 3] == b;
+    }
+    mesh->near[s / 3][s % 3] = others == 1 ? found : -1;
   }
-  return low < count && side[low].a == a && side[low].b == b;
+done:
+  free(start);
+  free(side);
+  return status;
+}
+
+// Whether c and d share an edge: looks at all triangles around c, from t both ways.
+static int are_joined(const Mesh *mesh, int32_t t, int32_t c, int32_t d) {
+  for (int way = 0; way < 2; way++) {
+    int32_t at = t;
+    do {
+      int k = corner_of(mesh, at, c);
+      if (corner_of(mesh, at, d) >= 0) return 1;
+      at = mesh->near[at][way ? k : (k + 2) % 3];
+    } while (at >= 0 && at != t);
+    if (at == t) break;
+  }
+  return 0;
+}
+
+static void set_near(Mesh *mesh, int32_t t, int32_t from, int32_t to) {
+  if (t < 0) return;
+  for (int k = 0; k < 3; k++) {
+    if (mesh->near[t][k] == from) mesh->near[t][k] = to;
+  }
+}
+
+// Turns side k of t, between t and u.
+static void flip(Mesh *mesh, int32_t t, int k, int32_t u) {
+  int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3], c = mesh->triangle[t][(k + 2) % 3];
+  int j = corner_of(mesh, u, b); // u runs b, a, d
+  int32_t d = mesh->triangle[u][(j + 2) % 3];
+  int32_t bc = mesh->near[t][(k + 1) % 3], ca = mesh->near[t][(k + 2) % 3];
+  int32_t ad = mesh->near[u][(j + 1) % 3], db = mesh->near[u][(j + 2) % 3];
+  const int32_t first[3] = {c, d, b}, second[3] = {d, c, a}, at_t[3] = {u, db, bc}, at_u[3] = {t, ca, ad};
+  for (int i = 0; i < 3; i++) {
+    mesh->triangle[t][i] = first[i], mesh->near[t][i] = at_t[i];
+    mesh->triangle[u][i] = second[i], mesh->near[u][i] = at_u[i];
+  }
+  set_near(mesh, db, u, t);
+  set_near(mesh, ca, t, u);
 }
 
 CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const double (*front)[3], int32_t triangle_count,
                        int32_t (*triangle)[3], const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
-  Side *side = NULL;
-  uint8_t *touched = NULL;
-  int32_t sides = 3 * triangle_count;
+  Mesh mesh = {.triangle = triangle};
+  double *angle = NULL; // least of each front triangle
+  uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
-  CW_NEW(side, sides);
-  CW_NEW(touched, point_count);
+  CW_NEW(mesh.near, triangle_count);
+  CW_NEW(angle, triangle_count);
+  CW_NEW(fresh, triangle_count);
+  CW_TRY(find_neighbours(point_count, triangle_count, &mesh));
+  for (int32_t t = 0; t < triangle_count; t++) {
+    angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
+    fresh[t] = 1;
+  }
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     for (int32_t t = 0; t < triangle_count; t++) {
-      for (int k = 0; k < 3; k++) {
-        int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3];
-        side[3 * t + k] = a < b ? (Side){a, b, t} : (Side){b, a, t};
+      if (!fresh[t]) continue;
+      int turned = 0;
+      for (int k = 0; k < 3 && !turned; k++) {
+        int32_t u = mesh.near[t][k];
+        if (u < 0 || group[t] != group[u]) continue;
+        int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3], c = triangle[t][(k + 2) % 3];
+        int32_t d = triangle[u][(corner_of(&mesh, u, b) + 2) % 3];
+        double before = fmin(angle[t], angle[u]);
+        if (c == d || !flip_helps(wall, front, before, a, b, c, d) || are_joined(&mesh, t, c, d)) continue;
+        flip(&mesh, t, k, u);
+        angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
+        angle[u] = least_angle(front, triangle[u][0], triangle[u][1], triangle[u][2]);
+        fresh[u] = 1;
+        for (int i = 0; i < 3; i++) {
+          if (mesh.near[t][i] >= 0) fresh[mesh.near[t][i]] = 1;
+          if (mesh.near[u][i] >= 0) fresh[mesh.near[u][i]] = 1;
+        }
+        turned = 1;
       }
-    }
-    qsort(side, (size_t)sides, sizeof *side, compare_sides);
-    for (int32_t i = 0; i < point_count; i++) touched[i] = 0;
-    for (int32_t s = 0; s + 1 < sides; s++) {
-      int32_t a = side[s].a, b = side[s].b, t = side[s].triangle, u = side[s + 1].triangle;
-      int along, against;
-      if (side[s + 1].a != a || side[s + 1].b != b || group[t] != group[u]) continue;
-      int32_t c = opposite(triangle[t], a, b, &along), d = opposite(triangle[u], a, b, &against);
-      // One flip about a point in a sweep: the sorted sides are those of its start.
-      if (c < 0 || d < 0 || along == against || touched[a] || touched[b] || touched[c] || touched[d]) continue;
-      if (!along) { // make c lie left of a -> b
-        int32_t swap = t;
-        t = u;
-        u = swap;
-        swap = c;
-        c = d;
-        d = swap;
-      }
-      if (edge_exists(side, sides, c, d) || !flip_helps(wall, front, a, b, c, d)) continue;
-      const int32_t first[3] = {c, d, b}, second[3] = {d, c, a};
-      for (int k = 0; k < 3; k++) triangle[t][k] = first[k], triangle[u][k] = second[k];
-      touched[a] = touched[b] = touched[c] = touched[d] = 1;
-      made++;
+      fresh[t] = (uint8_t)turned;
+      made += turned;
     }
     *flips += made;
     if (made == 0) break;
   }
 done:
-  free(side);
-  free(touched);
+  free(mesh.near);
+  free(angle);
+  free(fresh);
   return status;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/layer_heights.h"
+#include "mesher/layers.h"
 #include "mesher/mesh_run.h"
 #include "mesher/vec.h"
 #include "pipeline/log.h"
@@ -50,10 +51,19 @@ static json_t *manifest_json(const CwMeshRun *run) {
   return json_pack("{s:i, s:s, s:o}", "format", 1, "case", run->table->name, "domains", domains);
 }
 
-// Layers on one patch: how many faces carry them, how many have their first height, and why not the others.
-static json_t *coverage_json(const CwMeshRun *run, const CwDomain *domain, int patch) {
+static json_t *counts_json(const int64_t *count, int size) {
+  json_t *array = json_array();
+  for (int i = 0; i < size; i++) json_array_append_new(array, json_integer((json_int_t)count[i]));
+  return array;
+}
+
+// Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the last
+// layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
+static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
+  const CwDomain *domain = &run->domain[d];
   const CwSkeleton *skeleton = &domain->skeleton;
-  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0};
+  const CwLayerTarget *target = &domain->patch_layers[patch];
+  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0}, ratio[CW_RATIO_BINS] = {0};
   double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
@@ -62,9 +72,9 @@ static json_t *coverage_json(const CwMeshRun *run, const CwDomain *domain, int p
       int32_t v = skeleton->wall_triangle[t][k];
       double height = skeleton->height[v];
       double first = cw_layer_fractions(height, domain->first_height[v], run->table->walls.layer_count,
-                                        run->table->walls.growth_ratio, fraction);
+                                        domain->growth[v], fraction);
       is_full &= height >= 0.99 * domain->target[v];
-      met &= fabs(first / domain->patch_first_height[patch] - 1) <= FIRST_HEIGHT_TOLERANCE;
+      met &= fabs(first / domain->first_height[v] - 1) <= FIRST_HEIGHT_TOLERANCE;
       if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
       thickness += height / 3;
       least = fmin(least, height);
@@ -73,21 +83,26 @@ static json_t *coverage_json(const CwMeshRun *run, const CwDomain *domain, int p
     full += is_full;
     first_met += met;
     reason[is_full ? 0 : worst]++;
+    if (!met) missed[worst]++;
   }
-  return json_pack("{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch",
-                   cw_cad_patch_name(domain->cad, patch), "wall_faces", (json_int_t)faces, "full_thickness_faces",
-                   (json_int_t)full, "first_height_met_faces", (json_int_t)first_met, "first_height_target_m",
-                   cw_json_number(domain->patch_first_height[patch]), "mean_thickness_m",
-                   cw_json_number(faces ? thickness / (double)faces : 0), "least_thickness_m",
-                   cw_json_number(faces ? least : 0), "thinned_by_gap_faces", (json_int_t)reason[1],
-                   "thinned_by_gradation_faces", (json_int_t)reason[2], "thinned_by_repair_faces",
-                   (json_int_t)reason[3]);
-}
-
-static json_t *counts_json(const int64_t *count, int size) {
-  json_t *array = json_array();
-  for (int i = 0; i < size; i++) json_array_append_new(array, json_integer((json_int_t)count[i]));
-  return array;
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
+    for (int b = 0; b < CW_RATIO_BINS; b++) ratio[b] += run->summary[d][r].ratio_bin[patch][b];
+  }
+  json_t *result = json_pack(
+      "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
+      (json_int_t)faces, "full_thickness_faces", (json_int_t)full, "first_height_met_faces", (json_int_t)first_met,
+      "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
+      cw_json_number(faces ? thickness / (double)faces : 0), "least_thickness_m", cw_json_number(faces ? least : 0),
+      "thinned_by_gap_faces", (json_int_t)reason[CW_LAYER_GAP], "thinned_by_gradation_faces",
+      (json_int_t)reason[CW_LAYER_GRADATION], "thinned_by_repair_faces", (json_int_t)reason[CW_LAYER_REPAIR]);
+  json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
+  json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)missed[CW_LAYER_GAP]));
+  json_object_set_new(result, "first_height_missed_by_gradation_faces",
+                      json_integer((json_int_t)missed[CW_LAYER_GRADATION]));
+  json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)missed[CW_LAYER_REPAIR]));
+  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(ratio, CW_RATIO_BINS));
+  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(ratio[2] + ratio[3] + ratio[4] + ratio[5])));
+  return result;
 }
 
 static json_t *domain_json(const CwMeshRun *run, int d) {
@@ -130,7 +145,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     json_array_append_new(patch_list, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
                                                 KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2",
                                                 cw_json_number(area[p])));
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, domain, p));
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
   double solid = domain->solid_volume;
   json_t *result = json_pack(

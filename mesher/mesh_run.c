@@ -11,7 +11,7 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 30 };
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
@@ -94,8 +94,9 @@ static void results_free(Results *results) {
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
+  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(scale); // 0: nothing learned yet
   return run->prism_factor * run->domain[d].prism_integral / (scale * scale) +
-         run->tet_factor * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
+         tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
 
 double cw_predicted_cells(const CwMeshRun *run, int domain) {
@@ -108,18 +109,14 @@ static double all_cells_at(const CwMeshRun *run, double scale) {
   return cells;
 }
 
-// Sets the scale of the size fields so that the predicted count is the asked one; the count falls with the scale.
+// Sets the scale of the size fields so that the predicted count is the asked one: cells go by about the -2.7th power of it.
 static void solve_scale(CwMeshRun *run) {
-  double low = 1e-3, high = 1e3;
-  for (int step = 0; step < 60; step++) {
-    double middle = sqrt(low * high);
-    if (all_cells_at(run, middle) > (double)run->table->mesh.cells) {
-      low = middle;
-    } else {
-      high = middle;
-    }
+  double asked = (double)run->table->mesh.cells, off = INFINITY;
+  run->scale = 1; // the same bits, whatever scale was before
+  for (int step = 0; step < SCALE_STEPS && fabs(off - 1) > 1e-12; step++) {
+    off = all_cells_at(run, run->scale) / asked;
+    run->scale *= pow(off, 1 / 2.7);
   }
-  run->scale = sqrt(low * high);
   for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, run->scale);
 }
 
@@ -189,13 +186,19 @@ done:
   return status;
 }
 
+// All ranks work on one domain after the other.
 static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  Results results = {0};
-  CW_TRY(run_domains(run, "layers", cw_step_layers, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
+  double started = cw_seconds();
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
+    CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target));
+    cw_progress(domain->skeleton.wall_triangle_count);
+    cw_progress_end();
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, CW_DOMAINS, "domains"));
 done:
-  results_free(&results);
   return status;
 }
 
@@ -321,7 +324,7 @@ static CwStatus make_sizes(CwMeshRun *run) {
   }
   CW_TRY(run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
   CW_TRY(run_domains(run, "size field", cw_step_size, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
+  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
 done:
   for (int d = 0; d < CW_DOMAINS; d++) run->seeds[d] = NULL;
   results_free(&seeds);
@@ -390,10 +393,9 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
   double asked = (double)run->table->mesh.cells;
   run->scale = 1;
-  for (int step = 0; step < SCALE_STEPS; step++) {
-    run->tet_factor = tets_per_volume(run->scale);
-    solve_scale(run);
-  }
+  run->tet_factor = 0;
+  solve_scale(run);
+  run->tet_factor = tets_per_volume(run->scale);
   CW_TRY(plan_domains(run));
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, fingerprint));

@@ -5,6 +5,7 @@
 
 #include "mesher/audit.h"
 #include "mesher/domain.h"
+#include "mesher/layer_ratio.h"
 #include "pipeline/record.h"
 
 enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
@@ -13,6 +14,7 @@ enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
+  int64_t ratio_bin[CW_PATCH_LIMIT][CW_RATIO_BINS]; // wall faces by last layer over first tetrahedron
   CwQuality quality;
 } CwRegionSummary;
 
@@ -51,7 +53,6 @@ CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);

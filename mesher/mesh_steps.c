@@ -29,11 +29,6 @@ CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
 
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  const CwDomain *domain = &run->domain[task.domain];
-  return cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target, bytes, size);
-}
-
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_cap(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
@@ -91,6 +86,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   CW_TRY(cw_audit_region(&mesh, &summary->quality));
   if (!current) CW_TRY(cw_region_write(path, &mesh));
   summarise(&mesh, summary);
+  CW_TRY(cw_layer_ratio(&mesh, run->table->walls.layer_count, CW_PATCH_LIMIT, summary->ratio_bin));
   *bytes = summary;
   *size = sizeof *summary;
   summary = NULL;

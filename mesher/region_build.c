@@ -83,7 +83,7 @@ void cw_region_context_free(CwRegionContext *context) {
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
   const CwSkeleton *skeleton = context->skeleton;
   CwHash hash = cw_hash_start();
-  double numbers[4] = {context->layer_count, context->growth_max, (double)context->shared_count, context->fill};
+  double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
@@ -94,6 +94,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
       cw_hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
       cw_hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
+      cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
       cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
@@ -210,7 +211,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
     int32_t *next = base >= 0 ? &next_shared : &next_own;
     if (on_front) {
       build->column[i] = *next;
-      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth_max, fraction);
+      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth[node], fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->shared_id[*next] = base + k;
         cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[k], mesh->x[(*next)++]);

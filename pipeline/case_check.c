@@ -45,6 +45,8 @@ static const Rule rules[] = {
      "the volute takes the impeller's outlet"},
     {"walls", "total_thickness_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
      "layers on hub and shroud would meet"},
+    {"walls", "total_thickness_hub_shroud_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
+     "layers on hub and shroud would meet"},
 };
 
 static CwStatus check_rule(const char *path, const CwCase *table, const CwCasePlace *places,
