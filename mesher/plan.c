@@ -125,6 +125,7 @@ int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double 
 }
 
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
+  if (cw_plan_locate(plan, x) == region) return 1; // as a rule
   for (int32_t node = 0; node < plan->node_count; node++) {
     for (int side = 0; side < 2; side++) {
       if (plan->node[node].child[side] != -1 - region) continue;

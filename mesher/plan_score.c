@@ -9,12 +9,18 @@
 #include "mesher/vec.h"
 
 enum {
-  DIRECTIONS = 60,   // planes parallel to the axis, every 3 degrees
+  DIRECTIONS = 120,  // planes parallel to the axis, every 1.5 degrees
+  TILTS = 2,         // planes that lean, for parts that no upright one divides well
+  LEANING = 36 * TILTS,
+  PIECES_LARGE = 8000, // parts of more pieces leave room enough for every other direction
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
-  SHIFTS = 6,        // places tried on either side of the even one
+  SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
   LINES_JUDGED = 200 // candidates whose lines are looked at, best first
 };
-static const double SHIFT[3] = {0.02, 0.012, 0.006}; // of the smaller side's work: two or three regions, few, many
+static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
+static const double WIDER = 6;                       // shifts until they are twice as wide
+static const double TILT[TILTS] = {0.35, 0.8};         // rad
+static const double WELL = 4;                        // score of a plane that will do
 static const double BALANCE_MOST = 0.1;              // share of a region's work past which a plane is hardly wanted
 static const double SHARP = 0.643, FAIR = 0.766;     // sines of 40 and 50 degrees
 
@@ -33,15 +39,20 @@ static int by_score(const void *a, const void *b) {
 
 static void direction_of(int32_t d, double direction[3]) {
   // A small odd turn keeps the fan of planes off the symmetry planes of the CAD.
-  double angle = M_PI * (d + 0.37) / DIRECTIONS;
-  direction[0] = d < DIRECTIONS ? cos(angle) : 0;
-  direction[1] = d < DIRECTIONS ? sin(angle) : 0;
-  direction[2] = d == DIRECTIONS;
+  double angle = M_PI * (d + 0.37) / DIRECTIONS, tilt = 0;
+  if (d > DIRECTIONS) {
+    int32_t leaning = d - DIRECTIONS - 1;
+    angle = 2 * M_PI * (leaning / TILTS + 0.37) / (LEANING / TILTS);
+    tilt = TILT[leaning % TILTS];
+  }
+  direction[0] = d == DIRECTIONS ? 0 : cos(tilt) * cos(angle);
+  direction[1] = d == DIRECTIONS ? 0 : cos(tilt) * sin(angle);
+  direction[2] = d == DIRECTIONS ? 1 : sin(tilt);
 }
 
 // What an angle of this sine to a wall or another plane costs.
 static double sharpness(double sine) {
-  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 15 * (SHARP - sine) : 0);
+  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 30 * (SHARP - sine) : 0);
 }
 
 // All but the lines.
@@ -53,7 +64,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   double load = fmax(fabs(cells / (below * model->mean_work) - 1),
                      fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
   *worst = profile->worst[bin];
-  return 4 * load + 30 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
+  return 6 * load + 30 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
          0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + sharpness(*worst) +
          fmin(0.5 * profile->grazed[bin], 3) + 0.02 * profile->grazed[bin];
 }
@@ -83,12 +94,13 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
     for (int j = -SHIFTS; j <= SHIFTS; j++) {
       Candidate *made = &candidate[count++];
       *made = (Candidate){.direction = d, .below = split[i]};
-      made->offset = cw_profile_place(&profile, all * ((double)split[i] / regions + j * shift * smaller));
+      double aside = j * (1 + abs(j) / WIDER) * shift * smaller;
+      made->offset = cw_profile_place(&profile, all * ((double)split[i] / regions + aside));
       made->score = score_of(model, part, &profile, regions, made->below, made->offset, &made->worst);
     }
     // Through the axis a plane is normal to hub and shroud.
     double share = cw_profile_below(&profile, 0) / all;
-    if (d == DIRECTIONS || fabs(share * regions - split[i]) > 0.2 * smaller * regions) continue;
+    if (d >= DIRECTIONS || fabs(share * regions - split[i]) > 0.2 * smaller * regions) continue;
     Candidate *made = &candidate[count++];
     *made = (Candidate){.direction = d, .below = split[i]};
     made->score = score_of(model, part, &profile, regions, made->below, made->offset, &made->worst);
@@ -114,33 +126,44 @@ static double plane_to_wall(const CwPlanModel *model, const CwPieces *pieces, co
   return worst;
 }
 
-CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                            int32_t regions, CwPlane *best, int32_t *first, double *worst_angle) {
-  CwStatus status = CW_OK;
-  Candidate *candidate = NULL;
+typedef struct {
+  CwPlane plane;
+  int32_t below;
+  double score;
+} Best;
+
+// Looks for a better plane among some directions.
+static void search(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part, int32_t regions,
+                   int32_t from, int32_t to, int32_t every, Candidate *candidate, Best *best) {
   int32_t count = 0, judged = 0;
-  double least_score = INFINITY;
-  CW_NEW(candidate, (DIRECTIONS + 1) * SPLITS_MOST * (2 * SHIFTS + 2));
-  for (int32_t d = 0; d <= DIRECTIONS; d++) count += add_candidates(model, part, regions, d, candidate + count);
+  for (int32_t d = from; d <= to; d += every) count += add_candidates(model, part, regions, d, candidate + count);
   qsort(candidate, (size_t)count, sizeof *candidate, by_score);
   // Lines only add to a score, so the rest cannot win once the next score alone is no less than the best.
-  for (int32_t i = 0; i < count && candidate[i].score < least_score; i++) {
+  for (int32_t i = 0; i < count && candidate[i].score < best->score; i++) {
     CwPlane plane = {{0}, candidate[i].offset};
-    if (++judged > LINES_JUDGED && least_score < INFINITY) break;
+    if (++judged > LINES_JUDGED && best->score < INFINITY) break;
     direction_of(candidate[i].direction, plane.normal);
     CwPlanLines lines = cw_plan_lines(model, plan, node, part, &plane);
     if (lines.impossible) continue;
     double score = candidate[i].score + 2 * lines.cramped + 2 * lines.blocked + sharpness(lines.sharp);
-    if (score >= least_score) continue;
-    least_score = score;
-    *best = plane;
-    *first = candidate[i].below;
+    if (score < best->score) *best = (Best){plane, candidate[i].below, score};
   }
-  if (least_score == INFINITY) {
-    *first = 0;
-  } else {
-    *worst_angle = plane_to_wall(model, &part->pieces, best);
+}
+
+CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                            int32_t regions, CwPlane *plane, int32_t *first, double *worst_angle) {
+  CwStatus status = CW_OK;
+  Candidate *candidate = NULL;
+  Best best = {.score = INFINITY};
+  int32_t every = part->pieces.count > PIECES_LARGE ? 2 : 1;
+  CW_NEW(candidate, (DIRECTIONS + 1) * SPLITS_MOST * (2 * SHIFTS + 2));
+  search(model, plan, node, part, regions, 0, DIRECTIONS, every, candidate, &best);
+  if (best.score > WELL) {
+    search(model, plan, node, part, regions, DIRECTIONS + 1, DIRECTIONS + LEANING, every, candidate, &best);
   }
+  *first = best.below;
+  *plane = best.plane;
+  if (best.below > 0) *worst_angle = plane_to_wall(model, &part->pieces, plane);
 done:
   free(candidate);
   return status;

@@ -184,7 +184,7 @@ const CwCaseKey cw_case_keys[] = {
 
     {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
      "cells of rotor and stator together; --cells on the command line goes before it"},
-    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 20000, 4e6, 400000, NULL,
+    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 5000, 4e6, 400000, NULL,
      AT(mesh.cells_per_region), "about this many cells a region; at least four regions a domain in any case"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
            "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen alone"),
