@@ -17,6 +17,7 @@
 #include <new>
 #include <vector>
 
+#include "mesher/boundary_check.h"
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/tet_improve.h"
@@ -95,25 +96,6 @@ int run(const char *switches, tetgenio &in, tetgenio &out) {
   return 0;
 }
 
-// Fails where the boundary crosses itself, and names a place: TetGen's diagnosis gives the triangles that
-// take part.
-CwStatus check_crossing(const CwFillInput *input) {
-  tetgenio in, out;
-  give_points(input, 0, nullptr, in);
-  give_triangles(input, in);
-  if (run("pdQ", in, out) != 0 || out.numberoftrifaces == 0)
-    return CW_OK;
-  double mean[3] = {0, 0, 0};
-  for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 3; i++)
-      mean[i] += 1e3 / 3.0 * out.pointlist[3 * out.trifacelist[k] + i];
-  }
-  return CW_FAIL(CW_ERR_MESH,
-                 "%s: the boundary crosses itself: %d triangles, the first at (%.6g, %.6g, %.6g) mm; "
-                 "triangles may meet only in common edges and corners",
-                 input->name, out.numberoftrifaces, mean[0], mean[1], mean[2]);
-}
-
 // One Delaunay tetrahedralisation of all points, in which TetGen then recovers the few triangles that are
 // missing.
 CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
@@ -168,12 +150,12 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwTetImproved improved;
   memset(fill, 0, sizeof *fill);
-  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(cw_boundary_check(input));
+  CW_TRY(cw_boundary_check_crossing(input)); // TetGen loses memory over such boundaries, or aborts
   status = try_fill(input, 1.0, fill);
   if (status == CW_ERR_MESH) {
     char first[600];
     snprintf(first, sizeof first, "%s", cw_fail_message());
-    CW_TRY(check_crossing(input));
     // Points further away are less in the way of recovery.
     status = try_fill(input, 2.0, fill);
     if (status == CW_ERR_MESH)
@@ -182,6 +164,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   if (status != CW_OK)
     goto done;
   CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
+  fill->way.tetgen = 1;
   cw_log_debug(
       "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
       input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,

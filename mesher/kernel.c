@@ -4,12 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary_check.h"
 #include "mesher/delaunay.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
 #include "mesher/kernel_improve.h"
 #include "mesher/kernel_points.h"
 #include "mesher/kernel_recover.h"
+#include "mesher/kernel_split.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates.
@@ -146,38 +148,67 @@ done:
   return status;
 }
 
+// Brings all boundary triangles into the mesh: by flips and cleared hollows, and at last by divisions of the
+// boundary. CW_RETRY where some are still missing.
+static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, int32_t *source_count,
+                        CwSplits *splits, CwFillWay *way) {
+  CwStatus status = CW_OK;
+  CwRecovered recovered = {0};
+  cw_facets_locate(mesh, input->point_count, facets);
+  way->missing = facets->missing_count;
+  for (int round = 0; round < ROUNDS && facets->missing_count; round++) {
+    CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
+  }
+  if (facets->missing_count) {
+    CW_TRY(cw_boundary_check_crossing(input));
+    CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
+  }
+  if (facets->missing_count) {
+    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count,
+                 facets->count);
+    status = CW_RETRY;
+  }
+done:
+  way->flips = recovered.flips;
+  way->cleared = recovered.cleared;
+  way->divided = splits->count;
+  return status;
+}
+
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwDelaunay mesh = {0};
   CwFacets facets = {0};
+  CwSplits splits = {0};
   CwTetImproved improved;
+  CwFillWay way = {0};
   double(*x)[3] = NULL;
   uint8_t *place = NULL;
   int32_t count = 0;
+  int good = 1;
   memset(fill, 0, sizeof *fill);
-  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &count, &x));
   CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
   free(x);
   x = NULL;
   CW_TRY(cw_facets_make(input, &mesh, &facets));
-  cw_facets_locate(&mesh, input->point_count, &facets);
-  for (int round = 0; round < ROUNDS && facets.missing_count; round++) {
-    CW_TRY(cw_kernel_recover(&mesh, &facets, round, &count));
-    cw_facets_locate(&mesh, input->point_count, &facets);
-  }
-  if (facets.missing_count) {
-    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets.missing_count,
-                 facets.count);
-    status = CW_RETRY;
-    goto done;
-  }
+  CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
   CW_NEW(place, mesh.tet_count);
   CW_TRY(classify(input, &mesh, &facets, place));
   cw_facets_free(&facets);
   CW_TRY(keep_inside(input, &mesh, place));
   free(place);
   place = NULL;
+  if (splits.count)
+    CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
+  if (!good) {
+    cw_log_debug("%s: no room to take %d points off the boundary", input->name, splits.count);
+    status = CW_RETRY;
+    goto done;
+  }
   CW_TRY(cw_kernel_improve(&mesh, input->point_count, &count, &improved));
   CW_TRY(take(input, &mesh, count, fill));
   cw_log_debug(
@@ -187,9 +218,11 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
 done:
   free(place);
   free(x);
+  cw_splits_free(&splits);
   cw_facets_free(&facets);
   cw_delaunay_free(&mesh);
   if (status != CW_OK)
     cw_fill_free(fill);
+  fill->way = way;
   return status;
 }

@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/kernel_split.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/kernel_clear.h"
+#include "mesher/predicates.h"
+#include "mesher/quality.h"
+#include "mesher/vec.h"
+#include "pipeline/log.h"
+
+static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+static const int8_t tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+// Places kept where the mesh crosses what is missing; searches by flips before a division; divisions of a
+// boundary at most, for each of its triangles and at all.
+enum { PLACES = 16, TRIES = 6, MOST_EACH = 4, MOST = 2000 };
+
+// A place where the mesh crosses a missing edge or triangle: in a face of three points or on an edge of two.
+typedef struct {
+  int count;
+  int32_t point[3], tet; // that has them
+  double x[3], worth;
+} Place;
+
+typedef struct {
+  CwRecovery recovery;
+  CwFacets *facets;
+  CwSplits *splits;
+  int32_t *source_count;
+  int32_t *crossed, crossed_count, crossed_space; // tetrahedra
+  Place place[PLACES];                            // worthiest first
+  int place_count;
+} Splitter;
+
+static const double *at(const CwDelaunay *mesh, int32_t p) {
+  return mesh->point[p].x;
+}
+
+static int has(const int32_t *list, int count, int32_t item) {
+  for (int k = 0; k < count; k++) {
+    if (list[k] == item)
+      return 1;
+  }
+  return 0;
+}
+
+static void note_place(Splitter *s, const Place *place) {
+  if (s->place_count == PLACES && s->place[PLACES - 1].worth >= place->worth)
+    return;
+  int k = s->place_count < PLACES ? s->place_count++ : PLACES - 1;
+  for (; k > 0 && s->place[k - 1].worth < place->worth; k--)
+    s->place[k] = s->place[k - 1];
+  s->place[k] = *place;
+}
+
+// Six times the volume of (a, b, c, d).
+static double six(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
+  return cw_tet_volume6(at(mesh, a), at(mesh, b), at(mesh, c), at(mesh, d));
+}
+
+// Where the segment a-b crosses the triangle, at which share of the way; how many of its edges it meets.
+static int crossing(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t[3], double *share,
+                    int *on_edge) {
+  int zeros = 0;
+  for (int k = 0; k < 3; k++) {
+    if (cw_orient3d(at(mesh, a), at(mesh, b), at(mesh, t[k]), at(mesh, t[(k + 1) % 3])) != 0)
+      continue;
+    zeros++;
+    *on_edge = k;
+  }
+  double from = fabs(six(mesh, t[0], t[1], t[2], a)), to = fabs(six(mesh, t[0], t[1], t[2], b));
+  *share = from + to > 0.0 ? from / (from + to) : 0.5;
+  return zeros;
+}
+
+static CwStatus push(Splitter *s, int32_t t) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &s->recovery.flips;
+  if (s->crossed_count == s->crossed_space) {
+    int32_t space = 2 * s->crossed_space + 64;
+    int32_t *grown = realloc(s->crossed, (size_t)space * sizeof *grown);
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d tetrahedra across a boundary triangle", space);
+    s->crossed = grown;
+    s->crossed_space = space;
+  }
+  s->crossed[s->crossed_count++] = t;
+  flips->mesh->tet[t].square = flips->stamp;
+done:
+  return status;
+}
+
+// What the tetrahedron has across the missing edge (count = 2) or triangle (3); false where there is nothing.
+static int look(Splitter *s, int count, const int32_t *goal, int32_t t) {
+  const CwDelaunay *mesh = s->recovery.flips.mesh;
+  const CwDelaunayTet *tet = &mesh->tet[t];
+  int found = 0;
+  for (int i = 0; count == 2 && i < 4; i++) {
+    Place place = {.count = 3, .tet = t};
+    double share;
+    int on_edge = 0;
+    for (int k = 0; k < 3; k++)
+      place.point[k] = tet->corner[tet_face[i][k]];
+    if (has(place.point, 3, goal[0]) || has(place.point, 3, goal[1]) ||
+        !cw_kernel_meet(mesh, goal[0], goal[1], place.point))
+      continue;
+    found = 1;
+    int zeros = crossing(mesh, goal[0], goal[1], place.point, &share, &on_edge);
+    if (zeros > 1 || (zeros == 0 && tet->neighbour[i] >= 0 && tet->neighbour[i] / 4 < t &&
+                      mesh->tet[tet->neighbour[i] / 4].square == s->recovery.flips.stamp))
+      continue; // a point, or seen from the other side
+    if (zeros == 1) {
+      int32_t end[2] = {place.point[on_edge], place.point[(on_edge + 1) % 3]};
+      memcpy(place.point, end, sizeof end);
+      place.count = 2;
+    }
+    cw_lerp(at(mesh, goal[0]), at(mesh, goal[1]), share, place.x);
+    place.worth = -fabs(share - 0.5);
+    note_place(s, &place);
+  }
+  for (int e = 0; count == 3 && e < 6; e++) {
+    Place place = {.count = 2, .tet = t, .point = {tet->corner[tet_edge[e][0]], tet->corner[tet_edge[e][1]]}};
+    double share, part[3], sum = 0.0;
+    int on_edge;
+    if (has(goal, 3, place.point[0]) || has(goal, 3, place.point[1]) ||
+        !cw_kernel_meet(mesh, place.point[0], place.point[1], goal))
+      continue;
+    found = 1;
+    int seen = 0;
+    for (int k = 0; k < s->place_count && !seen; k++)
+      seen = has(s->place[k].point, 2, place.point[0]) && has(s->place[k].point, 2, place.point[1]);
+    if (seen || crossing(mesh, place.point[0], place.point[1], goal, &share, &on_edge) > 0)
+      continue;
+    cw_lerp(at(mesh, place.point[0]), at(mesh, place.point[1]), share, place.x);
+    for (int k = 0; k < 3; k++)
+      sum += part[k] = fabs(six(mesh, place.point[0], place.point[1], goal[k], goal[(k + 1) % 3]));
+    place.worth = fmin(part[0], fmin(part[1], part[2])) / sum;
+    note_place(s, &place);
+  }
+  return found;
+}
+
+// All that crosses it, from the stars of its points on.
+static CwStatus find_places(Splitter *s, int count, const int32_t *goal) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &s->recovery.flips;
+  const CwDelaunay *mesh = flips->mesh;
+  s->crossed_count = s->place_count = 0;
+  for (int k = 0; k < count; k++) {
+    CW_TRY(cw_flips_star(flips, goal[k]));
+    for (int32_t i = 0; i < flips->star_count; i++) {
+      int32_t t = flips->star[i];
+      s->place_count = 0;
+      if (look(s, count, goal, t) && !has(s->crossed, s->crossed_count, t))
+        CW_TRY(push(s, t));
+    }
+  }
+  flips->stamp += 1.0;
+  for (int32_t k = 0; k < s->crossed_count; k++)
+    mesh->tet[s->crossed[k]].square = flips->stamp;
+  s->place_count = 0;
+  for (int32_t head = 0; head < s->crossed_count; head++) {
+    const CwDelaunayTet *tet = &mesh->tet[s->crossed[head]];
+    if (!look(s, count, goal, s->crossed[head]))
+      continue;
+    for (int i = 0; i < 4; i++) {
+      if (tet->neighbour[i] >= 0 && mesh->tet[tet->neighbour[i] / 4].square != flips->stamp)
+        CW_TRY(push(s, tet->neighbour[i] / 4));
+    }
+  }
+done:
+  return status;
+}
+
+// Puts a point into the face or on the edge of the mesh. *point is -1 where that is not valid.
+static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &s->recovery.flips;
+  const CwDelaunay *mesh = flips->mesh;
+  int32_t old[CW_RING], ring[CW_RING], made[CW_FLIP][4], slot[CW_FLIP];
+  int old_count = 0, count = 0;
+  *point = -1;
+  if (place->count == 3) {
+    const CwDelaunayTet *tet = &mesh->tet[place->tet];
+    int i = 0;
+    while (has(place->point, 3, tet->corner[i]))
+      i++;
+    if (cw_facets_find(s->facets, place->point) >= 0 || tet->neighbour[i] < 0)
+      goto done;
+    int32_t other = tet->neighbour[i];
+    old[old_count++] = place->tet;
+    old[old_count++] = other / 4;
+    for (int k = 0; k < 3; k++) {
+      int32_t a = tet->corner[tet_face[i][k]], b = tet->corner[tet_face[i][(k + 1) % 3]];
+      const int32_t below[4] = {b, a, tet->corner[i], -1}, above[4] = {a, b, mesh->tet[other / 4].corner[other % 4], -1};
+      memcpy(made[count++], below, sizeof below);
+      memcpy(made[count++], above, sizeof above);
+    }
+  } else {
+    int32_t a = place->point[0], b = place->point[1];
+    if (cw_facets_has_edge(s->facets, a, b))
+      goto done;
+    old_count = cw_flips_ring(flips, place->tet, a, b, old, ring);
+    for (int k = 0; k < old_count; k++) {
+      int32_t from = ring[k], to = ring[(k + 1) % old_count]; // (a, b, from, to) is positive
+      const int32_t low[4] = {from, to, a, -1}, high[4] = {to, from, b, -1};
+      memcpy(made[count++], low, sizeof low);
+      memcpy(made[count++], high, sizeof high);
+    }
+  }
+  for (int k = 0; k < count; k++) {
+    if (cw_orient3d(at(mesh, made[k][0]), at(mesh, made[k][1]), at(mesh, made[k][2]), place->x) <= 0)
+      goto done;
+  }
+  if (count == 0)
+    goto done;
+  CW_TRY(cw_flips_add_point(flips, place->x, (*s->source_count)++, point));
+  for (int k = 0; k < count; k++)
+    made[k][3] = *point;
+  CW_TRY(cw_flips_replace(flips, old_count, old, count, (const int32_t(*)[4])made, slot));
+done:
+  return status;
+}
+
+static CwStatus note_split(CwSplits *splits, const CwSplit *split) {
+  CwStatus status = CW_OK;
+  if (splits->count == splits->space) {
+    int32_t space = 2 * splits->space + 64;
+    CwSplit *grown = realloc(splits->split, (size_t)space * sizeof *grown);
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d divisions of the boundary", space);
+    splits->split = grown;
+    splits->space = space;
+  }
+  splits->split[splits->count++] = *split;
+done:
+  return status;
+}
+
+// Divides the missing edge, of all its triangles, or the missing triangle, at the first place that allows it.
+static CwStatus divide(Splitter *s, int32_t facet, int count, const int32_t *goal, int *done_it) {
+  CwStatus status = CW_OK;
+  CwSplit split = {.point = -1};
+  *done_it = 0;
+  CW_TRY(find_places(s, count, goal));
+  for (int k = 0; k < s->place_count && split.point < 0; k++)
+    CW_TRY(put_point(s, &s->place[k], &split.point));
+  if (split.point < 0)
+    goto done;
+  if (count == 2) {
+    CW_TRY(cw_facets_divide_edge(s->facets, goal[0], goal[1], split.point, &split.count, split.ends, split.apex));
+    if (split.count != 2)
+      goto done; // bodies touch here: the point stays as one of the inside or outside
+  } else {
+    split.count = 1;
+    split.ends[0][0] = goal[0];
+    split.ends[0][1] = goal[1];
+    split.apex[0] = goal[2];
+    CW_TRY(cw_facets_divide_face(s->facets, facet, split.point));
+  }
+  CW_TRY(note_split(s->splits, &split));
+  *done_it = 1;
+done:
+  return status;
+}
+
+CwStatus cw_kernel_split(CwDelaunay *mesh, CwFacets *facets, int32_t *source_count, CwSplits *splits,
+                         CwRecovered *recovered) {
+  CwStatus status = CW_OK;
+  Splitter s = {.facets = facets, .splits = splits, .source_count = source_count};
+  int32_t most = MOST_EACH * facets->count + MOST, lost = 0;
+  CW_TRY(cw_recovery_make(mesh, facets, 1000, &s.recovery));
+  if (facets->divided_from > *source_count)
+    facets->divided_from = *source_count;
+  for (int32_t f = 0; f < facets->count; f++) {
+    while (facets->inner[f] < 0) {
+      int32_t p[3], goal[3];
+      int count = 3, found = 1, good = 0;
+      memcpy(p, facets->corner[f], sizeof p);
+      for (int k = 0; k < 3 && found; k++) {
+        CW_TRY(cw_recovery_edge(&s.recovery, p[k], p[(k + 1) % 3], TRIES, &found));
+        count = found ? 3 : 2;
+        goal[0] = p[k];
+        goal[1] = p[(k + 1) % 3];
+      }
+      if (found) {
+        memcpy(goal, p, sizeof goal);
+        CW_TRY(cw_recovery_face(&s.recovery, p, TRIES, &found));
+      }
+      if (found)
+        facets->inner[f] = 0; // there; its place is looked up later
+      else if (splits->count < most)
+        CW_TRY(divide(&s, f, count, goal, &good));
+      if (!found && !good) {
+        lost++;
+        break;
+      }
+    }
+  }
+  recovered->flips += s.recovery.flips.done;
+  cw_log_debug("%d points on the boundary, %d triangles not recovered", splits->count, lost);
+done:
+  cw_recovery_free(&s.recovery);
+  free(s.crossed);
+  return status;
+}
+
+void cw_splits_free(CwSplits *splits) {
+  free(splits->split);
+  memset(splits, 0, sizeof *splits);
+}
+
+typedef struct {
+  int32_t (*face)[3]; // round the hollow, each seen counter-clockwise from inside: (face, point) is positive
+  double (*normal)[3];
+  int32_t count, space;
+} Hollow;
+
+// Least six-fold volume over the cube of the longest edge of the tetrahedra from p to all faces; -1 where one
+// is not positive.
+static double worth_of(const CwDelaunay *mesh, const Hollow *h, const double p[3]) {
+  double least = INFINITY;
+  for (int32_t k = 0; k < h->count; k++) {
+    const double *x[3];
+    double square = 0.0, d[3];
+    for (int i = 0; i < 3; i++)
+      x[i] = at(mesh, h->face[k][i]);
+    if (cw_orient3d(x[0], x[1], x[2], p) <= 0)
+      return -1.0;
+    for (int i = 0; i < 3; i++) {
+      cw_sub(x[i], p, d);
+      square = fmax(square, cw_dot(d, d));
+      cw_sub(x[i], x[(i + 1) % 3], d);
+      square = fmax(square, cw_dot(d, d));
+    }
+    least = fmin(least, cw_tet_volume6(x[0], x[1], x[2], p) / (square * sqrt(square)));
+  }
+  return least;
+}
+
+// Steps away from the nearest of all planes, shorter and shorter; keeps the best place in p and *best.
+static void climb(const CwDelaunay *mesh, const Hollow *h, const double start[3], double size, double p[3],
+                  double *best) {
+  double now[3];
+  cw_copy(start, now);
+  for (double step = 0.2 * size; step > 1e-3 * size; step *= 0.93) {
+    double least = INFINITY, worth = worth_of(mesh, h, now);
+    int32_t lowest = 0;
+    if (worth > *best) {
+      *best = worth;
+      cw_copy(now, p);
+    }
+    for (int32_t k = 0; k < h->count; k++) {
+      double d[3];
+      cw_sub(now, at(mesh, h->face[k][0]), d);
+      double height = cw_dot(d, h->normal[k]);
+      if (height >= least)
+        continue;
+      least = height;
+      lowest = k;
+    }
+    for (int i = 0; i < 3; i++)
+      now[i] += step * h->normal[lowest][i];
+  }
+}
+
+// The faces round the point of the split: those opposite it in its star, then the triangles it divided.
+static CwStatus gather_hollow(const CwFlips *flips, const CwSplit *split, Hollow *h) {
+  CwStatus status = CW_OK;
+  const CwDelaunay *mesh = flips->mesh;
+  h->count = 0;
+  if (flips->star_count + 2 > h->space) {
+    free(h->face);
+    free(h->normal);
+    h->normal = NULL;
+    h->space = 2 * flips->star_count + 2;
+    CW_NEW(h->face, h->space);
+    CW_NEW(h->normal, h->space);
+  }
+  for (int32_t k = 0; k < flips->star_count; k++) {
+    const CwDelaunayTet *tet = &mesh->tet[flips->star[k]];
+    int i = 0;
+    while (tet->corner[i] != split->point)
+      i++;
+    const int32_t face[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][2]],
+                             tet->corner[tet_face[i][1]]};
+    memcpy(h->face[h->count++], face, sizeof face);
+  }
+  for (int k = 0; k < split->count; k++) {
+    const int32_t face[3] = {split->ends[k][1], split->ends[k][0], split->apex[k]};
+    memcpy(h->face[h->count++], face, sizeof face);
+  }
+  for (int32_t k = 0; k < h->count; k++) {
+    double u[3], v[3];
+    cw_sub(at(mesh, h->face[k][1]), at(mesh, h->face[k][0]), u);
+    cw_sub(at(mesh, h->face[k][2]), at(mesh, h->face[k][0]), v);
+    cw_cross(u, v, h->normal[k]);
+    cw_unit(h->normal[k]);
+  }
+done:
+  return status;
+}
+
+// A place inside from which the point sees all of the hollow. *good is 0 where there is none.
+static void find_place(const CwDelaunay *mesh, const CwSplit *split, const Hollow *h, double p[3], int *good) {
+  const double *from = at(mesh, split->point);
+  double best = 0.0, size = 0.0, inward[3] = {0, 0, 0}, middle[3] = {0, 0, 0};
+  for (int k = 0; k < split->count; k++) {
+    for (int i = 0; i < 3; i++)
+      inward[i] += h->normal[h->count - 1 - k][i];
+  }
+  cw_unit(inward);
+  for (int32_t k = 0; k < 3 * h->count; k++) {
+    double d[3];
+    cw_sub(at(mesh, h->face[k / 3][k % 3]), from, d);
+    size = fmax(size, cw_norm(d));
+    for (int i = 0; i < 3; i++)
+      middle[i] += at(mesh, h->face[k / 3][k % 3])[i] / (3.0 * h->count);
+  }
+  double step = size;
+  for (int k = 0; k < 48; k++, step *= 0.5) {
+    double now[3];
+    for (int i = 0; i < 3; i++)
+      now[i] = from[i] + step * inward[i];
+    double worth = worth_of(mesh, h, now);
+    if (worth > best) {
+      best = worth;
+      cw_copy(now, p);
+    }
+  }
+  climb(mesh, h, from, size, p, &best);
+  climb(mesh, h, middle, size, p, &best);
+  *good = best > 0.0;
+}
+
+// The tetrahedron of the star that has the face on the boundary, as 4 * tetrahedron + face; -1: none.
+static int32_t face_of(const CwFlips *flips, int32_t a, int32_t b, int32_t c) {
+  const int32_t wanted[3] = {a, b, c};
+  for (int32_t k = 0; k < flips->star_count; k++) {
+    const CwDelaunayTet *tet = &flips->mesh->tet[flips->star[k]];
+    for (int i = 0; i < 4; i++) {
+      int32_t f[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][1]], tet->corner[tet_face[i][2]]};
+      if (tet->neighbour[i] < 0 && has(wanted, 3, f[0]) && has(wanted, 3, f[1]) && has(wanted, 3, f[2]))
+        return 4 * flips->star[k] + i;
+    }
+  }
+  return -1;
+}
+
+static void join(CwDelaunay *mesh, int32_t one, int32_t other) {
+  mesh->tet[one / 4].neighbour[one % 4] = other;
+  mesh->tet[other / 4].neighbour[other % 4] = one;
+}
+
+// Moves the point in and closes the boundary behind it.
+static CwStatus take_off(CwFlips *flips, const CwSplit *split, Hollow *h, int *good) {
+  CwStatus status = CW_OK;
+  CwDelaunay *mesh = flips->mesh;
+  int32_t side[2][3] = {{-1, -1, -1}, {-1, -1, -1}}, made[2];
+  double p[3];
+  CW_TRY(cw_flips_star(flips, split->point));
+  CW_TRY(gather_hollow(flips, split, h));
+  find_place(mesh, split, h, p, good);
+  for (int k = 0; k < split->count; k++) { // opposite ends[0], ends[1], apex
+    const int32_t *e = split->ends[k], c = split->apex[k], s = split->point;
+    side[k][0] = face_of(flips, s, e[1], c);
+    side[k][1] = face_of(flips, e[0], s, c);
+    if (split->count == 1)
+      side[k][2] = face_of(flips, e[0], e[1], s);
+    *good = *good && side[k][0] >= 0 && side[k][1] >= 0 && (split->count == 2 || side[k][2] >= 0);
+  }
+  if (!*good)
+    goto done;
+  cw_copy(p, mesh->point[split->point].x);
+  for (int k = 0; k < split->count; k++)
+    CW_TRY(cw_delaunay_new_tet(mesh, &made[k]));
+  for (int k = 0; k < split->count; k++) {
+    const int32_t corner[4] = {split->ends[k][1], split->ends[k][0], split->apex[k], split->point};
+    CwDelaunayTet *tet = &mesh->tet[made[k]];
+    memcpy(tet->corner, corner, sizeof corner);
+    tet->square = 0.0;
+    tet->neighbour[3] = -1;
+    join(mesh, 4 * made[k] + 1, side[k][0]);
+    join(mesh, 4 * made[k] + 0, side[k][1]);
+    if (split->count == 1)
+      join(mesh, 4 * made[k] + 2, side[k][2]);
+    else
+      tet->neighbour[2] = 4 * made[1 - k] + 2;
+    for (int i = 0; i < 4; i++)
+      flips->tet_at[corner[i]] = made[k];
+  }
+done:
+  return status;
+}
+
+CwStatus cw_kernel_unsplit(CwDelaunay *mesh, const CwSplits *splits, int *good) {
+  CwStatus status = CW_OK;
+  CwFlips flips;
+  Hollow h = {0};
+  *good = 1;
+  CW_TRY(cw_flips_make(mesh, &flips));
+  for (int32_t k = splits->count - 1; k >= 0 && *good; k--)
+    CW_TRY(take_off(&flips, &splits->split[k], &h, good));
+done:
+  cw_flips_free(&flips);
+  free(h.face);
+  free(h.normal);
+  return status;
+}
