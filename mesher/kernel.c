@@ -6,12 +6,13 @@
 
 #include "mesher/boundary_check.h"
 #include "mesher/delaunay.h"
+#include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
-#include "mesher/kernel_improve.h"
-#include "mesher/kernel_points.h"
 #include "mesher/kernel_recover.h"
 #include "mesher/kernel_split.h"
+#include "mesher/tet_improve.h"
+#include "mesher/tet_mesh.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates.
@@ -19,7 +20,7 @@ static CwStatus all_points(const CwFillInput *input, int32_t *count, double (**x
   CwStatus status = CW_OK;
   double(*inner)[3] = NULL;
   int32_t inner_count = 0;
-  CW_TRY(cw_kernel_points(input, &inner_count, &inner));
+  CW_TRY(cw_fill_points(input, 1.0, &inner_count, &inner));
   CW_NEW(*x, input->point_count + inner_count);
   memcpy(*x, input->x, (size_t)input->point_count * sizeof **x);
   memcpy(*x + input->point_count, inner, (size_t)inner_count * sizeof **x);
@@ -101,53 +102,6 @@ done:
   return status;
 }
 
-// All tetrahedra; the given boundary points first, then the inner points that are used, in the order of their
-// sources. The corners are moved together in the mesh's own memory, which goes over to the fill: no second
-// copy at the peak.
-static CwStatus take(const CwFillInput *input, CwDelaunay *mesh, int32_t source_count, CwFill *fill) {
-  CwStatus status = CW_OK;
-  int32_t *number = NULL, kept = 0, points = input->point_count;
-  int32_t(*made)[4] = (int32_t(*)[4])(void *)mesh->tet;
-  CW_NEW(number, source_count);
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    int32_t corner[4];
-    memcpy(corner, mesh->tet[t].corner, sizeof corner);
-    if (corner[0] < 0)
-      continue;
-    for (int i = 0; i < 4; i++) {
-      corner[i] = mesh->source[corner[i]];
-      number[corner[i]] = 1;
-    }
-    memcpy(made[kept++], corner, sizeof corner);
-  }
-  mesh->tet = NULL;
-  fill->tetrahedron = realloc(made, (size_t)kept * sizeof *made);
-  if (!fill->tetrahedron)
-    fill->tetrahedron = made;
-  fill->tetrahedron_count = kept;
-  for (int32_t p = 0; p < source_count; p++) {
-    if (p < input->point_count)
-      number[p] = p;
-    else
-      number[p] = number[p] ? points++ : -1;
-  }
-  for (int32_t t = 0; t < kept; t++) {
-    for (int i = 0; i < 4; i++)
-      fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
-  }
-  fill->x = malloc((size_t)points * sizeof *fill->x);
-  CW_REQUIRE(fill->x, CW_ERR_MEMORY, "%s: out of memory: %d points", input->name, points);
-  for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh->point_count; p++) {
-    int32_t to = number[mesh->source[p]];
-    if (to >= 0)
-      memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
-  }
-  fill->point_count = points;
-done:
-  free(number);
-  return status;
-}
-
 // Brings all boundary triangles into the mesh: by flips and cleared hollows, and at last by divisions of the
 // boundary. CW_RETRY where some are still missing.
 static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, int32_t *source_count,
@@ -202,15 +156,18 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(keep_inside(input, &mesh, place));
   free(place);
   place = NULL;
-  if (splits.count)
+  if (splits.count) {
+    // With all points held, for flat tetrahedra leave points no room to move; those that come are free.
+    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, NULL));
     CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
+  }
   if (!good) {
     cw_log_debug("%s: no room to take %d points off the boundary", input->name, splits.count);
     status = CW_RETRY;
     goto done;
   }
-  CW_TRY(cw_kernel_improve(&mesh, input->point_count, &count, &improved));
-  CW_TRY(take(input, &mesh, count, fill));
+  CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
+  CW_TRY(cw_tet_mesh_take(&mesh, input->point_count, count, fill));
   cw_log_debug(
       "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
       input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,

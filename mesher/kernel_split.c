@@ -16,12 +16,13 @@ static const int8_t tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2
 
 // Places kept where the mesh crosses what is missing; searches by flips before a division; divisions of a
 // boundary at most, for each of its triangles and at all.
-enum { PLACES = 16, TRIES = 6, MOST_EACH = 4, MOST = 2000 };
+enum { PLACES = 48, TRIES = 6, MOST_EACH = 4, MOST = 2000 };
 
-// A place where the mesh crosses a missing edge or triangle: in a face of three points or on an edge of two.
+// A place where the mesh crosses a missing edge or triangle: on an edge of two points, in a face of three, or in
+// a tetrahedron.
 typedef struct {
   int count;
-  int32_t point[3], tet; // that has them
+  int32_t point[4], tet; // that has them
   double x[3], worth;
 } Place;
 
@@ -92,12 +93,16 @@ done:
   return status;
 }
 
-// What the tetrahedron has across the missing edge (count = 2) or triangle (3); false where there is nothing.
-static int look(Splitter *s, int count, const int32_t *goal, int32_t t) {
+// The worth of a place that is less likely to be valid, or gives a flatter tetrahedron, than one on a face.
+static const double less_on_edge = 0.2, less_inside = 0.4;
+
+// Places in the faces of the tetrahedron that the missing edge crosses, on their edges next to that, and between.
+static int look_along_edge(Splitter *s, const int32_t *goal, int32_t t) {
   const CwDelaunay *mesh = s->recovery.flips.mesh;
   const CwDelaunayTet *tet = &mesh->tet[t];
   int found = 0;
-  for (int i = 0; count == 2 && i < 4; i++) {
+  double low = has(tet->corner, 4, goal[0]) ? 0.0 : INFINITY, high = has(tet->corner, 4, goal[1]) ? 1.0 : -INFINITY;
+  for (int i = 0; i < 4; i++) {
     Place place = {.count = 3, .tet = t};
     double share;
     int on_edge = 0;
@@ -108,19 +113,38 @@ static int look(Splitter *s, int count, const int32_t *goal, int32_t t) {
       continue;
     found = 1;
     int zeros = crossing(mesh, goal[0], goal[1], place.point, &share, &on_edge);
-    if (zeros > 1 || (zeros == 0 && tet->neighbour[i] >= 0 && tet->neighbour[i] / 4 < t &&
-                      mesh->tet[tet->neighbour[i] / 4].square == s->recovery.flips.stamp))
-      continue; // a point, or seen from the other side
-    if (zeros == 1) {
-      int32_t end[2] = {place.point[on_edge], place.point[(on_edge + 1) % 3]};
-      memcpy(place.point, end, sizeof end);
-      place.count = 2;
-    }
+    low = fmin(low, share);
+    high = fmax(high, share);
+    if (zeros > 1)
+      continue; // through a point
     cw_lerp(at(mesh, goal[0]), at(mesh, goal[1]), share, place.x);
     place.worth = -fabs(share - 0.5);
+    if (zeros == 0)
+      note_place(s, &place);
+    place.count = 2;
+    place.worth -= zeros ? 0.0 : less_on_edge;
+    for (int k = 0; k < 3; k++) {
+      const int32_t end[2] = {tet->corner[tet_face[i][k]], tet->corner[tet_face[i][(k + 1) % 3]]};
+      memcpy(place.point, end, sizeof end);
+      if (zeros == 0 || k == on_edge)
+        note_place(s, &place);
+    }
+  }
+  if (found && high > low) {
+    Place place = {.count = 4, .tet = t, .worth = -fabs(0.5 * (low + high) - 0.5) - less_inside};
+    cw_lerp(at(mesh, goal[0]), at(mesh, goal[1]), 0.5 * (low + high), place.x);
     note_place(s, &place);
   }
-  for (int e = 0; count == 3 && e < 6; e++) {
+  return found;
+}
+
+// Places on the edges of the tetrahedron that cross the missing triangle, and between.
+static int look_in_face(Splitter *s, const int32_t *goal, int32_t t) {
+  const CwDelaunay *mesh = s->recovery.flips.mesh;
+  const CwDelaunayTet *tet = &mesh->tet[t];
+  int found = 0, inner = 0;
+  Place between = {.count = 4, .tet = t, .worth = INFINITY};
+  for (int e = 0; e < 6; e++) {
     Place place = {.count = 2, .tet = t, .point = {tet->corner[tet_edge[e][0]], tet->corner[tet_edge[e][1]]}};
     double share, part[3], sum = 0.0;
     int on_edge;
@@ -128,18 +152,33 @@ static int look(Splitter *s, int count, const int32_t *goal, int32_t t) {
         !cw_kernel_meet(mesh, place.point[0], place.point[1], goal))
       continue;
     found = 1;
-    int seen = 0;
-    for (int k = 0; k < s->place_count && !seen; k++)
-      seen = has(s->place[k].point, 2, place.point[0]) && has(s->place[k].point, 2, place.point[1]);
-    if (seen || crossing(mesh, place.point[0], place.point[1], goal, &share, &on_edge) > 0)
+    if (crossing(mesh, place.point[0], place.point[1], goal, &share, &on_edge) > 0)
       continue;
     cw_lerp(at(mesh, place.point[0]), at(mesh, place.point[1]), share, place.x);
     for (int k = 0; k < 3; k++)
       sum += part[k] = fabs(six(mesh, place.point[0], place.point[1], goal[k], goal[(k + 1) % 3]));
     place.worth = fmin(part[0], fmin(part[1], part[2])) / sum;
-    note_place(s, &place);
+    for (int i = 0; i < 3; i++)
+      between.x[i] += place.x[i];
+    between.worth = fmin(between.worth, place.worth - less_inside);
+    inner++;
+    int seen = 0;
+    for (int k = 0; k < s->place_count && !seen; k++)
+      seen = s->place[k].count == 2 && has(s->place[k].point, 2, place.point[0]) &&
+             has(s->place[k].point, 2, place.point[1]);
+    if (!seen)
+      note_place(s, &place);
   }
+  for (int i = 0; i < 3 && inner; i++)
+    between.x[i] /= inner;
+  if (inner >= 2)
+    note_place(s, &between);
   return found;
+}
+
+// What the tetrahedron has across the missing edge (count = 2) or triangle (3); false where there is nothing.
+static int look(Splitter *s, int count, const int32_t *goal, int32_t t) {
+  return count == 2 ? look_along_edge(s, goal, t) : look_in_face(s, goal, t);
 }
 
 // All that crosses it, from the stars of its points on.
@@ -174,7 +213,7 @@ done:
   return status;
 }
 
-// Puts a point into the face or on the edge of the mesh. *point is -1 where that is not valid.
+// Puts a point on the edge or into the face or tetrahedron. *point is -1 where that is not valid.
 static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
   CwStatus status = CW_OK;
   CwFlips *flips = &s->recovery.flips;
@@ -182,7 +221,14 @@ static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
   int32_t old[CW_RING], ring[CW_RING], made[CW_FLIP][4], slot[CW_FLIP];
   int old_count = 0, count = 0;
   *point = -1;
-  if (place->count == 3) {
+  if (place->count == 4) {
+    const int32_t *c = mesh->tet[place->tet].corner;
+    old[old_count++] = place->tet;
+    for (int i = 0; i < 4; i++) {
+      const int32_t one[4] = {c[tet_face[i][0]], c[tet_face[i][2]], c[tet_face[i][1]], -1};
+      memcpy(made[count++], one, sizeof one);
+    }
+  } else if (place->count == 3) {
     const CwDelaunayTet *tet = &mesh->tet[place->tet];
     int i = 0;
     while (has(place->point, 3, tet->corner[i]))

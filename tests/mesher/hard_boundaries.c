@@ -552,7 +552,7 @@ static void bent_slab(Surface *s, double *size) {
   box(s, 0, 0, 0, 1, 1, 1, 40, 8, 1, 1);
   for (int32_t p = 0; p < s->point_count; p++) {
     double a = 5.0 * s->x[p][0], r = 0.03 + 0.0002 * s->x[p][2], y = s->x[p][1];
-    s->x[p][0] = r * sin(a), s->x[p][1] = 0.02 * y, s->x[p][2] = -r * cos(a); // (x, y, z) stays right-handed
+    s->x[p][0] = r * sin(a), s->x[p][1] = 0.02 * y, s->x[p][2] = r * cos(a); // (along, y, out) stays right-handed
   }
   *size = 0.003;
 }

@@ -5,7 +5,7 @@
 #include <cmocka.h>
 
 #include "mesher/tet_improve.h"
-#include "mesher/tet_improve_mesh.h"
+#include "mesher/tet_quality.h"
 #include "closed_surfaces.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))

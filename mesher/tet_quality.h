@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The quality of tet_improve for inner loops, inline and without calls of the library.
-#ifndef CUTWATER_MESHER_KERNEL_SHAPE_H
-#define CUTWATER_MESHER_KERNEL_SHAPE_H
+// The quality that the improvement of tetrahedra raises; for inner loops: inline, without calls of the library.
+#ifndef CUTWATER_MESHER_TET_QUALITY_H
+#define CUTWATER_MESHER_TET_QUALITY_H
 
 #include <math.h>
 
@@ -9,11 +9,11 @@ typedef struct {
   double six;     // times the volume
   double edge[6]; // squares: ab, ac, ad, bc, bd, cd
   double area[4]; // squares of the doubled areas, opposite a, b, c, d
-} CwKernelShape;
+} CwTetMeasures;
 
-static inline __attribute__((always_inline)) CwKernelShape
-cw_kernel_shape(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  CwKernelShape s;
+static inline __attribute__((always_inline)) CwTetMeasures
+cw_tet_measures(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  CwTetMeasures s;
   double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
   double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
   double rx = d[0] - a[0], ry = d[1] - a[1], rz = d[2] - a[2];
@@ -37,49 +37,51 @@ cw_kernel_shape(const double a[3], const double b[3], const double c[3], const d
   return s;
 }
 
-static inline double cw_kernel_less(double a, double b) {
+static inline double cw_tet_less(double a, double b) {
   return a < b ? a : b;
 }
 
-static inline double cw_kernel_more(double a, double b) {
+static inline double cw_tet_more(double a, double b) {
   return a > b ? a : b;
 }
 
-static inline void cw_kernel_edges(const CwKernelShape *s, double *shortest, double *longest) {
+static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double *longest) {
   const double *l = s->edge;
-  *shortest = cw_kernel_less(cw_kernel_less(cw_kernel_less(l[0], l[1]), cw_kernel_less(l[2], l[3])),
-                             cw_kernel_less(l[4], l[5]));
-  *longest = cw_kernel_more(cw_kernel_more(cw_kernel_more(l[0], l[1]), cw_kernel_more(l[2], l[3])),
-                            cw_kernel_more(l[4], l[5]));
+  *shortest = cw_tet_less(cw_tet_less(cw_tet_less(l[0], l[1]), cw_tet_less(l[2], l[3])),
+                             cw_tet_less(l[4], l[5]));
+  *longest = cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])),
+                            cw_tet_more(l[4], l[5]));
 }
 
-// As cw_tet_quality: least sine of the dihedral angles, and not above 1.35 shortest / longest edge; -1 where
-// it is not positive. The sine at an edge is 6 V times the edge over the (doubled) areas of its two faces.
-static inline double cw_kernel_quality(const double a[3], const double b[3], const double c[3],
+// Least sine of the dihedral angles, and not above 1.35 shortest / longest edge, nor above 40 times 6 V over the
+// cube of the longest edge (a tetrahedron with a face as narrow as rounding may have good angles, and no volume):
+// 0.943 for the regular tetrahedron, -1 where it is not positive. The sine at an edge is 6 V times the edge over
+// the (doubled) areas of its two faces.
+static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
                                        const double d[3]) {
-  CwKernelShape s = cw_kernel_shape(a, b, c, d);
+  CwTetMeasures s = cw_tet_measures(a, b, c, d);
   if (!(s.six > 0.0))
     return -1.0;
   const double *l = s.edge, *n = s.area;
-  double least = cw_kernel_less(cw_kernel_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
-                                cw_kernel_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
-  least = cw_kernel_less(least, cw_kernel_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
+  double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
+                                cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
+  least = cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   double shortest, longest;
-  cw_kernel_edges(&s, &shortest, &longest);
-  return sqrt(
-      cw_kernel_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest));
+  cw_tet_edges(&s, &shortest, &longest);
+  least = cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest);
+  return sqrt(cw_tet_less(1600.0 * s.six * s.six / (longest * longest * longest), least));
 }
 
 // Is that quality below `limit`? Without division.
-static inline int cw_kernel_is_below(const double a[3], const double b[3], const double c[3],
+static inline int cw_tet_is_below(const double a[3], const double b[3], const double c[3],
                                      const double d[3], double limit) {
-  CwKernelShape s = cw_kernel_shape(a, b, c, d);
+  CwTetMeasures s = cw_tet_measures(a, b, c, d);
   const double *l = s.edge, *n = s.area;
   double f = s.six > 0.0 ? s.six * s.six : 0.0, g = limit * limit, shortest, longest;
-  cw_kernel_edges(&s, &shortest, &longest);
+  cw_tet_edges(&s, &shortest, &longest);
   return (f * l[0] < g * (n[2] * n[3])) | (f * l[1] < g * (n[1] * n[3])) | (f * l[2] < g * (n[1] * n[2])) |
          (f * l[3] < g * (n[0] * n[3])) | (f * l[4] < g * (n[0] * n[2])) | (f * l[5] < g * (n[0] * n[1])) |
-         (1.8225 * shortest < g * longest);
+         (1.8225 * shortest < g * longest) | (1600.0 * f < g * (longest * longest * longest));
 }
 
 #endif
