@@ -9,6 +9,7 @@
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
+#include "mesher/kernel_flat.h"
 #include "mesher/kernel_recover.h"
 #include "mesher/kernel_split.h"
 #include "mesher/tet_improve.h"
@@ -31,6 +32,7 @@ done:
 }
 
 enum { ROUNDS = 6 }; // of recovery: what one facet could not have may be free after others have theirs
+static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { AHEAD = 12 }; // places of the queue whose tetrahedra are on their way from memory
 enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
 
@@ -131,6 +133,20 @@ done:
   return status;
 }
 
+// Where the improvement left tetrahedra that may be flat.
+static CwStatus raise_flat(const CwFillInput *input, CwDelaunay *mesh, int32_t *source_count,
+                           const CwTetImproved *improved, int32_t *raised) {
+  CwStatus status = CW_OK;
+  int32_t left;
+  *raised = 0;
+  if (improved->least_after > NEARLY_FLAT)
+    goto done;
+  CW_TRY(cw_kernel_flat(mesh, source_count, raised, &left));
+  cw_log_debug("%s: %d flat tetrahedra raised, %d not", input->name, *raised, left);
+done:
+  return status;
+}
+
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwDelaunay mesh = {0};
@@ -140,7 +156,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwFillWay way = {0};
   double(*x)[3] = NULL;
   uint8_t *place = NULL;
-  int32_t count = 0;
+  int32_t count = 0, raised = 0;
   int good = 1;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
@@ -157,8 +173,9 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   free(place);
   place = NULL;
   if (splits.count) {
-    // With all points held, for flat tetrahedra leave points no room to move; those that come are free.
-    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, NULL));
+    // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
+    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
+    CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
     CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
   }
   if (!good) {
@@ -167,6 +184,9 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
     goto done;
   }
   CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
+  CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+  if (raised)
+    CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
   CW_TRY(cw_tet_mesh_take(&mesh, input->point_count, count, fill));
   cw_log_debug(
       "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/hollow.h"
 #include "mesher/kernel_clear.h"
 #include "mesher/predicates.h"
 #include "mesher/quality.h"
@@ -357,73 +358,11 @@ void cw_splits_free(CwSplits *splits) {
   memset(splits, 0, sizeof *splits);
 }
 
-typedef struct {
-  int32_t (*face)[3]; // round the hollow, each seen counter-clockwise from inside: (face, point) is positive
-  double (*normal)[3];
-  int32_t count, space;
-} Hollow;
-
-// Least six-fold volume over the cube of the longest edge of the tetrahedra from p to all faces; -1 where one
-// is not positive.
-static double worth_of(const CwDelaunay *mesh, const Hollow *h, const double p[3]) {
-  double least = INFINITY;
-  for (int32_t k = 0; k < h->count; k++) {
-    const double *x[3];
-    double square = 0.0, d[3];
-    for (int i = 0; i < 3; i++)
-      x[i] = at(mesh, h->face[k][i]);
-    if (cw_orient3d(x[0], x[1], x[2], p) <= 0)
-      return -1.0;
-    for (int i = 0; i < 3; i++) {
-      cw_sub(x[i], p, d);
-      square = fmax(square, cw_dot(d, d));
-      cw_sub(x[i], x[(i + 1) % 3], d);
-      square = fmax(square, cw_dot(d, d));
-    }
-    least = fmin(least, cw_tet_volume6(x[0], x[1], x[2], p) / (square * sqrt(square)));
-  }
-  return least;
-}
-
-// Steps away from the nearest of all planes, shorter and shorter; keeps the best place in p and *best.
-static void climb(const CwDelaunay *mesh, const Hollow *h, const double start[3], double size, double p[3],
-                  double *best) {
-  double now[3];
-  cw_copy(start, now);
-  for (double step = 0.2 * size; step > 1e-3 * size; step *= 0.93) {
-    double least = INFINITY, worth = worth_of(mesh, h, now);
-    int32_t lowest = 0;
-    if (worth > *best) {
-      *best = worth;
-      cw_copy(now, p);
-    }
-    for (int32_t k = 0; k < h->count; k++) {
-      double d[3];
-      cw_sub(now, at(mesh, h->face[k][0]), d);
-      double height = cw_dot(d, h->normal[k]);
-      if (height >= least)
-        continue;
-      least = height;
-      lowest = k;
-    }
-    for (int i = 0; i < 3; i++)
-      now[i] += step * h->normal[lowest][i];
-  }
-}
-
 // The faces round the point of the split: those opposite it in its star, then the triangles it divided.
-static CwStatus gather_hollow(const CwFlips *flips, const CwSplit *split, Hollow *h) {
+static CwStatus gather_hollow(const CwFlips *flips, const CwSplit *split, CwHollow *h) {
   CwStatus status = CW_OK;
   const CwDelaunay *mesh = flips->mesh;
   h->count = 0;
-  if (flips->star_count + 2 > h->space) {
-    free(h->face);
-    free(h->normal);
-    h->normal = NULL;
-    h->space = 2 * flips->star_count + 2;
-    CW_NEW(h->face, h->space);
-    CW_NEW(h->normal, h->space);
-  }
   for (int32_t k = 0; k < flips->star_count; k++) {
     const CwDelaunayTet *tet = &mesh->tet[flips->star[k]];
     int i = 0;
@@ -431,53 +370,25 @@ static CwStatus gather_hollow(const CwFlips *flips, const CwSplit *split, Hollow
       i++;
     const int32_t face[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][2]],
                              tet->corner[tet_face[i][1]]};
-    memcpy(h->face[h->count++], face, sizeof face);
+    CW_TRY(cw_hollow_add(h, mesh, face));
   }
   for (int k = 0; k < split->count; k++) {
     const int32_t face[3] = {split->ends[k][1], split->ends[k][0], split->apex[k]};
-    memcpy(h->face[h->count++], face, sizeof face);
-  }
-  for (int32_t k = 0; k < h->count; k++) {
-    double u[3], v[3];
-    cw_sub(at(mesh, h->face[k][1]), at(mesh, h->face[k][0]), u);
-    cw_sub(at(mesh, h->face[k][2]), at(mesh, h->face[k][0]), v);
-    cw_cross(u, v, h->normal[k]);
-    cw_unit(h->normal[k]);
+    CW_TRY(cw_hollow_add(h, mesh, face));
   }
 done:
   return status;
 }
 
 // A place inside from which the point sees all of the hollow. *good is 0 where there is none.
-static void find_place(const CwDelaunay *mesh, const CwSplit *split, const Hollow *h, double p[3], int *good) {
-  const double *from = at(mesh, split->point);
-  double best = 0.0, size = 0.0, inward[3] = {0, 0, 0}, middle[3] = {0, 0, 0};
+static void find_place(const CwDelaunay *mesh, const CwSplit *split, const CwHollow *h, double p[3], int *good) {
+  double inward[3] = {0, 0, 0};
   for (int k = 0; k < split->count; k++) {
     for (int i = 0; i < 3; i++)
       inward[i] += h->normal[h->count - 1 - k][i];
   }
   cw_unit(inward);
-  for (int32_t k = 0; k < 3 * h->count; k++) {
-    double d[3];
-    cw_sub(at(mesh, h->face[k / 3][k % 3]), from, d);
-    size = fmax(size, cw_norm(d));
-    for (int i = 0; i < 3; i++)
-      middle[i] += at(mesh, h->face[k / 3][k % 3])[i] / (3.0 * h->count);
-  }
-  double step = size;
-  for (int k = 0; k < 48; k++, step *= 0.5) {
-    double now[3];
-    for (int i = 0; i < 3; i++)
-      now[i] = from[i] + step * inward[i];
-    double worth = worth_of(mesh, h, now);
-    if (worth > best) {
-      best = worth;
-      cw_copy(now, p);
-    }
-  }
-  climb(mesh, h, from, size, p, &best);
-  climb(mesh, h, middle, size, p, &best);
-  *good = best > 0.0;
+  *good = cw_hollow_place(h, mesh, at(mesh, split->point), inward, p) > 0.0;
 }
 
 // The tetrahedron of the star that has the face on the boundary, as 4 * tetrahedron + face; -1: none.
@@ -500,7 +411,7 @@ static void join(CwDelaunay *mesh, int32_t one, int32_t other) {
 }
 
 // Moves the point in and closes the boundary behind it.
-static CwStatus take_off(CwFlips *flips, const CwSplit *split, Hollow *h, int *good) {
+static CwStatus take_off(CwFlips *flips, const CwSplit *split, CwHollow *h, int *good) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = flips->mesh;
   int32_t side[2][3] = {{-1, -1, -1}, {-1, -1, -1}}, made[2];
@@ -543,14 +454,13 @@ done:
 CwStatus cw_kernel_unsplit(CwDelaunay *mesh, const CwSplits *splits, int *good) {
   CwStatus status = CW_OK;
   CwFlips flips;
-  Hollow h = {0};
+  CwHollow h = {0};
   *good = 1;
   CW_TRY(cw_flips_make(mesh, &flips));
   for (int32_t k = splits->count - 1; k >= 0 && *good; k--)
     CW_TRY(take_off(&flips, &splits->split[k], &h, good));
 done:
   cw_flips_free(&flips);
-  free(h.face);
-  free(h.normal);
+  cw_hollow_free(&h);
   return status;
 }

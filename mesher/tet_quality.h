@@ -55,21 +55,22 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 
 // Least sine of the dihedral angles, and not above 1.35 shortest / longest edge, nor above 40 times 6 V over the
 // cube of the longest edge (a tetrahedron with a face as narrow as rounding may have good angles, and no volume):
-// 0.943 for the regular tetrahedron, -1 where it is not positive. The sine at an edge is 6 V times the edge over
+// 0.943 for the regular tetrahedron, -1 where it is not surely positive. The sine at an edge is 6 V times the edge over
 // the (doubled) areas of its two faces.
 static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
                                        const double d[3]) {
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
-  if (!(s.six > 0.0))
+  double shortest, longest;
+  cw_tet_edges(&s, &shortest, &longest);
+  double cube = longest * longest * longest; // the square of that of the edge
+  if (!(s.six > 0.0 && s.six * s.six > 1e-28 * cube)) // rounding may err by half as much
     return -1.0;
   const double *l = s.edge, *n = s.area;
   double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
-                                cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
+                             cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
   least = cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
-  double shortest, longest;
-  cw_tet_edges(&s, &shortest, &longest);
   least = cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest);
-  return sqrt(cw_tet_less(1600.0 * s.six * s.six / (longest * longest * longest), least));
+  return sqrt(cw_tet_less(1600.0 * s.six * s.six / cube, least));
 }
 
 // Is that quality below `limit`? Without division.
