@@ -100,13 +100,13 @@ double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const dou
   int32_t worst;
   for (int32_t k = 0; k < 3 * hollow->count; k++) {
     const double *x = at(mesh, hollow->face[k / 3][k % 3]);
-    size = fmax(size, cw_distance(x, start));
+    size = fmax(size, cw_distance(x, start ? start : at(mesh, hollow->face[0][0])));
     for (int i = 0; i < 3; i++)
       middle[i] += x[i] / (3.0 * hollow->count);
   }
   cw_copy(middle, p);
   double step = size;
-  for (int k = 0; k < HALVINGS && cw_dot(inward, inward) > 0.0; k++, step *= 0.5) {
+  for (int k = 0; k < HALVINGS && start; k++, step *= 0.5) {
     double now[3];
     for (int i = 0; i < 3; i++)
       now[i] = start[i] + step * inward[i];
@@ -116,7 +116,8 @@ double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const dou
       cw_copy(now, p);
     }
   }
-  climb(hollow, mesh, start, size, p, &best);
+  if (start)
+    climb(hollow, mesh, start, size, p, &best);
   climb(hollow, mesh, middle, size, p, &best);
   return best;
 }

@@ -23,8 +23,8 @@ void cw_hollow_free(CwHollow *hollow);
 // face. Not above 0 where one is not positive.
 double cw_hollow_worth(const CwHollow *hollow, const CwDelaunay *mesh, const double p[3], int32_t *worst);
 
-// Searches the place of most worth, from `start`, which sees all faces or nearly, into the direction `inward`
-// (zero: none), and from the middle of the faces. Returns its worth; where that is not above 0, p is the middle.
+// Searches the place of most worth: from the middle of the faces, and where `start` is given, which sees all
+// faces or nearly, also from there, at first into the direction `inward`. Returns its worth; where that is not above 0, p is the middle.
 double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const double start[3],
                        const double inward[3], double p[3]);
 

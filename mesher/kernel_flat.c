@@ -15,7 +15,7 @@ static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}
 // Six times the volume over the cube of the longest edge: flat below the first. A hollow is filled anew where the
 // least of it becomes so many times greater, and is at least as great as the last.
 static const double flat = 1e-5, gain = 30.0, least_worth = 1e-9;
-enum { TETS = 96, WALLS = 90, PASSES = 3 };
+enum { TETS = 64, WALLS = 90, PASSES = 2 };
 
 typedef struct {
   CwFlips flips;
@@ -90,7 +90,6 @@ done:
 // Grows a hollow round t until a point in it sees all its faces well.
 static CwStatus raise_one(Raiser *r, int32_t t, int32_t *source_count, int *raised) {
   CwStatus status = CW_OK;
-  static const double none[3] = {0, 0, 0};
   CwDelaunay *mesh = r->flips.mesh;
   int32_t made[WALLS][4], slot[WALLS], point, worst = 0;
   double p[3], before = flatness(mesh, t);
@@ -102,14 +101,7 @@ static CwStatus raise_one(Raiser *r, int32_t t, int32_t *source_count, int *rais
     CW_TRY(find_walls(r, &good));
     if (!good)
       goto done;
-    double worth = 0.0, middle[3] = {0, 0, 0};
-    if (r->tet_count > 1) {
-      for (int32_t k = 0; k < 3 * r->hollow.count; k++) {
-        for (int i = 0; i < 3; i++)
-          middle[i] += mesh->point[r->hollow.face[k / 3][k % 3]].x[i] / (3.0 * r->hollow.count);
-      }
-      worth = cw_hollow_place(&r->hollow, mesh, middle, none, p);
-    }
+    double worth = r->tet_count > 1 ? cw_hollow_place(&r->hollow, mesh, NULL, NULL, p) : 0.0;
     if (worth > least_worth && worth > gain * before && is_ball(&r->hollow))
       break;
     // Take away what the worst face hides; of a single tetrahedron, all that lies at it.

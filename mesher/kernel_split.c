@@ -16,8 +16,8 @@ static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}
 static const int8_t tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 // Places kept where the mesh crosses what is missing; searches by flips before a division; divisions of a
-// boundary at most, for each of its triangles and at all.
-enum { PLACES = 48, TRIES = 6, MOST_EACH = 4, MOST = 2000 };
+// boundary at most, for each of its triangles and at all; layers searched for a point.
+enum { PLACES = 48, TRIES = 6, MOST_EACH = 4, MOST = 2000, LAYERS = 3 };
 
 // A place where the mesh crosses a missing edge or triangle: on an edge of two points, in a face of three, or in
 // a tetrahedron.
@@ -271,6 +271,72 @@ done:
   return status;
 }
 
+// The tetrahedron that has x inside, among those that cross what is missing and some layers round them; -1: none.
+static CwStatus find_around(Splitter *s, const double x[3], int32_t *tet) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &s->recovery.flips;
+  const CwDelaunay *mesh = flips->mesh;
+  int32_t kept = s->crossed_count, last = kept;
+  *tet = -1;
+  flips->stamp += 1.0;
+  for (int32_t k = 0; k < kept; k++)
+    mesh->tet[s->crossed[k]].square = flips->stamp;
+  for (int32_t k = 0, layer = 0; k < s->crossed_count && *tet < 0; k++) {
+    if (k == last) {
+      layer++;
+      last = s->crossed_count;
+    }
+    const CwDelaunayTet *now = &mesh->tet[s->crossed[k]];
+    int inside = 1;
+    for (int i = 0; i < 4; i++) {
+      inside = inside && cw_orient3d(at(mesh, now->corner[tet_face[i][0]]), at(mesh, now->corner[tet_face[i][2]]),
+                                     at(mesh, now->corner[tet_face[i][1]]), x) > 0;
+      int32_t next = now->neighbour[i] / 4;
+      if (layer < LAYERS && now->neighbour[i] >= 0 && mesh->tet[next].square != flips->stamp) {
+        CW_TRY(push(s, next));
+        now = &mesh->tet[s->crossed[k]];
+      }
+    }
+    if (inside)
+      *tet = s->crossed[k];
+  }
+  s->crossed_count = kept;
+done:
+  return status;
+}
+
+// A point a little beside the missing edge or triangle of the facet: where all round it lies in one plane,
+// rounding leaves no room on it.
+static CwStatus put_beside(Splitter *s, int32_t facet, int count, const int32_t *goal, int32_t *point) {
+  CwStatus status = CW_OK;
+  static const double share[3][3] = {{0.5, 0.5, 0.0}, {0.3, 0.7, 0.0}, {0.7, 0.3, 0.0}};
+  static const double inner[3][3] = {{0.34, 0.33, 0.33}, {0.5, 0.3, 0.2}, {0.2, 0.3, 0.5}};
+  static const double off[6] = {-1e-9, 1e-9, -1e-7, 1e-7, -1e-5, 1e-5};
+  const CwDelaunay *mesh = s->recovery.flips.mesh;
+  const int32_t *p = s->facets->corner[facet];
+  double u[3], v[3], normal[3];
+  cw_sub(at(mesh, p[1]), at(mesh, p[0]), u);
+  cw_sub(at(mesh, p[2]), at(mesh, p[0]), v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+  double length = cw_distance(at(mesh, goal[0]), at(mesh, goal[1]));
+  *point = -1;
+  for (int k = 0; k < 18 && *point < 0; k++) {
+    const double *w = count == 2 ? share[k % 3] : inner[k % 3];
+    Place place = {.count = 4};
+    for (int i = 0; i < 3; i++) {
+      place.x[i] = off[k / 3] * length * normal[i];
+      for (int c = 0; c < count; c++)
+        place.x[i] += w[c] * at(mesh, goal[c])[i];
+    }
+    CW_TRY(find_around(s, place.x, &place.tet));
+    if (place.tet >= 0)
+      CW_TRY(put_point(s, &place, point));
+  }
+done:
+  return status;
+}
+
 static CwStatus note_split(CwSplits *splits, const CwSplit *split) {
   CwStatus status = CW_OK;
   if (splits->count == splits->space) {
@@ -293,6 +359,8 @@ static CwStatus divide(Splitter *s, int32_t facet, int count, const int32_t *goa
   CW_TRY(find_places(s, count, goal));
   for (int k = 0; k < s->place_count && split.point < 0; k++)
     CW_TRY(put_point(s, &s->place[k], &split.point));
+  if (split.point < 0)
+    CW_TRY(put_beside(s, facet, count, goal, &split.point));
   if (split.point < 0)
     goto done;
   if (count == 2) {
