@@ -11,6 +11,7 @@
 #include <tetgen.h>
 #undef terminatetetgen
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -20,6 +21,7 @@
 #include "mesher/boundary_check.h"
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
+#include "mesher/quality.h"
 #include "mesher/tet_improve.h"
 #include "pipeline/log.h"
 
@@ -124,6 +126,26 @@ CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const dou
   return CW_OK;
 }
 
+// Fails where the tetrahedra do not fill what the boundary encloses: a body of several is turned inside out.
+CwStatus check_volume(const CwFillInput *input, const CwFill *fill) {
+  CwStatus status = CW_OK;
+  const double *origin = input->x[0];
+  double enclosed = 0.0, filled = 0.0;
+  for (int32_t t = 0; t < input->triangle_count; t++) {
+    const int32_t *p = input->triangle[t];
+    enclosed += cw_tet_volume6(origin, input->x[p[0]], input->x[p[1]], input->x[p[2]]) / 6.0;
+  }
+  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
+    const int32_t *p = fill->tetrahedron[t];
+    filled += cw_tet_volume6(fill->x[p[0]], fill->x[p[1]], fill->x[p[2]], fill->x[p[3]]) / 6.0;
+  }
+  CW_REQUIRE(std::fabs(enclosed - filled) <= 1e-6 * filled, CW_ERR_MESH,
+             "%s: the boundary encloses %.6g mm3, of which %.6g mm3 can be filled: some of its normals point inward",
+             input->name, 1e9 * enclosed, 1e9 * filled);
+done:
+  return status;
+}
+
 // Fills with inner points that keep `clearance` times their usual distance from the boundary.
 CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   CwStatus status = CW_OK;
@@ -137,6 +159,7 @@ CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
     goto done;
   }
   CW_TRY(cw_fill_keep_inside(input, fill));
+  CW_TRY(check_volume(input, fill));
 done:
   free(inner);
   if (status != CW_OK)

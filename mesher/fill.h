@@ -27,10 +27,10 @@ typedef struct {
 // How the boundary was recovered.
 typedef struct {
   int32_t missing; // boundary triangles that the Delaunay mesh did not have
-  int64_t flips;   // to bring them in
+  int32_t flips;   // to bring them in
   int32_t cleared; // triangles recovered by a hollow cleared and filled from new points
   int32_t divided; // points that divided the boundary for a while, and were then moved inside
-  int tetgen;      // 1: by TetGen, after all; the others then tell of the kernel's try
+  int32_t tetgen;  // 1: by TetGen, after all; the others then tell of the kernel's try
 } CwFillWay;
 
 typedef struct {

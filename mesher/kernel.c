@@ -93,11 +93,17 @@ static CwStatus keep_inside(const CwFillInput *input, CwDelaunay *mesh, const ui
       CW_TRY(cw_delaunay_free_tet(mesh, t));
       continue;
     }
+    int own = 0;
+    while (own < 3 && tet->corner[own] < CW_DELAUNAY_CORNERS)
+      own++;
+    const double *x = mesh->point[tet->corner[own]].x;
     for (int i = 0; i < 4; i++) {
       if (place[t] & 4 << i)
         tet->neighbour[i] = -1;
       CW_REQUIRE(tet->corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
-                 "%s: nothing lies inside the boundary: its normals point inward", input->name);
+                 "%s: the boundary encloses all that lies outside it: its normals point inward near "
+                 "(%.6g, %.6g, %.6g) mm",
+                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
     }
   }
 done:
@@ -127,7 +133,7 @@ static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *fa
     status = CW_RETRY;
   }
 done:
-  way->flips = recovered.flips;
+  way->flips = (int32_t)(recovered.flips < INT32_MAX ? recovered.flips : INT32_MAX);
   way->cleared = recovered.cleared;
   way->divided = splits->count;
   return status;

@@ -13,6 +13,7 @@ enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
+  CwFillWay way;
   CwQuality quality;
 } CwRegionSummary;
 

@@ -362,6 +362,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
                        .size_context = context->skeleton->size,
                        .name = name};
   CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
+  mesh->way = build.fill.way;
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);

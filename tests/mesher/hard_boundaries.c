@@ -8,7 +8,6 @@
 #include "mesher/quality.h"
 
 static const double PI = 3.141592653589793;
-static const double origin[3] = {0, 0, 0};
 
 double constant_size(const void *length, const double x[3]) {
   return *(const double *)length;
@@ -285,9 +284,10 @@ int turn_diagonals(Surface *s, uint64_t seed, int one_in) {
   return turned;
 }
 
-// Cuts the longest edges of the triangles that are longer than `least + growth * distance from p`, and their
+// Cuts the longest edges of the triangles that are longer than `least + growth * distance from the place`, and their
 // neighbours', until none is.
-static void refine(Surface *s, const double p[3], double least, double growth, int limit) {
+static void refine(Surface *s, const double place[3], double least, double growth, int limit) {
+  const double p[3] = {place[0], place[1], place[2]}; // it may be a point of the surface, which moves in memory
   for (int again = 1; again && s->triangle_count < limit;) {
     again = 0;
     for (int32_t t = 0; t < s->triangle_count && s->triangle_count < limit; t++) {
@@ -441,10 +441,8 @@ static void wedge_1(Surface *s, double *size) {
 
 static void void_wedge_5(Surface *s, double *size) { // a cut as sharp into the body
   const double a = 5 * PI / 180.0;
-  const double p[5][2] = {{0, 0}, {0.04, -0.02}, {0.04, 0.02}, {-0.02, 0.02}, {-0.02, -0.02}};
   double q[7][2] = {{0, 0}, {0.04 * cos(a), 0.04 * sin(a)}, {0.04, 0.02}, {-0.02, 0.02}, {-0.02, -0.02}, {0.04, -0.02},
                     {0.04, 0}};
-  (void)p;
   extrude(s, 7, (const double(*)[2])q, *size = 0.005, 0.02, 4, 0.0, 1);
 }
 
@@ -636,7 +634,6 @@ static void schoenhardt_void(Surface *s, double *size) {
 static void chazelle(Surface *s, double *size) {
   enum { N = 4 };
   const double width = 0.1, near = 0.02, m = N + 1, deep = -6.0, high = m * m + 6.0;
-  double side[2 * N + 2 + 2 * N + 2][2];
   int32_t low[2][3 * N + 2], top[2][3 * N + 2];
   for (int end = 0; end < 2; end++) {
     for (int k = 0; k < 3 * N + 2; k++) {
@@ -657,7 +654,6 @@ static void chazelle(Surface *s, double *size) {
     surface_triangle(s, top[0][k], top[1][k], top[1][k + 1], 1);
     surface_triangle(s, top[0][k], top[1][k + 1], top[0][k + 1], 1);
   }
-  (void)side;
   // Walls: two with the zigzag below and a straight edge above, two the other way.
   for (int end = 0; end < 2; end++) {
     double p[3 * N + 4][2];
@@ -732,7 +728,6 @@ static void comb_of(Surface *s, int teeth, double share, double edge, double hei
     n += 4;
   }
   p[n][0] = 0, p[n++][1] = 0;
-  p[n - 4 * teeth - 1][1] += 0;
   double q[201][2];
   memcpy(q, p, 2 * sizeof *p);
   q[2][0] = teeth * pitch, q[2][1] = 0;
@@ -1103,6 +1098,5 @@ const char *fill_fault(const Surface *s, const CwFill *fill) {
   free(open);
   free(given);
   free(used);
-  (void)origin;
   return fault;
 }

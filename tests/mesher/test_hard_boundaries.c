@@ -61,8 +61,8 @@ static const char *fill_one(const Surface *s, const char *name, double size, Cou
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
   const char *fault = fill_fault(s, &fill);
   if (getenv("CUTWATER_VERBOSE"))
-    printf("%-32s %6d triangles %7d cells %5d missing %6lld flips %3d cleared %4d divided%s, flatness %.2g, %.2f s\n",
-           name, s->triangle_count, fill.tetrahedron_count, fill.way.missing, (long long)fill.way.flips,
+    printf("%-32s %6d triangles %7d cells %5d missing %6d flips %3d cleared %4d divided%s, flatness %.2g, %.2f s\n",
+           name, s->triangle_count, fill.tetrahedron_count, fill.way.missing, fill.way.flips,
            fill.way.cleared, fill.way.divided, fill.way.tetgen ? ", TetGen" : "", cw_fill_flatness(&fill),
            (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
   add(count, &fill.way);
