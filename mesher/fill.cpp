@@ -2,21 +2,18 @@
 #include "mesher/fill.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-// TetGen's own terminatetetgen frees its mesh and then throws, and the mesh frees itself again on the way up:
-// any failure ends in a crash. It is an exported function of the library, so the one below takes its place
-// there; the header's is put out of the way.
-#define terminatetetgen tetgen_terminate_that_frees_twice
 #include <tetgen.h>
-#undef terminatetetgen
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <vector>
 
 #include "mesher/boundary_check.h"
 #include "mesher/fill_points.h"
@@ -25,37 +22,7 @@
 #include "mesher/tet_improve.h"
 #include "pipeline/log.h"
 
-void terminatetetgen(tetgenmesh *mesh, int code);
-
-void terminatetetgen(tetgenmesh *, int code) {
-  throw code;
-}
-
 namespace {
-
-// TetGen prints to standard output even when told to be quiet.
-class Silence {
-public:
-  Silence() {
-    fflush(stdout);
-    kept = dup(STDOUT_FILENO);
-    int nowhere = open("/dev/null", O_WRONLY);
-    if (kept >= 0 && nowhere >= 0)
-      dup2(nowhere, STDOUT_FILENO);
-    if (nowhere >= 0)
-      close(nowhere);
-  }
-  ~Silence() {
-    fflush(stdout);
-    if (kept >= 0) {
-      dup2(kept, STDOUT_FILENO);
-      close(kept);
-    }
-  }
-
-private:
-  int kept;
-};
 
 void give_points(const CwFillInput *input, int32_t inner_count, const double (*inner)[3], tetgenio &io) {
   io.numberofpoints = input->point_count + inner_count;
@@ -82,48 +49,105 @@ void give_triangles(const CwFillInput *input, tetgenio &io) {
   }
 }
 
-// Runs TetGen; 0, or the number it throws (1 memory, 3 self-intersection, 4 and 5 very close features, others
-// inner).
-int run(const char *switches, tetgenio &in, tetgenio &out) {
-  char text[64];
-  snprintf(text, sizeof text, "%s", switches);
-  Silence silence;
+// Writes or reads all of it; false where the other end is gone.
+bool pass(int file, void *data, size_t size, bool out) {
+  char *at = static_cast<char *>(data);
+  while (size > 0) {
+    ssize_t done = out ? write(file, at, size) : read(file, at, size);
+    if (done < 0 && errno == EINTR)
+      continue;
+    if (done <= 0)
+      return false;
+    at += done;
+    size -= (size_t)done;
+  }
+  return true;
+}
+
+// The child's work: TetGen, and what it makes into the pipe: points, tetrahedra, then both arrays. Gives TetGen's
+// number for a failure (1 memory, 3 self-intersection, 4 and 5 very close features, others inner).
+int run_and_send(tetgenio &in, int file) {
+  tetgenio out;
+  char switches[] = "pYQO0"; // p: keep the boundary; Y: without points on it; O0: the optimisation is ours
+  int nowhere = open("/dev/null", O_WRONLY);
+  if (nowhere >= 0) { // it prints even when told to be quiet, and before it aborts
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+  }
   try {
-    tetrahedralize(text, &in, &out);
+    tetrahedralize(switches, &in, &out);
   } catch (int code) {
     return code ? code : 2;
   } catch (const std::bad_alloc &) {
     return 1;
   }
-  return 0;
+  int32_t count[2] = {out.numberofpoints, out.numberoftetrahedra};
+  bool sent = pass(file, count, sizeof count, true) &&
+              pass(file, out.pointlist, 3 * sizeof(double) * (size_t)count[0], true) &&
+              pass(file, out.tetrahedronlist, 4 * sizeof(int) * (size_t)count[1], true);
+  return sent ? 0 : 2;
+}
+
+// What the child made; CW_RETRY where it did not come to that.
+CwStatus receive(const CwFillInput *input, int file, CwFill *fill) {
+  int32_t count[2] = {0, 0};
+  if (!pass(file, count, sizeof count, false) || count[0] < input->point_count || count[1] <= 0)
+    return CW_RETRY;
+  fill->x = static_cast<double(*)[3]>(malloc((size_t)count[0] * sizeof *fill->x));
+  fill->tetrahedron = static_cast<int32_t(*)[4]>(malloc((size_t)count[1] * sizeof *fill->tetrahedron));
+  if (!fill->x || !fill->tetrahedron)
+    return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory: %d tetrahedra", input->name, count[1]);
+  if (!pass(file, fill->x, (size_t)count[0] * sizeof *fill->x, false) ||
+      !pass(file, fill->tetrahedron, (size_t)count[1] * sizeof *fill->tetrahedron, false))
+    return CW_RETRY;
+  fill->point_count = count[0];
+  fill->tetrahedron_count = count[1];
+  memcpy(fill->x, input->x, (size_t)input->point_count * sizeof *fill->x);
+  return CW_OK;
 }
 
 // One Delaunay tetrahedralisation of all points, in which TetGen then recovers the few triangles that are
-// missing.
+// missing. In a process of its own: on some boundaries TetGen frees memory twice, or aborts.
 CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
                         CwFill *fill) {
-  tetgenio in, out;
-  give_points(input, inner_count, inner, in);
-  give_triangles(input, in);
-  // p: keep the boundary; Y: without points on it; O0: the optimisation is ours.
-  int code = run("pYQO0", in, out);
-  if (code == 1)
-    return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory in TetGen", input->name);
-  if (code)
-    return CW_FAIL(CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)", input->name, code);
-  if (out.numberofpoints < in.numberofpoints)
-    return CW_FAIL(CW_ERR_MESH, "%s: TetGen takes points of the boundary for one", input->name);
-  fill->x = static_cast<double(*)[3]>(malloc((size_t)out.numberofpoints * sizeof *fill->x));
-  fill->tetrahedron =
-      static_cast<int32_t(*)[4]>(malloc((size_t)out.numberoftetrahedra * sizeof *fill->tetrahedron));
-  if (!fill->x || !fill->tetrahedron)
-    return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory", input->name);
-  fill->point_count = out.numberofpoints;
-  fill->tetrahedron_count = out.numberoftetrahedra;
-  memcpy(fill->x, out.pointlist, (size_t)out.numberofpoints * sizeof *fill->x);
-  memcpy(fill->x, input->x, (size_t)input->point_count * sizeof *fill->x);
-  memcpy(fill->tetrahedron, out.tetrahedronlist, (size_t)out.numberoftetrahedra * sizeof *fill->tetrahedron);
-  return CW_OK;
+  CwStatus status = CW_OK;
+  int ends[2] = {-1, -1}, how = 0;
+  pid_t child = -1;
+  CW_REQUIRE(pipe(ends) == 0, CW_ERR_LIBRARY, "%s: no pipe for TetGen: %s", input->name, strerror(errno));
+  fflush(NULL); // or the child might print it again
+  child = fork();
+  CW_REQUIRE(child >= 0, CW_ERR_LIBRARY, "%s: no process for TetGen: %s", input->name, strerror(errno));
+  if (child == 0) {
+    signal(SIGABRT, SIG_DFL);
+    signal(SIGSEGV, SIG_DFL);
+    signal(SIGPIPE, SIG_IGN);
+    tetgenio in;
+    give_points(input, inner_count, inner, in);
+    give_triangles(input, in);
+    _exit(run_and_send(in, ends[1]));
+  }
+  close(ends[1]);
+  ends[1] = -1;
+  status = receive(input, ends[0], fill);
+  close(ends[0]); // a child that still writes ends then
+  ends[0] = -1;
+  while (waitpid(child, &how, 0) < 0 && errno == EINTR)
+    continue;
+  if (status == CW_ERR_MEMORY)
+    goto done;
+  CW_REQUIRE(!WIFEXITED(how) || WEXITSTATUS(how) != 1, CW_ERR_MEMORY, "%s: out of memory in TetGen", input->name);
+  CW_REQUIRE(WIFEXITED(how), CW_ERR_MESH, "%s: TetGen cannot fill the boundary (signal %d)", input->name,
+             WTERMSIG(how));
+  CW_REQUIRE(WEXITSTATUS(how) == 0 && status == CW_OK, CW_ERR_MESH,
+             "%s: TetGen cannot fill the boundary (its code %d)", input->name, WEXITSTATUS(how));
+done:
+  for (int end : ends) {
+    if (end >= 0)
+      close(end);
+  }
+  if (status != CW_OK)
+    cw_fill_free(fill);
+  return status;
 }
 
 // Fails where the tetrahedra do not fill what the boundary encloses: a body of several is turned inside out.

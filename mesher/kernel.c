@@ -31,7 +31,7 @@ done:
   return status;
 }
 
-enum { ROUNDS = 6 }; // of recovery: what one facet could not have may be free after others have theirs
+enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { AHEAD = 12 }; // places of the queue whose tetrahedra are on their way from memory
 enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet

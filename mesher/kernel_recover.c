@@ -12,7 +12,7 @@
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // Flips that only prepare others, before the other end is tried; tries of an edge.
-enum { HOLD = 16, TRIES = 12 };
+enum { HOLD = 16, TRIES = 8 };
 
 typedef CwRecoveryGoal Goal;
 typedef CwRecovery Recovery;

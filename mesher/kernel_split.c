@@ -16,8 +16,8 @@ static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}
 static const int8_t tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 // Places kept where the mesh crosses what is missing; searches by flips before a division; divisions of a
-// boundary at most, for each of its triangles and at all; layers searched for a point.
-enum { PLACES = 48, TRIES = 6, MOST_EACH = 4, MOST = 2000, LAYERS = 3 };
+// boundary at most, for each missing triangle and at all; layers searched for a point.
+enum { PLACES = 48, TRIES = 4, MOST_EACH = 5, MOST = 200, LAYERS = 3 };
 
 // A place where the mesh crosses a missing edge or triangle: on an edge of two points, in a face of three, or in
 // a tetrahedron.
@@ -384,7 +384,7 @@ CwStatus cw_kernel_split(CwDelaunay *mesh, CwFacets *facets, int32_t *source_cou
                          CwRecovered *recovered) {
   CwStatus status = CW_OK;
   Splitter s = {.facets = facets, .splits = splits, .source_count = source_count};
-  int32_t most = MOST_EACH * facets->count + MOST, lost = 0;
+  int32_t most = MOST_EACH * facets->missing_count + MOST, lost = 0;
   CW_TRY(cw_recovery_make(mesh, facets, 1000, &s.recovery));
   if (facets->divided_from > *source_count)
     facets->divided_from = *source_count;

@@ -1010,13 +1010,13 @@ void random_boundary(uint64_t seed, Surface *s, double *size) {
     if (which == 2)
       extrude(s, corners, (const double(*)[2])p, edge, height, layers, twist, 1);
   } else { // boxes, thin ones too, within each other
-    double thin = pow(10.0, -3.0 * draw(&state));
+    double thin = pow(10.0, -2.0 * draw(&state));
     int n[3];
     for (int i = 0; i < 3; i++)
       n[i] = 1 + draw_below(&state, 9);
     box(s, -0.02, -0.02, -0.02 * thin, 0.02, 0.02, 0.02 * thin, n[0], n[1], n[2], 1);
     if (draw(&state) < 0.6) {
-      double gap = pow(10.0, -3.0 * draw(&state)) * 0.9, l = 0.02 * (1.0 - gap);
+      double gap = pow(10.0, -2.0 * draw(&state)) * 0.9, l = 0.02 * (1.0 - gap);
       box(s, -l, -l, -l * thin, l, l, l * thin, 1 + draw_below(&state, 8), 1 + draw_below(&state, 8),
           1 + draw_below(&state, 8), 0);
     }

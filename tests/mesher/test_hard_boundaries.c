@@ -24,7 +24,7 @@ const char *__lsan_default_suppressions(void) {
   return "leak:tetgenmesh::recoverboundary\n";
 }
 
-static int random_count = 60;
+static int random_count = 40;
 
 typedef struct {
   int filled, whole, flipped, cleared, divided, tetgen;
@@ -124,7 +124,7 @@ static void random_ones(void **unused) {
 }
 
 static void equal_bits_twice(void **unused) {
-  for (int k = 0; k < hard_boundary_count(); k += 3) {
+  for (int k = 0; k < hard_boundary_count(); k += 6) {
     Surface s;
     double size;
     CwFill fill[2];
