@@ -10,10 +10,10 @@
 
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
-static const double distance_factor = 0.62;               // of h, least distance to the boundary
-static const double sphere_factor = 1.05; // of the radius of a triangle's smallest circumscribed sphere
-static const double jitter = 1e-3;        // of the cell: breaks the lattice's cospherical points
-static const double coarse = 2.2;         // cells of lists, over wanted cells
+static const double distance_factor = 0.58;               // of h, least distance to the boundary
+static const double sphere_factor = 1.0; // of the radius of a triangle's smallest circumscribed sphere
+static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
+static const double coarse = 2.2;        // cells of lists, over wanted cells
 enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9 };
 
 typedef struct {
@@ -73,8 +73,9 @@ static double size_at(const CwFillInput *input, const double x[3]) {
 static CwStatus wanted_size(const CwFillInput *input, const double x[3], double *size) {
   CwStatus status = CW_OK;
   *size = size_at(input, x);
-  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH, "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm",
-             input->name, *size, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH,
+             "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm", input->name, *size, 1e3 * x[0],
+             1e3 * x[1], 1e3 * x[2]);
 done:
   return status;
 }

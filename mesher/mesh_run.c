@@ -20,7 +20,7 @@ static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is
 // million cells: 13.1 at scale 1.9, 11.0 at 1.1, 9.2 at 0.35).
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
-  return 8.4 + 2.5 * scale;
+  return 8.2 + 3.25 * scale;
 }
 
 static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The quality that the improvement of tetrahedra raises; for inner loops: inline, without calls of the library.
+// The quality that the improvement of tetrahedra raises; for inner loops: inline, without calls of the
+// library.
 #ifndef CUTWATER_MESHER_TET_QUALITY_H
 #define CUTWATER_MESHER_TET_QUALITY_H
 
@@ -47,42 +48,38 @@ static inline double cw_tet_more(double a, double b) {
 
 static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double *longest) {
   const double *l = s->edge;
-  *shortest = cw_tet_less(cw_tet_less(cw_tet_less(l[0], l[1]), cw_tet_less(l[2], l[3])),
-                             cw_tet_less(l[4], l[5]));
-  *longest = cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])),
-                            cw_tet_more(l[4], l[5]));
+  *shortest =
+      cw_tet_less(cw_tet_less(cw_tet_less(l[0], l[1]), cw_tet_less(l[2], l[3])), cw_tet_less(l[4], l[5]));
+  *longest =
+      cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])), cw_tet_more(l[4], l[5]));
 }
 
-// Least sine of the dihedral angles, and not above 1.35 shortest / longest edge, nor above 40 times 6 V over the
-// cube of the longest edge (a tetrahedron with a face as narrow as rounding may have good angles, and no volume):
-// 0.943 for the regular tetrahedron, -1 where it is not surely positive. The sine at an edge is 6 V times the edge over
-// the (doubled) areas of its two faces.
-static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
-                                       const double d[3]) {
+// Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.
+#define CW_TET_FLAT 1e-16
+
+// Least sine of the dihedral angles, and not above 2 shortest / longest edge: 0.943 for the regular
+// tetrahedron, -1 where it is flat or not positive. The sine at an edge is 6 V times the edge over the
+// (doubled) areas of its two faces. Where it is above `enough` only 1 is known, without division.
+static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3],
+                                       const double d[3], double enough) {
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
-  double shortest, longest;
+  double shortest, longest, squared = enough * enough;
   cw_tet_edges(&s, &shortest, &longest);
-  double cube = longest * longest * longest; // the square of that of the edge
-  if (!(s.six > 0.0 && s.six * s.six > 1e-28 * cube)) // rounding may err by half as much
+  if (!(s.six > 0.0 && s.six * s.six > CW_TET_FLAT * longest * longest * longest))
     return -1.0;
   const double *l = s.edge, *n = s.area;
   double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
                              cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
-  least = cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
-  least = cw_tet_less(s.six * s.six * least / (n[0] * n[1] * n[2] * n[3]), 1.8225 * shortest / longest);
-  return sqrt(cw_tet_less(1600.0 * s.six * s.six / cube, least));
+  least = s.six * s.six * cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
+  double areas = n[0] * n[1] * n[2] * n[3];
+  if (least > squared * areas && 4.0 * shortest > squared * longest)
+    return 1.0;
+  return sqrt(cw_tet_less(least / areas, 4.0 * shortest / longest));
 }
 
-// Is that quality below `limit`? Without division.
-static inline int cw_tet_is_below(const double a[3], const double b[3], const double c[3],
-                                     const double d[3], double limit) {
-  CwTetMeasures s = cw_tet_measures(a, b, c, d);
-  const double *l = s.edge, *n = s.area;
-  double f = s.six > 0.0 ? s.six * s.six : 0.0, g = limit * limit, shortest, longest;
-  cw_tet_edges(&s, &shortest, &longest);
-  return (f * l[0] < g * (n[2] * n[3])) | (f * l[1] < g * (n[1] * n[3])) | (f * l[2] < g * (n[1] * n[2])) |
-         (f * l[3] < g * (n[0] * n[3])) | (f * l[4] < g * (n[0] * n[2])) | (f * l[5] < g * (n[0] * n[1])) |
-         (1.8225 * shortest < g * longest) | (1600.0 * f < g * (longest * longest * longest));
+static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
+                                    const double d[3]) {
+  return cw_tet_quality_to(a, b, c, d, 1.0); // no sine is above 1
 }
 
 #endif
