@@ -4,11 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary_check.h"
 #include "mesher/delaunay.h"
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
+#include "mesher/kernel_flat.h"
 #include "mesher/kernel_recover.h"
+#include "mesher/kernel_split.h"
 #include "mesher/tet_improve.h"
 #include "mesher/tet_mesh.h"
 #include "pipeline/log.h"
@@ -28,7 +31,8 @@ done:
   return status;
 }
 
-enum { ROUNDS = 6 }; // of recovery: what one facet could not have may be free after others have theirs
+enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
+static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { AHEAD = 12 }; // places of the queue whose tetrahedra are on their way from memory
 enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
 
@@ -89,13 +93,62 @@ static CwStatus keep_inside(const CwFillInput *input, CwDelaunay *mesh, const ui
       CW_TRY(cw_delaunay_free_tet(mesh, t));
       continue;
     }
+    int own = 0;
+    while (own < 3 && tet->corner[own] < CW_DELAUNAY_CORNERS)
+      own++;
+    const double *x = mesh->point[tet->corner[own]].x;
     for (int i = 0; i < 4; i++) {
       if (place[t] & 4 << i)
         tet->neighbour[i] = -1;
       CW_REQUIRE(tet->corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
-                 "%s: nothing lies inside the boundary: its normals point inward", input->name);
+                 "%s: the boundary encloses all that lies outside it: its normals point inward near "
+                 "(%.6g, %.6g, %.6g) mm",
+                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
     }
   }
+done:
+  return status;
+}
+
+// Brings all boundary triangles into the mesh: by flips and cleared hollows, and at last by divisions of the
+// boundary. CW_RETRY where some are still missing.
+static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, int32_t *source_count,
+                        CwSplits *splits, CwFillWay *way) {
+  CwStatus status = CW_OK;
+  CwRecovered recovered = {0};
+  cw_facets_locate(mesh, input->point_count, facets);
+  way->missing = facets->missing_count;
+  for (int round = 0; round < ROUNDS && facets->missing_count; round++) {
+    CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
+  }
+  if (facets->missing_count) {
+    CW_TRY(cw_boundary_check_crossing(input));
+    CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
+  }
+  if (facets->missing_count) {
+    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count,
+                 facets->count);
+    status = CW_RETRY;
+  }
+done:
+  way->flips = (int32_t)(recovered.flips < INT32_MAX ? recovered.flips : INT32_MAX);
+  way->cleared = recovered.cleared;
+  way->divided = splits->count;
+  return status;
+}
+
+// Where the improvement left tetrahedra that may be flat.
+static CwStatus raise_flat(const CwFillInput *input, CwDelaunay *mesh, int32_t *source_count,
+                           const CwTetImproved *improved, int32_t *raised) {
+  CwStatus status = CW_OK;
+  int32_t left;
+  *raised = 0;
+  if (improved->least_after > NEARLY_FLAT)
+    goto done;
+  CW_TRY(cw_kernel_flat(mesh, source_count, raised, &left));
+  cw_log_debug("%s: %d flat tetrahedra raised, %d not", input->name, *raised, left);
 done:
   return status;
 }
@@ -104,35 +157,42 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwDelaunay mesh = {0};
   CwFacets facets = {0};
+  CwSplits splits = {0};
   CwTetImproved improved;
+  CwFillWay way = {0};
   double(*x)[3] = NULL;
   uint8_t *place = NULL;
-  int32_t count = 0;
+  int32_t count = 0, raised = 0;
+  int good = 1;
   memset(fill, 0, sizeof *fill);
-  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &count, &x));
   CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
   free(x);
   x = NULL;
   CW_TRY(cw_facets_make(input, &mesh, &facets));
-  cw_facets_locate(&mesh, input->point_count, &facets);
-  for (int round = 0; round < ROUNDS && facets.missing_count; round++) {
-    CW_TRY(cw_kernel_recover(&mesh, &facets, round, &count));
-    cw_facets_locate(&mesh, input->point_count, &facets);
-  }
-  if (facets.missing_count) {
-    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets.missing_count,
-                 facets.count);
-    status = CW_RETRY;
-    goto done;
-  }
+  CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
   CW_NEW(place, mesh.tet_count);
   CW_TRY(classify(input, &mesh, &facets, place));
   cw_facets_free(&facets);
   CW_TRY(keep_inside(input, &mesh, place));
   free(place);
   place = NULL;
+  if (splits.count) {
+    // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
+    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
+    CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+    CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
+  }
+  if (!good) {
+    cw_log_debug("%s: no room to take %d points off the boundary", input->name, splits.count);
+    status = CW_RETRY;
+    goto done;
+  }
   CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
+  CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+  if (raised)
+    CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
   CW_TRY(cw_tet_mesh_take(&mesh, input->point_count, count, fill));
   cw_log_debug(
       "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
@@ -141,9 +201,11 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
 done:
   free(place);
   free(x);
+  cw_splits_free(&splits);
   cw_facets_free(&facets);
   cw_delaunay_free(&mesh);
   if (status != CW_OK)
     cw_fill_free(fill);
+  fill->way = way;
   return status;
 }

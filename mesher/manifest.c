@@ -111,7 +111,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
   double area[CW_PATCH_LIMIT] = {0}, most = 0, least = INFINITY, sum = 0, error = 0, predicted_sum = 0,
          predicted_most = 0, predicted_least = INFINITY;
-  int32_t regions = domain->plan.region_count;
+  int32_t regions = domain->plan.region_count, tetgen = 0;
   cw_quality_start(&quality);
   json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
   for (int32_t r = 0; r < regions; r++) {
@@ -129,11 +129,15 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     sum += cells;
     most = fmax(most, cells);
     least = fmin(least, cells);
+    tetgen += made->way.tetgen;
     for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
     json_array_append_new(region_list,
-                          json_pack("{s:i, s:i, s:I, s:I, s:o, s:o}", "region", r + 1, "number", domain->number[r],
+                          json_pack("{s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o}", "region", r + 1, "number",
+                                    domain->number[r],
                                     "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
-                                    "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
+                                    "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
+                                    "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided,
+                                    "tetgen", made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
                                     "seconds", cw_json_number(run->region_seconds[d][r])));
   }
   for (int32_t r = 0; r < regions; r++) {
@@ -154,6 +158,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
       domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
       "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
       "least_cell_volume_m3", cw_json_number(quality.least_volume));
+  json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
   json_object_set_new(result, "region_balance_least", cw_json_number(least / (sum / regions)));
   json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted_most / (predicted_sum / regions)));

@@ -15,6 +15,7 @@ typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
   int64_t ratio_bin[CW_PATCH_LIMIT][CW_RATIO_BINS]; // wall faces by last layer over first tetrahedron
+  CwFillWay way;
   CwQuality quality;
 } CwRegionSummary;
 

@@ -5,15 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/fill.h"
+#include "mesher/fill_sure.h"
 #include "mesher/hash.h"
-#include "mesher/kernel.h"
 #include "mesher/layer_heights.h"
 #include "mesher/vec.h"
-#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
-static const double FLAT_CELL = 1e-7; // six times the volume over the cube of an edge
 
 static int compare_rims(const void *p, const void *q) {
   const int32_t *a = p, *b = q;
@@ -347,31 +344,6 @@ done:
   return status;
 }
 
-// Whether some tetrahedron is as flat as rounding: its volume is nothing beside the cube of its edges.
-static int has_flat_cell(const CwFill *fill) {
-  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
-    double edge[3][3], normal[3], longest = 0;
-    for (int k = 0; k < 3; k++) {
-      cw_sub(fill->x[fill->tetrahedron[t][k + 1]], fill->x[fill->tetrahedron[t][0]], edge[k]);
-      longest = fmax(longest, cw_norm(edge[k]));
-    }
-    cw_cross(edge[0], edge[1], normal);
-    if (cw_dot(normal, edge[2]) <= FLAT_CELL * longest * longest * longest) return 1;
-  }
-  return 0;
-}
-
-// By the kernel, where the case does not ask for TetGen and the kernel recovers the boundary; else by TetGen.
-static CwStatus fill(const CwRegionContext *context, const CwFillInput *input, CwFill *result) {
-  if (context->fill == CW_FILL_KERNEL) {
-    CwStatus status = cw_kernel_fill(input, result);
-    if (status != CW_RETRY && (status != CW_OK || !has_flat_cell(result))) return status;
-    cw_fill_free(result);
-    cw_log_debug("%s: left to TetGen", input->name);
-  }
-  return cw_fill(input, result);
-}
-
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   Build build = {.context = context, .region = region};
@@ -390,7 +362,8 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
                        .size = context->skeleton->size_at,
                        .size_context = context->skeleton->size,
                        .name = name};
-  CW_TRY(fill(context, &input, &build.fill));
+  CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
+  mesh->way = build.fill.way;
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);

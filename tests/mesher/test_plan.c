@@ -40,7 +40,7 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
   assert_non_null(seed);
   for (int f = 0; f < faces; f++) check(cw_domain_seed(made, &table, f, &seed[f], &size));
   check(cw_domain_make_size(made, &table, seed, &bytes, &size));
-  check(cw_domain_take_size(made, &table, bytes));
+  check(cw_domain_take_size(made, bytes));
   for (int f = 0; f < faces; f++) free(seed[f]);
   free(seed);
   free(bytes);
@@ -70,7 +70,8 @@ static int close_pump(void **state) {
 }
 
 static double cells_at(const CwDomain *of, double scale) {
-  return prism_factor * of->prism_integral / (scale * scale) + TET_FACTOR * of->tet_integral / (scale * scale * scale);
+  return prism_factor * of->prism_integral / (scale * scale) +
+         TET_FACTOR * cw_domain_tet_integral(of, scale) / (scale * scale * scale);
 }
 
 // A plan of so many regions, at a size that gives each 20,000 cells or more.
