@@ -70,7 +70,8 @@ static int close_pump(void **state) {
 }
 
 static double cells_at(const CwDomain *of, double scale) {
-  return prism_factor * of->prism_integral / (scale * scale) + TET_FACTOR * of->tet_integral / (scale * scale * scale);
+  return prism_factor * of->prism_integral / (scale * scale) +
+         TET_FACTOR * cw_domain_tet_integral(of, scale) / (scale * scale * scale);
 }
 
 // A plan of so many regions, at a size that gives each 20,000 cells or more.
