@@ -21,7 +21,8 @@ static CwStatus not_closed(const CwCad *cad, const CwBackground *background, con
 }
 
 // Pairs the half edges of one point, whose other ends have greater numbers.
-static CwStatus pair_up(const CwCad *cad, CwBackground *background, int32_t point, const HalfEdge *half, int32_t count) {
+static CwStatus pair_up(const CwCad *cad, CwBackground *background, int32_t point, const HalfEdge *half,
+                        int32_t count) {
   for (int32_t i = 0; i < count; i++) {
     int32_t mate = -1, met = 0;
     for (int32_t j = 0; j < count; j++) {
@@ -29,13 +30,16 @@ static CwStatus pair_up(const CwCad *cad, CwBackground *background, int32_t poin
       mate = j;
       met++;
     }
-    if (met != 1 || half[mate].forward == half[i].forward) return not_closed(cad, background, &half[i], point, met > 0);
+    if (met != 1 || half[mate].forward == half[i].forward) {
+      return not_closed(cad, background, &half[i], point, met > 0);
+    }
     background->neighbour[half[i].triangle][half[i].side] = half[mate].triangle;
   }
   return CW_OK;
 }
 
-// Finds the triangle across each edge. Fails where an edge is not shared by exactly two triangles that run opposite ways.
+// Finds the triangle across each edge. Fails where an edge is not shared by exactly two triangles that run opposite
+// ways.
 static CwStatus find_neighbours(const CwCad *cad, CwBackground *background) {
   CwStatus status = CW_OK;
   HalfEdge *half = NULL;

@@ -18,8 +18,8 @@ typedef struct {
 CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes *cubes);
 void cw_cubes_free(CwCubes *cubes);
 
-// The cubes that hold all points within `radius` of x: from[k]..to[k] along each axis. Empty (from > to) where there are
-// none.
+// The cubes that hold all points within `radius` of x: from[k]..to[k] along each axis. Empty (from > to) where
+// there are none.
 void cw_cubes_near(const CwCubes *cubes, const double x[3], double radius, int32_t from[3], int32_t to[3]);
 
 // Number of the cube a, b, c; those along x follow one another.

@@ -42,8 +42,8 @@ typedef struct {
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
 
-// What one rank makes for all, packed, and how all take it up: the background triangulation (part 0) and the exact volume
-// (part 1); the seeds of one face; the size field from the seeds of all faces.
+// What one rank makes for all, packed, and how all take it up: the background triangulation (part 0) and the exact
+// volume (part 1); the seeds of one face; the size field from the seeds of all faces.
 enum { CW_DOMAIN_PARTS = 2 };
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);

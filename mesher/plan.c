@@ -7,8 +7,8 @@
 
 #include "mesher/plan_score.h"
 
-// Splits `part` into `regions` leaves under node `parent` (on its side `side`), or leaves it whole where no plane will do.
-// `next_region` counts leaves.
+// Splits `part` into `regions` leaves under node `parent` (on its side `side`), or leaves it whole where no plane
+// will do. `next_region` counts leaves.
 static CwStatus split(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
                       int side, int32_t *next_region) {
   CwStatus status = CW_OK;

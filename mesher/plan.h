@@ -34,7 +34,7 @@ typedef struct {
 } CwPlan;
 
 typedef struct {
-  int32_t region_count;     // at least 1; the plan may have fewer where no plane divides a part of the domain any more
+  int32_t region_count;     // at least 1; the plan has fewer where no plane divides a part of the domain any more
   const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and their lines keep room for it
   const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
   double tallest;

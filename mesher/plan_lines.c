@@ -8,7 +8,8 @@
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64 };
 static const double LINE_STEP = 1e-3; // m between samples of a line
 static const double ROOM = 1.5;       // thicknesses of the layers: lines of two planes start behind the layers
-// Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they have room.
+// Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
+// have room.
 static const double SAME_LINE = 1, APART = 3;
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 

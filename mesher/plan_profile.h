@@ -12,8 +12,8 @@ typedef struct {
   double low, width;                  // m: bin b covers low + b width .. low + (b + 1) width
   double below[CW_PROFILE_BINS + 1];  // cells below the start of each bin
   double area[CW_PROFILE_BINS];       // m2, of the section, mean over the bin
-  double worst[CW_PROFILE_BINS];      // least sqrt(1 - (n.m)^2) over the walls that meet the bin, their layers included
-  double grazed[CW_PROFILE_BINS];     // points of CAD edges a plane in the bin runs along, and ends of them it comes near
+  double worst[CW_PROFILE_BINS];      // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
+  double grazed[CW_PROFILE_BINS];     // points of CAD edges it runs along, and ends of them it comes near
 } CwPlanProfile;
 
 // Fails with nothing: a part without extent along the direction has width 0 and is of no use.

@@ -6,8 +6,8 @@
 #include "mesher/plan_model.h"
 
 // The best plane for `node` (its ancestors are in the plan) to divide a part that is to become `regions` regions;
-// *first of them on its negative side. *worst_angle: least sqrt(1 - (n.m)^2) over the wall triangles it crosses, they or their layers.
-// *first is 0 where no plane will do at all.
+// *first of them on its negative side. *worst_angle: least sqrt(1 - (n.m)^2) over the wall triangles it
+// crosses, they or their layers. *first is 0 where no plane will do at all.
 CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                             int32_t regions, CwPlane *plane, int32_t *first, double *worst_angle);
 

@@ -145,7 +145,8 @@ static void check_work(const CwDomain *of, const CwPlan *plan) {
   }
   for (int32_t r = 0; r < plan->region_count; r++) predicted += plan->predicted_cells[r];
   for (int32_t r = 0; r < plan->region_count; r++) {
-    double share = plan->predicted_cells[r] / predicted * plan->region_count, other = tets[r] / sum * plan->region_count;
+    double share = plan->predicted_cells[r] / predicted * plan->region_count;
+    double other = tets[r] / sum * plan->region_count;
     // With the layers, and without: of one order. Small regions between walls are all layers.
     assert_true(fabs(share - other) < (plan->region_count > 50 ? 1.5 : 0.5));
   }
