@@ -24,9 +24,9 @@ extern "C" {
 
 enum { CW_TET_STAR = 96 };
 
-// The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that
-// put it into the list for the next in centre[1], and the pass in which something changed at a point in the
-// point's mark.
+// The quality of a tetrahedron (1 where it is good) stands in its square, a mark of the last star in its
+// centre[0], the pass that put it into the list for the next in centre[1], and the pass in which something
+// changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;

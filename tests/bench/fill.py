@@ -4,7 +4,8 @@
 --delaunay its older Delaunay mesher on the first surface, too).
 
 Use, from the top of the source:
-  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...] [--repeat N]
+  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...]
+    [--repeat N] [--cores N ...] [--delaunay]
 Surfaces are a ring (0.26 m across) with six blade-shaped voids, for each edge length in m, and the inner
 boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Seconds are user time of one core, the
 least of N runs in turn; memory is the peak less what stood before. Each way runs alone (cores 1) and as two
@@ -22,8 +23,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
-HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} {'tets/s':>8s} "
-        f"{'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
+HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} "
+        f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
 
 
 def compile_program(build, folder):
@@ -68,7 +69,8 @@ def fill_by_gmsh(program, surface, shells, algorithm):
         _, before, _ = run_gmsh(folder, surface, shells, "-2")
         text, peak, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm)
         # HXT improves within its own time, the older Delaunay mesher after it.
-        seconds = re.findall(r"Done (?:meshing 3D|optimizing mesh) \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)", text)
+        done = r"Done (?:meshing 3D|optimizing mesh) \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)"
+        seconds = re.findall(done, text)
         if not seconds or not mesh.exists():
             return "failed"
         words = subprocess.run([str(program), "quality", str(mesh)], check=True, capture_output=True,
@@ -76,7 +78,8 @@ def fill_by_gmsh(program, surface, shells, algorithm):
     tets = int(words[1])
     if tets == 0:
         return "failed"
-    return [int(words[0]), tets, sum(map(float, seconds)), max(0, peak - before) / tets, *map(float, words[2:6])]
+    return [int(words[0]), tets, sum(map(float, seconds)), max(0, peak - before) / tets,
+            *map(float, words[2:6])]
 
 
 def at_once(way, cores):
