@@ -168,7 +168,8 @@ void Maker::trailing_points(double p_bevel) {
 }
 
 void Maker::points() {
-  const int side_points = 121, nose_points = 49;
+  const bool fillets = design->root_fillet_radius > 0; // whose feet are longer and turn more sharply
+  const int side_points = fillets ? 121 : 81, nose_points = fillets ? 49 : 33;
   const CwTrailingEdge edge = design->trailing_edge;
   const CwBladeSection &middle = shape.section[CW_SPAN_POINTS / 2];
   shape.has_bevel = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
