@@ -168,6 +168,7 @@ void Maker::trailing_points(double p_bevel) {
 }
 
 void Maker::points() {
+  const bool fillets = design->root_fillet_radius > 0;
   const int side_points = 121, nose_points = 49;
   const CwTrailingEdge edge = design->trailing_edge;
   const CwBladeSection &middle = shape.section[CW_SPAN_POINTS / 2];
@@ -180,14 +181,14 @@ void Maker::points() {
       (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner))
     throw Standard_Failure("the bevel is longer than the trailing edge: lower trailing_edge_bevel_mm or "
                            "trailing_edge_thickness_mm");
-  // Half-way between even steps on the ellipse and even turns of its normal, which the foot of a root fillet
-  // follows.
+  // With fillets half-way between even steps on the ellipse and even turns of its normal, which their feet follow.
   for (int i = 0; i < nose_points; i++) {
     const double f = (double)i / (nose_points - 1), even = M_PI * (f - 0.5);
     const double turned = std::atan2(std::sin(even), design->leading_edge_ratio * std::cos(even));
+    const double psi = fillets ? 0.5 * (even + turned) : even;
     shape.leading.u.push_back(f);
     for (int j = 0; j < CW_SPAN_POINTS; j++)
-      shape.leading.points.push_back(cw_blade_leading_edge(&shape.section[j], 0.5 * (even + turned)));
+      shape.leading.points.push_back(cw_blade_leading_edge(&shape.section[j], psi));
   }
   // Parameters of the sides run from 0 at the leading to 1 at the trailing edge, closer together towards the
   // leading edge. The suction side ends where the bevel begins.
@@ -239,7 +240,7 @@ void Maker::make() {
 // the meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through
 // them wriggles.
 void Maker::guide_line(int wall) {
-  const int fine = 4000, points = 160;
+  const int fine = 4000, points = 240;
   const CwBladeOnWall on = cw_blade_on_wall(&meridian, wall);
   const CwMeridianCurve &curve = *on.curve;
   const double begin = on.begin, length = on.length, pitch = 2 * M_PI / design->blade_count;

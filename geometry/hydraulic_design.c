@@ -320,7 +320,8 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   const int rectangle = given->section == CW_SECTION_RECTANGLE;
   if (rectangle)
     SET(side_wall_angle, 0, "rectangle");
-  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40.
+  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40, as commonly quoted, not
+  // held against the chart.
   const double factor = cw_case_given(given->velocity_factor)
                             ? given->velocity_factor
                             : 0.42 * pow(design->specific_speed_nq / 20, -0.2);

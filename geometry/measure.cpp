@@ -19,6 +19,7 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <gp.hxx>
 #include <gp_Vec.hxx>
 
 #include "geometry/solid.hpp"
@@ -142,25 +143,31 @@ gp_Pnt mid_span(const CwSolid *rotor, const char *name, double u) {
   return BRep_Tool::Surface(face_named(rotor, name).face)->Value(u, 0.5);
 }
 
-double length_of(const TopoDS_Shape &shape) {
-  GProp_GProps properties;
-  BRepGProp::LinearProperties(shape, properties);
-  return properties.Mass() * metre;
-}
-
-// Shortest edge and narrowest face.
+// Shortest edge and narrowest face. A face's area is taken as that of its boundary's vector area, half the
+// integral of x cross dx, which no face undercuts.
 void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
+  const int samples = 24;
   measured->shortest_edge = measured->narrowest_face = HUGE_VAL;
   for (const CwSolidFace &face : solid->faces) {
     double around = 0;
+    gp_Vec area(0, 0, 0);
     for (TopExp_Explorer explorer(face.face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
-      const double length = length_of(explorer.Current());
+      double first, last, length = 0;
+      const TopoDS_Edge edge = TopoDS::Edge(explorer.Current());
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+      gp_Pnt before = curve->Value(first);
+      gp_Vec swept(0, 0, 0);
+      for (int i = 1; i <= samples; i++) {
+        const gp_Pnt next = curve->Value(first + (last - first) * i / samples);
+        swept += gp_Vec(gp::Origin(), before).Crossed(gp_Vec(gp::Origin(), next));
+        length += next.Distance(before);
+        before = next;
+      }
+      area += swept * (edge.Orientation() == TopAbs_REVERSED ? -0.5 : 0.5);
       around += length;
-      measured->shortest_edge = std::min(measured->shortest_edge, length);
+      measured->shortest_edge = std::min(measured->shortest_edge, length * metre);
     }
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(face.face, properties);
-    measured->narrowest_face = std::min(measured->narrowest_face, properties.Mass() * metre * metre / (around / 2));
+    measured->narrowest_face = std::min(measured->narrowest_face, area.Magnitude() / (around / 2) * metre);
   }
 }
 

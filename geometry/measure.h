@@ -23,7 +23,7 @@ typedef struct {
   double largest_tolerance; // of any vertex, edge or face, m
   double volume;            // m3
   double shortest_edge;     // m
-  double narrowest_face;    // area over half the circumference: at most the width of a narrow face, m
+  double narrowest_face;    // vector area over half the circumference: at most a narrow face's width, m
 } CwMeasuredSolid;
 
 typedef struct {
