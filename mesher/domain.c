@@ -30,31 +30,50 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
+// The tallest column that is fair where the cells have the size `size`: no taller than the triangles under it are wide by
+// a factor, or it crowds its neighbours at noses and roots, and its last layer no taller than the tetrahedron above. Columns
+// give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size) {
+  double last = LAST_LAYER * REGULAR_HEIGHT * size, fair = TALLEST_COLUMN * size;
+  if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
+  return fmax(EVEN_LAYERS * count * first, fmin(fair, cw_layer_thickness(first, count, growth)));
+}
+
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
 static CwStatus integrate(CwDomain *domain) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, *volume = NULL;
   int32_t count = 0;
+  CW_NEW(domain->layer_sample, domain->background.triangle_count);
   for (int32_t t = 0; t < domain->background.triangle_count; t++) {
     int32_t face = domain->background.face[t];
     if (!cw_face_is_wall(domain->cad, face)) continue;
     double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
-    double thickness = domain->patch_layers[cw_cad_face_patch(domain->cad, face)].thickness;
+    int patch = cw_cad_face_patch(domain->cad, face);
     domain->prism_integral += area / (h * h);
-    domain->tet_integral -= area * thickness / (h * h * h);
+    domain->layer_sample[domain->layer_sample_count++] = (CwLayerSample){area / (h * h * h), h, patch};
   }
   CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
-  double whole = 0;
   for (int32_t i = 0; i < count; i++) {
     double h = cw_size_at(domain->size, x[i]);
-    whole += volume[i] / (h * h * h);
+    domain->volume_integral += volume[i] / (h * h * h);
   }
-  // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
-  domain->tet_integral = fmax(whole + domain->tet_integral, 0.1 * whole);
 done:
   free(x);
   free(volume);
   return status;
+}
+
+double cw_domain_tet_integral(const CwDomain *domain, double scale) {
+  double layers = 0;
+  for (int32_t i = 0; i < domain->layer_sample_count; i++) {
+    const CwLayerSample *sample = &domain->layer_sample[i];
+    const CwLayerTarget *target = &domain->patch_layers[sample->patch];
+    double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size);
+    layers += sample->density * fmin(target->thickness, fair);
+  }
+  // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
+  return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
 }
 
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
@@ -62,6 +81,7 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   CwStatus status = CW_OK;
   memset(domain, 0, sizeof *domain);
   domain->name = name;
+  domain->layer_count = table->walls.layer_count;
   CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
   CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
   CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
@@ -126,15 +146,6 @@ CwStatus cw_domain_start(CwDomain *domain) {
   CW_TRY(cw_skeleton_wall_curves(skeleton));
 done:
   return status;
-}
-
-// The tallest column that is fair where the cells have the size `size`: no taller than the triangles under it are wide by
-// a factor, or it crowds its neighbours at noses and roots, and its last layer no taller than the tetrahedron above. Columns
-// give up growth for it, never the first height.
-static double fair_height(double first, int count, double growth, double size) {
-  double last = LAST_LAYER * REGULAR_HEIGHT * size, fair = TALLEST_COLUMN * size;
-  if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
-  return fmax(EVEN_LAYERS * count * first, fmin(fair, cw_layer_thickness(first, count, growth)));
 }
 
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
@@ -203,6 +214,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_inside_free(&domain->inside);
   cw_background_free(&domain->background);
   cw_cad_close(&domain->cad);
+  free(domain->layer_sample);
   free(domain->relative_size);
   free(domain->patch_layers);
 }

@@ -8,6 +8,13 @@
 #include "mesher/size.h"
 #include "mesher/wall_targets.h"
 
+// The layers over a piece of wall.
+typedef struct CwLayerSample {
+  double density;          // area / h^3 at scale 1, m-1
+  double size;             // h at scale 1, m
+  int32_t patch;
+} CwLayerSample;
+
 typedef struct {
   const char *name;
   CwCad *cad;
@@ -16,8 +23,11 @@ typedef struct {
   CwSize *size;
   double *relative_size;                      // of each patch
   CwLayerTarget *patch_layers;                // of each patch
+  int layer_count;
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
-  double tet_integral;                        // integral of h^-3 over the domain less its layers, at scale 1
+  double volume_integral;                     // integral of h^-3 over the domain, at scale 1
+  struct CwLayerSample *layer_sample;         // what the layers take of it: one for each background triangle of a wall
+  int32_t layer_sample_count;
   CwPlan plan;
   CwSkeleton skeleton;
   double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
@@ -33,6 +43,10 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
 // Makes the size field, packed: a task of one rank. All ranks take it up with cw_domain_take_size.
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
+
+// Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
+// tetrahedra follows from.
+double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
 // packed (cw_plan_unpack): a task of one rank.
