@@ -49,10 +49,9 @@ static CwStatus integrate(CwDomain *domain) {
     int32_t face = domain->background.face[t];
     if (!cw_face_is_wall(domain->cad, face)) continue;
     double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
-    const CwLayerTarget *layers = &domain->patch_layers[cw_cad_face_patch(domain->cad, face)];
+    int patch = cw_cad_face_patch(domain->cad, face);
     domain->prism_integral += area / (h * h);
-    domain->layer_sample[domain->layer_sample_count++] =
-        (CwLayerSample){area / (h * h * h), h, *layers};
+    domain->layer_sample[domain->layer_sample_count++] = (CwLayerSample){area / (h * h * h), h, patch};
   }
   CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
   for (int32_t i = 0; i < count; i++) {
@@ -69,7 +68,7 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   double layers = 0;
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
-    const CwLayerTarget *target = &sample->target;
+    const CwLayerTarget *target = &domain->patch_layers[sample->patch];
     double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size);
     layers += sample->density * fmin(target->thickness, fair);
   }

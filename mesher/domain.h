@@ -12,7 +12,7 @@
 typedef struct {
   double density;          // area / h^3 at scale 1, m-1
   double size;             // h at scale 1, m
-  CwLayerTarget target;
+  int32_t patch;
 } CwLayerSample;
 
 typedef struct {

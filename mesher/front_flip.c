@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/flip_mesh.h"
 #include "mesher/vec.h"
 
 enum { SWEEPS = 12 };
@@ -83,92 +84,16 @@ static int flip_helps(const double (*wall)[3], const double (*front)[3], double 
   return 1;
 }
 
-// Triangles with their neighbours: near[t][k] across the side from corner k to the next, or -1.
-typedef struct {
-  int32_t (*triangle)[3], (*near)[3];
-} Mesh;
-
-static int corner_of(const Mesh *mesh, int32_t t, int32_t vertex) {
-  for (int k = 0; k < 3; k++) {
-    if (mesh->triangle[t][k] == vertex) return k;
-  }
-  return -1;
-}
-
-// Finds the neighbours. Sides that run the same way twice, or that three triangles share, have none.
-static CwStatus find_neighbours(int32_t point_count, int32_t triangle_count, Mesh *mesh) {
-  CwStatus status = CW_OK;
-  int32_t *start = NULL, *side = NULL;
-  CW_NEW(start, (size_t)point_count + 2);
-  CW_NEW(side, 3 * (size_t)triangle_count);
-  for (int32_t s = 0; s < 3 * triangle_count; s++) start[mesh->triangle[s / 3][s % 3] + 2]++;
-  for (int32_t v = 0; v < point_count; v++) start[v + 2] += start[v + 1];
-  for (int32_t s = 0; s < 3 * triangle_count; s++) side[start[mesh->triangle[s / 3][s % 3] + 1]++] = s;
-  for (int32_t s = 0; s < 3 * triangle_count; s++) { // sides that start at v now stand from start[v] to start[v + 1]
-    int32_t a = mesh->triangle[s / 3][s % 3], b = mesh->triangle[s / 3][(s % 3 + 1) % 3];
-    int32_t found = -1, others = 0;
-    for (int32_t i = start[b]; i < start[b + 1]; i++) {
-      if (mesh->triangle[side[i] / 3][(side[i] % 3 + 1) % 3] == a) found = side[i] / 3, others++;
-    }
-    for (int32_t i = start[a]; i < start[a + 1]; i++) {
-      others += side[i] != s && mesh->triangle[side[i] / 3][(side[i] % 3 + 1) % 3] == b;
-    }
-    mesh->near[s / 3][s % 3] = others == 1 ? found : -1;
-  }
-done:
-  free(start);
-  free(side);
-  return status;
-}
-
-// Whether c and d share an edge: looks at all triangles around c, from t both ways.
-static int are_joined(const Mesh *mesh, int32_t t, int32_t c, int32_t d) {
-  for (int way = 0; way < 2; way++) {
-    int32_t at = t;
-    do {
-      int k = corner_of(mesh, at, c);
-      if (corner_of(mesh, at, d) >= 0) return 1;
-      at = mesh->near[at][way ? k : (k + 2) % 3];
-    } while (at >= 0 && at != t);
-    if (at == t) break;
-  }
-  return 0;
-}
-
-static void set_near(Mesh *mesh, int32_t t, int32_t from, int32_t to) {
-  if (t < 0) return;
-  for (int k = 0; k < 3; k++) {
-    if (mesh->near[t][k] == from) mesh->near[t][k] = to;
-  }
-}
-
-// Turns side k of t, between t and u.
-static void flip(Mesh *mesh, int32_t t, int k, int32_t u) {
-  int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3], c = mesh->triangle[t][(k + 2) % 3];
-  int j = corner_of(mesh, u, b); // u runs b, a, d
-  int32_t d = mesh->triangle[u][(j + 2) % 3];
-  int32_t bc = mesh->near[t][(k + 1) % 3], ca = mesh->near[t][(k + 2) % 3];
-  int32_t ad = mesh->near[u][(j + 1) % 3], db = mesh->near[u][(j + 2) % 3];
-  const int32_t first[3] = {c, d, b}, second[3] = {d, c, a}, at_t[3] = {u, db, bc}, at_u[3] = {t, ca, ad};
-  for (int i = 0; i < 3; i++) {
-    mesh->triangle[t][i] = first[i], mesh->near[t][i] = at_t[i];
-    mesh->triangle[u][i] = second[i], mesh->near[u][i] = at_u[i];
-  }
-  set_near(mesh, db, u, t);
-  set_near(mesh, ca, t, u);
-}
-
 CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const double (*front)[3], int32_t triangle_count,
                        int32_t (*triangle)[3], const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
-  Mesh mesh = {.triangle = triangle};
+  CwFlipMesh mesh = {.triangle = triangle};
   double *angle = NULL; // least of each front triangle
   uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
-  CW_NEW(mesh.near, triangle_count);
   CW_NEW(angle, triangle_count);
   CW_NEW(fresh, triangle_count);
-  CW_TRY(find_neighbours(point_count, triangle_count, &mesh));
+  CW_TRY(cw_flip_neighbours(point_count, triangle_count, &mesh));
   for (int32_t t = 0; t < triangle_count; t++) {
     angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
     fresh[t] = 1;
@@ -182,10 +107,10 @@ CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const doubl
         int32_t u = mesh.near[t][k];
         if (u < 0 || group[t] != group[u]) continue;
         int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3], c = triangle[t][(k + 2) % 3];
-        int32_t d = triangle[u][(corner_of(&mesh, u, b) + 2) % 3];
+        int32_t d = triangle[u][(cw_flip_corner(&mesh, u, b) + 2) % 3];
         double before = fmin(angle[t], angle[u]);
-        if (c == d || !flip_helps(wall, front, before, a, b, c, d) || are_joined(&mesh, t, c, d)) continue;
-        flip(&mesh, t, k, u);
+        if (c == d || !flip_helps(wall, front, before, a, b, c, d) || cw_flip_joined(&mesh, t, c, d)) continue;
+        cw_flip(&mesh, t, k, u);
         angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
         angle[u] = least_angle(front, triangle[u][0], triangle[u][1], triangle[u][2]);
         fresh[u] = 1;

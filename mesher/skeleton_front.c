@@ -8,6 +8,7 @@
 #include "mesher/layers.h"
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
+#include "mesher/wall_unfold.h"
 #include "pipeline/log.h"
 
 static const double DIRECTION_LENGTH = 1e-5; // m
@@ -103,15 +104,35 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
   }
 }
 
-// Flips edges of wall and front inside one CAD face and one region: curves stay.
+// Edges may be flipped inside one CAD face and one region: curves stay.
+static CwStatus make_groups(const CwSkeleton *skeleton, int64_t **group) {
+  CwStatus status = CW_OK;
+  CW_NEW(*group, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    (*group)[t] = (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
+  }
+done:
+  return status;
+}
+
+static CwStatus unfold_wall(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  int64_t *group = NULL;
+  int32_t flips, folded;
+  CW_TRY(make_groups(skeleton, &group));
+  CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count,
+                        skeleton->wall_triangle, group, &flips, &folded));
+  if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
+done:
+  free(group);
+  return status;
+}
+
 static CwStatus flip_front(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   int64_t *group = NULL;
   int32_t flips;
-  CW_NEW(group, skeleton->wall_triangle_count);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    group[t] = (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
-  }
+  CW_TRY(make_groups(skeleton, &group));
   CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
                        skeleton->wall_triangle_count, skeleton->wall_triangle, group, &flips));
   cw_log_debug("%d edges of wall and front flipped", flips);
@@ -162,6 +183,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   double(*guide_normal)[2][3] = NULL;
   Snap snapping = {skeleton, NULL};
   CwLayers layers = {0};
+  CW_TRY(unfold_wall(skeleton));
   CW_NEW(guide_count, n);
   CW_NEW(guide_normal, n);
   CW_NEW(snapping.uv, n);
