@@ -162,12 +162,18 @@ done:
   return status;
 }
 
-CwStatus cw_domain_number(CwDomain *domain, const CwCase *table) {
+CwStatus cw_domain_number(CwDomain *domain) {
   CwStatus status = CW_OK;
   CW_TRY(cw_skeleton_adjacency(&domain->skeleton, &domain->pair_count, &domain->pair));
   CW_NEW(domain->number, domain->plan.region_count);
   CW_TRY(cw_region_numbers(domain->plan.region_count, domain->pair_count, (const int32_t(*)[2])domain->pair,
                            domain->number, NULL, &domain->colours));
+done:
+  return status;
+}
+
+CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
+  CwStatus status = CW_OK;
   domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
                                       .domain = domain->name,
                                       .layer_count = table->walls.layer_count,

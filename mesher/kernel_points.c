@@ -153,7 +153,7 @@ static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3]) {
       continue;
     double d[3];
     cw_sub(x, tree->ball[t].centre, d);
-    if (cw_dot(d, d) < tree->ball[t].square)
+    if (t < input->triangle_count - input->open_count && cw_dot(d, d) < tree->ball[t].square)
       return 1;
     const int32_t *q = input->triangle[t];
     if (distance_square(x, input->x[q[0]], input->x[q[1]], input->x[q[2]]) < nearest * nearest)

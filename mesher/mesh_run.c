@@ -221,11 +221,45 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CW_TRY(run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
   for (int d = 0; d < CW_DOMAINS; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
-    CW_TRY(cw_domain_number(&run->domain[d], run->table));
+    CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
   results_free(&caps);
   results_free(&interfaces);
+  free(task);
+  return status;
+}
+
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3).
+static CwStatus refine_interfaces(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask *task = NULL;
+  int32_t regions[CW_DOMAINS], count = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) regions[d] = run->domain[d].plan.region_count;
+  CW_NEW(task, regions[0] + regions[1]);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t r = 0; r < regions[d]; r++) {
+      int owns = 0;
+      for (int32_t i = 0; i < domain->skeleton.outline_count; i++) {
+        owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
+      }
+      if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
+    }
+  }
+  CW_TRY(results_make(&results, regions[0], regions[1]));
+  CW_TRY(run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
+           "%lld centres inserted, %lld triangles left to both sides",
+           domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
+           (long long)domain->rule.inserted, (long long)domain->rule.left);
+  }
+done:
+  results_free(&results);
   free(task);
   return status;
 }
@@ -254,11 +288,15 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   CW_TRY(run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
   run->cells = 0;
   for (int d = 0; d < CW_DOMAINS; d++) {
+    uint64_t open_faces = 0;
     for (int32_t r = 0; r < regions[d]; r++) {
       memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
       const CwRegionSummary *made = &run->summary[d][r];
       run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+      open_faces += made->quality.open_faces;
     }
+    CW_REQUIRE(open_faces == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
+               DOMAIN_NAMES[d], run->run_path);
   }
 done:
   results_free(&results);
@@ -362,6 +400,8 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     CW_TRY(mesh_walls(run));
     CW_TRY(grow_layers(run));
     CW_TRY(mesh_inner(run));
+    if (!getenv("NORULE")) CW_TRY(refine_interfaces(run));
+    for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
     CW_TRY(mesh_regions(run));
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);

@@ -34,6 +34,13 @@ CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_
   return cw_skeleton_mesh_interface(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
 
+CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  const CwDomain *domain = &run->domain[task.domain];
+  char name[64];
+  snprintf(name, sizeof name, "%s region %d", domain->name, task.index + 1);
+  return cw_interface_rule(&domain->skeleton, domain->number, task.index, name, bytes, size);
+}
+
 static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
   double sum[3] = {0, 0, 0};
   for (int i = 2; i < corners; i++) {
