@@ -22,8 +22,8 @@ typedef struct {
   CwSizeAt size;
   const void *size_context;
   const char *name; // for messages: "rotor region 3"
-  // For the kernel only. The spheres of the last `open_count` triangles keep no point out. `inner` where given: the inner
-  // points, which are else cw_kernel_points.
+  // For the kernel only. The last `open_count` triangles keep points out to half the wanted length, not by their spheres:
+  // the caller sees to these. `inner` where given: the inner points, which are else cw_kernel_points.
   int32_t open_count, inner_count;
   const double (*inner)[3];
 } CwFillInput;

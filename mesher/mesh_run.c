@@ -400,7 +400,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     CW_TRY(mesh_walls(run));
     CW_TRY(grow_layers(run));
     CW_TRY(mesh_inner(run));
-    if (!getenv("NORULE")) CW_TRY(refine_interfaces(run));
+    CW_TRY(refine_interfaces(run));
     for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
     CW_TRY(mesh_regions(run));
     double off = (double)run->cells / asked - 1;
