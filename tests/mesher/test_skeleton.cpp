@@ -10,6 +10,7 @@
 
 extern "C" {
 #include "mesher/audit.h"
+#include "mesher/interface_rule.h"
 #include "mesher/region_build.h"
 #include "mesher/region_number.h"
 #include "mesher/skeleton.h"
@@ -19,6 +20,10 @@ extern "C" {
 
 static double even_size(const void *, const double *) {
   return 2.5e-3;
+}
+
+static double finer_size(const void *, const double *) {
+  return 1.7e-3;
 }
 
 // A box of 40 x 30 x 20 mm with inlet at x = 0 and outlet at x = 40. Plane 0: x = 21. Plane 1, behind it: y = 14, a
@@ -114,8 +119,73 @@ static void curves_lie_on_their_planes(void **) {
   }
 }
 
-// Regions of the whole box: audited, together as large as the box, with shared points that agree to the last bit.
-static void regions_fill_the_box(void **) {
+// The rule of region numbers on interfaces that were meshed for a coarser size field than that of the fill.
+static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
+  std::vector<void *> refined(4, nullptr);
+  std::vector<int> inserted(4, 0);
+  int64_t size;
+  CwInterfaceRuleCounts counts;
+  int nodes = skeleton.node_count;
+  skeleton.size_at = finer_size;
+  for (int i = 0; i < skeleton.outline_count; i++) {
+    const int32_t *region = skeleton.interface_region[skeleton.outline[i].triangle_start];
+    int owner = cw_interface_owner(&skeleton, number, i), other = owner == region[0] ? region[1] : region[0];
+    assert_true(owner == region[0] || owner == region[1]);
+    assert_true(number[owner] < number[other]);
+  }
+  for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&skeleton, number, r, "box", &refined[r], &size));
+  Box::check(cw_interface_rule_merge(&skeleton, refined.data(), &counts));
+  assert_true(counts.encroached > 20);
+  assert_true(counts.inserted > 20);
+  assert_int_equal(skeleton.node_count, nodes + counts.inserted);
+  assert_int_equal(skeleton.planned_triangle_count, counts.planned);
+  assert_int_equal(skeleton.interface_triangle_count, counts.refined);
+  assert_int_equal(counts.refined, counts.planned + 2 * counts.inserted); // Euler: outlines stay as they are
+  // New nodes lie on the plane of their interface.
+  for (int i = 0; i < skeleton.outline_count; i++) {
+    const CwInterfaceOutline &interface = skeleton.outline[i];
+    for (int t = 0; t < interface.refined_count; t++) {
+      for (int node : skeleton.interface_triangle[interface.refined_start + t]) {
+        assert_near(cw_plane_distance(&skeleton.plan->node[interface.node].plane, skeleton.node_x[node]), 0, 1e-12);
+      }
+    }
+  }
+  // No region keeps a candidate in the sphere of an interface triangle.
+  for (int r = 0; r < 4; r++) {
+    int32_t count;
+    double(*x)[3];
+    Box::check(cw_interface_rule_points(&skeleton, r, "box", &count, &x));
+    assert_true(count > 100);
+    for (int t = 0; t < skeleton.interface_triangle_count; t++) {
+      if (skeleton.interface_region[t][0] != r && skeleton.interface_region[t][1] != r) continue;
+      const int32_t *node = skeleton.interface_triangle[t];
+      double u[3], v[3], uu = 0, vv = 0, uv = 0, square = 0, centre[3];
+      for (int k = 0; k < 3; k++) {
+        u[k] = skeleton.node_x[node[1]][k] - skeleton.node_x[node[0]][k];
+        v[k] = skeleton.node_x[node[2]][k] - skeleton.node_x[node[0]][k];
+        uu += u[k] * u[k], vv += v[k] * v[k], uv += u[k] * v[k];
+      }
+      double det = 2 * (uu * vv - uv * uv), p = vv * (uu - uv) / det, q = uu * (vv - uv) / det;
+      for (int k = 0; k < 3; k++) {
+        double d = p * u[k] + q * v[k];
+        centre[k] = skeleton.node_x[node[0]][k] + d;
+        square += d * d;
+      }
+      square = std::fmin(square, std::fmax(std::fmax(uu, vv), uu + vv - 2 * uv)); // a needle's sphere ends
+      for (int i = 0; i < count; i++) {
+        double distance = 0;
+        for (int k = 0; k < 3; k++) distance += (x[i][k] - centre[k]) * (x[i][k] - centre[k]);
+        assert_true(distance > square);
+      }
+    }
+    free(x);
+  }
+  for (void *bytes : refined) free(bytes);
+}
+
+// Regions of the whole box: audited, together as large as the box, with shared points and faces that agree to the last
+// bit.
+static void fill_the_box(int rule) {
   Box box(3);
   CwSkeleton &skeleton = box.skeleton;
   int faces = cw_cad_face_count(box.cad);
@@ -152,6 +222,7 @@ static void regions_fill_the_box(void **) {
   Box::check(cw_skeleton_adjacency(&skeleton, &pair_count, &pair));
   assert_int_equal(pair_count, 6); // all four regions touch one another on plane 0
   Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
+  if (rule) refine_interfaces(skeleton, number);
   CwRegionContext context = {};
   context.skeleton = &skeleton;
   context.domain = "box";
@@ -160,6 +231,7 @@ static void regions_fill_the_box(void **) {
   context.first_height = first.data();
   Box::check(cw_region_context_make(&context));
   double volume = 0;
+  uint64_t open_faces = 0;
   std::map<int64_t, std::vector<double>> shared;
   std::map<int64_t, int> held;
   for (int r = 0; r < 4; r++) {
@@ -169,6 +241,10 @@ static void regions_fill_the_box(void **) {
     Box::check(cw_audit_region(&mesh, &quality));
     assert_int_equal(mesh.prism_count % 4, 0);
     volume += quality.volume;
+    assert_true(quality.open_faces != 0);
+    assert_true(quality.beside.count > 0 && quality.apart.count > 0);
+    assert_int_equal(quality.beside.count + quality.apart.count, mesh.tetrahedron_count);
+    open_faces += quality.open_faces;
     for (int i = 0; i < mesh.shared_count; i++) {
       std::vector<double> x(mesh.x[i], mesh.x[i] + 3);
       auto found = shared.emplace(mesh.shared_id[i], x);
@@ -178,6 +254,7 @@ static void regions_fill_the_box(void **) {
     cw_region_free(&mesh);
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
+  assert_int_equal(open_faces, 0);
   assert_int_equal(shared.size(), context.shared_count);
   assert_int_equal(shared.rbegin()->first, context.shared_count - 1);
   for (const auto &point : held) assert_true(point.second >= 2);
@@ -190,11 +267,20 @@ static void regions_fill_the_box(void **) {
   for (void *bytes : interfaces) free(bytes);
 }
 
+static void regions_fill_the_box(void **) {
+  fill_the_box(0);
+}
+
+static void regions_fill_the_box_by_the_rule(void **) {
+  fill_the_box(1);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(network_of_a_box),
       cmocka_unit_test(curves_lie_on_their_planes),
       cmocka_unit_test(regions_fill_the_box),
+      cmocka_unit_test(regions_fill_the_box_by_the_rule),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
