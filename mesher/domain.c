@@ -10,7 +10,6 @@
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
 
-enum { LEAST_REGIONS = 4 };
 static const double TALLEST_COLUMN = 2; // of the edge length on the wall
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
@@ -105,7 +104,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickness[p] = cw_domain_thickness(domain, table, p);
   }
-  CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
+  CwPlanOptions options = {.region_count = (int32_t)fmax(regions, table->mesh.least_regions),
                            .thickness = thickness,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
