@@ -163,7 +163,12 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   json_object_set_new(result, "region_rule", rule_json(&domain->rule));
   json_object_set_new(result, "patches", patch_list);
   json_object_set_new(result, "layer_coverage", coverage);
+  json_t *pairs = json_array();
+  for (int32_t p = 0; p < domain->pair_count; p++) {
+    json_array_append_new(pairs, json_pack("[i, i]", domain->pair[p][0] + 1, domain->pair[p][1] + 1));
+  }
   json_object_set_new(result, "region_list", region_list);
+  json_object_set_new(result, "adjacent_regions", pairs);
   return result;
 }
 
@@ -184,6 +189,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   json_t *given = domains;
   domains = NULL;
   CW_TRY(cw_record_json(run->record, "domains", given));
+  CW_TRY(cw_record_json(run->record, "tasks", json_incref(run->tasks)));
 done:
   json_decref(manifest);
   json_decref(domains);

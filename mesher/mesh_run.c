@@ -35,6 +35,24 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
   return step->step(step->run, step->task[index], bytes, size);
 }
 
+// What a model of more ranks needs (tests/bench/speedup.py).
+static CwStatus record_tasks(CwMeshRun *run, const char *name, double seconds, int32_t count, const double *cost,
+                             const double *time) {
+  CwStatus status = CW_OK;
+  json_t *costs = json_array(), *times = json_array();
+  for (int32_t i = 0; i < count; i++) {
+    json_array_append_new(costs, cw_json_number(cost[i]));
+    json_array_append_new(times, cw_json_number(time[i]));
+  }
+  if (!run->tasks) run->tasks = json_array();
+  CW_REQUIRE(json_array_append_new(run->tasks, json_pack("{s:s, s:o, s:o, s:o}", "step", name, "seconds",
+                                                         cw_json_number(seconds), "task_cost", costs, "task_seconds",
+                                                         times)) == 0,
+             CW_ERR_MEMORY, "out of memory: record of %d tasks", count);
+done:
+  return status;
+}
+
 // Runs a step over tasks of both domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
 // pointers); seconds[d][i] likewise where seconds is given.
 static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
@@ -57,7 +75,11 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
     result[i] = NULL;
     if (seconds) seconds[task[i].domain][task[i].index] = time[i];
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+  if (run->rank == 0) {
+    double seconds_all = cw_seconds() - started;
+    CW_TRY(cw_record_step(run->record, name, seconds_all, count, unit));
+    CW_TRY(record_tasks(run, name, seconds_all, count, cost, time));
+  }
 done:
   if (result) {
     for (int32_t i = 0; i < count; i++) free(result[i]);
@@ -253,6 +275,7 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
   for (int d = 0; d < CW_DOMAINS; d++) {
     CwDomain *domain = &run->domain[d];
     CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
            "%lld centres inserted, %lld triangles left to both sides",
            domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
@@ -430,4 +453,5 @@ void cw_mesh_run_free(CwMeshRun *run) {
     free(run->summary[d]);
     free(run->region_seconds[d]);
   }
+  json_decref(run->tasks);
 }

@@ -3,6 +3,8 @@
 #ifndef CUTWATER_MESHER_MESH_RUN_H
 #define CUTWATER_MESHER_MESH_RUN_H
 
+#include <jansson.h>
+
 #include "mesher/audit.h"
 #include "mesher/domain.h"
 #include "pipeline/record.h"
@@ -28,6 +30,7 @@ typedef struct {
   double scale;                    // of the size field
   int passes;
   int64_t cells;                   // made
+  json_t *tasks;                   // of rank 0: predicted costs and seconds of all tasks, step by step
 } CwMeshRun;
 
 // Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all ranks.

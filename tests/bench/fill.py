@@ -41,14 +41,14 @@ def run_ours(program, way, surface):
     return [int(words[0]), int(words[1]), float(words[2]), float(words[4]), *map(float, words[5:8])]
 
 
-def run_gmsh(folder, surface, shells, *options):
+def run_gmsh(folder, surface, shells, *options, algorithm="hxt"):
     mesh = folder / "hxt.msh"
     script = folder / "hxt.geo"
     loops = "".join(f"Surface Loop({k}) = {{{k}}};\n" for k in range(1, shells + 1))
     numbers = ", ".join(str(k) for k in range(1, shells + 1))
     script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n')
     mesh.unlink(missing_ok=True)
-    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-algo", "hxt", "-format", "msh2", "-o",
+    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-algo", algorithm, "-format", "msh2", "-o",
                               str(mesh), str(script)],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     text = child.stdout.read()
