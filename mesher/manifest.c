@@ -184,6 +184,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
   CW_TRY(cw_record_integer(run->record, "cells", run->cells));
   CW_TRY(cw_record_integer(run->record, "passes", run->passes));
+  CW_TRY(cw_record_integer(run->record, "retries", run->retries));
   CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
   CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
   json_t *given = domains;

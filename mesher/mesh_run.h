@@ -7,6 +7,7 @@
 
 #include "mesher/audit.h"
 #include "mesher/domain.h"
+#include "mesher/region_failure.h"
 #include "pipeline/record.h"
 
 enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
@@ -16,6 +17,7 @@ typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
   CwQuality quality;
+  CwRegionFailure failure; // else nothing of the above holds
 } CwRegionSummary;
 
 typedef struct {
@@ -28,7 +30,8 @@ typedef struct {
   double *region_seconds[CW_DOMAINS];
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
-  int passes;
+  double *most_height[CW_DOMAINS]; // of each wall vertex, m, once a region has failed; else NULL
+  int passes, retries;             // retries: of all passes
   int64_t cells;                   // made
   json_t *tasks;                   // of rank 0: predicted costs and seconds of all tasks, step by step
 } CwMeshRun;
