@@ -190,6 +190,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   json_t *given = domains;
   domains = NULL;
   CW_TRY(cw_record_json(run->record, "domains", given));
+  CW_TRY(cw_record_number(run->record, "processor_seconds", cw_processor_seconds()));
   CW_TRY(cw_record_json(run->record, "tasks", json_incref(run->tasks)));
 done:
   json_decref(manifest);

@@ -62,7 +62,7 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
   CwStatus status = CW_OK;
   void **result = NULL;
   int64_t *size = NULL;
-  double *cost = NULL, *time = NULL, started = cw_seconds();
+  double *cost = NULL, *time = NULL, started = cw_seconds(), worked = cw_processor_seconds();
   StepContext context = {run, task, body};
   CW_NEW(result, count);
   CW_NEW(size, count);
@@ -78,9 +78,8 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
     if (seconds) seconds[task[i].domain][task[i].index] = time[i];
   }
   if (run->rank == 0) {
-    double seconds_all = cw_seconds() - started;
-    CW_TRY(cw_record_step(run->record, name, seconds_all, count, unit));
-    CW_TRY(record_tasks(run, name, seconds_all, count, cost, time));
+    CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+    CW_TRY(record_tasks(run, name, cw_processor_seconds() - worked, count, cost, time));
   }
 done:
   if (result) {

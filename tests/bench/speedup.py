@@ -5,8 +5,8 @@
   tests/bench/speedup.py [--cells 2M] [--repeat 1] [--case FILE] [--bin build/bin] [--ranks 6 12 ...] [--record FILE]
 
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
-further rows are a model, marked so: the seconds of each task of the run on one rank are replayed step by step through the
-mesher's own rule (largest predicted cost first, each rank takes the next task when it is free; a step starts when the one
+further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs on
+the machine does not count) are replayed step by step through the mesher's own rule (largest predicted cost first, each rank takes the next task when it is free; a step starts when the one
 before has ended on all ranks). What no task accounts for (start of the programs, reading the geometry, taking up results,
 numbering) is done by every rank and gains nothing. The model knows no network and no shared memory bus; the row of 2
 ranks, measured and modelled, tells how far it holds here.
@@ -101,8 +101,8 @@ class Model:
     """Steps of the run on one rank: name, seconds without a task, tasks (cost, seconds)."""
 
     def __init__(self, runs):
-        self.seconds = min(seconds for seconds, _ in runs)
         records = [record for _, record in runs]
+        seconds = min(record["results"]["processor_seconds"] for record in records)
         self.record = records[0]
         self.steps = []
         for several in zip(*(record["results"]["tasks"] for record in records)):
@@ -112,7 +112,7 @@ class Model:
             self.steps.append((several[0]["step"], max(rest, 0), list(zip(several[0]["task_cost"], times))))
         self.before = smaller_neighbours(self.record)
         known = sum(rest + sum(seconds for _, seconds in tasks) for _, rest, tasks in self.steps)
-        self.everywhere = max(self.seconds - known, 0)
+        self.everywhere = max(seconds - known, 0)
         self.one = known + self.everywhere
 
     def parts(self, ranks, waiting=False):
@@ -174,7 +174,7 @@ def main():
         record = json.loads(arguments.record.read_text())
         if record["results"]["ranks"] != 1:
             sys.exit(f"speedup: {arguments.record}: a run on {record['results']['ranks']} ranks; one is asked for")
-        model = Model([(record["seconds"], record)])
+        model = Model([(None, record)])
     else:
         ones, twos = [], []
         with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as run:
