@@ -8,6 +8,7 @@
 #include "mesher/layer_heights.h"
 #include "mesher/mesh_run.h"
 #include "mesher/vec.h"
+#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
 static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
