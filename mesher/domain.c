@@ -10,7 +10,6 @@
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
 
-enum { LEAST_REGIONS = 4 };
 static const double TALLEST_COLUMN = 2; // of the edge length on the wall
 static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
@@ -166,7 +165,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
     thickness[p] = domain->patch_layers[p].thickness;
     least[p] = EVEN_LAYERS * table->walls.layer_count * domain->patch_layers[p].first_height;
   }
-  CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
+  CwPlanOptions options = {.region_count = (int32_t)fmax(regions, table->mesh.least_regions),
                            .thickness = thickness,
                            .least_thickness = least,
                            .tallest = TALLEST_COLUMN,
@@ -224,12 +223,18 @@ done:
   return status;
 }
 
-CwStatus cw_domain_number(CwDomain *domain, const CwCase *table) {
+CwStatus cw_domain_number(CwDomain *domain) {
   CwStatus status = CW_OK;
   CW_TRY(cw_skeleton_adjacency(&domain->skeleton, &domain->pair_count, &domain->pair));
   CW_NEW(domain->number, domain->plan.region_count);
   CW_TRY(cw_region_numbers(domain->plan.region_count, domain->pair_count, (const int32_t(*)[2])domain->pair,
                            domain->number, NULL, &domain->colours));
+done:
+  return status;
+}
+
+CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
+  CwStatus status = CW_OK;
   domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
                                       .domain = domain->name,
                                       .layer_count = table->walls.layer_count,

@@ -4,6 +4,7 @@
 #define CUTWATER_MESHER_DOMAIN_H
 
 #include "mesher/background.h"
+#include "mesher/interface_rule.h"
 #include "mesher/region_build.h"
 #include "mesher/size.h"
 #include "mesher/wall_targets.h"
@@ -36,6 +37,7 @@ typedef struct {
   CwRegionContext context;
   int32_t *number, colours;                   // region numbers
   int32_t pair_count, (*pair)[2];             // adjacent regions
+  CwInterfaceRuleCounts rule;
 } CwDomain;
 
 // Opens the exact geometry.
@@ -68,8 +70,11 @@ CwStatus cw_domain_start(CwDomain *domain);
 // First heights and targets of all wall vertices, once the walls are merged.
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table);
 
-// Region numbers and what the regions share, once the inner surfaces are merged.
-CwStatus cw_domain_number(CwDomain *domain, const CwCase *table);
+// Region numbers, once the inner surfaces are merged.
+CwStatus cw_domain_number(CwDomain *domain);
+
+// What the regions share, once their interfaces are final.
+CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
 
 void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
 void cw_domain_close(CwDomain *domain);

@@ -170,12 +170,17 @@ done:
   return status;
 }
 
-// Fills with inner points that keep `clearance` times their usual distance from the boundary.
+// Fills with the given inner points, or, where there are none, with points that keep `clearance` times their usual distance
+// from the boundary.
 CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   CwStatus status = CW_OK;
-  double(*inner)[3] = nullptr;
-  int32_t inner_count = 0;
-  CW_TRY(cw_fill_points(input, clearance, &inner_count, &inner));
+  double(*made)[3] = nullptr;
+  const double(*inner)[3] = input->inner;
+  int32_t inner_count = input->inner_count;
+  if (!inner) {
+    CW_TRY(cw_fill_points(input, clearance, &inner_count, &made));
+    inner = made;
+  }
   try {
     CW_TRY(tetrahedralise(input, inner_count, inner, fill));
   } catch (const std::bad_alloc &) {
@@ -185,7 +190,7 @@ CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   CW_TRY(cw_fill_keep_inside(input, fill));
   CW_TRY(check_volume(input, fill));
 done:
-  free(inner);
+  free(made);
   if (status != CW_OK)
     cw_fill_free(fill);
   return status;
@@ -196,6 +201,9 @@ done:
 CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwTetImproved improved;
+  CwFillInput away = *input;
+  away.inner = nullptr;
+  away.open_count = 0;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
   CW_TRY(cw_boundary_check_crossing(input)); // TetGen loses memory over such boundaries, or aborts
@@ -204,7 +212,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     char first[600];
     snprintf(first, sizeof first, "%s", cw_fail_message());
     // Points further away are less in the way of recovery.
-    status = try_fill(input, 2.0, fill);
+    status = try_fill(&away, 2.0, fill);
     if (status == CW_ERR_MESH)
       status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }

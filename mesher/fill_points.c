@@ -11,6 +11,7 @@
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
 static const double distance_factor = 0.58;               // of h, least distance to the boundary
+static const double open_distance = 0.5; // of h, to open triangles
 static const double sphere_factor = 1.0; // of the radius of a triangle's smallest circumscribed sphere
 static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
 static const double coarse = 2.2;        // cells of lists, over wanted cells
@@ -155,7 +156,7 @@ static double distance_square(const double x[3], const double a[3], const double
 
 static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3]) {
   const CwFillInput *input = tree->input;
-  double nearest = tree->clearance * distance_factor * size_at(input, x);
+  double h = tree->clearance * size_at(input, x);
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
   for (int32_t k = 0; k < cell->list_count; k++) {
     int32_t t = tree->list[cell->list + k];
@@ -163,9 +164,10 @@ static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3]) {
     if ((p[0] < box->low[0]) | (p[0] > box->high[0]) | (p[1] < box->low[1]) | (p[1] > box->high[1]) |
         (p[2] < box->low[2]) | (p[2] > box->high[2]))
       continue;
-    double d[3];
+    int open = t >= input->triangle_count - input->open_count;
+    double d[3], nearest = (open ? open_distance : distance_factor) * h;
     cw_sub(x, tree->ball[t].centre, d);
-    if (cw_dot(d, d) < tree->ball[t].square)
+    if (!open && cw_dot(d, d) < tree->ball[t].square)
       return 1;
     const int32_t *q = input->triangle[t];
     if (distance_square(x, input->x[q[0]], input->x[q[1]], input->x[q[2]]) < nearest * nearest)

@@ -19,15 +19,19 @@
 // Boundary points, then inner candidates.
 static CwStatus all_points(const CwFillInput *input, int32_t *count, double (**x)[3]) {
   CwStatus status = CW_OK;
-  double(*inner)[3] = NULL;
-  int32_t inner_count = 0;
-  CW_TRY(cw_fill_points(input, 1.0, &inner_count, &inner));
+  double(*made)[3] = NULL;
+  const double(*inner)[3] = input->inner;
+  int32_t inner_count = input->inner_count;
+  if (!inner) {
+    CW_TRY(cw_fill_points(input, 1.0, &inner_count, &made));
+    inner = (const double(*)[3])made;
+  }
   CW_NEW(*x, input->point_count + inner_count);
   memcpy(*x, input->x, (size_t)input->point_count * sizeof **x);
   memcpy(*x + input->point_count, inner, (size_t)inner_count * sizeof **x);
   *count = input->point_count + inner_count;
 done:
-  free(inner);
+  free(made);
   return status;
 }
 

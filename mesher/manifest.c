@@ -57,6 +57,22 @@ static json_t *counts_json(const int64_t *count, int size) {
   return array;
 }
 
+// Tetrahedra that touch a dividing plane, or those that do not.
+static json_t *tet_figures_json(const CwTetFigures *figures) {
+  double count = figures->count ? (double)figures->count : 1;
+  return json_pack("{s:I, s:o, s:o, s:o, s:o, s:o}", "tetrahedra", (json_int_t)figures->count, "aspect_mean",
+                   cw_json_number(figures->aspect_sum / count), "aspect_max", cw_json_number(figures->aspect_max),
+                   "mean_ratio_mean", cw_json_number(figures->mean_ratio_sum / count), "mean_ratio_least",
+                   cw_json_number(figures->mean_ratio_least), "least_dihedral_deg",
+                   cw_json_number(figures->dihedral_least));
+}
+
+static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
+  return json_pack("{s:I, s:I, s:I, s:I, s:I}", "planned_triangles", (json_int_t)rule->planned, "encroached_triangles",
+                   (json_int_t)rule->encroached, "inserted_centres", (json_int_t)rule->inserted, "left_triangles",
+                   (json_int_t)rule->left, "final_triangles", (json_int_t)rule->refined);
+}
+
 // Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the last
 // layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
 static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
@@ -176,9 +192,17 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   json_object_set_new(result, "least_dihedral_bins", counts_json(quality.dihedral_bin, 18));
   json_object_set_new(result, "prism_least_scaled_jacobian", cw_json_number(quality.prism_least_scaled_jacobian));
   json_object_set_new(result, "prism_scaled_jacobian_bins", counts_json(quality.prism_jacobian_bin, CW_QUALITY_BINS));
+  json_object_set_new(result, "tetrahedra_beside_planes", tet_figures_json(&quality.beside));
+  json_object_set_new(result, "tetrahedra_apart", tet_figures_json(&quality.apart));
+  json_object_set_new(result, "region_rule", rule_json(&domain->rule));
   json_object_set_new(result, "patches", patch_list);
   json_object_set_new(result, "layer_coverage", coverage);
+  json_t *pairs = json_array();
+  for (int32_t p = 0; p < domain->pair_count; p++) {
+    json_array_append_new(pairs, json_pack("[i, i]", domain->pair[p][0] + 1, domain->pair[p][1] + 1));
+  }
   json_object_set_new(result, "region_list", region_list);
+  json_object_set_new(result, "adjacent_regions", pairs);
   return result;
 }
 
@@ -194,11 +218,14 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
   CW_TRY(cw_record_integer(run->record, "cells", run->cells));
   CW_TRY(cw_record_integer(run->record, "passes", run->passes));
+  CW_TRY(cw_record_integer(run->record, "retries", run->retries));
   CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
   CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
   json_t *given = domains;
   domains = NULL;
   CW_TRY(cw_record_json(run->record, "domains", given));
+  CW_TRY(cw_record_number(run->record, "processor_seconds", cw_processor_seconds()));
+  CW_TRY(cw_record_json(run->record, "tasks", json_incref(run->tasks)));
 done:
   json_decref(manifest);
   json_decref(domains);

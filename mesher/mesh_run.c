@@ -11,7 +11,8 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100, ATTEMPTS = 3 };
+static const double FIRST_REACH = 4; // wanted lengths about a failure in which layers are thinned; doubled each time
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
@@ -36,6 +37,24 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
   return step->step(step->run, step->task[index], bytes, size);
 }
 
+// What a model of more ranks needs (tests/bench/speedup.py).
+static CwStatus record_tasks(CwMeshRun *run, const char *name, double seconds, int32_t count, const double *cost,
+                             const double *time) {
+  CwStatus status = CW_OK;
+  json_t *costs = json_array(), *times = json_array();
+  for (int32_t i = 0; i < count; i++) {
+    json_array_append_new(costs, cw_json_number(cost[i]));
+    json_array_append_new(times, cw_json_number(time[i]));
+  }
+  if (!run->tasks) run->tasks = json_array();
+  CW_REQUIRE(json_array_append_new(run->tasks, json_pack("{s:s, s:o, s:o, s:o}", "step", name, "seconds",
+                                                         cw_json_number(seconds), "task_cost", costs, "task_seconds",
+                                                         times)) == 0,
+             CW_ERR_MEMORY, "out of memory: record of %d tasks", count);
+done:
+  return status;
+}
+
 // Runs a step over tasks of both domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
 // pointers); seconds[d][i] likewise where seconds is given.
 static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
@@ -43,7 +62,7 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
   CwStatus status = CW_OK;
   void **result = NULL;
   int64_t *size = NULL;
-  double *cost = NULL, *time = NULL, started = cw_seconds();
+  double *cost = NULL, *time = NULL, started = cw_seconds(), worked = cw_processor_seconds();
   StepContext context = {run, task, body};
   CW_NEW(result, count);
   CW_NEW(size, count);
@@ -58,7 +77,10 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
     result[i] = NULL;
     if (seconds) seconds[task[i].domain][task[i].index] = time[i];
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+  if (run->rank == 0) {
+    CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+    CW_TRY(record_tasks(run, name, cw_processor_seconds() - worked, count, cost, time));
+  }
 done:
   if (result) {
     for (int32_t i = 0; i < count; i++) free(result[i]);
@@ -141,6 +163,7 @@ done:
 // Walls of both domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
 // is asked.
 static CwStatus mesh_walls(CwMeshRun *run) {
+  int again = run->most_height[0] || run->most_height[1]; // the same walls, for thinner layers
   CwStatus status = CW_OK;
   Results results = {0};
   CwMeshTask *task = NULL;
@@ -162,10 +185,16 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     double off = all_cells_at(run, run->scale) / (double)run->table->mesh.cells - 1;
     cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
            run->scale, 100 * off);
-    if (fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
+    if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
     solve_scale(run);
   }
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_targets(&run->domain[d], run->table));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_domain_targets(domain, run->table));
+    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
+      domain->target[v] = fmin(domain->target[v], run->most_height[d][v]);
+    }
+  }
 done:
   results_free(&results);
   free(task);
@@ -225,7 +254,7 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CW_TRY(run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
   for (int d = 0; d < CW_DOMAINS; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
-    CW_TRY(cw_domain_number(&run->domain[d], run->table));
+    CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
   results_free(&caps);
@@ -234,7 +263,43 @@ done:
   return status;
 }
 
-static CwStatus mesh_regions(CwMeshRun *run) {
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3).
+static CwStatus refine_interfaces(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask *task = NULL;
+  int32_t regions[CW_DOMAINS], count = 0;
+  for (int d = 0; d < CW_DOMAINS; d++) regions[d] = run->domain[d].plan.region_count;
+  CW_NEW(task, regions[0] + regions[1]);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t r = 0; r < regions[d]; r++) {
+      int owns = 0;
+      for (int32_t i = 0; i < domain->skeleton.outline_count; i++) {
+        owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
+      }
+      if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
+    }
+  }
+  CW_TRY(results_make(&results, regions[0], regions[1]));
+  CW_TRY(run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    if (domain->rule.planned == 0) continue;
+    cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
+           "%lld centres inserted, %lld triangles left to both sides",
+           domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
+           (long long)domain->rule.inserted, (long long)domain->rule.left);
+  }
+done:
+  results_free(&results);
+  free(task);
+  return status;
+}
+
+// *failed: how many regions could not be made.
+static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   CwStatus status = CW_OK;
   Results results = {0};
   CwMeshTask *task = NULL;
@@ -257,16 +322,78 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   CW_TRY(results_make(&results, regions[0], regions[1]));
   CW_TRY(run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
   run->cells = 0;
+  *failed = 0;
   for (int d = 0; d < CW_DOMAINS; d++) {
+    uint64_t open_faces = 0;
     for (int32_t r = 0; r < regions[d]; r++) {
       memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
       const CwRegionSummary *made = &run->summary[d][r];
       run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+      open_faces += made->quality.open_faces;
+      *failed += made->failure.failed;
     }
+    CW_REQUIRE(*failed || open_faces == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
+               DOMAIN_NAMES[d], run->run_path);
   }
 done:
   results_free(&results);
   free(task);
+  return status;
+}
+
+// Where regions have failed: thinner columns near the places, more of them and thinner ones with each attempt. Out of
+// attempts: fails for the first region.
+static CwStatus thin_columns(CwMeshRun *run, int attempt) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
+      const CwRegionFailure *failure = &run->summary[d][r].failure;
+      char place[160] = "no place is known";
+      if (!failure->failed) continue;
+      if (!failure->everywhere) {
+        snprintf(place, sizeof place, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, 1e3 * failure->at[0],
+                 1e3 * failure->at[1], 1e3 * failure->at[2]);
+      }
+      CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
+                 "%s region %d, %s: not filled after %d attempts with thinner layers: %s; its boundary is in "
+                 "%s/mesh/failed-%s-%04d.vtk",
+                 DOMAIN_NAMES[d], r + 1, place, ATTEMPTS, failure->message, run->run_path, DOMAIN_NAMES[d], r + 1);
+      if (run->rank == 0) {
+        cw_log_warn("%s region %d, %s: %s; tried again with thinner layers there", DOMAIN_NAMES[d], r + 1, place,
+                    failure->message);
+      }
+      if (!run->most_height[d]) {
+        CW_NEW(run->most_height[d], skeleton->wall_count);
+        for (int32_t v = 0; v < skeleton->wall_count; v++) run->most_height[d][v] = INFINITY;
+      }
+      cw_region_failure_thin(skeleton, r, failure, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
+    }
+  }
+  run->retries++;
+done:
+  return status;
+}
+
+// One pass at the present scale: walls, layers, inner surfaces, regions; regions that fail are tried again.
+static CwStatus mesh_pass(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  int32_t failed = 0;
+  for (int attempt = 0;; attempt++) {
+    CW_TRY(mesh_walls(run));
+    CW_TRY(grow_layers(run));
+    CW_TRY(mesh_inner(run));
+    CW_TRY(refine_interfaces(run));
+    for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+    CW_TRY(mesh_regions(run, &failed));
+    if (!failed) break;
+    CW_TRY(thin_columns(run, attempt));
+  }
+done:
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    free(run->most_height[d]);
+    run->most_height[d] = NULL;
+  }
   return status;
 }
 
@@ -407,10 +534,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     cw_log("going on with pass %d of an earlier run", state.pass);
   }
   for (run->passes = state.pass;; run->passes++) {
-    CW_TRY(mesh_walls(run));
-    CW_TRY(grow_layers(run));
-    CW_TRY(mesh_inner(run));
-    CW_TRY(mesh_regions(run));
+    CW_TRY(mesh_pass(run));
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
     learn_tets(run);
@@ -438,4 +562,5 @@ void cw_mesh_run_free(CwMeshRun *run) {
     free(run->summary[d]);
     free(run->region_seconds[d]);
   }
+  json_decref(run->tasks);
 }

@@ -186,9 +186,9 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     int32_t task = order[place].task;
     void *result = NULL;
     int64_t result_size = 0;
-    double start = cw_seconds();
+    double start = cw_processor_seconds();
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
-    time[task] = cw_seconds() - start;
+    time[task] = cw_processor_seconds() - start;
     owner[task] = world.rank;
     if (bytes)
       bytes[task] = result;

@@ -30,6 +30,10 @@ typedef struct {
   int32_t loop_count;
   int32_t *loop_start;   // loop_count + 1
   int32_t *corner;       // skeleton nodes
+  // Set when the inner surfaces are merged:
+  int32_t free_start, free_count;         // its inner nodes, as planned
+  int32_t triangle_start, triangle_count; // its triangles as planned,
+  int32_t refined_start, refined_count;   // and by the rule of region numbers
 } CwInterfaceOutline;
 
 typedef struct {
@@ -59,6 +63,9 @@ typedef struct {
   CwInterfaceOutline *outline;
   int32_t interface_triangle_count;
   int32_t (*interface_triangle)[3], (*interface_region)[2]; // normal from region [0] to region [1]
+  // The interfaces before the rule of region numbers (interface_rule.h); NULL without it.
+  int32_t planned_triangle_count;
+  int32_t (*planned_triangle)[3], (*planned_region)[2];
 } CwSkeleton;
 
 // Discretises all wall curves; makes their vertices. The network must be made.

@@ -31,6 +31,15 @@ static void figure_row(FILE *page, const char *label, const char *unit, json_t *
   fprintf(page, "<td>%s</td></tr>\n", unit);
 }
 
+// The same of an object of the domain.
+static void inner_row(FILE *page, const char *label, const char *unit, json_t *const domain[2], const char *object,
+                      const char *key, int significant) {
+  json_t *inner[2];
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++)
+    inner[d] = json_object_get(domain[d], object);
+  figure_row(page, label, unit, inner, key, 1, significant);
+}
+
 static CwStatus both_domains(const CwReportData *data, json_t *domain[2]) {
   CwStatus status = CW_OK;
   for (int d = 0; d < CW_REPORT_DOMAINS; d++)
@@ -245,6 +254,9 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
              "tetrahedron_aspect_max", 1, 4);
   figure_row(page, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
   figure_row(page, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
+  inner_row(page, "Tetrahedra beside dividing planes: mean ratio, mean", "1 is regular", domain,
+            "tetrahedra_beside_planes", "mean_ratio_mean", 3);
+  inner_row(page, "Other tetrahedra: mean ratio, mean", "", domain, "tetrahedra_apart", "mean_ratio_mean", 3);
   figure_row(page, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
   fputs("</table>\n<figure>", page);
   CwPlotSeries series[3] = {{"rotor", rotor_colour, aspect[0]},

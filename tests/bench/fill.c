@@ -6,6 +6,7 @@
 //      fill region REGION.h5 SURFACE       writes the inner boundary of a region of the mesher
 //      fill kernel|tetgen SURFACE          fills it
 //      fill quality MESH                   of a mesh of somebody else
+//      fill shape FILE ...                 shapes of the tetrahedra of regions or meshes together, see print_shapes
 // Surfaces and meshes are MSH 2.2 files (text).
 #include <math.h>
 #include <stdio.h>
@@ -286,6 +287,83 @@ static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const 
   printf("%.3f %.2f %.2f %.3f\n", mean, most, least, ratio);
 }
 
+// Shapes of tetrahedra: all, those with a corner on a dividing plane, the others.
+typedef struct {
+  int64_t count, aspect_class[8];
+  double aspect_sum, aspect_most, dihedral_least, dihedral_greatest, ratio_sum, ratio_least;
+} Shapes;
+
+static void add_shape(Shapes *shapes, const double *corner[4]) {
+  static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10}; // paper, Table 1
+  CwTetShape shape;
+  if (cw_tet_volume6(corner[0], corner[1], corner[2], corner[3]) < 0.0) {
+    const double *swap = corner[0];
+    corner[0] = corner[1];
+    corner[1] = swap;
+  }
+  cw_tet_shape(corner, &shape);
+  double aspect = shape.edge_longest / shape.edge_shortest;
+  int class = 0;
+  while (class < 7 && aspect > limit[class])
+    class ++;
+  if (shapes->count++ == 0)
+    shapes->dihedral_least = 180.0, shapes->ratio_least = 1.0;
+  shapes->aspect_class[class]++;
+  shapes->aspect_sum += aspect;
+  shapes->aspect_most = fmax(shapes->aspect_most, aspect);
+  shapes->dihedral_least = fmin(shapes->dihedral_least, shape.dihedral_least);
+  shapes->dihedral_greatest = fmax(shapes->dihedral_greatest, shape.dihedral_greatest);
+  shapes->ratio_sum += shape.mean_ratio;
+  shapes->ratio_least = fmin(shapes->ratio_least, shape.mean_ratio);
+}
+
+static void add_shapes(Shapes shapes[3], int32_t count, const int32_t (*tetrahedron)[4], const double (*x)[3],
+                       int32_t shared_count) {
+  for (int32_t t = 0; t < count; t++) {
+    const double *corner[4];
+    int beside = 0;
+    for (int i = 0; i < 4; i++) {
+      corner[i] = x[tetrahedron[t][i]];
+      beside |= tetrahedron[t][i] < shared_count;
+    }
+    add_shape(&shapes[0], corner);
+    add_shape(&shapes[beside ? 1 : 2], corner);
+  }
+}
+
+// Three lines: name, number, the eight classes, aspect mean and most, dihedral angles, mean ratio mean and least.
+static void print_shapes(int count, char **path) {
+  static const char *const name[3] = {"all", "beside", "apart"};
+  Shapes shapes[3] = {{0}};
+  for (int k = 0; k < count; k++) {
+    size_t length = strlen(path[k]);
+    if (length > 3 && !strcmp(path[k] + length - 3, ".h5")) {
+      CwRegionMesh region;
+      check(cw_region_read(path[k], &region));
+      add_shapes(shapes, region.tetrahedron_count, (const int32_t(*)[4])region.tetrahedron,
+                 (const double(*)[3])region.x, region.shared_count);
+      cw_region_free(&region);
+    } else {
+      Mesh mesh = {0};
+      read_mesh(path[k], &mesh);
+      add_shapes(shapes, mesh.tetrahedron_count, (const int32_t(*)[4])mesh.tetrahedron,
+                 (const double(*)[3])mesh.x, 0);
+      free(mesh.x);
+      free(mesh.triangle);
+      free(mesh.tetrahedron);
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    const Shapes *s = &shapes[k];
+    double number = s->count ? (double)s->count : 1.0;
+    printf("%s %lld", name[k], (long long)s->count);
+    for (int c = 0; c < 8; c++)
+      printf(" %lld", (long long)s->aspect_class[c]);
+    printf(" %.4f %.3f %.2f %.2f %.5f %.4f\n", s->aspect_sum / number, s->aspect_most, s->dihedral_least,
+           s->dihedral_greatest, s->ratio_sum / number, s->ratio_least);
+  }
+}
+
 int main(int argc, char **argv) {
   Mesh mesh = {0};
   if (argc == 4 && !strcmp(argv[1], "ring")) {
@@ -301,6 +379,8 @@ int main(int argc, char **argv) {
   } else if (argc == 4 && !strcmp(argv[1], "region")) {
     region_surface(argv[2], &mesh);
     write_surface(argv[3], &mesh, &mesh.triangle_count);
+  } else if (argc >= 3 && !strcmp(argv[1], "shape")) {
+    print_shapes(argc - 2, argv + 2);
   } else if (argc == 3 && !strcmp(argv[1], "quality")) {
     read_mesh(argv[2], &mesh);
     printf("%d %d ", mesh.triangle_count, mesh.tetrahedron_count);
@@ -330,7 +410,7 @@ int main(int argc, char **argv) {
     fprintf(
         stderr,
         "use: fill ring EDGE_LENGTH SURFACE | region REGION.h5 SURFACE | kernel SURFACE | tetgen SURFACE | "
-        "quality MESH\n");
+        "quality MESH | shape FILE ...\n");
     return 2;
   }
   free(mesh.x);
