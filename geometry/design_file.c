@@ -24,11 +24,11 @@ static json_t *angle_json(const CwMeasuredAngle *angle) {
 }
 
 json_t *cw_measured_json(const CwMeasuredPump *measured) {
-  const CwMeasuredRotor *rotor = &measured->rotor_dimensions;
-  const CwMeasuredStator *stator = &measured->stator_dimensions;
+  const CwMeasuredRotor *rotor = &measured->rotor;
+  const CwMeasuredStator *stator = &measured->stator;
   return json_pack("{s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o}", //
-                   "rotor", solid_json(&measured->rotor),                                         //
-                   "stator", solid_json(&measured->stator),                                       //
+                   "rotor", solid_json(&measured->solid[CW_PUMP_ROTOR]),                                         //
+                   "stator", solid_json(&measured->solid[CW_PUMP_STATOR]),                                       //
                    "wrap_angle_deg", rotor->wrap_angle / degree,                                  //
                    "inlet_diameter_m", rotor->inlet_diameter,                                     //
                    "outlet_diameter_m", rotor->outlet_diameter,                                   //
@@ -152,8 +152,8 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
     failed |= json_object_set_new(root, value.key, cw_json_number(value.stored)) != 0;
     failed |= json_object_set_new(sources, value.key, json_string(design->source[i])) != 0;
   }
-  failed |= json_object_set_new(root, "rotor_volume_m3", cw_json_number(measured->rotor.volume)) != 0;
-  failed |= json_object_set_new(root, "stator_volume_m3", cw_json_number(measured->stator.volume)) != 0;
+  failed |= json_object_set_new(root, "rotor_volume_m3", cw_json_number(measured->solid[CW_PUMP_ROTOR].volume)) != 0;
+  failed |= json_object_set_new(root, "stator_volume_m3", cw_json_number(measured->solid[CW_PUMP_STATOR].volume)) != 0;
   failed |= json_object_set_new(root, "measured", cw_measured_json(measured)) != 0;
   failed |= json_object_set_new(root, "velocity_triangles", triangles_json(design)) != 0;
   failed |= json_object_set_new(root, "correlations", correlations_json(design)) != 0;

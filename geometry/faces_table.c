@@ -19,7 +19,7 @@ done:
   return status;
 }
 
-CwStatus cw_interfaces_table_write(const CwPumpSolids *pump, const char *path) {
+CwStatus cw_interfaces_table_write(const CwPump *pump, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {0};
   CW_TRY(cw_atomic_file_open(path, &file));

@@ -4,7 +4,7 @@
 #ifndef CUTWATER_GEOMETRY_FACES_TABLE_H
 #define CUTWATER_GEOMETRY_FACES_TABLE_H
 
-#include "geometry/pump_solids.h"
+#include "geometry/pump.h"
 #include "geometry/solid.h"
 #include "pipeline/status.h"
 
@@ -16,7 +16,7 @@ extern "C" {
 CwStatus cw_faces_table_write(const CwSolid *const *solids, int count, const char *path);
 
 // Writes the interfaces between the domains, whole or not at all.
-CwStatus cw_interfaces_table_write(const CwPumpSolids *pump, const char *path);
+CwStatus cw_interfaces_table_write(const CwPump *pump, const char *path);
 
 #ifdef __cplusplus
 }

@@ -8,9 +8,8 @@
 #include "geometry/design_file.h"
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
-#include "geometry/measure.h"
 #include "geometry/picture.h"
-#include "geometry/pump_solids.h"
+#include "geometry/pump.h"
 #include "geometry/step_file.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
@@ -38,24 +37,17 @@ static void show_design(const CwDesign *design) {
     cw_log_warn("%s", remarks.text[i]);
 }
 
-static CwStatus check_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(
-      measured->valid && measured->closed && measured->largest_tolerance < 1e-6, CW_ERR_GEOMETRY,
-      "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
-      "0.001 mm",
-      cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
-      measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3);
-  cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed", cw_solid_domain(solid),
-         measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3);
-done:
-  return status;
+static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
+  cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed; shortest edge %.2f mm, narrowest "
+         "face %.2f mm",
+         cw_solid_domain(solid), measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3,
+         measured->shortest_edge * 1e3, measured->narrowest_face * 1e3);
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
 static void show_rotor(const CwMeasuredRotor *rotor) {
   const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
-  cw_log("measured: wrap %.4f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
+  cw_log("measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
   cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least; sharpest wedge of the "
          "trailing edge "
@@ -74,55 +66,44 @@ static void show_rotor(const CwMeasuredRotor *rotor) {
         360 - rotor->trailing_edge.angle / degree);
 }
 
-// Both sides of the interface must be the same cylinder, so that every weight of the coupling is 1.
-static CwStatus check_interface(const CwMeasuredRotor *rotor, const CwMeasuredStator *stator) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(fabs(rotor->interface_radius - stator->interface_radius) < 1e-8 &&
-                 fabs(rotor->interface_area / stator->interface_area - 1) < 1e-6,
-             CW_ERR_GEOMETRY,
-             "the interface is r = %.6f mm, %.4f mm2 on the rotor and r = %.6f mm, %.4f mm2 on the stator",
-             rotor->interface_radius * 1e3, rotor->interface_area * 1e6, stator->interface_radius * 1e3,
-             stator->interface_area * 1e6);
+static void show_measured(const CwPump *pump, const CwMeasuredPump *measured) {
+  const CwMeasuredRotor *rotor = &measured->rotor;
+  const CwMeasuredStator *stator = &measured->stator;
+  for (int i = 0; i < pump->count; i++)
+    show_solid(pump->solid[i], &measured->solid[i]);
+  cw_log("measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
+         100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1), rotor->kink.angle / degree);
+  show_rotor(rotor);
   cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides",
          stator->base_diameter * 1e3, stator->inlet_width * 1e3, rotor->interface_radius * 1e3,
          rotor->interface_area * 1e6);
-done:
-  return status;
 }
 
 static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwRecord *record,
-                      CwPumpSolids *pump, CwMeasuredPump *measured) {
+                      CwPump *pump, CwMeasuredPump *measured) {
   CwStatus status = CW_OK;
-  CwMeasuredSolid zone;
   double begin = cw_seconds();
   int64_t faces = 0;
   char key[40];
-  CW_TRY(cw_pump_solids_build(table, design, stubs, pump));
+  CW_TRY(cw_pump_build(table, design, stubs, pump));
   for (int i = 0; i < pump->count; i++)
     faces += cw_solid_face_count(pump->solid[i]);
   CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, faces, "faces"));
   begin = cw_seconds();
-  for (int i = 0; i < pump->count; i++) {
-    CwMeasuredSolid *into = i == CW_PUMP_ROTOR ? &measured->rotor : i == CW_PUMP_STATOR ? &measured->stator : &zone;
-    CW_TRY(cw_measure_solid(pump->solid[i], into));
-    CW_TRY(check_solid(pump->solid[i], into));
-    if (into != &zone)
-      continue;
-    snprintf(key, sizeof key, "%s_volume_m3", cw_solid_domain(pump->solid[i]));
-    CW_TRY(cw_record_number(record, key, zone.volume));
-  }
-  CW_TRY(cw_measure_rotor(pump->solid[CW_PUMP_ROTOR], &measured->rotor_dimensions));
-  CW_TRY(cw_measure_stator(pump->solid[CW_PUMP_STATOR], &measured->stator_dimensions));
-  show_rotor(&measured->rotor_dimensions);
-  CW_TRY(check_interface(&measured->rotor_dimensions, &measured->stator_dimensions));
+  CW_TRY(cw_pump_measure(design, pump, measured));
+  show_measured(pump, measured);
   CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin, faces, "faces"));
+  for (int i = CW_PUMP_STATOR + 1; i < pump->count; i++) {
+    snprintf(key, sizeof key, "%s_volume_m3", cw_solid_domain(pump->solid[i]));
+    CW_TRY(cw_record_number(record, key, measured->solid[i].volume));
+  }
 done:
   return status;
 }
 
 // Files of the stage besides those of each solid. Each appears whole; record.json, written last by main(), says
 // that all are there.
-static CwStatus write_file(const CwPumpSolids *pump, const CwDesign *design, const CwMeasuredPump *measured,
+static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwMeasuredPump *measured,
                            const char *path, int file) {
   const CwSolid *const *solids = (const CwSolid *const *)pump->solid;
   switch (file) {
@@ -179,7 +160,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CwDesign design;
   CwPipeStubs stubs;
   CwMeasuredPump measured = {0};
-  CwPumpSolids pump = {0};
+  CwPump pump = {0};
   char *folder = NULL, *path = NULL;
   CW_TRY(cw_hydraulic_design(table, &design));
   CW_TRY(cw_pump_pipe_stubs(table, &design, &stubs));
@@ -211,7 +192,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
 done:
   free(folder);
   free(path);
-  cw_pump_solids_free(&pump);
+  cw_pump_free(&pump);
   return status;
 }
 

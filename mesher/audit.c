@@ -135,8 +135,40 @@ static void visit_sides(const CwRegionMesh *r, int64_t *start, Side *side) {
   }
 }
 
+static uint64_t mixed(uint64_t h, uint64_t v) { // finaliser of splitmix64
+  h = (h ^ v) + 0x9e3779b97f4a7c15ull;
+  h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9ull;
+  h = (h ^ h >> 27) * 0x94d049bb133111ebull;
+  return h ^ h >> 31;
+}
+
+// The hash of an open face on a dividing plane, negative where its cell sees it the other way round.
+static uint64_t open_face_hash(const CwRegionMesh *r, int32_t least, const Side *side) {
+  int corners = side->rest[2] < 0 ? 3 : 4, first = side->turn / 4, last = side->turn % 4, at = 0;
+  int32_t cycle[4] = {least, side->rest[first], side->rest[last], side->rest[last]};
+  if (corners == 4)
+    cycle[2] = side->rest[3 - first - last];
+  // From the least shared number on, towards the lesser of its two neighbours.
+  for (int k = 1; k < corners; k++) {
+    if (r->shared_id[cycle[k]] < r->shared_id[cycle[at]])
+      at = k;
+  }
+  int back = r->shared_id[cycle[(at + corners - 1) % corners]] < r->shared_id[cycle[(at + 1) % corners]];
+  uint64_t hash = (uint64_t)corners;
+  for (int k = 0; k < corners; k++) {
+    int32_t p = cycle[(at + (back ? corners - k : k)) % corners];
+    uint64_t bits[3];
+    memcpy(bits, r->x[p], sizeof bits);
+    hash = mixed(hash, (uint64_t)r->shared_id[p]);
+    for (int i = 0; i < 3; i++)
+      hash = mixed(hash, bits[i]);
+  }
+  return back ? -hash : hash;
+}
+
 // One face: `count` sides with the same points.
-static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, const Side *side) {
+static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, const Side *side,
+                           CwQuality *quality) {
   CwStatus status = CW_OK;
   int32_t point[4] = {least, side->rest[0], side->rest[1], side->rest[2]};
   int corners = side->rest[2] < 0 ? 3 : 4, of_cells = 0;
@@ -166,6 +198,8 @@ static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, cons
       if (point[k] >= r->shared_count)
         fault = "is open: not listed as boundary and not on a dividing plane";
     }
+    if (!fault)
+      quality->open_faces += open_face_hash(r, least, side);
   }
   if (fault) {
     int64_t cell = side->cell;
@@ -176,7 +210,7 @@ static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, cons
   return status;
 }
 
-static CwStatus check_faces(const CwRegionMesh *r) {
+static CwStatus check_faces(const CwRegionMesh *r, CwQuality *quality) {
   CwStatus status = CW_OK;
   int64_t *start = NULL;
   Side *side = NULL;
@@ -200,7 +234,7 @@ static CwStatus check_faces(const CwRegionMesh *r) {
       int64_t end = from + 1;
       while (end < to && compare_rest(&side[from], &side[end]) == 0)
         end++;
-      CW_TRY(check_face(r, p, (int)(end - from), &side[from]));
+      CW_TRY(check_face(r, p, (int)(end - from), &side[from], quality));
       from = end;
     }
   }
@@ -248,6 +282,24 @@ static int bin_of(double value, double width, int bins) {
   return bin < 0 ? 0 : bin >= bins ? bins - 1 : bin;
 }
 
+static void add_tet(CwTetFigures *figures, const CwTetShape *shape, double aspect) {
+  figures->count++;
+  figures->aspect_sum += aspect;
+  figures->aspect_max = fmax(figures->aspect_max, aspect);
+  figures->mean_ratio_sum += shape->mean_ratio;
+  figures->mean_ratio_least = fmin(figures->mean_ratio_least, shape->mean_ratio);
+  figures->dihedral_least = fmin(figures->dihedral_least, shape->dihedral_least);
+}
+
+static void add_figures(CwTetFigures *sum, const CwTetFigures *more) {
+  sum->count += more->count;
+  sum->aspect_sum += more->aspect_sum;
+  sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
+  sum->mean_ratio_sum += more->mean_ratio_sum;
+  sum->mean_ratio_least = fmin(sum->mean_ratio_least, more->mean_ratio_least);
+  sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
+}
+
 static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
@@ -275,6 +327,10 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       cw_tet_shape(x, &shape);
       double aspect = shape.edge_longest / shape.edge_shortest;
       aspects += aspect;
+      int beside = 0;
+      for (int k = 0; k < 4; k++)
+        beside |= corner[k] < r->shared_count;
+      add_tet(beside ? &quality->beside : &quality->apart, &shape, aspect);
       quality->aspect_max = fmax(quality->aspect_max, aspect);
       int class = 0;
       while (class < 7 && aspect > limit[class])
@@ -300,7 +356,7 @@ CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality) {
   cw_quality_start(quality);
   CW_TRY(check_indices(region));
   CW_TRY(check_cells(region, quality));
-  CW_TRY(check_faces(region));
+  CW_TRY(check_faces(region, quality));
 done:
   return status;
 }
@@ -309,6 +365,8 @@ void cw_quality_start(CwQuality *sum) {
   memset(sum, 0, sizeof *sum);
   sum->least_volume = INFINITY;
   sum->dihedral_least = 180.0;
+  sum->beside.dihedral_least = sum->apart.dihedral_least = 180.0;
+  sum->beside.mean_ratio_least = sum->apart.mean_ratio_least = 1.0;
   sum->prism_least_scaled_jacobian = 1.0;
 }
 
@@ -330,6 +388,9 @@ void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);
   for (int k = 0; k < 18; k++)
     sum->dihedral_bin[k] += more->dihedral_bin[k];
+  add_figures(&sum->beside, &more->beside);
+  add_figures(&sum->apart, &more->apart);
+  sum->open_faces += more->open_faces;
   sum->prism_count += more->prism_count;
   sum->prism_least_scaled_jacobian =
       fmin(sum->prism_least_scaled_jacobian, more->prism_least_scaled_jacobian);

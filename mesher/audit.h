@@ -15,6 +15,14 @@ extern "C" {
 
 enum { CW_QUALITY_BINS = 20 };
 
+// Sums and extremes over some of the tetrahedra.
+typedef struct {
+  int64_t count;
+  double aspect_sum, aspect_max;
+  double mean_ratio_sum, mean_ratio_least;
+  double dihedral_least; // degrees
+} CwTetFigures;
+
 typedef struct {
   double volume;       // m3, all cells
   double least_volume; // m3
@@ -24,6 +32,10 @@ typedef struct {
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
   int64_t dihedral_bin[18]; // of the least angle of each tetrahedron, 10 degrees wide up to 180
+  CwTetFigures beside, apart; // those with a corner on a dividing plane, and the others
+  // Sum of hashes of all open faces on dividing planes (shared numbers and coordinates to the last bit), negative where
+  // the face is seen from its other side: 0 over all regions of a domain where each face has its two cells.
+  uint64_t open_faces;
   // prisms
   int64_t prism_count;
   double prism_least_scaled_jacobian;

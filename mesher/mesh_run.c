@@ -12,16 +12,17 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 30 };
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100, ATTEMPTS = 3 };
+static const double FIRST_REACH = 4; // wanted lengths about a failure in which layers are thinned; doubled each time
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
-// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 20
-// million cells: 13.1 at scale 1.9, 11.0 at 1.1, 9.2 at 0.35).
+// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 3
+// million cells: 14.4 at scale 1.9, 11.6 at 1.1, 10.7 at 0.7).
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
-  return 8.4 + 2.5 * scale;
+  return 8.2 + 3.25 * scale;
 }
 
 typedef struct {
@@ -35,6 +36,24 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
   return step->step(step->run, step->task[index], bytes, size);
 }
 
+// What a model of more ranks needs (tests/bench/speedup.py).
+static CwStatus record_tasks(CwMeshRun *run, const char *name, double seconds, int32_t count, const double *cost,
+                             const double *time) {
+  CwStatus status = CW_OK;
+  json_t *costs = json_array(), *times = json_array();
+  for (int32_t i = 0; i < count; i++) {
+    json_array_append_new(costs, cw_json_number(cost[i]));
+    json_array_append_new(times, cw_json_number(time[i]));
+  }
+  if (!run->tasks) run->tasks = json_array();
+  CW_REQUIRE(json_array_append_new(run->tasks, json_pack("{s:s, s:o, s:o, s:o}", "step", name, "seconds",
+                                                         cw_json_number(seconds), "task_cost", costs, "task_seconds",
+                                                         times)) == 0,
+             CW_ERR_MEMORY, "out of memory: record of %d tasks", count);
+done:
+  return status;
+}
+
 // Runs a step over tasks of all domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
 // pointers); seconds[d][i] likewise where seconds is given.
 static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
@@ -42,7 +61,7 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
   CwStatus status = CW_OK;
   void **result = NULL;
   int64_t *size = NULL;
-  double *cost = NULL, *time = NULL, started = cw_seconds();
+  double *cost = NULL, *time = NULL, started = cw_seconds(), worked = cw_processor_seconds();
   StepContext context = {run, task, body};
   CW_NEW(result, count);
   CW_NEW(size, count);
@@ -57,7 +76,10 @@ static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwM
     result[i] = NULL;
     if (seconds) seconds[task[i].domain][task[i].index] = time[i];
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+  if (run->rank == 0) {
+    CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+    CW_TRY(record_tasks(run, name, cw_processor_seconds() - worked, count, cost, time));
+  }
 done:
   if (result) {
     for (int32_t i = 0; i < count; i++) free(result[i]);
@@ -94,8 +116,9 @@ static void results_free(Results *results) {
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
+  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(scale); // 0: nothing learned yet
   return run->prism_factor * run->domain[d].prism_integral / (scale * scale) +
-         run->tet_factor * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
+         tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
 
 double cw_predicted_cells(const CwMeshRun *run, int domain) {
@@ -108,18 +131,14 @@ static double all_cells_at(const CwMeshRun *run, double scale) {
   return cells;
 }
 
-// Sets the scale of the size fields so that the predicted count is the asked one; the count falls with the scale.
+// Sets the scale of the size fields so that the predicted count is the asked one: cells go by about the -2.7th power of it.
 static void solve_scale(CwMeshRun *run) {
-  double low = 1e-3, high = 1e3;
-  for (int step = 0; step < 60; step++) {
-    double middle = sqrt(low * high);
-    if (all_cells_at(run, middle) > (double)run->table->mesh.cells) {
-      low = middle;
-    } else {
-      high = middle;
-    }
+  double asked = (double)run->table->mesh.cells, off = INFINITY;
+  run->scale = 1; // the same bits, whatever scale was before
+  for (int step = 0; step < SCALE_STEPS && fabs(off - 1) > 1e-12; step++) {
+    off = all_cells_at(run, run->scale) / asked;
+    run->scale *= pow(off, 1 / 2.7);
   }
-  run->scale = sqrt(low * high);
   for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, run->scale);
 }
 
@@ -166,9 +185,11 @@ done:
 // is asked.
 static CwStatus mesh_walls(CwMeshRun *run) {
   CwStatus status = CW_OK;
+  int again = 0; // the same walls, for thinner layers
   Results results = {0};
   CwMeshTask *task = NULL;
   int32_t count, faces[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) again |= run->most_height[d] != NULL;
   CW_TRY(face_tasks(run, 1, &count, &task));
   face_counts(run, faces);
   for (int pass = 0;; pass++) {
@@ -187,10 +208,16 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     double off = all_cells_at(run, run->scale) / (double)run->table->mesh.cells - 1;
     cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
            run->scale, 100 * off);
-    if (fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
+    if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
     solve_scale(run);
   }
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_targets(&run->domain[d], run->table));
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_domain_targets(domain, run->table));
+    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
+      domain->target[v] = fmin(domain->target[v], run->most_height[d][v]);
+    }
+  }
 done:
   results_free(&results);
   free(task);
@@ -213,13 +240,19 @@ done:
   return status;
 }
 
+// All ranks work on one domain after the other.
 static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  Results results = {0};
-  CW_TRY(run_domains(run, "layers", cw_step_layers, &results));
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
+  double started = cw_seconds();
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
+    CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target));
+    cw_progress(domain->skeleton.wall_triangle_count);
+    cw_progress_end();
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
 done:
-  results_free(&results);
   return status;
 }
 
@@ -250,7 +283,7 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CW_TRY(run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
-    CW_TRY(cw_domain_number(&run->domain[d], run->table));
+    CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
   results_free(&caps);
@@ -259,7 +292,46 @@ done:
   return status;
 }
 
-static CwStatus mesh_regions(CwMeshRun *run) {
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3).
+static CwStatus refine_interfaces(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask *task = NULL;
+  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    regions[d] = run->domain[d].plan.region_count;
+    all += regions[d];
+  }
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t r = 0; r < regions[d]; r++) {
+      int owns = 0;
+      for (int32_t i = 0; i < domain->skeleton.outline_count; i++) {
+        owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
+      }
+      if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
+    }
+  }
+  CW_TRY(results_make(&results, run->domains.count, regions));
+  CW_TRY(run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    if (domain->rule.planned == 0) continue;
+    cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
+           "%lld centres inserted, %lld triangles left to both sides",
+           domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
+           (long long)domain->rule.inserted, (long long)domain->rule.left);
+  }
+done:
+  results_free(&results);
+  free(task);
+  return status;
+}
+
+// *failed: how many regions could not be made.
+static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   CwStatus status = CW_OK;
   Results results = {0};
   CwMeshTask *task = NULL;
@@ -283,16 +355,78 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   CW_TRY(results_make(&results, run->domains.count, regions));
   CW_TRY(run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
   run->cells = 0;
+  *failed = 0;
   for (int d = 0; d < run->domains.count; d++) {
+    uint64_t open_faces = 0;
     for (int32_t r = 0; r < regions[d]; r++) {
       memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
       const CwRegionSummary *made = &run->summary[d][r];
       run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+      open_faces += made->quality.open_faces;
+      *failed += made->failure.failed;
     }
+    CW_REQUIRE(*failed || open_faces == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
+               run->domain[d].name, run->run_path);
   }
 done:
   results_free(&results);
   free(task);
+  return status;
+}
+
+// Where regions have failed: thinner columns near the places, more of them and thinner ones with each attempt. Out of
+// attempts: fails for the first region.
+static CwStatus thin_columns(CwMeshRun *run, int attempt) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
+      const CwRegionFailure *failure = &run->summary[d][r].failure;
+      char place[160] = "no place is known";
+      if (!failure->failed) continue;
+      if (!failure->everywhere) {
+        snprintf(place, sizeof place, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, 1e3 * failure->at[0],
+                 1e3 * failure->at[1], 1e3 * failure->at[2]);
+      }
+      CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
+                 "%s region %d, %s: not filled after %d attempts with thinner layers: %s; its boundary is in "
+                 "%s/mesh/failed-%s-%04d.vtk",
+                 run->domain[d].name, r + 1, place, ATTEMPTS, failure->message, run->run_path, run->domain[d].name, r + 1);
+      if (run->rank == 0) {
+        cw_log_warn("%s region %d, %s: %s; tried again with thinner layers there", run->domain[d].name, r + 1, place,
+                    failure->message);
+      }
+      if (!run->most_height[d]) {
+        CW_NEW(run->most_height[d], skeleton->wall_count);
+        for (int32_t v = 0; v < skeleton->wall_count; v++) run->most_height[d][v] = INFINITY;
+      }
+      cw_region_failure_thin(skeleton, r, failure, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
+    }
+  }
+  run->retries++;
+done:
+  return status;
+}
+
+// One pass at the present scale: walls, layers, inner surfaces, regions; regions that fail are tried again.
+static CwStatus mesh_pass(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  int32_t failed = 0;
+  for (int attempt = 0;; attempt++) {
+    CW_TRY(mesh_walls(run));
+    CW_TRY(grow_layers(run));
+    CW_TRY(mesh_inner(run));
+    CW_TRY(refine_interfaces(run));
+    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+    CW_TRY(mesh_regions(run, &failed));
+    if (!failed) break;
+    CW_TRY(thin_columns(run, attempt));
+  }
+done:
+  for (int d = 0; d < run->domains.count; d++) {
+    free(run->most_height[d]);
+    run->most_height[d] = NULL;
+  }
   return status;
 }
 
@@ -308,10 +442,62 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
+// Background triangulations and exact volumes: each made by one rank.
+static CwStatus measure_domains(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask task[CW_DOMAINS_MOST * CW_DOMAIN_PARTS];
+  int32_t parts[CW_DOMAINS_MOST], count = 0;
+  for (int d = 0; d < run->domains.count; d++) parts[d] = CW_DOMAIN_PARTS;
+  CW_TRY(results_make(&results, run->domains.count, parts));
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int part = 0; part < CW_DOMAIN_PARTS; part++) {
+      // Faces are measured in half the time that their triangles take.
+      task[count++] = (CwMeshTask){d, part, cw_cad_face_count(run->domain[d].cad) / (1.0 + part)};
+    }
+  }
+  CW_TRY(run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
+    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, cw_cad_face_count(run->domain[d].cad),
+           run->domain[d].background.triangle_count);
+  }
+done:
+  results_free(&results);
+  return status;
+}
+
+// The size fields: seeds face by face, then the fields they spread to.
+static CwStatus make_sizes(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results seeds = {0}, results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count = 0, all = 0, faces[CW_DOMAINS_MOST];
+  face_counts(run, faces);
+  for (int d = 0; d < run->domains.count; d++) all += faces[d];
+  CW_TRY(results_make(&seeds, run->domains.count, faces));
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwBackground *background = &run->domain[d].background;
+    for (int32_t f = 0; f < faces[d]; f++) task[count + f] = (CwMeshTask){d, f, 0};
+    for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
+    count += faces[d];
+    run->seeds[d] = seeds.bytes[d];
+  }
+  CW_TRY(run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
+  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
+done:
+  for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
+  results_free(&seeds);
+  results_free(&results);
+  free(task);
+  return status;
+}
+
 static CwStatus open_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwFlowScales scales;
-  Results results = {0};
   char path[4096];
   double started = cw_seconds();
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
@@ -323,16 +509,11 @@ static CwStatus open_domains(CwMeshRun *run) {
     CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
                "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
-    cw_log("%s: %d faces, %d background triangles", run->domains.name[d], cw_cad_face_count(run->domain[d].cad),
-           run->domain[d].background.triangle_count);
   }
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
-  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
-  for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
-  }
+  CW_TRY(measure_domains(run));
+  CW_TRY(make_sizes(run));
 done:
-  results_free(&results);
   return status;
 }
 
@@ -375,10 +556,9 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
   double asked = (double)run->table->mesh.cells;
   run->scale = 1;
-  for (int step = 0; step < SCALE_STEPS; step++) {
-    run->tet_factor = tets_per_volume(run->scale);
-    solve_scale(run);
-  }
+  run->tet_factor = 0;
+  solve_scale(run);
+  run->tet_factor = tets_per_volume(run->scale);
   CW_TRY(plan_domains(run));
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
@@ -390,10 +570,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     cw_log("going on with pass %d of an earlier run", state.pass);
   }
   for (run->passes = state.pass;; run->passes++) {
-    CW_TRY(mesh_walls(run));
-    CW_TRY(grow_layers(run));
-    CW_TRY(mesh_inner(run));
-    CW_TRY(mesh_regions(run));
+    CW_TRY(mesh_pass(run));
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
     learn_tets(run);
@@ -421,4 +598,5 @@ void cw_mesh_run_free(CwMeshRun *run) {
     free(run->summary[d]);
     free(run->region_seconds[d]);
   }
+  json_decref(run->tasks);
 }

@@ -3,9 +3,13 @@
 #ifndef CUTWATER_MESHER_MESH_RUN_H
 #define CUTWATER_MESHER_MESH_RUN_H
 
+#include <jansson.h>
+
 #include "mesher/audit.h"
 #include "mesher/domain.h"
 #include "mesher/domain_table.h"
+#include "mesher/layer_ratio.h"
+#include "mesher/region_failure.h"
 #include "pipeline/record.h"
 
 enum { CW_PATCH_LIMIT = 32 };
@@ -14,7 +18,10 @@ enum { CW_PATCH_LIMIT = 32 };
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
+  int64_t ratio_bin[CW_PATCH_LIMIT][CW_RATIO_BINS]; // wall faces by last layer over first tetrahedron
+  CwFillWay way;
   CwQuality quality;
+  CwRegionFailure failure; // else nothing of the above holds
 } CwRegionSummary;
 
 typedef struct {
@@ -26,10 +33,13 @@ typedef struct {
   CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
+  void **seeds[CW_DOMAINS_MOST];   // of the size field, by face, while it is made
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
-  int passes;
+  double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
+  int passes, retries;             // retries: of all passes
   int64_t cells;                   // made
+  json_t *tasks;                   // of rank 0: predicted costs and seconds of all tasks, step by step
 } CwMeshRun;
 
 // Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all ranks.
@@ -47,12 +57,14 @@ typedef struct {
 
 // The steps that run as tasks; each a CwTask body over run->domain[task.domain].
 typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 
 // Writes RUN/mesh/manifest.json and adds the results to the record. Rank 0 only.

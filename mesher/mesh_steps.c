@@ -8,8 +8,16 @@
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
+CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_measure(&run->domain[task.domain], task.index, bytes, size);
+}
+
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_seed(&run->domain[task.domain], run->table, task.index, bytes, size);
+}
+
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_make_size(&run->domain[task.domain], run->table, bytes, size);
+  return cw_domain_make_size(&run->domain[task.domain], run->table, run->seeds[task.domain], bytes, size);
 }
 
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
@@ -21,17 +29,19 @@ CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
 
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  const CwDomain *domain = &run->domain[task.domain];
-  return cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target, bytes, size);
-}
-
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_cap(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
 
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_interface(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  const CwDomain *domain = &run->domain[task.domain];
+  char name[64];
+  snprintf(name, sizeof name, "%s region %d", domain->name, task.index + 1);
+  return cw_interface_rule(&domain->skeleton, domain->number, task.index, name, bytes, size);
 }
 
 static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
@@ -54,6 +64,7 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   summary->prisms = mesh->prism_count;
   summary->triangles = mesh->triangle_count;
   summary->quads = mesh->quad_count;
+  summary->way = mesh->way;
   for (int32_t i = 0; i < mesh->triangle_count; i++) {
     summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
   }
@@ -68,21 +79,28 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   const CwDomain *domain = &run->domain[task.domain];
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
-  char path[4096], fingerprint[33];
+  char path[4096], boundary_path[4096], fingerprint[33];
   CW_REQUIRE(snprintf(path, sizeof path, "%s/mesh/%s-%04d.h5", run->run_path, domain->name, task.index + 1) <
                  (int)sizeof path,
              CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+  snprintf(boundary_path, sizeof boundary_path, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name,
+           task.index + 1);
   CW_NEW(summary, 1);
   cw_region_fingerprint(&domain->context, task.index, fingerprint);
   int current = cw_region_is_current(path, fingerprint);
-  if (current) {
-    CW_TRY(cw_region_read(path, &mesh));
+  CwStatus made = current ? cw_region_read(path, &mesh)
+                          : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
+  if (made == CW_OK) made = cw_audit_region(&mesh, &summary->quality);
+  if (made == CW_ERR_MESH) {
+    CW_TRY(cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path,
+                                     &summary->failure));
   } else {
-    CW_TRY(cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh));
+    CW_TRY(made);
+    if (!current) CW_TRY(cw_region_write(path, &mesh));
+    summarise(&mesh, summary);
+    CW_TRY(cw_layer_ratio(&mesh, run->table->walls.layer_count, CW_PATCH_LIMIT, summary->ratio_bin));
+    remove(boundary_path); // of an earlier attempt
   }
-  CW_TRY(cw_audit_region(&mesh, &summary->quality));
-  if (!current) CW_TRY(cw_region_write(path, &mesh));
-  summarise(&mesh, summary);
   *bytes = summary;
   *size = sizeof *summary;
   summary = NULL;

@@ -43,7 +43,7 @@ double cw_tet_volume6_error(const double a[3], const double b[3], const double c
 
 void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
   static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; // outward, opposite corner i
-  double normal[4][3], square[4], longest = 0.0, shortest = INFINITY;
+  double normal[4][3], square[4], longest = 0.0, shortest = INFINITY, squares = 0.0;
   for (int i = 0; i < 4; i++) {
     double u[3], v[3];
     subtract(x[face[i][1]], x[face[i][0]], u);
@@ -53,11 +53,14 @@ void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
     for (int j = i + 1; j < 4; j++) {
       subtract(x[j], x[i], u);
       double length = dot(u, u);
+      squares += length;
       longest = fmax(longest, length);
       shortest = fmin(shortest, length);
     }
   }
   shape->volume = cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0;
+  double root = cbrt(3.0 * fmax(shape->volume, 0.0));
+  shape->mean_ratio = squares > 0.0 ? 12.0 * root * root / squares : 0.0;
   shape->edge_longest = sqrt(longest);
   shape->edge_shortest = sqrt(shortest);
   double most = -1.0, least = 1.0; // cosines

@@ -12,6 +12,7 @@ typedef struct {
   double volume;                            // m3, signed
   double edge_shortest, edge_longest;       // m
   double dihedral_least, dihedral_greatest; // degrees; 0 and 180 where the volume is not positive
+  double mean_ratio; // 12 (3 V)^(2/3) over the sum of squared edges (Liu and Joe 1994): 1 regular, 0 flat or turned
 } CwTetShape;
 
 // Six times the signed volume, m3: positive where (b - a) x (c - a) points towards d.

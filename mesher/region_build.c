@@ -5,15 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/fill.h"
+#include "mesher/fill_sure.h"
 #include "mesher/hash.h"
-#include "mesher/kernel.h"
+#include "mesher/interface_rule.h"
 #include "mesher/layer_heights.h"
+#include "mesher/region_boundary.h"
 #include "mesher/vec.h"
-#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
-static const double FLAT_CELL = 1e-7; // six times the volume over the cube of an edge
 
 static int compare_rims(const void *p, const void *q) {
   const int32_t *a = p, *b = q;
@@ -83,7 +82,7 @@ void cw_region_context_free(CwRegionContext *context) {
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
   const CwSkeleton *skeleton = context->skeleton;
   CwHash hash = cw_hash_start();
-  double numbers[4] = {context->layer_count, context->growth_max, (double)context->shared_count, context->fill};
+  double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
@@ -94,6 +93,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
       cw_hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
       cw_hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
+      cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
       cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
@@ -101,6 +101,10 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
     if (skeleton->cap_region[t] != region) continue;
     cw_hash_bytes(&hash, &skeleton->cap_face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) cw_hash_bytes(&hash, skeleton->node_x[skeleton->cap_triangle[t][k]], sizeof(double[3]));
+  }
+  for (int32_t t = 0; t < skeleton->planned_triangle_count; t++) { // candidates follow from these
+    if (skeleton->planned_region[t][0] != region && skeleton->planned_region[t][1] != region) continue;
+    for (int k = 0; k < 3; k++) cw_hash_bytes(&hash, skeleton->node_x[skeleton->planned_triangle[t][k]], sizeof(double[3]));
   }
   for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
     if (skeleton->interface_region[t][0] != region && skeleton->interface_region[t][1] != region) continue;
@@ -119,70 +123,11 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 typedef struct {
   const CwRegionContext *context;
   int32_t region;
-  int32_t wall_count, cap_count, interface_count; // triangles of the closed boundary, in this order
-  int32_t (*boundary)[3];                         // local nodes
-  int32_t *source;                                // wall or cap triangle of the skeleton
-  int32_t node_count;
-  int32_t *node;        // skeleton node of each local one
-  int32_t *local;       // of each skeleton node
-  double (*x)[3];
+  CwRegionBoundary boundary;
   CwFill fill;
   int32_t *place;       // point of the region file for each fill point
   int32_t *column;      // first point of the layers below each local node that stands on the front, by level
 } Build;
-
-static int32_t local_of(Build *build, int32_t node) {
-  if (build->local[node] < 0) {
-    build->local[node] = build->node_count;
-    cw_copy(build->context->skeleton->node_x[node], build->x[build->node_count]);
-    build->node[build->node_count++] = node;
-  }
-  return build->local[node];
-}
-
-static void add_boundary(Build *build, int32_t *count, const int32_t corner[3], int turned, int32_t source) {
-  int32_t at = build->wall_count + build->cap_count + build->interface_count;
-  for (int k = 0; k < 3; k++) build->boundary[at][k] = local_of(build, corner[turned ? 2 - k : k]);
-  build->source[at] = source;
-  ++*count;
-}
-
-// The closed inner boundary of the region: front, caps, interfaces.
-static CwStatus gather_boundary(Build *build) {
-  CwStatus status = CW_OK;
-  const CwSkeleton *skeleton = build->context->skeleton;
-  int32_t region = build->region, count = 0;
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) count += skeleton->wall_region[t] == region;
-  for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) count += skeleton->cap_region[t] == region;
-  for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
-    count += skeleton->interface_region[t][0] == region || skeleton->interface_region[t][1] == region;
-  }
-  CW_NEW(build->boundary, count);
-  CW_NEW(build->source, count);
-  CW_NEW(build->node, 3 * (size_t)count);
-  CW_NEW(build->x, 3 * (size_t)count);
-  CW_NEW(build->local, skeleton->node_count);
-  memset(build->local, -1, (size_t)skeleton->node_count * sizeof *build->local);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_region[t] == region) {
-      add_boundary(build, &build->wall_count, skeleton->wall_triangle[t], 0, t);
-    }
-  }
-  for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) {
-    if (skeleton->cap_region[t] == region) {
-      add_boundary(build, &build->cap_count, skeleton->cap_triangle[t], 0, t);
-    }
-  }
-  for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
-    for (int side = 0; side < 2; side++) {
-      if (skeleton->interface_region[t][side] == region) {
-        add_boundary(build, &build->interface_count, skeleton->interface_triangle[t], side, t);
-      }
-    }
-  }
-done:
-  return status;
-}
 
 // Numbers the points of the region file, shared ones first, and places them.
 static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
@@ -191,8 +136,8 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   const CwSkeleton *skeleton = context->skeleton;
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
   double fraction[LAYERS_MAX + 1];
-  for (int32_t i = 0; i < build->node_count; i++) {
-    int on_front = build->node[i] < skeleton->wall_count, is_shared = context->shared_base[build->node[i]] >= 0;
+  for (int32_t i = 0; i < build->boundary.node_count; i++) {
+    int on_front = build->boundary.node[i] < skeleton->wall_count, is_shared = context->shared_base[build->boundary.node[i]] >= 0;
     if (on_front) total += levels;
     if (is_shared) shared += on_front ? levels + 1 : 1;
   }
@@ -201,16 +146,16 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   CW_NEW(mesh->x, total);
   CW_NEW(mesh->shared_id, shared);
   CW_NEW(build->place, build->fill.point_count);
-  CW_NEW(build->column, build->node_count);
+  CW_NEW(build->column, build->boundary.node_count);
   int32_t next_shared = 0, next_own = shared;
   for (int32_t i = 0; i < build->fill.point_count; i++) {
-    int32_t node = i < build->node_count ? build->node[i] : -1;
+    int32_t node = i < build->boundary.node_count ? build->boundary.node[i] : -1;
     int64_t base = node >= 0 ? context->shared_base[node] : -1;
     int on_front = node >= 0 && node < skeleton->wall_count;
     int32_t *next = base >= 0 ? &next_shared : &next_own;
     if (on_front) {
       build->column[i] = *next;
-      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth_max, fraction);
+      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth[node], fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->shared_id[*next] = base + k;
         cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[k], mesh->x[(*next)++]);
@@ -242,7 +187,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
   const CwRegionContext *context = build->context;
   const CwSkeleton *skeleton = context->skeleton;
   int levels = context->layer_count;
-  mesh->prism_count = build->wall_count * levels;
+  mesh->prism_count = build->boundary.wall_count * levels;
   CW_NEW(mesh->prism, mesh->prism_count);
   int32_t sides = 0;
   for (int pass = 0; pass < 2; pass++) {
@@ -251,11 +196,11 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       CW_NEW(mesh->quad_patch, (size_t)sides * (size_t)levels);
       CW_NEW(mesh->quad_cell, (size_t)sides * (size_t)levels);
     }
-    for (int32_t t = 0; t < build->wall_count; t++) {
-      const int32_t *corner = build->boundary[t];
+    for (int32_t t = 0; t < build->boundary.wall_count; t++) {
+      const int32_t *corner = build->boundary.triangle[t];
       int32_t first_cell = mesh->tetrahedron_count + t * levels;
       for (int e = 0; e < 3; e++) {
-        int32_t a = corner[e], b = corner[(e + 1) % 3], cap = rim_cap(context, build->node[a], build->node[b]);
+        int32_t a = corner[e], b = corner[(e + 1) % 3], cap = rim_cap(context, build->boundary.node[a], build->boundary.node[b]);
         if (cap < 0) continue;
         sides += pass == 0;
         for (int k = 0; pass == 1 && k < levels; k++) {
@@ -278,7 +223,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       }
       int32_t w = mesh->triangle_count++;
       for (int c = 0; c < 3; c++) mesh->triangle[w][c] = column_point(build, corner[c], 0);
-      mesh->triangle_patch[w] = cw_cad_face_patch(skeleton->cad, skeleton->wall_face[build->source[t]]);
+      mesh->triangle_patch[w] = cw_cad_face_patch(skeleton->cad, skeleton->wall_face[build->boundary.source[t]]);
       mesh->triangle_cell[w] = first_cell;
     }
   }
@@ -312,33 +257,33 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = build->context->skeleton;
   Face *face = NULL;
-  int32_t first = build->wall_count;
-  CW_NEW(face, build->cap_count);
-  for (int32_t t = 0; t < build->cap_count; t++) {
-    const int32_t *corner = build->boundary[first + t];
+  int32_t first = build->boundary.wall_count;
+  CW_NEW(face, build->boundary.cap_count);
+  for (int32_t t = 0; t < build->boundary.cap_count; t++) {
+    const int32_t *corner = build->boundary.triangle[first + t];
     face[t] = face_of(corner[0], corner[1], corner[2], t);
     int32_t made = mesh->triangle_count++;
     for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
-    mesh->triangle_patch[made] = cw_cad_face_patch(skeleton->cad, skeleton->cap_face[build->source[first + t]]);
+    mesh->triangle_patch[made] = cw_cad_face_patch(skeleton->cad, skeleton->cap_face[build->boundary.source[first + t]]);
     mesh->triangle_cell[made] = -1;
   }
-  qsort(face, (size_t)build->cap_count, sizeof *face, compare_faces);
+  qsort(face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
   for (int32_t t = 0; t < build->fill.tetrahedron_count; t++) {
     const int32_t *corner = build->fill.tetrahedron[t];
     for (int k = 0; k < 4; k++) {
       int32_t a = corner[(k + 1) % 4], b = corner[(k + 2) % 4], c = corner[(k + 3) % 4];
-      if (a >= build->node_count || b >= build->node_count || c >= build->node_count) continue;
+      if (a >= build->boundary.node_count || b >= build->boundary.node_count || c >= build->boundary.node_count) continue;
       Face key = face_of(a, b, c, 0);
-      const Face *found = bsearch(&key, face, (size_t)build->cap_count, sizeof *face, compare_faces);
-      if (found) mesh->triangle_cell[build->wall_count + found->index] = t;
+      const Face *found = bsearch(&key, face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
+      if (found) mesh->triangle_cell[build->boundary.wall_count + found->index] = t;
     }
   }
-  for (int32_t t = 0; t < build->cap_count; t++) {
-    const double *x = mesh->x[mesh->triangle[build->wall_count + t][0]];
-    CW_REQUIRE(mesh->triangle_cell[build->wall_count + t] >= 0, CW_ERR_MESH,
+  for (int32_t t = 0; t < build->boundary.cap_count; t++) {
+    const double *x = mesh->x[mesh->triangle[build->boundary.wall_count + t][0]];
+    CW_REQUIRE(mesh->triangle_cell[build->boundary.wall_count + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
                build->region + 1,
-               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->wall_count + t]), 1e3 * x[0], 1e3 * x[1],
+               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), 1e3 * x[0], 1e3 * x[1],
                1e3 * x[2]);
   }
 done:
@@ -346,34 +291,10 @@ done:
   return status;
 }
 
-// Whether some tetrahedron is as flat as rounding: its volume is nothing beside the cube of its edges.
-static int has_flat_cell(const CwFill *fill) {
-  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
-    double edge[3][3], normal[3], longest = 0;
-    for (int k = 0; k < 3; k++) {
-      cw_sub(fill->x[fill->tetrahedron[t][k + 1]], fill->x[fill->tetrahedron[t][0]], edge[k]);
-      longest = fmax(longest, cw_norm(edge[k]));
-    }
-    cw_cross(edge[0], edge[1], normal);
-    if (cw_dot(normal, edge[2]) <= FLAT_CELL * longest * longest * longest) return 1;
-  }
-  return 0;
-}
-
-// By the kernel, where the case does not ask for TetGen and the kernel recovers the boundary; else by TetGen.
-static CwStatus fill(const CwRegionContext *context, const CwFillInput *input, CwFill *result) {
-  if (context->fill == CW_FILL_KERNEL) {
-    CwStatus status = cw_kernel_fill(input, result);
-    if (status != CW_RETRY && (status != CW_OK || !has_flat_cell(result))) return status;
-    cw_fill_free(result);
-    cw_log_debug("%s: left to TetGen", input->name);
-  }
-  return cw_fill(input, result);
-}
-
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   Build build = {.context = context, .region = region};
+  double(*inner)[3] = NULL;
   char name[64];
   memset(mesh, 0, sizeof *mesh);
   snprintf(name, sizeof name, "%s region %d", context->domain, region + 1);
@@ -381,34 +302,30 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   mesh->region = region + 1;
   mesh->number = number;
   cw_region_fingerprint(context, region, mesh->fingerprint);
-  CW_TRY(gather_boundary(&build));
-  CwFillInput input = {.point_count = build.node_count,
-                       .x = (const double(*)[3])build.x,
-                       .triangle_count = build.wall_count + build.cap_count + build.interface_count,
-                       .triangle = (const int32_t(*)[3])build.boundary,
-                       .size = context->skeleton->size_at,
-                       .size_context = context->skeleton->size,
-                       .name = name};
-  CW_TRY(fill(context, &input, &build.fill));
+  CW_TRY(cw_region_boundary_make(context->skeleton, region, 0, &build.boundary));
+  CwFillInput input = cw_region_fill_input(context->skeleton, &build.boundary, name);
+  if (context->skeleton->planned_triangle) {
+    CW_TRY(cw_interface_rule_points(context->skeleton, region, name, &input.inner_count, &inner));
+    input.inner = (const double(*)[3])inner;
+  }
+  CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
+  mesh->way = build.fill.way;
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);
   for (int32_t t = 0; t < mesh->tetrahedron_count; t++) {
     for (int k = 0; k < 4; k++) mesh->tetrahedron[t][k] = build.place[build.fill.tetrahedron[t][k]];
   }
-  CW_NEW(mesh->triangle, build.wall_count + build.cap_count);
-  CW_NEW(mesh->triangle_patch, build.wall_count + build.cap_count);
-  CW_NEW(mesh->triangle_cell, build.wall_count + build.cap_count);
+  CW_NEW(mesh->triangle, build.boundary.wall_count + build.boundary.cap_count);
+  CW_NEW(mesh->triangle_patch, build.boundary.wall_count + build.boundary.cap_count);
+  CW_NEW(mesh->triangle_cell, build.boundary.wall_count + build.boundary.cap_count);
   CW_TRY(add_layers(&build, mesh));
   CW_TRY(add_caps(&build, mesh));
 done:
   if (status != CW_OK) cw_region_free(mesh);
   cw_fill_free(&build.fill);
-  free(build.boundary);
-  free(build.source);
-  free(build.node);
-  free(build.local);
-  free(build.x);
+  cw_region_boundary_free(&build.boundary);
+  free(inner);
   free(build.place);
   free(build.column);
   return status;

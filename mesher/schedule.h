@@ -18,7 +18,7 @@ extern "C" {
 typedef CwStatus (*CwTask)(void *context, int32_t task, void **bytes, int64_t *size);
 
 typedef struct {
-  const char *step; // for progress: "surface patches"
+  const char *step; // for progress: "surface patches"; NULL: a part of a step, without progress of its own
   const char *unit; // "patches"
   int32_t count;
   const double *cost; // predicted, any unit; largest is taken first, ties by index
@@ -46,7 +46,8 @@ int cw_mpi_fail(CwStatus status);
 
 // Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start there is one rank.
 // `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].
-// `seconds` (count, may be NULL) receives the time of each task on all ranks.
+// `seconds` (count, may be NULL) receives the processor time of each task on all ranks: what else runs on the machine does
+// not count.
 // Without `gather` a result stays on the rank that ran the task. A rank that waits sleeps, so that more ranks
 // than cores cost nothing. The next task is taken without the help of rank 0 where ranks share memory;
 // between machines it may have to wait until rank 0 ends its own task. A failing task: with one rank the

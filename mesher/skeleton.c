@@ -30,6 +30,8 @@ void cw_skeleton_free(CwSkeleton *skeleton) {
   free(skeleton->outline);
   free(skeleton->interface_triangle);
   free(skeleton->interface_region);
+  free(skeleton->planned_triangle);
+  free(skeleton->planned_region);
   memset(skeleton, 0, sizeof *skeleton);
 }
 

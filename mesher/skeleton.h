@@ -30,6 +30,10 @@ typedef struct {
   int32_t loop_count;
   int32_t *loop_start;   // loop_count + 1
   int32_t *corner;       // skeleton nodes
+  // Set when the inner surfaces are merged:
+  int32_t free_start, free_count;         // its inner nodes, as planned
+  int32_t triangle_start, triangle_count; // its triangles as planned,
+  int32_t refined_start, refined_count;   // and by the rule of region numbers
 } CwInterfaceOutline;
 
 // A CAD edge whose division is given: parameters of its points but for corners of the network, ascending.
@@ -67,6 +71,9 @@ typedef struct {
   CwInterfaceOutline *outline;
   int32_t interface_triangle_count;
   int32_t (*interface_triangle)[3], (*interface_region)[2]; // normal from region [0] to region [1]
+  // The interfaces before the rule of region numbers (interface_rule.h); NULL without it.
+  int32_t planned_triangle_count;
+  int32_t (*planned_triangle)[3], (*planned_region)[2];
 } CwSkeleton;
 
 // Discretises all wall curves; makes their vertices. The network must be made, and the rims be coupled.
@@ -77,10 +84,9 @@ CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **
 // Joins the meshes of all wall faces (bytes[face]; NULL for caps).
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
-// Grows the envelope of the layers to `target` heights (m, per wall vertex); result for cw_skeleton_set_front.
-CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          void **bytes, int64_t *size);
-CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes);
+// Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front. Collective: all ranks work on
+// it and have the same result.
+CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton);

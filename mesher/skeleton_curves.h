@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the files of the skeleton share: division of curves into mesh edges, outlines of caps.
+// What the files of the skeleton share: division of curves into mesh edges, outlines of caps and
+// interfaces, new nodes.
 #ifndef CUTWATER_MESHER_SKELETON_CURVES_H
 #define CUTWATER_MESHER_SKELETON_CURVES_H
 
 #include "mesher/patch_task.h"
+#include "mesher/plane_map.h"
 #include "mesher/skeleton.h"
 
 // Places (arc lengths) that divide a curve between two lengths so that each edge is as long as the size field asks,
@@ -13,5 +15,11 @@ CwStatus cw_curve_divide(const CwSkeleton *skeleton, const CwCurve *curve, doubl
 
 // The outline of a cap: the marched rim, and free curves on it.
 CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline);
+
+// The outline of an interface in the coordinates of its plane.
+CwStatus cw_skeleton_interface_outline(const CwSkeleton *skeleton, const CwInterfaceOutline *interface,
+                                       const CwPlaneMap *map, CwPatchOutline *outline);
+
+CwStatus cw_skeleton_add_node(CwSkeleton *skeleton, const double x[3], int on_plane, int32_t *node);
 
 #endif

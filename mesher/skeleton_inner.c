@@ -6,12 +6,13 @@
 #include <string.h>
 
 #include "mesher/patch_task.h"
+#include "mesher/plane_map.h"
 #include "mesher/skeleton_curves.h"
 #include "mesher/vec.h"
 
 static const double BESIDE = 1e-7; // m: where the two regions beside an interface are asked for
 
-static CwStatus add_node(CwSkeleton *skeleton, const double x[3], int on_plane, int32_t *node) {
+CwStatus cw_skeleton_add_node(CwSkeleton *skeleton, const double x[3], int on_plane, int32_t *node) {
   CwStatus status = CW_OK;
   if (skeleton->node_count == skeleton->node_capacity) {
     int32_t capacity = 2 * skeleton->node_capacity;
@@ -48,7 +49,7 @@ static CwStatus start_nodes(CwSkeleton *skeleton) {
     const CwCorner *corner = &network->corner[i];
     skeleton->corner_node[i] = skeleton->corner_vertex[i];
     if (corner->on_wall) continue;
-    CW_TRY(add_node(skeleton, corner->x, corner->plane[0] >= 0, &skeleton->corner_node[i]));
+    CW_TRY(cw_skeleton_add_node(skeleton, corner->x, corner->plane[0] >= 0, &skeleton->corner_node[i]));
   }
 done:
   return status;
@@ -80,7 +81,7 @@ static CwStatus divide_free_curve(CwSkeleton *skeleton, CwCurve *curve) {
     if (k == 0 || k == curve->point_count - 1) {
       curve->node[k] = skeleton->corner_node[curve->corner[k > 0]];
     } else {
-      CW_TRY(add_node(skeleton, x, on_plane, &curve->node[k]));
+      CW_TRY(cw_skeleton_add_node(skeleton, x, on_plane, &curve->node[k]));
     }
   }
 done:
@@ -88,49 +89,11 @@ done:
   return status;
 }
 
-// Orthonormal axes in a plane; first x second = normal.
-static void plane_axes(const CwPlane *plane, double first[3], double second[3]) {
-  int least = 0;
-  for (int k = 1; k < 3; k++) {
-    if (fabs(plane->normal[k]) < fabs(plane->normal[least])) least = k;
-  }
-  double axis[3] = {least == 0, least == 1, least == 2};
-  cw_cross(axis, plane->normal, first);
-  cw_unit(first);
-  cw_cross(plane->normal, first, second);
-}
-
-typedef struct {
-  CwPlane plane;
-  double origin[3], first[3], second[3];
-} PlaneMap;
-
-static PlaneMap plane_map_of(const CwPlane *plane) {
-  PlaneMap map = {.plane = *plane};
-  for (int k = 0; k < 3; k++) map.origin[k] = plane->offset * plane->normal[k];
-  plane_axes(plane, map.first, map.second);
-  return map;
-}
-
-static void plane_map(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
-  const PlaneMap *map = context;
-  for (int k = 0; k < 3; k++) x[k] = map->origin[k] + uv[0] * map->first[k] + uv[1] * map->second[k];
-  if (xu) cw_copy(map->first, xu);
-  if (xv) cw_copy(map->second, xv);
-}
-
-static void plane_uv(const PlaneMap *map, const double x[3], double uv[2]) {
-  double d[3];
-  cw_sub(x, map->origin, d);
-  uv[0] = cw_dot(d, map->first);
-  uv[1] = cw_dot(d, map->second);
-}
-
 // All edges of the network on one plane. A wall cut, a cap cut and the line with an ancestor bound the interface; the
 // line with a plane below only divides it.
 static CwStatus plane_outline(const CwSkeleton *skeleton, int32_t node, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  PlaneMap map = plane_map_of(&skeleton->plan->node[node].plane);
+  CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[node].plane);
   CW_TRY(cw_outline_start(outline, skeleton->node_count));
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
     const CwCurve *curve = &skeleton->network.curve[i];
@@ -140,7 +103,7 @@ static CwStatus plane_outline(const CwSkeleton *skeleton, int32_t node, CwPatchO
     for (int32_t k = 0; k < curve->point_count; k++) {
       double uv[2];
       const double *x = skeleton->node_x[curve->node[k]];
-      plane_uv(&map, x, uv);
+      cw_plane_uv(&map, x, uv);
       CW_TRY(cw_outline_point(outline, curve->node[k], uv, x, &local));
       if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, bounds));
       previous = local;
@@ -190,8 +153,8 @@ done:
   return status;
 }
 
-static CwStatus interface_outline(const CwSkeleton *skeleton, const CwInterfaceOutline *interface, const PlaneMap *map,
-                                  CwPatchOutline *outline) {
+CwStatus cw_skeleton_interface_outline(const CwSkeleton *skeleton, const CwInterfaceOutline *interface,
+                                       const CwPlaneMap *map, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CW_TRY(cw_outline_start(outline, skeleton->node_count));
   for (int32_t l = 0; l < interface->loop_count; l++) {
@@ -201,7 +164,7 @@ static CwStatus interface_outline(const CwSkeleton *skeleton, const CwInterfaceO
       for (int end = 0; end < 2; end++) {
         int32_t node = interface->corner[first + (k + end) % count];
         double uv[2];
-        plane_uv(map, skeleton->node_x[node], uv);
+        cw_plane_uv(map, skeleton->node_x[node], uv);
         CW_TRY(cw_outline_point(outline, node, uv, skeleton->node_x[node], &local[end]));
       }
       CW_TRY(cw_outline_edge(outline, local[0], local[1], 1));
@@ -228,12 +191,12 @@ CwStatus cw_skeleton_mesh_interface(const CwSkeleton *skeleton, int32_t index, v
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
   const CwInterfaceOutline *interface = &skeleton->outline[index];
-  PlaneMap map = plane_map_of(&skeleton->plan->node[interface->node].plane);
-  Sides sides = {skeleton->plan, map.plane.normal};
+  CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
+  Sides sides = {skeleton->plan, map.axis[2]};
   char name[64];
   snprintf(name, sizeof name, "interface %d on dividing plane %d", index, interface->node);
-  CW_TRY(interface_outline(skeleton, interface, &map, &outline));
-  CW_TRY(cw_patch_task(&outline, plane_map, &map, skeleton->size_at, skeleton->size, 0, sides_at, &sides, name, bytes,
+  CW_TRY(cw_skeleton_interface_outline(skeleton, interface, &map, &outline));
+  CW_TRY(cw_patch_task(&outline, cw_plane_map, &map, skeleton->size_at, skeleton->size, 0, sides_at, &sides, name, bytes,
                        size));
 done:
   cw_outline_free(&outline);
@@ -245,7 +208,7 @@ static CwStatus append(CwSkeleton *skeleton, const CwPatchOutline *outline, cons
                        int32_t (*triangle)[3]) {
   CwStatus status = CW_OK;
   int32_t first = skeleton->node_count, node;
-  for (int32_t i = 0; i < block->point_count; i++) CW_TRY(add_node(skeleton, block->x[i], on_plane, &node));
+  for (int32_t i = 0; i < block->point_count; i++) CW_TRY(cw_skeleton_add_node(skeleton, block->x[i], on_plane, &node));
   for (int32_t t = 0; t < block->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t local = block->triangle[t][k];
@@ -287,9 +250,14 @@ CwStatus cw_skeleton_merge_inner(CwSkeleton *skeleton, void *const *cap_bytes, v
     cw_outline_free(&outline);
   }
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
-    PlaneMap map = plane_map_of(&skeleton->plan->node[skeleton->outline[i].node].plane);
+    CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[skeleton->outline[i].node].plane);
     cw_patch_block(interface_bytes[i], &block);
-    CW_TRY(interface_outline(skeleton, &skeleton->outline[i], &map, &outline));
+    CW_TRY(cw_skeleton_interface_outline(skeleton, &skeleton->outline[i], &map, &outline));
+    CwInterfaceOutline *interface = &skeleton->outline[i];
+    interface->free_start = skeleton->node_count;
+    interface->free_count = block.point_count;
+    interface->triangle_start = skeleton->interface_triangle_count;
+    interface->triangle_count = block.triangle_count;
     CW_TRY(append(skeleton, &outline, &block, 1, skeleton->interface_triangle + skeleton->interface_triangle_count));
     for (int32_t t = 0; t < block.triangle_count; t++) {
       int32_t *region = skeleton->interface_region[skeleton->interface_triangle_count++];

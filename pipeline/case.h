@@ -83,6 +83,8 @@ typedef struct {
   double splitter_position;       // share of the pitch from a blade to the splitter behind its pressure side
   double nut_length;              // m, of the hub's nose before the hub
   double nut_flat_diameter;       // m, of its flat end
+  double through_shaft_diameter;  // m, of a shaft that goes out through the inlet; 0: none
+  double root_fillet_radius;      // m, between blades and hub and shroud; 0: none
   double suction_pipe_length;     // m, from the shroud's inlet
   CwPipeZone suction_pipe_zone;   // whether most of it is a zone of its own
 } CwImpellerTable;
@@ -108,13 +110,23 @@ typedef struct {
   CwPipeZone discharge_pipe_zone; // whether most of it is a zone of its own
 } CwVoluteTable;
 
-// Prism layers. The first height follows from y+ with the velocity and length scales of the wall.
+// What one group of walls asks of its layers.
+typedef struct {
+  double y_plus;             // target
+  double velocity;           // m/s, of the flow along the wall; NAN: from the design
+  double first_height;       // m; NAN: from y+ and velocity
+  double growth_ratio;       // the largest; NAN: that of all walls
+  double total_thickness;    // m, the target of a column; NAN: that of all walls
+} CwWallGroup;
+
+// Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one for
+// all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
 typedef struct {
   int layer_count;
   double growth_ratio;       // the largest
   double total_thickness;    // m, the target of a column; NAN: from first height, count and growth
   CwYPlusAt y_plus_at;
-  double y_plus_blade, y_plus_hub_shroud, y_plus_volute, y_plus_pipe;
+  CwWallGroup blade, hub_shroud, volute, pipe;
   CwWallTreatment treatment;
   double roughness;          // m, equivalent sand grain
 } CwWalls;
@@ -122,7 +134,8 @@ typedef struct {
 typedef struct {
   int64_t cells;             // asked number of cells, all zones together
   CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
-  int64_t cells_per_region;  // about this many; at least four regions a domain in any case
+  int64_t cells_per_region;  // about this many
+  int least_regions;         // of a domain
   double gradation;          // growth of size with distance, d(size)/d(distance)
   double curvature_angle;    // rad of turn of the surface normal across one edge, at relative size 1
   double cells_across_gap;   // least number of cells across a narrow place

@@ -46,6 +46,12 @@ double cw_seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double cw_processor_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 int64_t cw_peak_memory_bytes(void) {
   struct rusage usage;
   if (getrusage(RUSAGE_SELF, &usage)) return 0;

@@ -45,6 +45,8 @@ void cw_progress_end(void);
 
 // Seconds of a monotonic clock.
 double cw_seconds(void);
+// Seconds that this process has had of processors, in all its threads.
+double cw_processor_seconds(void);
 
 // Peak resident memory of this process in bytes.
 int64_t cw_peak_memory_bytes(void);

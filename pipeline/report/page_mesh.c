@@ -48,6 +48,15 @@ static void figure_row(FILE *page, const CwReportData *data, const char *label, 
   fprintf(page, "<td>%s</td></tr>\n", unit);
 }
 
+// The same of an object of the domain.
+static void inner_row(FILE *page, const CwReportData *data, const char *label, const char *unit,
+                      json_t *const *domain, const char *object, const char *key, int significant) {
+  json_t *inner[DOMAINS_MOST];
+  for (int d = 0; d < data->mesh.domain_count; d++)
+    inner[d] = json_object_get(domain[d], object);
+  figure_row(page, data, label, unit, inner, key, 1, significant);
+}
+
 static CwStatus all_domains(const CwReportData *data, json_t **domain) {
   CwStatus status = CW_OK;
   for (int d = 0; d < data->mesh.domain_count; d++)
@@ -261,6 +270,9 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
              "tetrahedron_aspect_max", 1, 4);
   figure_row(page, data, "Tetrahedra: least dihedral angle", "&deg;", domain, "least_dihedral_deg", 1, 4);
   figure_row(page, data, "Tetrahedra: greatest dihedral angle", "&deg;", domain, "greatest_dihedral_deg", 1, 5);
+  inner_row(page, data, "Tetrahedra beside dividing planes: mean ratio, mean", "1 is regular", domain,
+            "tetrahedra_beside_planes", "mean_ratio_mean", 3);
+  inner_row(page, data, "Other tetrahedra: mean ratio, mean", "", domain, "tetrahedra_apart", "mean_ratio_mean", 3);
   figure_row(page, data, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
   fputs("</table>\n<figure>", page);
   CwPlotSeries series[DOMAINS_MOST + 1];

@@ -27,7 +27,7 @@ static void keys_of_the_format(void **state) {
   CwCase table;
   CwDesign design;
   CwMeasuredPump measured = {
-      .rotor.volume = 5e-4, .stator.volume = 7e-4, .rotor_dimensions.wrap_angle = 71 * M_PI / 180};
+      .solid = {{.volume = 5e-4}, {.volume = 7e-4}}, .rotor.wrap_angle = 71 * M_PI / 180};
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);

@@ -120,8 +120,27 @@ static void open_face_is_allowed_only_on_dividing_planes(void **state) {
   fails_with(&r, "is open");
   r.shared_count = 5;
   fails_with(&r, "quadrilateral of cell 1 at (0, 500, 500) mm is open");
+  int64_t shared_id[7] = {10, 11, 12, 13, 14, 15, 16};
   r.shared_count = 6;
+  r.shared_id = shared_id;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  // The sum tells of the open face's numbers and coordinates, and of nothing else.
+  uint64_t sum = q.open_faces;
+  assert_true(sum != 0);
+  shared_id[1] = 17;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces == sum);
+  shared_id[0] = 18;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces != sum);
+  shared_id[0] = 10;
+  double x = r.x[5][2];
+  r.x[5][2] = nextafter(x, 2 * x);
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces != sum);
+  r.x[5][2] = x;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces == sum);
 }
 
 static void wrong_lists_are_found(void **state) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A box on its way from curve network to audited regions, with dividing planes placed by hand.
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <map>
+#include <string>
 #include <vector>
 
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -10,15 +13,22 @@
 
 extern "C" {
 #include "mesher/audit.h"
+#include "mesher/interface_rule.h"
 #include "mesher/region_build.h"
+#include "mesher/region_failure.h"
 #include "mesher/region_number.h"
 #include "mesher/skeleton.h"
+#include "mesher/vec.h"
 }
 
 #include "solids.h"
 
 static double even_size(const void *, const double *) {
   return 2.5e-3;
+}
+
+static double finer_size(const void *, const double *) {
+  return 1.7e-3;
 }
 
 // A box of 40 x 30 x 20 mm with inlet at x = 0 and outlet at x = 40. Plane 0: x = 21. Plane 1, behind it: y = 14, a
@@ -114,22 +124,83 @@ static void curves_lie_on_their_planes(void **) {
   }
 }
 
-// Regions of the whole box: audited, together as large as the box, with shared points that agree to the last bit.
-static void regions_fill_the_box(void **) {
-  Box box(3);
+// The rule of region numbers on interfaces that were meshed for a coarser size field than that of the fill.
+static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
+  std::vector<void *> refined(4, nullptr);
+  std::vector<int> inserted(4, 0);
+  int64_t size;
+  CwInterfaceRuleCounts counts;
+  int nodes = skeleton.node_count;
+  skeleton.size_at = finer_size;
+  for (int i = 0; i < skeleton.outline_count; i++) {
+    const int32_t *region = skeleton.interface_region[skeleton.outline[i].triangle_start];
+    int owner = cw_interface_owner(&skeleton, number, i), other = owner == region[0] ? region[1] : region[0];
+    assert_true(owner == region[0] || owner == region[1]);
+    assert_true(number[owner] < number[other]);
+  }
+  for (int r = 0; r < 4; r++) Box::check(cw_interface_rule(&skeleton, number, r, "box", &refined[r], &size));
+  Box::check(cw_interface_rule_merge(&skeleton, refined.data(), &counts));
+  assert_true(counts.encroached > 20);
+  assert_true(counts.inserted > 20);
+  assert_int_equal(skeleton.node_count, nodes + counts.inserted);
+  assert_int_equal(skeleton.planned_triangle_count, counts.planned);
+  assert_int_equal(skeleton.interface_triangle_count, counts.refined);
+  assert_int_equal(counts.refined, counts.planned + 2 * counts.inserted); // Euler: outlines stay as they are
+  // New nodes lie on the plane of their interface.
+  for (int i = 0; i < skeleton.outline_count; i++) {
+    const CwInterfaceOutline &interface = skeleton.outline[i];
+    for (int t = 0; t < interface.refined_count; t++) {
+      for (int node : skeleton.interface_triangle[interface.refined_start + t]) {
+        assert_near(cw_plane_distance(&skeleton.plan->node[interface.node].plane, skeleton.node_x[node]), 0, 1e-12);
+      }
+    }
+  }
+  // No region keeps a candidate in the sphere of an interface triangle.
+  for (int r = 0; r < 4; r++) {
+    int32_t count;
+    double(*x)[3];
+    Box::check(cw_interface_rule_points(&skeleton, r, "box", &count, &x));
+    assert_true(count > 100);
+    for (int t = 0; t < skeleton.interface_triangle_count; t++) {
+      if (skeleton.interface_region[t][0] != r && skeleton.interface_region[t][1] != r) continue;
+      const int32_t *node = skeleton.interface_triangle[t];
+      double u[3], v[3], uu = 0, vv = 0, uv = 0, square = 0, centre[3];
+      for (int k = 0; k < 3; k++) {
+        u[k] = skeleton.node_x[node[1]][k] - skeleton.node_x[node[0]][k];
+        v[k] = skeleton.node_x[node[2]][k] - skeleton.node_x[node[0]][k];
+        uu += u[k] * u[k], vv += v[k] * v[k], uv += u[k] * v[k];
+      }
+      double det = 2 * (uu * vv - uv * uv), p = vv * (uu - uv) / det, q = uu * (vv - uv) / det;
+      for (int k = 0; k < 3; k++) {
+        double d = p * u[k] + q * v[k];
+        centre[k] = skeleton.node_x[node[0]][k] + d;
+        square += d * d;
+      }
+      square = std::fmin(square, std::fmax(std::fmax(uu, vv), uu + vv - 2 * uv)); // a needle's sphere ends
+      for (int i = 0; i < count; i++) {
+        double distance = 0;
+        for (int k = 0; k < 3; k++) distance += (x[i][k] - centre[k]) * (x[i][k] - centre[k]);
+        assert_true(distance > square);
+      }
+    }
+    free(x);
+  }
+  for (void *bytes : refined) free(bytes);
+}
+
+// All surfaces of the box, as far as the inner ones.
+static void make_surfaces(Box &box) {
   CwSkeleton &skeleton = box.skeleton;
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr), caps(faces, nullptr), interfaces;
   int64_t size;
-  void *front = nullptr;
   Box::check(cw_skeleton_wall_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
     if (cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
   }
   Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
-  std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4);
-  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), &front, &size));
-  Box::check(cw_skeleton_set_front(&skeleton, front));
+  std::vector<double> target(skeleton.wall_count, 1.5e-3);
+  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data()));
   for (int v = 0; v < skeleton.wall_count; v++) { // corners and edges of a box keep the asked height to the walls
     for (int k = 1; k < 3; k++) {
       double side = k == 1 ? 0.030 : 0.020, x = skeleton.front[v][k];
@@ -140,26 +211,40 @@ static void regions_fill_the_box(void **) {
   for (int f = 0; f < faces; f++) {
     if (!cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }
-  assert_int_equal(skeleton.outline_count, 6); // four pieces of plane 0, one of each other
   interfaces.resize(skeleton.outline_count);
   for (int i = 0; i < skeleton.outline_count; i++) {
     Box::check(cw_skeleton_mesh_interface(&skeleton, i, &interfaces[i], &size));
   }
   Box::check(cw_skeleton_merge_inner(&skeleton, caps.data(), interfaces.data()));
+  for (void *bytes : walls) free(bytes);
+  for (void *bytes : caps) free(bytes);
+  for (void *bytes : interfaces) free(bytes);
+}
 
+// Regions of the whole box: audited, together as large as the box, with shared points and faces that agree to the last
+// bit.
+static void fill_the_box(int rule) {
+  Box box(3);
+  CwSkeleton &skeleton = box.skeleton;
+  make_surfaces(box);
+  assert_int_equal(skeleton.outline_count, 6); // four pieces of plane 0, one of each other
+  std::vector<double> first(skeleton.wall_count, 2e-4);
   int pair_count, colours, number[4];
   int32_t(*pair)[2];
   Box::check(cw_skeleton_adjacency(&skeleton, &pair_count, &pair));
   assert_int_equal(pair_count, 6); // all four regions touch one another on plane 0
   Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
+  if (rule) refine_interfaces(skeleton, number);
   CwRegionContext context = {};
   context.skeleton = &skeleton;
   context.domain = "box";
   context.layer_count = 4;
-  context.growth_max = 1.5;
+  std::vector<double> growth(skeleton.wall_count, 1.5);
+  context.growth = growth.data();
   context.first_height = first.data();
   Box::check(cw_region_context_make(&context));
   double volume = 0;
+  uint64_t open_faces = 0;
   std::map<int64_t, std::vector<double>> shared;
   std::map<int64_t, int> held;
   for (int r = 0; r < 4; r++) {
@@ -169,6 +254,10 @@ static void regions_fill_the_box(void **) {
     Box::check(cw_audit_region(&mesh, &quality));
     assert_int_equal(mesh.prism_count % 4, 0);
     volume += quality.volume;
+    assert_true(quality.open_faces != 0);
+    assert_true(quality.beside.count > 0 && quality.apart.count > 0);
+    assert_int_equal(quality.beside.count + quality.apart.count, mesh.tetrahedron_count);
+    open_faces += quality.open_faces;
     for (int i = 0; i < mesh.shared_count; i++) {
       std::vector<double> x(mesh.x[i], mesh.x[i] + 3);
       auto found = shared.emplace(mesh.shared_id[i], x);
@@ -178,16 +267,115 @@ static void regions_fill_the_box(void **) {
     cw_region_free(&mesh);
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
+  assert_int_equal(open_faces, 0);
   assert_int_equal(shared.size(), context.shared_count);
   assert_int_equal(shared.rbegin()->first, context.shared_count - 1);
   for (const auto &point : held) assert_true(point.second >= 2);
 
   cw_region_context_free(&context);
   free(pair);
-  free(front);
-  for (void *bytes : walls) free(bytes);
-  for (void *bytes : caps) free(bytes);
-  for (void *bytes : interfaces) free(bytes);
+}
+
+static void regions_fill_the_box(void **) {
+  fill_the_box(0);
+}
+
+static void regions_fill_the_box_by_the_rule(void **) {
+  fill_the_box(1);
+}
+
+// A column that stands through the plane x = 21 mm: both regions beside it fail, the place and the patch are told, the
+// boundary is kept, and columns there are thinned and no others.
+static void a_crossing_boundary_is_examined(void **) {
+  Box box(1);
+  CwSkeleton &skeleton = box.skeleton;
+  make_surfaces(box);
+  int best = -1;
+  const double from[3] = {0.0195, 0.015, 0.0185}; // on the front under the upper side, before the plane
+  for (int v = 0; v < skeleton.wall_count; v++) {
+    if (skeleton.on_plane[v]) continue;
+    if (best < 0 || cw_distance(skeleton.front[v], from) < cw_distance(skeleton.front[best], from)) best = v;
+  }
+  assert_true(cw_distance(skeleton.front[best], from) < 2e-3);
+  const double through[3] = {0.0235, 0.015, 0.010};
+  cw_copy(through, skeleton.front[best]);
+  cw_copy(through, skeleton.node_x[best]);
+  std::vector<double> first(skeleton.wall_count, 2e-4);
+  CwRegionContext context = {};
+  context.skeleton = &skeleton;
+  context.domain = "box";
+  context.layer_count = 4;
+  std::vector<double> growth(skeleton.wall_count, 1.5);
+  context.growth = growth.data();
+  context.first_height = first.data();
+  Box::check(cw_region_context_make(&context));
+  CwRegionMesh mesh;
+  assert_int_equal(cw_region_build(&context, 0, 1, &mesh), CW_ERR_MESH);
+  std::string message = cw_fail_message(), path = "failed-box-0001.vtk";
+  CwRegionFailure failure;
+  Box::check(cw_region_failure_examine(&skeleton, 0, message.c_str(), path.c_str(), &failure));
+  assert_int_equal(failure.failed, 1);
+  assert_int_equal(failure.everywhere, 0);
+  assert_string_equal(failure.message, message.c_str());
+  assert_true(!strcmp(failure.patch, "side") || !strcmp(failure.patch, "dividing plane"));
+  assert_true(cw_distance(failure.at, through) < 0.012);
+
+  // The file: as many points and triangles as the boundary has, all kinds of surface, some crossing.
+  std::ifstream file(path);
+  std::string word;
+  int points = 0, triangles = 0, of_surface[3] = {0, 0, 0}, crossing = 0;
+  while (file >> word && word != "POINTS") {}
+  file >> points;
+  while (file >> word && word != "POLYGONS") {}
+  file >> triangles;
+  while (file >> word && word != "default") {}
+  for (int t = 0, kind; t < triangles; t++) {
+    file >> kind;
+    assert_true(kind >= 0 && kind < 3);
+    of_surface[kind]++;
+  }
+  while (file >> word && word != "default") {}
+  for (int t = 0, one; t < triangles; t++) {
+    assert_true(bool(file >> one));
+    crossing += one;
+  }
+  CwRegionBoundary boundary;
+  Box::check(cw_region_boundary_make(&skeleton, 0, 0, &boundary));
+  assert_int_equal(points, boundary.node_count);
+  assert_int_equal(of_surface[0], boundary.wall_count);
+  assert_int_equal(of_surface[1], boundary.cap_count);
+  assert_int_equal(of_surface[2], boundary.interface_count);
+  assert_true(crossing >= 2 && crossing < triangles / 4);
+  cw_region_boundary_free(&boundary);
+  std::remove(path.c_str());
+
+  std::vector<double> most(skeleton.wall_count, INFINITY);
+  cw_region_failure_thin(&skeleton, 0, &failure, 4, most.data());
+  int thinned = 0;
+  for (int v = 0; v < skeleton.wall_count; v++) {
+    if (cw_distance(skeleton.front[v], failure.at) < 4 * 2.5e-3) {
+      assert_near(most[v], 0.7 * skeleton.height[v], 1e-15);
+      thinned++;
+    } else {
+      assert_true(std::isinf(most[v]));
+    }
+  }
+  assert_true(thinned > 3 && thinned < skeleton.wall_count / 2);
+  failure.everywhere = 1;
+  cw_region_failure_thin(&skeleton, 0, &failure, 4, most.data());
+  for (int t = 0; t < skeleton.wall_triangle_count; t++) {
+    for (int v : skeleton.wall_triangle[t]) {
+      if (skeleton.wall_region[t] == 0) assert_near(most[v], 0.7 * skeleton.height[v], 1e-15);
+    }
+  }
+  // A sound boundary: no place is known.
+  cw_copy(skeleton.wall_x[best], skeleton.front[best]);
+  skeleton.front[best][2] -= 1.5e-3;
+  cw_copy(skeleton.front[best], skeleton.node_x[best]);
+  Box::check(cw_region_failure_examine(&skeleton, 0, "none", path.c_str(), &failure));
+  assert_int_equal(failure.everywhere, 1);
+  cw_region_context_free(&context);
+  std::remove(path.c_str());
 }
 
 int main() {
@@ -195,6 +383,8 @@ int main() {
       cmocka_unit_test(network_of_a_box),
       cmocka_unit_test(curves_lie_on_their_planes),
       cmocka_unit_test(regions_fill_the_box),
+      cmocka_unit_test(regions_fill_the_box_by_the_rule),
+      cmocka_unit_test(a_crossing_boundary_is_examined),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

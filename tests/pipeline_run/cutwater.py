@@ -84,3 +84,24 @@ def digests(folder, pattern="*", leave_out=("record.json",)):
 
 def error_lines(text, name):
     return [line for line in text.splitlines() if line.startswith(f"cutwater-{name}: error: ")]
+
+
+def state(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return "Z"
+
+
+def ranks_of(mpirun):
+    """The ranks that an mpirun has started."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
+            program = (entry / "comm").read_text().strip()
+        except OSError:
+            continue
+        if parent == mpirun and program.startswith("cutwater"):
+            found.append(int(entry.name))
+    return sorted(found)

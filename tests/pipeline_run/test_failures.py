@@ -6,7 +6,7 @@ import time
 import unittest
 from pathlib import Path
 
-from cutwater import CELLS, PAPER, error_lines, fresh, stage, start, with_geometry
+from cutwater import CELLS, PAPER, error_lines, fresh, ranks_of, stage, start, state, with_geometry
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
@@ -129,27 +129,6 @@ class Failures(unittest.TestCase):
         while (left := [pid for pid in ranks if state(pid) != "Z"]) and time.monotonic() < deadline:
             time.sleep(0.1)
         self.assertEqual(left, [], "ranks are left behind")
-
-
-def state(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-    except OSError:
-        return "Z"
-
-
-def ranks_of(mpirun):
-    """The ranks that an mpirun has started."""
-    found = []
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
-            program = (entry / "comm").read_text().strip()
-        except OSError:
-            continue
-        if parent == mpirun and program.startswith("cutwater"):
-            found.append(int(entry.name))
-    return sorted(found)
 
 
 if __name__ == "__main__":

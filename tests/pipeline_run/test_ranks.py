@@ -3,10 +3,11 @@
 import os
 import shutil
 import signal
+import subprocess
 import time
 import unittest
 
-from cutwater import CELLS, RUN, digests, done, start, with_geometry
+from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, ranks_of, start, state, with_geometry)
 
 
 class Ranks(unittest.TestCase):
@@ -29,22 +30,70 @@ class Ranks(unittest.TestCase):
             shutil.rmtree(run)
 
 
+def first_region(mesh, process):
+    """Waits until a region is whole; whether one is before the run is over."""
+    deadline = time.monotonic() + 900
+    while not list(mesh.glob("*.h5")) and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.005)
+    return bool(list(mesh.glob("*.h5")))
+
+
 class Resume(unittest.TestCase):
+    def goes_on(self, run, ranks=2):
+        """The run is called again and ends in the bytes of the whole run; no region that was whole is made again."""
+        mesh = run / "mesh"
+        self.assertFalse((mesh / "manifest.json").exists(), "stopped too late: the run was over")
+        whole = {path.name: path.stat().st_mtime_ns for path in mesh.glob("*.h5")}
+        self.assertTrue(whole, "no region was whole")
+        done(self, "mesh", run, cells=CELLS, ranks=ranks)
+        self.assertEqual(digests(mesh), digests(RUN / "mesh"))
+        self.assertEqual({name: (mesh / name).stat().st_mtime_ns for name in whole}, whole)
+        shutil.rmtree(run)
+
     def test_a_killed_run_called_again_ends_in_the_same_bytes(self):
         run = with_geometry("resume")
-        mesh = run / "mesh"
         process = start("mesh", run, cells=CELLS, ranks=2)
-        deadline = time.monotonic() + 900
-        while not list(mesh.glob("*.h5")) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.02)
+        self.assertTrue(first_region(run / "mesh", process))
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
-        self.assertFalse((mesh / "manifest.json").exists(), "killed too late: the run was over")
-        self.assertTrue(list(mesh.glob("*.h5")), "no region was whole")
         time.sleep(1)  # ranks end when they see their mpirun gone
-        done(self, "mesh", run, cells=CELLS, ranks=2)
-        self.assertEqual(digests(mesh), digests(RUN / "mesh"))
-        shutil.rmtree(run)
+        self.goes_on(run)
+
+    def test_a_run_with_a_killed_rank_called_again(self):
+        run = with_geometry("resume-rank")
+        process = start("mesh", run, cells=CELLS, ranks=2)
+        self.assertTrue(first_region(run / "mesh", process))
+        ranks = ranks_of(process.pid)
+        self.assertEqual(len(ranks), 2)
+        os.kill(ranks[1], signal.SIGKILL)
+        process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        deadline = time.monotonic() + 30
+        while any(state(pid) != "Z" for pid in ranks) and time.monotonic() < deadline:
+            time.sleep(0.1)
+        self.goes_on(run, ranks=3)
+
+    def test_a_run_on_a_full_disk_called_again(self):
+        """The folder of the mesh is a small file system of its own while the first run lasts."""
+        size = sum(path.stat().st_size for path in (RUN / "mesh").iterdir())
+        run = with_geometry("resume-full")
+        mesh, left = run / "mesh", run / "left"
+        mesh.mkdir()
+        if subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "tmpfs", mesh], check=False,
+                          capture_output=True).returncode:
+            self.skipTest("no file system can be mounted here")
+        line = " ".join(f"'{word}'" for word in command("mesh", run, cells=CELLS, ranks=2))
+        result = execute(["unshare", "-rm", "sh", "-c",
+                          f"mount -t tmpfs -o size={size // 2} tmpfs '{mesh}' && {line}; code=$?; "
+                          f"cp -p -r '{mesh}' '{left}'; exit $code"])
+        self.assertNotEqual(result.returncode, 0)
+        self.assertEqual(len(error_lines(result.stdout, "mesh")), 1, result.stdout)
+        self.assertIn(str(mesh), error_lines(result.stdout, "mesh")[0])
+        mesh.rmdir()
+        left.rename(mesh)
+        for path in mesh.glob("*.h5"):  # what bears a final name is whole
+            self.assertEqual(path.read_bytes(), (RUN / "mesh" / path.name).read_bytes(), path.name)
+        self.goes_on(run)
 
     def test_a_second_call_makes_no_region_again(self):
         run = with_geometry("again")

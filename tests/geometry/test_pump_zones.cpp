@@ -20,7 +20,7 @@ extern "C" {
 }
 
 #include "geometry/measure.h"
-#include "geometry/pump_solids.h"
+#include "geometry/pump.h"
 #include "geometry/solid.hpp"
 #include "pipeline/case.h"
 
@@ -31,12 +31,12 @@ static CwCase read_case(const char *name) {
   return table;
 }
 
-static CwPumpSolids build(const CwCase &table, CwDesign *design) {
+static CwPump build(const CwCase &table, CwDesign *design) {
   CwPipeStubs stubs;
-  CwPumpSolids pump = {};
+  CwPump pump = {};
   assert_int_equal(cw_hydraulic_design(&table, design), CW_OK);
   assert_int_equal(cw_pump_pipe_stubs(&table, design, &stubs), CW_OK);
-  if (cw_pump_solids_build(&table, design, &stubs, &pump) != CW_OK)
+  if (cw_pump_build(&table, design, &stubs, &pump) != CW_OK)
     fail_msg("%s", cw_fail_message());
   return pump;
 }
@@ -80,10 +80,10 @@ static void same_outline(const CwSolid *a, const char *patch_a, const CwSolid *b
 
 static void check_zones(CwCase table) {
   CwDesign design, whole_design;
-  CwPumpSolids zones = build(table, &design);
+  CwPump zones = build(table, &design);
   table.impeller.suction_pipe_zone = table.volute.discharge_pipe_zone = CW_PIPE_WITH_NEIGHBOUR;
   table.impeller.suction_pipe_length = design.suction_pipe_length;
-  CwPumpSolids whole = build(table, &whole_design);
+  CwPump whole = build(table, &whole_design);
   assert_int_equal(whole.count, 2);
   assert_int_equal(whole.interface_count, 1);
   assert_int_equal(zones.count, 4);
@@ -116,8 +116,8 @@ static void check_zones(CwCase table) {
   }
   outline(zones.solid[2], "inlet", "inlet");
   outline(zones.solid[3], "outlet", "outlet");
-  cw_pump_solids_free(&zones);
-  cw_pump_solids_free(&whole);
+  cw_pump_free(&zones);
+  cw_pump_free(&whole);
 }
 
 static void zones_add_up_to_the_whole(void **) {
@@ -153,6 +153,34 @@ static void a_short_pipe_is_refused(void **) {
   assert_non_null(std::strstr(cw_fail_message(), "raise discharge_pipe_length_mm to at least 25.0"));
 }
 
+static void a_shaft_leaves_no_suction_zone(void **) {
+  CwCase table = read_case("zones");
+  CwDesign design;
+  CwPipeStubs stubs;
+  table.impeller.through_shaft_diameter = 0.01;
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_pump_pipe_stubs(&table, &design, &stubs), CW_ERR_DESIGN);
+  assert_non_null(std::strstr(cw_fail_message(), "suction_pipe_zone: own contradicts through_shaft_diameter_mm, 10"));
+  // The discharge pipe may be one.
+  table.impeller.suction_pipe_zone = CW_PIPE_WITH_NEIGHBOUR;
+  CwPump pump = build(table, &design);
+  assert_int_equal(pump.count, 3);
+  cw_pump_free(&pump);
+}
+
+// The rotor is cut, and so are the sections that its volume is held against.
+static void all_domains_are_sound(void **) {
+  const CwCase table = read_case("zones");
+  CwDesign design;
+  CwMeasuredPump measured;
+  CwPump pump = build(table, &design);
+  if (cw_pump_measure(&design, &pump, &measured) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  for (int i = 0; i < pump.count; i++)
+    assert_true(measured.solid[i].volume > 0 && measured.solid[i].valid);
+  cw_pump_free(&pump);
+}
+
 static void an_open_length_leaves_a_diameter_to_the_zone(void **) {
   CwCase table = read_case("zones");
   CwDesign design;
@@ -171,6 +199,8 @@ int main() {
       cmocka_unit_test(the_other_hand_has_zones_too),
       cmocka_unit_test(radial_discharge_and_splitters_have_zones_too),
       cmocka_unit_test(a_short_pipe_is_refused),
+      cmocka_unit_test(a_shaft_leaves_no_suction_zone),
+      cmocka_unit_test(all_domains_are_sound),
       cmocka_unit_test(an_open_length_leaves_a_diameter_to_the_zone),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/pump.h"
+
+#include <math.h>
+
+#include "geometry/meridian.h"
+#include "geometry/pipe_zone.h"
+#include "geometry/rotor.h"
+#include "geometry/rotor_volume.h"
+#include "geometry/stator.h"
+
+static const double degree = M_PI / 180;
+static const double STUB = 0.25;      // of the diameter
+static const double LEAST_ZONE = 0.25; // of the diameter
+static const double OPEN_ZONE = 1;    // of the diameter, where the length is left open
+
+static CwStatus check_zone(const char *what, double given, double stub, double diameter, const char *keys) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(given - stub >= LEAST_ZONE * diameter * (1 - 1e-9), CW_ERR_DESIGN,
+             "the %s pipe of %.1f mm leaves %.1f mm to a zone of its own; it needs %.1f mm: raise %s to at least "
+             "%.1f, or leave out %s",
+             what, 1e3 * given, 1e3 * (given - stub), 1e3 * LEAST_ZONE * diameter,
+             keys[0] == 's' ? "suction_pipe_length_mm" : "discharge_pipe_length_mm",
+             1e3 * (stub + LEAST_ZONE * diameter), keys);
+done:
+  return status;
+}
+
+CwStatus cw_pump_pipe_stubs(const CwCase *table, CwDesign *design, CwPipeStubs *stubs) {
+  CwStatus status = CW_OK;
+  stubs->suction = design->suction_pipe_length;
+  stubs->discharge = design->discharge_pipe_length;
+  if (table->impeller.suction_pipe_zone == CW_PIPE_OWN_ZONE) {
+    CwMeridian meridian;
+    CW_REQUIRE(!(design->through_shaft_diameter > 0), CW_ERR_DESIGN,
+               "impeller.suction_pipe_zone: own contradicts through_shaft_diameter_mm, %.6g: a shaft that turns "
+               "would stand in a zone at rest; allowed: suction_pipe_zone rotor, or through_shaft_diameter_mm 0",
+               1e3 * design->through_shaft_diameter);
+    CW_TRY(cw_meridian_make(design, &meridian));
+    const double nut = fmax(0, meridian.shroud.pole[0][1] - meridian.nut_end_z);
+    stubs->suction = nut + STUB * design->inlet_diameter;
+    if (!cw_case_given(table->impeller.suction_pipe_length)) {
+      design->suction_pipe_length = stubs->suction + OPEN_ZONE * design->inlet_diameter;
+      design->source[CW_DESIGN_suction_pipe_length] = "past the nut, 1.25 D1";
+    }
+    CW_TRY(check_zone("suction", design->suction_pipe_length, stubs->suction, design->inlet_diameter,
+                      "suction_pipe_zone"));
+  }
+  if (table->volute.discharge_pipe_zone == CW_PIPE_OWN_ZONE) {
+    stubs->discharge = STUB * design->discharge_diameter;
+    CW_TRY(check_zone("discharge", design->discharge_pipe_length, stubs->discharge, design->discharge_diameter,
+                      "discharge_pipe_zone"));
+  }
+done:
+  return status;
+}
+
+static CwStatus add_pipe(CwPump *pump, int neighbour, const char *end, double length,
+                         const CwPipeZoneNames *names) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_pipe_zone_make(pump->solid[neighbour], end, length, names, &pump->solid[pump->count]));
+  pump->interface[pump->interface_count++] =
+      (CwPumpInterface){{cw_solid_domain(pump->solid[neighbour]), names->domain},
+                        {names->neighbour_side, names->side}};
+  pump->count++;
+done:
+  return status;
+}
+
+CwStatus cw_pump_build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwPump *pump) {
+  CwStatus status = CW_OK;
+  static const CwPipeZoneNames suction = {"suction", "inlet_pipe", "suction_to_rotor", "rotor_to_suction"};
+  static const CwPipeZoneNames discharge = {"discharge", "outlet_pipe", "discharge_to_stator",
+                                            "stator_to_discharge"};
+  CwDesign cut = *design;
+  pump->stubs = *stubs;
+  cut.suction_pipe_length = stubs->suction;
+  cut.volute.input.discharge_pipe_length = stubs->discharge;
+  CW_TRY(cw_rotor_build(&cut, &pump->solid[CW_PUMP_ROTOR]));
+  pump->count = 1;
+  CW_TRY(cw_stator_build(&cut.volute, &pump->solid[CW_PUMP_STATOR]));
+  pump->count = 2;
+  pump->interface[pump->interface_count++] =
+      (CwPumpInterface){{"rotor", "stator"}, {"rotor_interface", "stator_interface"}};
+  if (table->impeller.suction_pipe_zone == CW_PIPE_OWN_ZONE)
+    CW_TRY(add_pipe(pump, CW_PUMP_ROTOR, "inlet", design->suction_pipe_length - stubs->suction, &suction));
+  if (table->volute.discharge_pipe_zone == CW_PIPE_OWN_ZONE)
+    CW_TRY(add_pipe(pump, CW_PUMP_STATOR, "outlet", design->discharge_pipe_length - stubs->discharge,
+                    &discharge));
+  for (int i = 0; i < pump->count && design->rotation == CW_ROTATION_CLOCKWISE; i++)
+    CW_TRY(cw_solid_mirror(pump->solid[i]));
+done:
+  return status;
+}
+
+void cw_pump_free(CwPump *pump) {
+  for (int i = 0; i < CW_PUMP_DOMAINS_MOST; i++)
+    cw_solid_free(&pump->solid[i]);
+  pump->count = pump->interface_count = 0;
+}
+
+static CwStatus check_solid(const CwDesign *design, const CwSolid *solid, const CwMeasuredSolid *measured) {
+  CwStatus status = CW_OK;
+  const double edge = CW_PUMP_LEAST_EDGE * design->outlet_diameter,
+               face = CW_PUMP_LEAST_FACE * design->outlet_diameter;
+  CW_REQUIRE(measured->valid && measured->closed && measured->largest_tolerance < CW_PUMP_LARGEST_TOLERANCE,
+             CW_ERR_GEOMETRY,
+             "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
+             "%.3g mm: UNSOUND",
+             cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
+             measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3,
+             CW_PUMP_LARGEST_TOLERANCE * 1e3);
+  CW_REQUIRE(measured->shortest_edge > edge && measured->narrowest_face > face, CW_ERR_GEOMETRY,
+             "%s: the shortest edge is %.3g mm long, the narrowest face %.3g mm wide; at least %.3g and %.3g mm "
+             "are allowed: raise the thickness, bevel or radius that makes it",
+             cw_solid_domain(solid), measured->shortest_edge * 1e3, measured->narrowest_face * 1e3, edge * 1e3,
+             face * 1e3);
+done:
+  return status;
+}
+
+static CwStatus check_rotor(const CwDesign *design, const CwPump *pump, CwMeasuredPump *measured) {
+  CwStatus status = CW_OK;
+  const CwMeasuredAngle *kink = &measured->rotor.kink;
+  const double volume = measured->solid[CW_PUMP_ROTOR].volume;
+  CwDesign cut = *design;
+  cut.suction_pipe_length = pump->stubs.suction;
+  CW_TRY(cw_rotor_volume(&cut, &measured->rotor_volume_of_sections));
+  CW_REQUIRE(fabs(volume / measured->rotor_volume_of_sections - 1) < CW_PUMP_VOLUME_TOLERANCE,
+             CW_ERR_GEOMETRY,
+             "rotor: the solid has %.3f cm3, the sections of meridian and blades %.3f cm3; %.2g %% apart are "
+             "allowed: UNSOUND",
+             volume * 1e6, measured->rotor_volume_of_sections * 1e6,
+             100 * CW_PUMP_VOLUME_TOLERANCE);
+  CW_REQUIRE(kink->angle < CW_PUMP_LARGEST_KINK, CW_ERR_GEOMETRY,
+             "rotor: faces that should be smooth meet with a kink of %.2f deg at (%.2f, %.2f, %.2f) mm; %.0f deg "
+             "are allowed: lower root_fillet_radius_mm or leading_edge_ratio",
+             kink->angle / degree, kink->at[0] * 1e3, kink->at[1] * 1e3, kink->at[2] * 1e3,
+             CW_PUMP_LARGEST_KINK / degree);
+done:
+  return status;
+}
+
+// Both sides of the interface must be the same cylinder, so that every weight of the coupling is 1.
+static CwStatus check_interface(const CwMeasuredRotor *rotor, const CwMeasuredStator *stator) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(fabs(rotor->interface_radius - stator->interface_radius) < 1e-8 &&
+                 fabs(rotor->interface_area / stator->interface_area - 1) < 1e-6,
+             CW_ERR_GEOMETRY,
+             "the interface is r = %.6f mm, %.4f mm2 on the rotor and r = %.6f mm, %.4f mm2 on the stator",
+             rotor->interface_radius * 1e3, rotor->interface_area * 1e6, stator->interface_radius * 1e3,
+             stator->interface_area * 1e6);
+done:
+  return status;
+}
+
+CwStatus cw_pump_measure(const CwDesign *design, const CwPump *pump, CwMeasuredPump *measured) {
+  CwStatus status = CW_OK;
+  for (int i = 0; i < pump->count; i++) {
+    CW_TRY(cw_measure_solid(pump->solid[i], &measured->solid[i]));
+    CW_TRY(check_solid(design, pump->solid[i], &measured->solid[i]));
+  }
+  CW_TRY(cw_measure_rotor(pump->solid[CW_PUMP_ROTOR], &measured->rotor));
+  CW_TRY(cw_measure_stator(pump->solid[CW_PUMP_STATOR], &measured->stator));
+  CW_TRY(check_rotor(design, pump, measured));
+  CW_TRY(check_interface(&measured->rotor, &measured->stator));
+done:
+  return status;
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The pump's domains as solids: built, measured, and held against what makes a sound one; and the interfaces
+// between them. Rotor and stator always; the suction pipe and the discharge pipe where the case asks for them as
+// zones of their own.
+#ifndef CUTWATER_GEOMETRY_PUMP_H
+#define CUTWATER_GEOMETRY_PUMP_H
+
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/solid.h"
+#include "pipeline/case.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_PUMP_ROTOR, CW_PUMP_STATOR, CW_PUMP_DOMAINS_MOST = 4 };
+
+// Limits of a sound solid. The sizes are shares of D2: 0.1 mm and 0.1 mm on a wheel of 200 mm.
+#define CW_PUMP_LARGEST_TOLERANCE 1e-6          // m
+#define CW_PUMP_LEAST_EDGE 5e-4                 // of D2
+#define CW_PUMP_LEAST_FACE 5e-4                 // of D2, width
+#define CW_PUMP_VOLUME_TOLERANCE 1e-3           // rotor, to the volume of the sections
+#define CW_PUMP_LARGEST_KINK (3 * M_PI / 180)   // rotor, between faces that should be smooth, rad
+
+// One surface that two domains have in common, as a patch of either.
+typedef struct {
+  const char *domain[2], *patch[2];
+} CwPumpInterface;
+
+// How much of the suction and discharge pipes belongs to rotor and stator, m: all, or where a pipe is a zone of
+// its own, up to a quarter of a diameter before the hub's nut and behind the diffuser.
+typedef struct {
+  double suction, discharge;
+} CwPipeStubs;
+
+typedef struct {
+  int count, interface_count;
+  CwSolid *solid[CW_PUMP_DOMAINS_MOST]; // rotor, stator, then the pipes
+  CwPumpInterface interface[CW_PUMP_DOMAINS_MOST - 1];
+  CwPipeStubs stubs; // as built
+} CwPump;
+
+// What was measured on the solids as built.
+typedef struct {
+  CwMeasuredSolid solid[CW_PUMP_DOMAINS_MOST]; // in the order of the pump's
+  CwMeasuredRotor rotor;
+  CwMeasuredStator stator;
+  double rotor_volume_of_sections; // m3, by cw_rotor_volume()
+} CwMeasuredPump;
+
+// Where the suction pipe is a zone and its length is left open, the design gets one that leaves a diameter to
+// the zone. Fails with CW_ERR_DESIGN where a length leaves less than a quarter of a diameter to a zone, and where
+// the suction zone would have to be a ring about a shaft.
+CwStatus cw_pump_pipe_stubs(const CwCase *table, CwDesign *design, CwPipeStubs *stubs);
+
+// Builds all domains; mirrored where the pump turns clockwise. Free with cw_pump_free(), also after a failure;
+// zeroed `pump` on entry.
+CwStatus cw_pump_build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwPump *pump);
+void cw_pump_free(CwPump *pump);
+
+// Measures all solids and holds them against the limits above and rotor and stator against one another: valid,
+// closed, no edge too short, no face too narrow, the rotor's volume that of its sections, no kink where it should
+// be smooth, the same interface on both sides. Fails with CW_ERR_GEOMETRY and one line that says what is wrong and
+// what to change.
+CwStatus cw_pump_measure(const CwDesign *design, const CwPump *pump, CwMeasuredPump *measured);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
