@@ -6,6 +6,7 @@
 #include "mesher/background.h"
 #include "mesher/region_build.h"
 #include "mesher/size.h"
+#include "mesher/symmetry.h"
 #include "mesher/wall_targets.h"
 
 typedef struct {
@@ -13,6 +14,7 @@ typedef struct {
   CwCad *cad;
   CwBackground background;
   CwInside *inside;
+  CwSymmetry *symmetry;                       // of solid and plan; NULL: the domain is meshed whole
   CwSize *size;
   double *relative_size, *patch_first_height; // of each patch; m
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
@@ -37,9 +39,13 @@ CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *
 double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
-// packed (cw_plan_unpack): a task of one rank.
+// packed (cw_plan_unpack): a task of one rank. With a symmetry it is a fan, where one can be had.
 CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
                         double tet_factor, void **bytes, int64_t *byte_count);
+
+// Takes up a plan. CW_RETRY, and nothing taken, where the domain has a symmetry and the plan or the curves that it cuts
+// have not.
+CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
 
 // Starts the skeleton anew at the present scale of the size field: curve network and wall curves.
 CwStatus cw_domain_start(CwDomain *domain);

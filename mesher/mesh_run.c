@@ -131,6 +131,7 @@ static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMe
     const CwDomain *domain = &run->domain[d];
     for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
       if (cw_face_is_wall(domain->cad, f) != walls) continue;
+      if (domain->symmetry && domain->symmetry->face.first[f] != f) continue;
       double cost = 0; // background triangles stand for area and curvature well enough
       for (int32_t t = 0; t < domain->background.triangle_count; t++) cost += domain->background.face[t] == f;
       (*tasks)[(*count)++] = (CwMeshTask){d, f, cost};
@@ -214,7 +215,9 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CW_TRY(results_make(&interfaces, outlines[0], outlines[1]));
   CW_NEW(task, outlines[0] + outlines[1]);
   for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwSkeletonOrbits *orbits = &run->domain[d].skeleton.orbits;
     for (int32_t i = 0; i < outlines[d]; i++) {
+      if (cw_orbit_turns(orbits, &orbits->outline, i) > 0) continue;
       task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
     }
   }
@@ -228,6 +231,19 @@ done:
   results_free(&interfaces);
   free(task);
   return status;
+}
+
+// The summaries of a region and of its turned copies, which share its time.
+static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
+  const CwSkeleton *skeleton = &run->domain[d].skeleton;
+  int32_t copies = cw_region_copies(skeleton, region);
+  double seconds = run->region_seconds[d][region];
+  for (int32_t turns = 0; turns < copies; turns++) {
+    int32_t copy = cw_orbit_region(&skeleton->orbits, skeleton->plan, region, turns);
+    run->summary[d][copy] = *made;
+    run->region_seconds[d][copy] = seconds / copies;
+    run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+  }
 }
 
 static CwStatus mesh_regions(CwMeshRun *run) {
@@ -247,6 +263,8 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   CW_NEW(task, regions[0] + regions[1]);
   for (int d = 0; d < CW_DOMAINS; d++) {
     for (int32_t r = 0; r < regions[d]; r++) {
+      const CwSkeleton *skeleton = &run->domain[d].skeleton;
+      if (!cw_orbit_region_is_first(&skeleton->orbits, skeleton->plan, r)) continue;
       task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
     }
   }
@@ -255,9 +273,7 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   run->cells = 0;
   for (int d = 0; d < CW_DOMAINS; d++) {
     for (int32_t r = 0; r < regions[d]; r++) {
-      memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
-      const CwRegionSummary *made = &run->summary[d][r];
-      run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+      if (results.bytes[d][r]) take_summaries(run, d, r, results.bytes[d][r]);
     }
   }
 done:
@@ -294,6 +310,13 @@ static CwStatus open_domains(CwMeshRun *run) {
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
     cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
            run->domain[d].background.triangle_count);
+    if (d > 0 || !run->table->mesh.periodic_impeller) continue;
+    CW_TRY(cw_symmetry_find(run->domain[d].cad, &run->domain[d].background, &run->domain[d].symmetry));
+    if (run->domain[d].symmetry) {
+      cw_log("%s: one of %d equal passages is meshed", DOMAIN_NAMES[d], run->domain[d].symmetry->count);
+    } else {
+      cw_log("%s: no equal passages; it is meshed whole", DOMAIN_NAMES[d]);
+    }
   }
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, 2, "domains"));
   CW_TRY(run_domains(run, "size field", cw_step_size, &results));
@@ -305,27 +328,59 @@ done:
   return status;
 }
 
+// Gives up the symmetry of a domain: it is planned anew, to be meshed whole.
+static CwStatus plan_whole(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  cw_log("%s: its passages cannot be divided alike; it is meshed whole", DOMAIN_NAMES[d]);
+  cw_domain_clear(&run->domain[d]);
+  cw_symmetry_free(&run->domain[d].symmetry);
+  CW_TRY(results_make(&results, 1, 1));
+  CwMeshTask task = {d, 0, 1};
+  CW_TRY(run_step(run, "decomposition", "domains", cw_step_plan, 1, &task, results.bytes, NULL));
+  CW_TRY(cw_domain_take_plan(&run->domain[d], results.bytes[d][0]));
+done:
+  results_free(&results);
+  return status;
+}
+
+static void log_plan(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  double worst = 1;
+  for (int32_t n = 0; n < domain->plan.node_count; n++) {
+    const CwPlane *plane = &domain->plan.node[n].plane;
+    worst = fmin(worst, domain->plan.worst_angle[n]);
+    cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+                 n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
+                 1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+  }
+  cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
+         domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+}
+
 // Regions for each domain by its share of the predicted cells.
 static CwStatus plan_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
   CW_TRY(run_domains(run, "decomposition", cw_step_plan, &results));
   for (int d = 0; d < CW_DOMAINS; d++) {
-    CwDomain *domain = &run->domain[d];
-    double worst = 1;
-    CW_TRY(cw_plan_unpack(results.bytes[d][0], &domain->plan));
-    for (int32_t n = 0; n < domain->plan.node_count; n++) {
-      const CwPlane *plane = &domain->plan.node[n].plane;
-      worst = fmin(worst, domain->plan.worst_angle[n]);
-      cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
-                   n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
-                   1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
-    }
-    cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
-           domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+    status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
+    if (status == CW_RETRY) status = plan_whole(run, d);
+    CW_TRY(status);
+    log_plan(run, d);
   }
 done:
   results_free(&results);
+  return status;
+}
+
+// All surfaces of the skeletons. CW_RETRY where those of a symmetric domain do not come out symmetric.
+static CwStatus mesh_surfaces(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CW_TRY(mesh_walls(run));
+  CW_TRY(grow_layers(run));
+  CW_TRY(mesh_inner(run));
+done:
   return status;
 }
 
@@ -359,9 +414,14 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     cw_log("going on with pass %d of an earlier run", state.pass);
   }
   for (run->passes = state.pass;; run->passes++) {
-    CW_TRY(mesh_walls(run));
-    CW_TRY(grow_layers(run));
-    CW_TRY(mesh_inner(run));
+    status = mesh_surfaces(run);
+    if (status == CW_RETRY) {
+      for (int d = 0; d < CW_DOMAINS; d++) {
+        if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
+      }
+      status = mesh_surfaces(run);
+    }
+    CW_TRY(status);
     CW_TRY(mesh_regions(run));
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);

@@ -439,3 +439,12 @@ done:
   free(mark);
   return status;
 }
+
+int32_t cw_plan_grazed_edges(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane) {
+  return grazed_edges(scorer, plan, node, plane);
+}
+
+int cw_plan_judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
+                        double reach) {
+  return judge_lines(scorer, plan, node, plane, reach);
+}

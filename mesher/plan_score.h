@@ -39,6 +39,14 @@ void cw_plan_scorer_free(CwPlanScorer *scorer);
 // Predicted cells (prisms and tetrahedra) of a part of the domain.
 double cw_plan_work(const CwPlanScorer *scorer, const CwPieces *pieces, int32_t sample_count, const int32_t *sample);
 
+// How many points of CAD edges in the cell of `node` the plane runs along or grazes.
+int32_t cw_plan_grazed_edges(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane);
+
+// How the lines of a new plane for `node` with its ancestors fare, `reach` m about the points of the lines nearest to the
+// origin: 0 fine, 1 cramped, 2 one coincides with another.
+int cw_plan_judge_lines(const CwPlanScorer *scorer, const CwPlan *plan, int32_t node, const CwPlane *plane,
+                        double reach);
+
 // The best plane for `node` (its ancestors are in the plan) to divide a part that is to become `regions` regions;
 // *first of them on its negative side. *worst_angle: least sqrt(1 - (n.m)^2) over the wall triangles it crosses. Fails
 // with CW_ERR_MESH where no plane at all divides the part.

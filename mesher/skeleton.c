@@ -6,12 +6,14 @@
 
 void cw_skeleton_free(CwSkeleton *skeleton) {
   cw_network_free(&skeleton->network);
+  cw_orbit_free(&skeleton->orbits);
   free(skeleton->wall_x);
   free(skeleton->guide);
   free(skeleton->corner_vertex);
   free(skeleton->wall_triangle);
   free(skeleton->wall_face);
   free(skeleton->wall_region);
+  free(skeleton->wall_source);
   free(skeleton->front);
   free(skeleton->height);
   free(skeleton->reason);

@@ -6,6 +6,7 @@
 
 #include "mesher/front_flip.h"
 #include "mesher/layers.h"
+#include "mesher/orbit_skeleton.h"
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
 #include "pipeline/log.h"
@@ -132,7 +133,12 @@ CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *backgr
                         .obstacle_x = (const double(*)[3])background->x,
                         .obstacle_triangle_count = caps,
                         .obstacle_triangle = (const int32_t(*)[3])cap_triangle};
-  CW_TRY(cw_layers_make(&input, &layers));
+  status = skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers) : cw_layers_make(&input, &layers);
+  if (status == CW_RETRY) { // other ranks must know: a result of nothing
+    status = CW_OK;
+    goto done;
+  }
+  CW_TRY(status);
   CW_NEW(block, (size_t)n * 33);
   memcpy(block, layers.front, (size_t)n * 24);
   memcpy(block + (size_t)n * 24, layers.height, (size_t)n * 8);
@@ -152,6 +158,7 @@ CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes) {
   CwStatus status = CW_OK;
   int64_t *group = NULL;
   size_t n = (size_t)skeleton->wall_count;
+  if (!bytes) return CW_RETRY;
   CW_NEW(skeleton->front, n);
   CW_NEW(skeleton->height, n);
   CW_NEW(skeleton->reason, n);
@@ -164,8 +171,13 @@ CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes) {
     group[t] = (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
   }
   int32_t flips;
-  CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
-                       skeleton->wall_triangle_count, skeleton->wall_triangle, group, &flips));
+  if (skeleton->orbits.symmetry) {
+    CW_TRY(cw_orbit_front_flip(skeleton, group, &flips));
+  } else {
+    CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x,
+                         (const double(*)[3])skeleton->front, skeleton->wall_triangle_count, skeleton->wall_triangle,
+                         group, &flips));
+  }
   cw_log_debug("%d edges of wall and front flipped", flips);
 done:
   free(group);

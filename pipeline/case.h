@@ -120,6 +120,7 @@ typedef struct {
   int64_t cells;             // asked number of cells, rotor and stator together
   CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
   int64_t cells_per_region;  // about this many; at least four regions a domain in any case
+  int periodic_impeller;     // 1: of the equal passages of the impeller one is meshed and copied, 0: meshed whole
   double gradation;          // growth of size with distance, d(size)/d(distance)
   double curvature_angle;    // rad of turn of the surface normal across one edge, at relative size 1
   double cells_across_gap;   // least number of cells across a narrow place

@@ -16,6 +16,7 @@ static const char *const area_laws[] = {"angular_momentum", "velocity", NULL};
 static const char *const sections[] = {"trapezoid", "rectangle", "circle", NULL};
 static const char *const discharges[] = {"tangential", "radial", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
+static const char *const truths[] = {"false", "true", NULL};
 static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
@@ -175,6 +176,8 @@ const CwCaseKey cw_case_keys[] = {
      AT(mesh.cells_per_region), "about this many cells a region; at least four regions a domain in any case"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
            "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen alone"),
+    CHOICE("mesh", "periodic_impeller", truths, 1, mesh.periodic_impeller,
+           "true: one of the equal passages of the impeller is meshed and turned for the others; false: all at once"),
     REAL_DEFAULT("mesh", "gradation", "", 0.05, 1, 0.25, mesh.gradation,
                  "growth of the cell size with distance: change of size per distance"),
     REAL_DEFAULT("mesh", "curvature_angle_deg", "deg", 2, 60, 20, mesh.curvature_angle,
