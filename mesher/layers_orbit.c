@@ -8,7 +8,7 @@
 #include "pipeline/log.h"
 
 enum { ROUNDS = 8 };
-static const double REACH = 6;       // thicknesses: how far the layers feel one another through gaps and gradation
+static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
 static const double VALID = 0.02;    // least prism quality
 static const double THIN = 0.8;      // of the target, where the copies do not fit one another
 static const double SAME = 1e-9;     // m: fronts that differ less are the same
@@ -18,12 +18,14 @@ typedef struct {
   const CwSkeleton *skeleton;
   const CwLayerInput *whole;
   CwLayerInput in;
+  uint8_t *is_first;       // of each point of the whole: on a face that is the first of its orbit
   int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
   double (*x)[3], *target, (*guide_normal)[2][3];
   int32_t (*triangle)[3], *guide_count;
 } Part;
 
 static void part_free(Part *part) {
+  free(part->is_first);
   free(part->global);
   free(part->local);
   free(part->x);
@@ -68,18 +70,16 @@ static int is_near(const Buckets *buckets, const double (*x)[3], const double p[
 }
 
 // Marks the points within reach of the first ones.
-static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *near) {
+static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
   CwStatus status = CW_OK;
   Buckets buckets = {.size = whole->point_count + 1};
-  uint8_t *is_first = NULL;
-  CW_NEW(is_first, whole->point_count);
   CW_NEW(buckets.first, buckets.size);
   CW_NEW(buckets.next, whole->point_count);
   for (int32_t i = 0; i < buckets.size; i++) buckets.first[i] = -1;
   double longest = 0, thickest = 0;
   for (int32_t t = 0; t < whole->triangle_count; t++) {
     const int32_t *corner = whole->triangle[t];
-    if (skeleton->wall_source[t] != t || !cw_orbit_face_is_first(&skeleton->orbits, skeleton->wall_face[t])) continue;
+    if (skeleton->wall_source[t] != t) continue;
     for (int k = 0; k < 3; k++) {
       is_first[corner[k]] = 1;
       longest = fmax(longest, distance3(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));
@@ -99,7 +99,6 @@ static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole,
     near[v] = is_first[v] || is_near(&buckets, whole->x, whole->x[v]);
   }
 done:
-  free(is_first);
   free(buckets.first);
   free(buckets.next);
   return status;
@@ -112,7 +111,8 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
   part->skeleton = skeleton;
   part->whole = whole;
   CW_NEW(near, whole->point_count);
-  CW_TRY(mark_near(skeleton, whole, near));
+  CW_NEW(part->is_first, whole->point_count);
+  CW_TRY(mark_near(skeleton, whole, part->is_first, near));
   CW_NEW(part->global, whole->point_count);
   CW_NEW(part->local, whole->point_count);
   CW_NEW(part->triangle, whole->triangle_count);
@@ -155,19 +155,27 @@ done:
   return status;
 }
 
-// Takes the columns of the first ones from the part and turns them for the copies.
-static void spread(const Part *part, const CwLayers *made, CwLayers *layers) {
+// Takes the columns of the first ones from the part and turns them for the copies. Of two members of an orbit that both
+// are on first faces (on a seam) that with the smaller number counts.
+static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers) {
+  CwStatus status = CW_OK;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  uint8_t *placed = NULL;
+  CW_NEW(placed, part->whole->point_count);
   for (int32_t v = 0; v < part->whole->point_count; v++) {
-    if (cw_orbit_node_turns(orbits, v) > 0) continue;
+    if (!part->is_first[v] || placed[v]) continue;
     int32_t local = part->local[v], at = v, turns = 0;
     do {
       cw_orbit_point(orbits, turns++, made->front[local], layers->front[at]);
       layers->height[at] = made->height[local];
       layers->reason[at] = made->reason[local];
+      placed[at] = 1;
       at = cw_orbit_node(orbits, at, 1);
     } while (at >= 0 && at != v);
   }
+done:
+  free(placed);
+  return status;
 }
 
 // Checks the part with the columns as they were spread; marks the points whose columns do not fit.
@@ -183,7 +191,12 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
   for (int32_t i = 0; i < n; i++) {
     memcpy(x[i], layers->front[part->global[i]], sizeof *x);
     memcpy(x[n + i], in->x[i], sizeof *x);
-    most = fmax(most, distance3(x[i], made->front[i]));
+  }
+  for (int32_t f = 0; f < walls; f++) { // all that stands on or beside a first face
+    const int32_t *corner = in->triangle[f];
+    int beside = 0;
+    for (int k = 0; k < 3; k++) beside |= part->is_first[part->global[corner[k]]];
+    for (int k = 0; k < 3 && beside; k++) most = fmax(most, distance3(x[corner[k]], made->front[corner[k]]));
   }
   cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies", walls,
                part->whole->triangle_count, 1e3 * most);
@@ -240,7 +253,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
     CW_TRY(cw_layers_make(&part.in, &made));
-    spread(&part, &made, layers);
+    CW_TRY(spread(&part, &made, layers));
     CW_TRY(check(&part, &made, layers, bad, &bad_count));
     layers->repair_rounds = made.repair_rounds;
     layers->thinned_count = made.thinned_count;

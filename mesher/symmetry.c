@@ -187,6 +187,48 @@ done:
   return status;
 }
 
+// Makes the first faces of all orbits one connected passage, as far as may be: what is done for them needs least beside
+// them then.
+static CwStatus gather_firsts(const CwCad *cad, CwSymmetry *symmetry) {
+  CwStatus status = CW_OK;
+  CwOrbits *face = &symmetry->face;
+  int32_t faces = cw_cad_face_count(cad), taken = 0, done_with = 0, *queue = NULL;
+  uint8_t *settled = NULL; // of each orbit, by its first as it was
+  CW_NEW(queue, faces);
+  CW_NEW(settled, faces);
+  for (int32_t f = 0; f < faces; f++) {
+    if (face->next[f] == f) settled[f] = 1;
+  }
+  for (int32_t seed = 0; seed < faces; seed++) {
+    if (settled[face->first[seed]]) continue;
+    settled[face->first[seed]] = 1;
+    queue[taken++] = seed;
+    for (; done_with < taken; done_with++) {
+      for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+        int sides[2];
+        cw_cad_edge_faces(cad, e, sides);
+        for (int k = 0; k < 2; k++) {
+          if (sides[k] != queue[done_with] || settled[face->first[sides[1 - k]]]) continue;
+          settled[face->first[sides[1 - k]]] = 1;
+          queue[taken++] = sides[1 - k];
+        }
+      }
+    }
+  }
+  for (int32_t i = 0; i < taken; i++) {
+    int32_t at = queue[i], turns = 0;
+    do {
+      face->first[at] = queue[i];
+      face->turns[at] = turns++;
+      at = face->next[at];
+    } while (at != queue[i]);
+  }
+done:
+  free(queue);
+  free(settled);
+  return status;
+}
+
 static void clear(CwSymmetry *symmetry) {
   cw_orbits_free(&symmetry->face);
   cw_orbits_free(&symmetry->edge);
@@ -207,7 +249,11 @@ CwStatus cw_symmetry_find(const CwCad *cad, const CwBackground *background, CwSy
     clear(*symmetry);
     CW_REQUIRE(tried == CW_RETRY, tried, "out of memory: symmetry");
   }
-  if (!found) cw_symmetry_free(symmetry);
+  if (found) {
+    CW_TRY(gather_firsts(cad, *symmetry));
+  } else {
+    cw_symmetry_free(symmetry);
+  }
 done:
   if (status != CW_OK) cw_symmetry_free(symmetry);
   free(samples);
