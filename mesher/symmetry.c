@@ -92,6 +92,36 @@ done:
   return status;
 }
 
+static void edge_middle(const CwCad *cad, int32_t edge, double x[3]) {
+  double range[2];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_point(cad, edge, (range[0] + range[1]) / 2, x, NULL);
+}
+
+static int bounds(const CwCad *cad, int32_t edge, int32_t face) {
+  int faces[2];
+  cw_cad_edge_faces(cad, edge, faces);
+  return faces[0] == face || faces[1] == face;
+}
+
+// True where one turn takes the edges of face `f` to edges of face `g`: faces may be pieces of one surface.
+static int edges_agree(const CwCad *cad, int32_t count, int32_t f, int32_t g) {
+  for (int32_t e = 0; e < cw_cad_edge_count(cad); e++) {
+    if (!bounds(cad, e, f)) continue;
+    double x[3], turned[3];
+    int found = 0;
+    edge_middle(cad, e, x);
+    cw_symmetry_turn(count, 1, x, turned);
+    for (int32_t other = 0; other < cw_cad_edge_count(cad) && !found; other++) {
+      if (!bounds(cad, other, g)) continue;
+      edge_middle(cad, other, x);
+      found = cw_distance(x, turned) < SAME;
+    }
+    if (!found) return 0;
+  }
+  return 1;
+}
+
 // Where one turn takes `face`, -1: nowhere.
 static int32_t face_image(const CwCad *cad, const FaceSamples *samples, int32_t count, int32_t face) {
   const FaceSamples *of = &samples[face];
@@ -105,14 +135,14 @@ static int32_t face_image(const CwCad *cad, const FaceSamples *samples, int32_t 
       cw_cad_face_point(cad, g, of->uv[s], x, NULL, NULL);
       same = cw_distance(turned, x) < SAME;
     }
-    if (same) return g;
+    if (same && edges_agree(cad, count, face, g)) return g;
   }
   for (int32_t s = 0; s < of->count; s++) {
     double turned[3], uv[2] = {of->uv[s][0], of->uv[s][1]};
     cw_symmetry_turn(count, 1, of->x[s], turned);
     if (cw_cad_face_project(cad, face, turned, uv) >= SAME) return -1;
   }
-  return of->count > 0 ? face : -1;
+  return of->count > 0 && edges_agree(cad, count, face, face) ? face : -1;
 }
 
 static int32_t edge_image(const CwCad *cad, const CwOrbits *face, int32_t count, int32_t edge) {
