@@ -124,6 +124,19 @@ done:
   return status;
 }
 
+// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the fan are copied with
+// their faces.
+static int fixed_faces_fit(const CwDomain *domain) {
+  const CwBackground *background = &domain->background;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (domain->symmetry->face.next[background->face[t]] != background->face[t]) continue;
+    for (int k = 0; k < 3; k++) {
+      if (cw_plane_distance(&domain->plan.node[0].plane, background->x[background->triangle[t][k]]) > 0) return 0;
+    }
+  }
+  return 1;
+}
+
 CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes) {
   CwStatus status = CW_OK;
   CwNetwork network = {0};
@@ -131,7 +144,7 @@ CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes) {
   cw_plan_free(&domain->plan);
   CW_TRY(cw_plan_unpack(bytes, &domain->plan));
   if (!domain->symmetry) goto done;
-  if (domain->plan.fan_count) {
+  if (domain->plan.fan_count && fixed_faces_fit(domain)) {
     status = cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &network);
     if (status == CW_OK) status = cw_orbit_network(&network, &orbits);
   } else {

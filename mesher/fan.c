@@ -43,6 +43,7 @@ int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, i
   return turned(plan, count, turns, plan->fan_region, region);
 }
 
-int cw_fan_is_first(const CwPlan *plan, int32_t count, int32_t region) {
-  return region < plan->fan_region + plan->fan_count / count;
+int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region) {
+  int32_t wedge = region - plan->fan_region;
+  return wedge < 0 ? region : plan->fan_region + wedge % (plan->fan_count / count);
 }

@@ -27,8 +27,8 @@ int cw_fan_in_wedge(const CwPlan *plan, int32_t region, const double x[3], doubl
 // Where `turns` turns of a symmetry of `count` turns take a node or region of the plan.
 int32_t cw_fan_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node);
 int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region);
-// True where the region is not a turned copy of one with a smaller number.
-int cw_fan_is_first(const CwPlan *plan, int32_t count, int32_t region);
+// The region that this one is a turned copy of, or itself.
+int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region);
 
 // Plans a domain that `count` turns bring to itself. CW_RETRY where it has no fluid on the axis on one side only, or no
 // plane fits.

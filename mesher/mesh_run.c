@@ -233,15 +233,13 @@ done:
   return status;
 }
 
-// The summaries of a region and of its turned copies, which share its time.
+// The summaries of a region and of its turned copies; its time is that of all of them.
 static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
   const CwSkeleton *skeleton = &run->domain[d].skeleton;
   int32_t copies = cw_region_copies(skeleton, region);
-  double seconds = run->region_seconds[d][region];
   for (int32_t turns = 0; turns < copies; turns++) {
     int32_t copy = cw_orbit_region(&skeleton->orbits, skeleton->plan, region, turns);
     run->summary[d][copy] = *made;
-    run->region_seconds[d][copy] = seconds / copies;
     run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
   }
 }
@@ -264,7 +262,7 @@ static CwStatus mesh_regions(CwMeshRun *run) {
   for (int d = 0; d < CW_DOMAINS; d++) {
     for (int32_t r = 0; r < regions[d]; r++) {
       const CwSkeleton *skeleton = &run->domain[d].skeleton;
-      if (!cw_orbit_region_is_first(&skeleton->orbits, skeleton->plan, r)) continue;
+      if (cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r) != r) continue;
       task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
     }
   }

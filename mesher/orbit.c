@@ -68,8 +68,8 @@ int32_t cw_orbit_region(const CwSkeletonOrbits *orbits, const CwPlan *plan, int3
   return orbits->symmetry ? cw_fan_turned_region(plan, orbits->symmetry->count, turns, region) : region;
 }
 
-int cw_orbit_region_is_first(const CwSkeletonOrbits *orbits, const CwPlan *plan, int32_t region) {
-  return !orbits->symmetry || cw_fan_is_first(plan, orbits->symmetry->count, region);
+int32_t cw_orbit_region_first(const CwSkeletonOrbits *orbits, const CwPlan *plan, int32_t region) {
+  return orbits->symmetry ? cw_fan_first_region(plan, orbits->symmetry->count, region) : region;
 }
 
 static int32_t turned_plane(const CwNetwork *network, int32_t count, int32_t node) {
