@@ -34,31 +34,51 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
+// Columns much taller than their triangles are wide crowd together at noses and roots. They give up growth there, never
+// the first height.
+static double fair_height(double thickness, double least, double size) {
+  return fmin(thickness, fmax(least, TALLEST_COLUMN * size));
+}
+
+static double least_height(double first_height, const CwCase *table) {
+  return EVEN_LAYERS * table->walls.layer_count * first_height;
+}
+
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
 static CwStatus integrate(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, *volume = NULL;
   int32_t count = 0;
+  CW_NEW(domain->layer_sample, domain->background.triangle_count);
   for (int32_t t = 0; t < domain->background.triangle_count; t++) {
     int32_t face = domain->background.face[t];
     if (!cw_face_is_wall(domain->cad, face)) continue;
     double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
-    double thickness = cw_domain_thickness(domain, table, cw_cad_face_patch(domain->cad, face));
+    int patch = cw_cad_face_patch(domain->cad, face);
     domain->prism_integral += area / (h * h);
-    domain->tet_integral -= area * thickness / (h * h * h);
+    domain->layer_sample[domain->layer_sample_count++] =
+        (CwLayerSample){area / (h * h * h), h, cw_domain_thickness(domain, table, patch),
+                        least_height(domain->patch_first_height[patch], table)};
   }
   CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
-  double whole = 0;
   for (int32_t i = 0; i < count; i++) {
     double h = cw_size_at(domain->size, x[i]);
-    whole += volume[i] / (h * h * h);
+    domain->volume_integral += volume[i] / (h * h * h);
   }
-  // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
-  domain->tet_integral = fmax(whole + domain->tet_integral, 0.1 * whole);
 done:
   free(x);
   free(volume);
   return status;
+}
+
+double cw_domain_tet_integral(const CwDomain *domain, double scale) {
+  double layers = 0;
+  for (int32_t i = 0; i < domain->layer_sample_count; i++) {
+    const CwLayerSample *sample = &domain->layer_sample[i];
+    layers += sample->density * fair_height(sample->thickness, sample->least, scale * sample->size);
+  }
+  // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
+  return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
 }
 
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
@@ -197,11 +217,8 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
-    // Columns much taller than their triangles are wide crowd together at noses and roots. They give up growth there,
-    // never the first height.
-    double even = EVEN_LAYERS * table->walls.layer_count * domain->first_height[v];
-    double fair = fmax(even, TALLEST_COLUMN * cw_size_at(domain->size, x));
-    domain->target[v] = fmin(domain->target[v], fair);
+    domain->target[v] =
+        fair_height(domain->target[v], least_height(domain->first_height[v], table), cw_size_at(domain->size, x));
   }
   for (int32_t v = 0; v < skeleton->wall_count; v++) { // the size field is symmetric only to within its grid
     if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
@@ -250,6 +267,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_inside_free(&domain->inside);
   cw_background_free(&domain->background);
   cw_cad_close(&domain->cad);
+  free(domain->layer_sample);
   free(domain->relative_size);
   free(domain->patch_first_height);
 }

@@ -9,6 +9,13 @@
 #include "mesher/symmetry.h"
 #include "mesher/wall_targets.h"
 
+// The layers over a piece of wall.
+typedef struct CwLayerSample {
+  double density;          // area / h^3 at scale 1, m-1
+  double size;             // h at scale 1, m
+  double thickness, least; // asked height of the columns, and that below which they never give way to h, m
+} CwLayerSample;
+
 typedef struct {
   const char *name;
   CwCad *cad;
@@ -18,7 +25,9 @@ typedef struct {
   CwSize *size;
   double *relative_size, *patch_first_height; // of each patch; m
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
-  double tet_integral;                        // integral of h^-3 over the domain less its layers, at scale 1
+  double volume_integral;                     // integral of h^-3 over the domain, at scale 1
+  struct CwLayerSample *layer_sample;         // what the layers take of it: one for each background triangle of a wall
+  int32_t layer_sample_count;
   CwPlan plan;
   CwSkeleton skeleton;
   double *first_height, *target;              // of each wall vertex, m
@@ -37,6 +46,10 @@ CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *
 
 // Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.
 double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
+
+// Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
+// tetrahedra follows from.
+double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
 // packed (cw_plan_unpack): a task of one rank. With a symmetry it is a fan, where one can be had.

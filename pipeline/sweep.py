@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""sweep.py TABLE.csv RUN RUN...: sets the runs of a sweep side by side, coarse to fine, and writes TABLE.csv.
+
+Where the OpenFOAM cases of three or more runs were solved, their three finest also give, for head, torque and hydraulic
+efficiency, the observed order of convergence, the value extrapolated to no mesh size at all, and the grid convergence
+index of the finest mesh, after Celik et al., J. Fluids Eng. 130 (2008) 078001, with the safety factor 1.25."""
+import csv
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+
+SAFETY = 1.25
+SOLVED = {"head_m": r"^head +([-\d.e+]+) m", "torque_n_m": r"^shaft torque +([-\d.e+]+) N m",
+          "hydraulic_efficiency_percent": r"^hydraulic efficiency +([-\d.e+]+) %"}
+
+
+def solved(run):
+    """What the solver reported last, as far as it did."""
+    case = os.path.join(run, "export/openfoam")
+    if not os.path.isdir(os.path.join(case, "postProcessing")):
+        return {}
+    text = subprocess.run(["sh", os.path.join(case, "summary")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          text=True, check=False).stdout
+    found = {name: re.search(pattern, text, re.M) for name, pattern in SOLVED.items()}
+    return {name: float(match.group(1)) for name, match in found.items() if match}
+
+
+def row_of(run):
+    with open(os.path.join(run, "mesh/record.json"), encoding="utf-8") as file:
+        record = json.load(file)
+    result = record["results"]
+    domains = result["domains"]
+    tetrahedra = sum(domain["tetrahedra"] for domain in domains)
+    walls = [wall for domain in domains for wall in domain["layer_coverage"]]
+    return {"run": os.path.basename(os.path.normpath(run)), "cells": result["cells"], "tetrahedra": tetrahedra,
+            "prisms": sum(domain["prisms"] for domain in domains),
+            "regions": sum(domain["regions"] for domain in domains),
+            "first_height_met_percent": 100 * sum(wall["first_height_met_faces"] for wall in walls) /
+                                        sum(wall["wall_faces"] for wall in walls),
+            "tetrahedron_aspect_mean": sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"]
+                                           for domain in domains) / max(tetrahedra, 1),
+            "least_dihedral_deg": min(domain["least_dihedral_deg"] for domain in domains),
+            "mesh_s": record["seconds"], "mesh_memory_mb": record["peak_memory_bytes"] / 1e6, **solved(run)}
+
+
+def convergence(sizes, values):
+    """Order, extrapolated value and relative index of the finest of three meshes, coarse to fine; None where the values
+    do not converge monotonously. `sizes` are mesh sizes in any unit."""
+    r32, r21 = sizes[0] / sizes[1], sizes[1] / sizes[2]
+    e32, e21 = values[0] - values[1], values[1] - values[2]
+    if e21 == 0 or e32 / e21 <= 0:
+        return None
+    order = math.log(e32 / e21) / math.log(r21)
+    for _ in range(100):  # the fixed point of equations 5a and 5b of the source
+        if order <= 0:
+            return None
+        order = abs(math.log(e32 / e21) + math.log((r21**order - 1) / (r32**order - 1))) / math.log(r21)
+    if order <= 0:
+        return None
+    fine = r21**order - 1
+    return order, values[2] - e21 / fine, SAFETY * abs(e21 / values[2]) / fine
+
+
+def main(table, runs):
+    rows = sorted((row_of(run) for run in runs), key=lambda row: row["cells"])
+    for coarse, fine in zip([None] + rows, rows):
+        fine["refinement_ratio"] = (fine["cells"] / coarse["cells"])**(1 / 3) if coarse else ""
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    with open(table + ".part", "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, names)
+        writer.writeheader()
+        writer.writerows(rows)
+    os.replace(table + ".part", table)
+    print(f"{'run':20s} {'cells':>12s} {'ratio':>6s} {'first height':>12s} {'dihedral':>9s} {'mesh':>8s} {'memory':>8s}"
+          f" {'head':>9s} {'efficiency':>10s}")
+    for row in rows:
+        ratio = f"{row['refinement_ratio']:.3f}" if row["refinement_ratio"] else "-"
+        head = f"{row['head_m']:.4f} m" if "head_m" in row else "-"
+        efficiency = f"{row['hydraulic_efficiency_percent']:.2f} %" if "hydraulic_efficiency_percent" in row else "-"
+        print(f"{row['run']:20s} {row['cells']:12,d} {ratio:>6s} {row['first_height_met_percent']:10.1f} % "
+              f"{row['least_dihedral_deg']:5.1f} deg {row['mesh_s']:6.1f} s {row['mesh_memory_mb']:5.0f} MB {head:>9s} "
+              f"{efficiency:>10s}")
+    for name in SOLVED:
+        last = [row for row in rows if name in row][-3:]
+        if len(last) < 3:
+            continue
+        found = convergence([row["cells"]**(-1 / 3) for row in last], [row[name] for row in last])
+        print(f"{name:30s} " + (f"order {found[0]:.2f}, extrapolated {found[1]:.5g}, grid convergence index "
+                                f"{100 * found[2]:.2f} %" if found else "does not converge monotonously"))
+    shown = os.path.relpath(table)
+    print(f"{table if shown.startswith('..') else shown}  the table")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__.splitlines()[0])
+    main(sys.argv[1], sys.argv[2:])

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""surface.py [--cells 2M] [--repeat 3] [--bin build/bin] [--case cases/paper/case.yaml]
+
+The surface mesh beside gmsh's frontal and Delaunay ones (`gmsh -2 -nt 1 -algo front2d | del2d`) on the same STEP file,
+at about the same number of triangles, on one core: triangles a second, and their least angles (least, 1 %, mean). The
+runs alternate. Cutwater's triangles follow a graded size field (curvature, gaps, patches), gmsh's here one size and
+curvature. Cutwater's rate is that of its step `surface`, passes that correct the count included."""
+import argparse
+import json
+import math
+import os
+import re
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+NEAR = 0.1  # of the number of triangles, between the two
+
+
+def execute(*line):
+    result = subprocess.run([str(word) for word in line], env=ENVIRONMENT, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
+    if result.returncode:
+        sys.exit(f"surface: {' '.join(str(word) for word in line)}:\n{result.stdout[-2000:]}")
+    return result.stdout
+
+
+def cutwater(options, run):
+    """Seconds of the surface steps and triangles made by them, on one rank."""
+    execute("mpirun", "-q", "-n", 1, options.bin / "cutwater-mesh", "--case", options.case, "--run", run,
+            "--cells", options.cells)
+    record = json.loads((run / "mesh/record.json").read_text())
+    seconds = [step["seconds"] for step in record["steps"] if step["name"] == "surface"]
+    walls = sum(wall["wall_faces"] for domain in record["results"]["domains"] for wall in domain["layer_coverage"])
+    return sum(seconds), walls * len(seconds), walls
+
+
+def shape(options, run):
+    """Least, 1 % (of the worst patch) and mean of the least angles of our triangles on walls."""
+    rows = [line.split() for line in execute(options.bin / "surface_shape", run / "geometry", run / "mesh").splitlines()[1:]]
+    count = sum(int(row[2]) for row in rows)
+    return (min(float(row[3]) for row in rows), sum(float(row[4]) * int(row[2]) for row in rows) / count,
+            sum(float(row[5]) * int(row[2]) for row in rows) / count)
+
+
+def gmsh(algorithm, step, size, folder):
+    """Seconds of gmsh's 2D step and the least angles of its triangles, sorted."""
+    mesh = folder / "gmsh.msh"
+    text = execute("gmsh", "-2", "-nt", 1, "-algo", algorithm, "-clmax", f"{size:.6g}", "-clcurv", 18, step,
+                   "-format", "msh22", "-bin", "-o", mesh)
+    seconds = float(re.search(r"Done meshing 2D \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)", text).group(1))
+    data = mesh.read_bytes()
+    at = data.index(b"$Nodes\n") + 7
+    end = data.index(b"\n", at)
+    count = int(data[at:end])
+    nodes = {number: (x, y, z) for number, x, y, z in struct.iter_unpack("<iddd", data[end + 1:end + 1 + 28 * count])}
+    at = data.index(b"$Elements\n") + 10
+    at = data.index(b"\n", at) + 1
+    corners = {15: 1, 1: 2, 2: 3}
+    angles = []
+    while data[at:at + 12] != b"$EndElements" and data[at + 1:at + 13] != b"$EndElements":
+        kind, number, tags = struct.unpack_from("<iii", data, at)
+        size_of = 4 * (1 + tags + corners[kind])
+        at += 12
+        if kind == 2:
+            angles += [least_angle([nodes[n] for n in struct.unpack_from("<iii", data, at + i * size_of + 4 * (1 + tags))])
+                       for i in range(number)]
+        at += number * size_of
+    return seconds, sorted(angles)
+
+
+def least_angle(x):
+    """Least angle of a triangle, degrees."""
+    least = 180.0
+    for i in range(3):
+        u = [q - p for p, q in zip(x[i], x[(i + 1) % 3])]
+        v = [q - p for p, q in zip(x[i], x[(i + 2) % 3])]
+        cosine = sum(a * b for a, b in zip(u, v)) / math.sqrt(sum(a * a for a in u) * sum(b * b for b in v))
+        least = min(least, math.degrees(math.acos(max(-1.0, min(1.0, cosine)))))
+    return least
+
+
+def gmsh_size(step, triangles, folder):
+    """The size at which gmsh makes about this many triangles."""
+    size = 1.0
+    for _ in range(8):
+        made = len(gmsh("del2d", step, size, folder)[1])
+        if abs(made / triangles - 1) <= NEAR:
+            return size
+        size *= math.sqrt(made / triangles)
+    sys.exit(f"surface: no size of gmsh gives {triangles} triangles")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cells", default="2M")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
+    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        run = folder / "run"
+        step = run / "geometry/pump.step"
+        execute(options.bin / "cutwater-geometry", "--case", options.case, "--run", run)
+        rates = {"cutwater": [], "front2d": [], "del2d": []}
+        shapes = {}
+        counts = {}
+        size = None
+        for _ in range(options.repeat):
+            seconds, made, counts["cutwater"] = cutwater(options, run)
+            rates["cutwater"].append(made / seconds)
+            shapes["cutwater"] = shapes.get("cutwater") or shape(options, run)
+            size = size or gmsh_size(step, counts["cutwater"], folder)
+            for algorithm in ("front2d", "del2d"):
+                seconds, angles = gmsh(algorithm, step, size, folder)
+                counts[algorithm] = len(angles)
+                rates[algorithm].append(len(angles) / seconds)
+                shapes[algorithm] = (angles[0], angles[len(angles) // 100], sum(angles) / len(angles))
+    print(f"{'':10s} {'triangles':>10s} {'per second':>11s} {'least':>6s} {'1 %':>6s} {'mean':>6s}")
+    for name, title in (("cutwater", "cutwater"), ("front2d", "frontal"), ("del2d", "Delaunay")):
+        least, low, mean = shapes[name]
+        print(f"{title:10s} {counts[name]:10,d} {statistics.median(rates[name]):11,.0f} {least:6.1f} {low:6.1f} {mean:6.1f}")
+
+
+if __name__ == "__main__":
+    main()
