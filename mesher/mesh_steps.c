@@ -85,9 +85,9 @@ static CwStatus write_copies(const CwMeshRun *run, const CwDomain *domain, const
   for (int32_t turns = 1; turns < copies; turns++) {
     int32_t copy = cw_orbit_region(&domain->skeleton.orbits, &domain->plan, region, turns);
     CW_TRY(region_path(run, domain, copy, sizeof path, path));
-    cw_region_copy_fingerprint(&domain->context, region, turns, fingerprint);
+    cw_region_copy_fingerprint(&domain->context, first, turns, fingerprint);
     if (cw_region_is_current(path, fingerprint)) continue;
-    CW_TRY(cw_region_copy(&domain->context, first, turns, domain->number[copy], &mesh));
+    CW_TRY(cw_region_copy(&domain->context, first, turns, domain->number[copy], fingerprint, &mesh));
     CW_TRY(cw_region_write(path, &mesh));
     cw_region_free(&mesh);
   }

@@ -16,12 +16,13 @@ static int32_t copied_region(const CwRegionContext *context, int32_t first, int3
   return cw_orbit_region(&context->skeleton->orbits, context->skeleton->plan, first, turns);
 }
 
-void cw_region_copy_fingerprint(const CwRegionContext *context, int32_t first, int32_t turns, char fingerprint[33]) {
-  char of[2][33];
+void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
+                                char fingerprint[33]) {
+  char own[33];
   CwHash hash = cw_hash_start();
-  cw_region_fingerprint(context, first, of[0]);
-  cw_region_fingerprint(context, copied_region(context, first, turns), of[1]);
-  cw_hash_bytes(&hash, of, sizeof of);
+  cw_region_fingerprint(context, copied_region(context, first->region - 1, turns), own);
+  cw_hash_bytes(&hash, first->fingerprint, sizeof own - 1);
+  cw_hash_bytes(&hash, own, sizeof own - 1);
   cw_hash_hex(&hash, fingerprint);
 }
 
@@ -71,7 +72,7 @@ done:
 }
 
 CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns, int32_t number,
-                        CwRegionMesh *mesh) {
+                        const char *fingerprint, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   *mesh = *first;
   mesh->x = NULL;
@@ -85,7 +86,7 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
   mesh->quad_patch = mesh->quad_cell = NULL;
   mesh->region = copied_region(context, first->region - 1, turns) + 1;
   mesh->number = number;
-  cw_region_copy_fingerprint(context, first->region - 1, turns, mesh->fingerprint);
+  snprintf(mesh->fingerprint, sizeof mesh->fingerprint, "%s", fingerprint);
   CW_NEW(mesh->x, mesh->point_count);
   CW_NEW(mesh->shared_id, mesh->shared_count);
   for (int32_t i = 0; i < mesh->point_count; i++) {

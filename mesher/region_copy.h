@@ -6,12 +6,14 @@
 
 #include "mesher/region_build.h"
 
-// Copies `first`, the mesh of the first region of an orbit, to the region `turns` turns on. Fails with CW_ERR_MESH where
-// a shared point of the skeleton does not lie where the turn takes it.
-CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns, int32_t number,
-                        CwRegionMesh *mesh);
+// Hex fingerprint of the copy of `first`, the mesh of the first region of an orbit, `turns` turns on: of what both follow
+// from.
+void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
+                                char fingerprint[33]);
 
-// Hex fingerprint of a copy: of what the first region and the copy follow from.
-void cw_region_copy_fingerprint(const CwRegionContext *context, int32_t first, int32_t turns, char fingerprint[33]);
+// Makes that copy, with its fingerprint. Fails with CW_ERR_MESH where a shared point of the skeleton does not lie where
+// the turn takes it.
+CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns, int32_t number,
+                        const char *fingerprint, CwRegionMesh *mesh);
 
 #endif

@@ -305,9 +305,9 @@ static void copies_fill_the_tank(void **) {
     if (r <= 1) {
       check(cw_region_build(&context, r, number[r], &mesh));
     } else {
-      check(cw_region_copy(&context, &wedge, r - 1, number[r], &mesh));
       char fingerprint[33];
-      cw_region_copy_fingerprint(&context, 1, r - 1, fingerprint);
+      cw_region_copy_fingerprint(&context, &wedge, r - 1, fingerprint);
+      check(cw_region_copy(&context, &wedge, r - 1, number[r], fingerprint, &mesh));
       assert_string_equal(mesh.fingerprint, fingerprint);
       assert_string_not_equal(mesh.fingerprint, wedge.fingerprint);
     }
