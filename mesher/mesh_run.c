@@ -327,19 +327,42 @@ done:
   return status;
 }
 
-// Gives up the symmetry of a domain: it is planned anew, to be meshed whole.
+static void set_scale(CwMeshRun *run, double scale) {
+  run->scale = scale;
+  for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, scale);
+}
+
+// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
 static CwStatus plan_whole(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
   Results results = {0};
+  double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
   cw_log("%s: its passages cannot be divided alike; it is meshed whole", DOMAIN_NAMES[d]);
   cw_domain_clear(&run->domain[d]);
   cw_symmetry_free(&run->domain[d].symmetry);
+  run->whole = 1;
+  run->prism_factor = run->planned_prism_factor;
+  run->tet_factor = run->planned_tet_factor;
+  set_scale(run, run->planned_scale);
   CW_TRY(results_make(&results, 1, 1));
   CwMeshTask task = {d, 0, 1};
   CW_TRY(run_step(run, "decomposition", "domains", cw_step_plan, 1, &task, results.bytes, NULL));
   CW_TRY(cw_domain_take_plan(&run->domain[d], results.bytes[d][0]));
+  run->prism_factor = prism_factor;
+  run->tet_factor = tet_factor;
+  set_scale(run, scale);
 done:
   results_free(&results);
+  return status;
+}
+
+// For all domains that have a symmetry.
+static CwStatus plan_all_whole(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
+  }
+done:
   return status;
 }
 
@@ -361,6 +384,9 @@ static void log_plan(const CwMeshRun *run, int d) {
 static CwStatus plan_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
+  run->planned_prism_factor = run->prism_factor;
+  run->planned_tet_factor = run->tet_factor;
+  run->planned_scale = run->scale;
   CW_TRY(run_domains(run, "decomposition", cw_step_plan, &results));
   for (int d = 0; d < CW_DOMAINS; d++) {
     status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
@@ -411,13 +437,12 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->tet_factor = state.tet_factor;
     solve_scale(run);
     cw_log("going on with pass %d of an earlier run", state.pass);
+    if (state.whole) CW_TRY(plan_all_whole(run));
   }
   for (run->passes = state.pass;; run->passes++) {
     status = mesh_surfaces(run);
     if (status == CW_RETRY) {
-      for (int d = 0; d < CW_DOMAINS; d++) {
-        if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
-      }
+      CW_TRY(plan_all_whole(run));
       status = mesh_surfaces(run);
     }
     CW_TRY(status);
@@ -434,7 +459,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     // As many digits as the file keeps, so that a run that goes on from it has the same bits.
     run->prism_factor = rounded(run->prism_factor);
     run->tet_factor = rounded(run->tet_factor);
-    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor};
+    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole};
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
     solve_scale(run);
   }

@@ -26,6 +26,9 @@ typedef struct {
   double *region_seconds[CW_DOMAINS];
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
+  // With which the domains were planned.
+  double planned_prism_factor, planned_tet_factor, planned_scale;
+  int whole;                       // 1: a symmetry was given up
   int passes;
   int64_t cells;                   // made
 } CwMeshRun;
