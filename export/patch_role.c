@@ -10,12 +10,12 @@ int cw_patch_rotates(const CwMeshPatch *patch) {
 
 double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
   if (strncmp(patch->name, "blade", 5) == 0)
-    return walls->y_plus_blade;
+    return walls->blade.y_plus;
   if (cw_patch_rotates(patch))
-    return walls->y_plus_hub_shroud;
+    return walls->hub_shroud.y_plus;
   if (patch->domain == CW_EXPORT_ROTOR || strcmp(patch->name, "discharge") == 0)
-    return walls->y_plus_pipe;
-  return walls->y_plus_volute;
+    return walls->pipe.y_plus;
+  return walls->volute.y_plus;
 }
 
 int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls) {

@@ -70,7 +70,7 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
   }
 }
 
-// Guan's coefficient of the blade thickness for cast iron, over ns.
+// Guan's coefficient of the blade thickness for cast iron, over ns; as commonly quoted, not held against the book.
 static double guan_thickness(double ns) {
   static const double table[][2] = {{40, 3.2}, {60, 3.5}, {70, 3.8}, {80, 4},
                                     {90, 4.5}, {130, 6},  {190, 7},  {280, 10}};

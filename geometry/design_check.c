@@ -72,9 +72,10 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
          d->wrap_spread / degree);
   remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
          "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);
-  remark(remarks, d->passage_area_least < 0.85 * fmin(d->passage_area_inlet, d->passage_area_outlet),
-         "the passage narrows to %.0f mm2 between %.0f at the leading and %.0f mm2 at the trailing edge",
-         d->passage_area_least * 1e6, d->passage_area_inlet * 1e6, d->passage_area_outlet * 1e6);
+  remark(remarks, d->passage_area_fall > 0.02,
+         "the passage's area falls by %.1f %% along the flow, with %.0f mm2 at the leading and %.0f mm2 at the "
+         "trailing edge; it should grow",
+         100 * d->passage_area_fall, d->passage_area_inlet * 1e6, d->passage_area_outlet * 1e6);
   remark(
       remarks, d->shroud_bend_radius < 0.5 * d->inlet_passage_width,
       "the shroud bends with a radius of %.1f mm, %.2f of the passage's width there; at least 0.6 are usual",

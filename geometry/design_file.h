@@ -6,19 +6,12 @@
 #include <jansson.h>
 
 #include "geometry/hydraulic_design.h"
-#include "geometry/measure.h"
+#include "geometry/pump.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// What was measured on the solids as built.
-typedef struct {
-  CwMeasuredSolid rotor, stator;
-  CwMeasuredRotor rotor_dimensions;
-  CwMeasuredStator stator_dimensions;
-} CwMeasuredPump;
 
 // The measured values as a JSON object: lengths in m, angles in degrees. NULL where memory is out.
 json_t *cw_measured_json(const CwMeasuredPump *measured);

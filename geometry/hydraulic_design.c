@@ -75,6 +75,10 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
     SET(outlet_diameter, outlet_diameter, "meets the head with the outlet blade angle");
   const double d2 = design->outlet_diameter, nq = design->specific_speed_nq;
   value = CORRELATED(CW_CORRELATED_HUB_DIAMETER);
+  if (value < given->through_shaft_diameter) {
+    value = given->through_shaft_diameter;
+    source = "that of the shaft through the inlet";
+  }
   TAKE(hub_diameter, given->hub_diameter, value, source);
   value = CORRELATED(CW_CORRELATED_OUTLET_WIDTH);
   TAKE(outlet_width, given->outlet_width, value, source);
@@ -85,8 +89,19 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
        value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
   SET(axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
-  TAKE(nut_length, given->nut_length, 7.0 / 12 * design->hub_diameter, "7/12 hub diameter");
-  TAKE(nut_disk_radius, given->nut_flat_diameter / 2, 0.145 * design->hub_diameter, "0.145 hub diameter");
+  // A shaft as thick as the hub leaves no nut.
+  const double shaft = given->through_shaft_diameter;
+  SET(through_shaft_diameter, fmin(shaft, design->hub_diameter), shaft > 0 ? "case" : "none");
+  if (shaft > 0 && shaft > (1 - 1e-9) * design->hub_diameter) {
+    SET(nut_length, 0, "none: the shaft is as thick as the hub");
+    SET(nut_disk_radius, design->hub_diameter / 2, "the shaft's");
+  } else {
+    TAKE(nut_length, given->nut_length, 7.0 / 12 * (design->hub_diameter - shaft), shaft > 0
+         ? "7/12 of the hub's diameter over the shaft's" : "7/12 hub diameter");
+    TAKE(nut_disk_radius, shaft > 0 ? shaft / 2 : given->nut_flat_diameter / 2, 0.145 * design->hub_diameter,
+         "0.145 hub diameter");
+  }
+  SET(root_fillet_radius, given->root_fillet_radius, "case or its default");
   double share[2];
   leading_edge_shares(nq, share);
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
@@ -104,7 +119,9 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness,
        "0.50 of the largest");
   TAKE(suction_pipe_length, given->suction_pipe_length,
-       fmax(d1 / 3, 1.2 * design->nut_length - 0.5625 * design->axial_length), "D1 / 3, past the nut");
+       fmax(d1 / 3, 1.2 * design->nut_length - design->outlet_width +
+                        (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
+       "D1 / 3, past the nut");
   value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
   TAKE(base_diameter, table->volute.base_diameter, value, source);
   value = CORRELATED(CW_CORRELATED_INLET_WIDTH);
@@ -303,7 +320,8 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   const int rectangle = given->section == CW_SECTION_RECTANGLE;
   if (rectangle)
     SET(side_wall_angle, 0, "rectangle");
-  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40.
+  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40, as commonly quoted, not
+  // held against the chart.
   const double factor = cw_case_given(given->velocity_factor)
                             ? given->velocity_factor
                             : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
@@ -419,12 +437,17 @@ static CwPriority resolved_priority(const CwImpellerTable *given) {
 }
 
 static void passage(const CwMeridian *meridian, CwDesign *design) {
-  double a[2], b[2], dx[2], length = 0, least = HUGE_VAL;
+  double a[2], b[2], dx[2], length = 0, least = HUGE_VAL, fall = 0;
+  // From the eye on: its area comes first.
+  double largest = M_PI / 4 * (pow(design->inlet_diameter, 2) - pow(design->hub_diameter, 2));
   enum { STEPS = 100 };
   for (int i = 0; i <= STEPS; i++) {
     cw_meridian_blade_point(meridian, 0.5, (double)i / STEPS, a, dx);
     length += hypot(dx[0], dx[1]) * (i == 0 || i == STEPS ? 0.5 : 1) / STEPS;
-    least = fmin(least, cw_meridian_area(meridian, (double)i / STEPS));
+    const double area = cw_meridian_area(meridian, (double)i / STEPS);
+    least = fmin(least, area);
+    largest = fmax(largest, area);
+    fall = fmax(fall, 1 - area / largest);
   }
   cw_meridian_blade_point(meridian, 0, 0, a, NULL);
   cw_meridian_blade_point(meridian, 1, 0, b, NULL);
@@ -433,6 +456,7 @@ static void passage(const CwMeridian *meridian, CwDesign *design) {
   SET(passage_area_inlet, cw_meridian_area(meridian, 0), "meridian");
   SET(passage_area_least, least, "meridian");
   SET(passage_area_outlet, cw_meridian_area(meridian, 1), "meridian");
+  SET(passage_area_fall, fall, "below the largest area before, that of the eye among them");
   SET(shroud_bend_radius, cw_meridian_bend_radius(&meridian->shroud), "meridian");
 }
 

@@ -38,6 +38,7 @@ extern "C" {
   X(hub_diameter, LENGTH, "hub at the nut")                                                                  \
   X(nut_disk_radius, LENGTH, "flat end of the hub nut, radius")                                              \
   X(nut_length, LENGTH, "hub nut, length")                                                                   \
+  X(through_shaft_diameter, LENGTH, "shaft through the inlet (0: none)")                                     \
   X(axial_length, LENGTH, "shroud, axial length from eye to outlet")                                         \
   X(leading_edge_radius_hub, LENGTH, "leading edge at the hub, radius")                                      \
   X(leading_edge_radius_shroud, LENGTH, "leading edge at the shroud, radius")                                \
@@ -47,6 +48,7 @@ extern "C" {
   X(passage_area_inlet, AREA, "passage area at the leading edge, no blades")                                 \
   X(passage_area_least, AREA, "passage area, least")                                                         \
   X(passage_area_outlet, AREA, "passage area at the trailing edge")                                          \
+  X(passage_area_fall, NUMBER, "passage area, largest fall along the flow, share")                           \
   X(inlet_blade_angle, ANGLE, "blade angle beta1 at mid-span")                                               \
   X(outlet_blade_angle, ANGLE, "blade angle beta2")                                                          \
   X(wrap_angle, ANGLE, "wrap angle at mid-span")                                                             \
@@ -61,6 +63,7 @@ extern "C" {
   X(leading_edge_ratio, NUMBER, "leading edge ellipse, along to across")                                     \
   X(thickest_at, NUMBER, "blade thickest at this share of its length")                                       \
   X(lean_angle, ANGLE, "lean of the trailing edge")                                                          \
+  X(root_fillet_radius, LENGTH, "root fillets, radius (0: none)")                                            \
   X(splitter_start, NUMBER, "splitters begin at this share (0: none)")                                       \
   X(splitter_position, NUMBER, "splitters at this share of the pitch")                                       \
   X(suction_pipe_length, LENGTH, "suction pipe, length")                                                     \

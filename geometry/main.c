@@ -8,10 +8,8 @@
 #include "geometry/design_file.h"
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
-#include "geometry/measure.h"
 #include "geometry/picture.h"
-#include "geometry/rotor.h"
-#include "geometry/stator.h"
+#include "geometry/pump.h"
 #include "geometry/step_file.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
@@ -39,24 +37,17 @@ static void show_design(const CwDesign *design) {
     cw_log_warn("%s", remarks.text[i]);
 }
 
-static CwStatus check_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(
-      measured->valid && measured->closed && measured->largest_tolerance < 1e-6, CW_ERR_GEOMETRY,
-      "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
-      "0.001 mm",
-      cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
-      measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3);
-  cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed", cw_solid_domain(solid),
-         measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3);
-done:
-  return status;
+static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
+  cw_log("%s: %d faces, %.3f cm3, largest tolerance %.1e mm, valid and closed; shortest edge %.2f mm, narrowest "
+         "face %.2f mm",
+         cw_solid_domain(solid), measured->face_count, measured->volume * 1e6, measured->largest_tolerance * 1e3,
+         measured->shortest_edge * 1e3, measured->narrowest_face * 1e3);
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
 static void show_rotor(const CwMeasuredRotor *rotor) {
   const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
-  cw_log("measured: wrap %.4f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
+  cw_log("measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
   cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least; sharpest wedge of the "
          "trailing edge "
@@ -75,41 +66,30 @@ static void show_rotor(const CwMeasuredRotor *rotor) {
         360 - rotor->trailing_edge.angle / degree);
 }
 
-// Both sides of the interface must be the same cylinder, so that every weight of the coupling is 1.
-static CwStatus check_interface(const CwMeasuredRotor *rotor, const CwMeasuredStator *stator) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(fabs(rotor->interface_radius - stator->interface_radius) < 1e-8 &&
-                 fabs(rotor->interface_area / stator->interface_area - 1) < 1e-6,
-             CW_ERR_GEOMETRY,
-             "the interface is r = %.6f mm, %.4f mm2 on the rotor and r = %.6f mm, %.4f mm2 on the stator",
-             rotor->interface_radius * 1e3, rotor->interface_area * 1e6, stator->interface_radius * 1e3,
-             stator->interface_area * 1e6);
+static void show_measured(const CwSolid *const solid[2], const CwMeasuredPump *measured) {
+  const CwMeasuredRotor *rotor = &measured->rotor_dimensions;
+  const CwMeasuredStator *stator = &measured->stator_dimensions;
+  show_solid(solid[CW_PUMP_ROTOR], &measured->rotor);
+  show_solid(solid[CW_PUMP_STATOR], &measured->stator);
+  cw_log("measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
+         100 * (measured->rotor.volume / measured->rotor_volume_of_sections - 1), rotor->kink.angle / degree);
+  show_rotor(rotor);
   cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides",
          stator->base_diameter * 1e3, stator->inlet_width * 1e3, rotor->interface_radius * 1e3,
          rotor->interface_area * 1e6);
-done:
-  return status;
 }
 
 static CwStatus build(const CwDesign *design, CwRecord *record, CwSolid *solid[2], CwMeasuredPump *measured) {
   CwStatus status = CW_OK;
   double begin = cw_seconds();
-  CW_TRY(cw_rotor_build(design, &solid[0]));
+  CW_TRY(cw_pump_solid(design, CW_PUMP_ROTOR, &solid[CW_PUMP_ROTOR]));
   CW_TRY(cw_record_step(record, "rotor", cw_seconds() - begin, cw_solid_face_count(solid[0]), "faces"));
   begin = cw_seconds();
-  CW_TRY(cw_stator_build(&design->volute, &solid[1]));
-  for (int i = 0; i < 2 && design->rotation == CW_ROTATION_CLOCKWISE; i++)
-    CW_TRY(cw_solid_mirror(solid[i]));
+  CW_TRY(cw_pump_solid(design, CW_PUMP_STATOR, &solid[CW_PUMP_STATOR]));
   CW_TRY(cw_record_step(record, "stator", cw_seconds() - begin, cw_solid_face_count(solid[1]), "faces"));
   begin = cw_seconds();
-  CW_TRY(cw_measure_solid(solid[0], &measured->rotor));
-  CW_TRY(check_solid(solid[0], &measured->rotor));
-  CW_TRY(cw_measure_solid(solid[1], &measured->stator));
-  CW_TRY(check_solid(solid[1], &measured->stator));
-  CW_TRY(cw_measure_rotor(solid[0], &measured->rotor_dimensions));
-  CW_TRY(cw_measure_stator(solid[1], &measured->stator_dimensions));
-  show_rotor(&measured->rotor_dimensions);
-  CW_TRY(check_interface(&measured->rotor_dimensions, &measured->stator_dimensions));
+  CW_TRY(cw_pump_measure(design, (const CwSolid *const *)solid, measured));
+  show_measured((const CwSolid *const *)solid, measured);
   CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin,
                         measured->rotor.face_count + measured->stator.face_count, "faces"));
 done:

@@ -19,6 +19,7 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <gp.hxx>
 #include <gp_Vec.hxx>
 
 #include "geometry/solid.hpp"
@@ -85,6 +86,26 @@ double fluid_angle(const Side &a, const Side &b) {
   return into_b.Dot(a.normal) < 0 ? angle : 2 * M_PI - angle;
 }
 
+bool named(const CwSolidFace &face, const char *part) {
+  return face.name.find(part) != std::string::npos;
+}
+
+// Whether two faces of the rotor that meet should be tangent there.
+bool should_be_smooth(const CwSolidFace &a, const CwSolidFace &b) {
+  const auto pair = [&](const char *one, const char *other) {
+    return (a.patch == one && b.patch == other) || (a.patch == other && b.patch == one);
+  };
+  const bool a_root = named(a, "_root"), b_root = named(b, "_root");
+  const bool a_wall = a.patch == "hub" || a.patch == "shroud", b_wall = b.patch == "hub" || b.patch == "shroud";
+  if ((a_root && b_wall) || (b_root && a_wall))
+    return true;
+  if (a.patch == "blade_trailing_edge" && b.patch == a.patch) // bevel and cut meet in an edge
+    return a_root != b_root && named(a, "bevel") == named(b, "bevel");
+  return a.patch == b.patch || pair("blade_leading_edge", "blade_pressure") ||
+         pair("blade_leading_edge", "blade_suction") || pair("shroud", "suction_pipe") || pair("hub", "hub_nut") ||
+         pair("hub", "hub_shaft");
+}
+
 bool is_blade(const CwSolidFace &face) {
   return face.patch.compare(0, 6, "blade_") == 0;
 }
@@ -120,6 +141,34 @@ void each_angle(const CwSolid *solid,
 // Point of a face of blade 1 at mid-span: v = 0.5 at the given u of its parameter plane.
 gp_Pnt mid_span(const CwSolid *rotor, const char *name, double u) {
   return BRep_Tool::Surface(face_named(rotor, name).face)->Value(u, 0.5);
+}
+
+// Shortest edge and narrowest face. A face's area is taken as that of its boundary's vector area, half the
+// integral of x cross dx, which no face undercuts.
+void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
+  const int samples = 24;
+  measured->shortest_edge = measured->narrowest_face = HUGE_VAL;
+  for (const CwSolidFace &face : solid->faces) {
+    double around = 0;
+    gp_Vec area(0, 0, 0);
+    for (TopExp_Explorer explorer(face.face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
+      double first, last, length = 0;
+      const TopoDS_Edge edge = TopoDS::Edge(explorer.Current());
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+      gp_Pnt before = curve->Value(first);
+      gp_Vec swept(0, 0, 0);
+      for (int i = 1; i <= samples; i++) {
+        const gp_Pnt next = curve->Value(first + (last - first) * i / samples);
+        swept += gp_Vec(gp::Origin(), before).Crossed(gp_Vec(gp::Origin(), next));
+        length += next.Distance(before);
+        before = next;
+      }
+      area += swept * (edge.Orientation() == TopAbs_REVERSED ? -0.5 : 0.5);
+      around += length;
+      measured->shortest_edge = std::min(measured->shortest_edge, length * metre);
+    }
+    measured->narrowest_face = std::min(measured->narrowest_face, area.Magnitude() / (around / 2) * metre);
+  }
 }
 
 double polar(const gp_Pnt &point) {
@@ -194,6 +243,7 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
     measured->face_count = (int)solid->faces.size();
     measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * metre;
     measured->volume = properties.Mass() * metre * metre * metre;
+    measure_smallness(solid, measured);
   });
 }
 
@@ -201,6 +251,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
   return guarded(rotor, [&] {
     const Extent inlet = extent(rotor, "inlet"), interface = extent(rotor, "rotor_interface");
     measured->inlet_diameter = 2 * inlet.largest_r;
+    measured->inlet_area = inlet.area;
     measured->interface_radius = interface.largest_r;
     measured->interface_area = interface.area;
     measured->outlet_width = interface.largest_z - interface.least_z;
@@ -221,6 +272,13 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
       outlet = std::max(outlet, r);
     }
     measured->outlet_diameter = 2 * outlet * metre;
+    measured->kink.angle = 0;
+    each_angle(rotor, should_be_smooth, [&](const CwMeasuredAngle &found) {
+      CwMeasuredAngle kink = found;
+      kink.angle = std::fabs(found.angle - M_PI);
+      if (kink.angle > measured->kink.angle)
+        measured->kink = kink;
+    });
     measured->hub_crease.angle = measured->shroud_crease.angle = HUGE_VAL;
     measured->trailing_edge.angle = 0;
     for (const char *wall : {"hub", "shroud"}) {

@@ -22,17 +22,24 @@ typedef struct {
   int face_count;
   double largest_tolerance; // of any vertex, edge or face, m
   double volume;            // m3
+  double shortest_edge;     // m
+  double narrowest_face;    // vector area over half the circumference: at most a narrow face's width, m
 } CwMeasuredSolid;
 
 typedef struct {
   double wrap_angle;       // mean line at mid-span, leading edge to trailing edge, blade 1, rad
-  double inlet_diameter;   // of the inlet disk, m
+  double inlet_diameter;   // of the inlet, m
+  double inlet_area;       // m2
   double outlet_diameter;  // of the blade's cut, m
   double outlet_width;     // axial extent of the interface, m
   double interface_radius; // m
   double interface_area;   // m2
   CwMeasuredAngle hub_crease, shroud_crease; // least angle of blade to hub, blade to shroud
   CwMeasuredAngle trailing_edge; // greatest angle round an edge of the trailing edge: the sharpest wedge
+  // Greatest angle between the normals of two faces that a caster expects to be one smooth surface: hub, shroud,
+  // nut, shaft and pipe in themselves and to one another, leading edge to both sides of the blade, root fillets
+  // to blade and wall.
+  CwMeasuredAngle kink;
 } CwMeasuredRotor;
 
 typedef struct {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The meridional section (r, z) of the impeller: hub and shroud as cubic Beziers, both run radially to the
-// interface in one piece; the hub ends upstream in a quarter ellipse and a flat disk (the nut), the shroud in
-// the suction pipe.
+// interface in one piece; the hub ends upstream in a quarter ellipse and a flat disk (the nut), or in a shaft
+// that goes out through the inlet, the shroud in the suction pipe.
 //
 //                      interface r = ri
 //          z = -b2/2 +---+ z = +b2/2
@@ -22,6 +22,9 @@ extern "C" {
 
 enum { CW_MERIDIAN_STEPS = 256 };
 
+// The hub begins this many axial lengths before its end, near the plane where the shroud begins.
+#define CW_MERIDIAN_HUB_START 1.2
+
 // A cubic Bezier in the plane (r, z), m, with its arc length at equal steps of t.
 typedef struct {
   double pole[4][2];
@@ -32,7 +35,8 @@ typedef struct {
   CwMeridianCurve hub, shroud;            // t = 0 upstream, t = 1 at the interface
   double hub_leading, hub_trailing;       // arc lengths of the blade's ends on the hub, m
   double shroud_leading, shroud_trailing; // the same on the shroud
-  double nut_disk_radius, nut_end_z;      // flat end of the nut
+  double nut_disk_radius, nut_end_z;      // end of the nut: flat, or on the shaft; without a nut the hub's
+  double shaft_radius;                    // of a shaft through the inlet; 0: none
   double inlet_z;                         // plane of the inlet
 } CwMeridian;
 
@@ -45,8 +49,8 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length);
 // The arc length at t.
 double cw_meridian_length(const CwMeridianCurve *curve, double t);
 
-// Makes the section of a design. Reads D1, D2, b2, the hub, the axial length, the leading edge radii, the
-// interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its
+// Makes the section of a design. Reads D1, D2, b2, the hub, the shaft, the axial length, the leading edge
+// radii, the interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its
 // curve.
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian);
 

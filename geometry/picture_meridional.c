@@ -37,7 +37,7 @@ static void draw_segment(CwPicture *picture, const Frame *frame, CwStroke stroke
 static void draw_nut(CwPicture *picture, const Frame *frame, const CwMeridian *m) {
   const double rn = m->hub.pole[0][0], z0 = m->hub.pole[0][1], rd = m->nut_disk_radius, ze = m->nut_end_z;
   double line[POINTS + 2][2];
-  const double axis[2] = {0, ze};
+  const double axis[2] = {m->shaft_radius, m->shaft_radius > 0 ? m->inlet_z : ze};
   to_pixels(frame, axis, line[0]);
   for (int i = 0; i <= POINTS; i++) {
     const double turn = M_PI / 2 * i / POINTS,
@@ -93,7 +93,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   draw_curve(&picture, &frame, &m.shroud);
   draw_nut(&picture, &frame, &m);
   draw_segment(&picture, &frame, CW_STROKE_WALL, r1, m.inlet_z, r1, m.shroud.pole[0][1]);
-  draw_segment(&picture, &frame, CW_STROKE_THIN, 0, m.inlet_z, r1, m.inlet_z);
+  draw_segment(&picture, &frame, CW_STROKE_THIN, m.shaft_radius, m.inlet_z, r1, m.inlet_z);
   draw_segment(&picture, &frame, CW_STROKE_THIN, ri, -half, ri, half);
   draw_segment(&picture, &frame, CW_STROKE_AXIS, 0, m.inlet_z - 0.05 * ri, 0, half + 0.1 * ri);
   label(&picture, &frame, CW_TEXT_LEFT, r1, m.inlet_z, 6, -8, "D1", design->inlet_diameter);

@@ -23,6 +23,7 @@
 #include <gp_Pln.hxx>
 
 #include "geometry/blade.h"
+#include "geometry/blade_patches.hpp"
 #include "geometry/bspline_fit.hpp"
 #include "geometry/meridian.h"
 #include "geometry/shell_builder.hpp"
@@ -34,37 +35,25 @@ const double mm = 1e3;
 // Parameter planes of the surfaces of revolution begin this far before a blade's trailing edge, so that a
 // whole passage has angles between 0 and 2 pi.
 const double margin = 0.5;
-const int span_points = 13;
-const double level = 1e-12; // rad: two corners of a trailing edge without lean
+enum { WALL_LEVELS = 4 }; // curves along the blade: hub, ends of both root fillets, shroud
 
-// Angles are of blade 0; the suffix says the curve of revolution on which they lie.
-enum { HUB, SHROUD };
-
-// One blade patch: grid of (q, theta) points, interpolated. The pressure and suction sides run from the
-// leading to the trailing edge, the leading edge from suction to pressure, bevel and trailing edge towards
-// greater theta.
-struct Patch {
-  std::vector<double> u;
-  std::vector<CwBladePoint> points;       // points[i * span_points + j]
-  Handle(Geom_BSplineSurface) surface;    // of blade 0
-  Handle(Geom2d_BSplineCurve) on_wall[2]; // (theta, t) on hub and shroud
-};
-
-// A blade or a splitter. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a
-// sharp one no cut.
-struct Shape {
-  const char *name;
-  std::vector<CwBladeSection> section;
-  bool has_bevel, has_trailing;
-  Patch pressure, suction, leading, bevel, trailing;
-  double u_bevel;                       // parameter of the suction side where bevel or cut begins
-  double theta_tip[2], theta_corner[2]; // of the nose and of the pressure side's end
-  double t_tip[2], t_corner[2];         // the same along hub and shroud
-  // The line on the wall from the eye to the nose: of a blade the meridian, of a splitter along the passage
-  // between the blades, which a meridian would cross. theta_up is where it begins.
-  double theta_up[2];
-  Handle(Geom2d_BSplineCurve) guide_on_wall[2];
-  Handle(Geom_BSplineCurve) guide[2];
+// A blade in the shell. Levels run from the hub's (0) to the shroud's, one more than bands; inner levels are
+// where root fillets end.
+struct Blade {
+  const CwBladeShape *shape;
+  int turns; // multiples of the pitch
+  // Vertices on the walls: upstream corner of the meridian line, tip of the nose, on the interface.
+  int up[2], tip[2], out[2], disk, inlet, shaft;
+  // Vertices of each level: nose/pressure, nose/suction, end of the pressure side, begin and end of the bevel.
+  int nose_p[WALL_LEVELS], nose_s[WALL_LEVELS], corner[WALL_LEVELS], bevel0[WALL_LEVELS], bevel1[WALL_LEVELS];
+  // Edges on the walls: meridian lines, their continuation on nut or pipe, along the shaft and the inlet, arcs
+  // from this blade to the next.
+  int e_up[2], e_down[2], e_end[2], e_shaft, e_inlet, x_out, a_out[2], a_up[2], a_end[2], a_shaft;
+  // Edges of each level. On a wall the nose has two edges with the tip between, on an inner level one (nose_p).
+  int e_nose_s[WALL_LEVELS], e_nose_p[WALL_LEVELS], e_p[WALL_LEVELS], e_s[WALL_LEVELS], e_bevel[WALL_LEVELS],
+      e_te[WALL_LEVELS];
+  // Edges across the span, of each band.
+  int x_p[WALL_LEVELS], x_s[WALL_LEVELS], x_bevel0[WALL_LEVELS], x_bevel1[WALL_LEVELS], x_corner[WALL_LEVELS];
 };
 
 class Rotor {
@@ -76,25 +65,33 @@ public:
 private:
   const CwDesign *design;
   CwMeridian meridian;
-  std::vector<double> span;
-  std::vector<Shape> shapes; // the blade and, with splitters, the splitter behind its pressure side
+  const CwMeridianCurve *curve[2]; // hub and shroud
+  std::vector<CwBladeShape> shapes; // the blade and, with splitters, the splitter behind its pressure side
+  std::vector<Blade> blade;         // splitters among the blades
   double pitch;
+  int bands;
+  bool has_nut, has_shaft;
   CwShellBuilder shell;
 
-  void fill(Patch &patch);
-  void trailing_patches(Shape &shape, double p_bevel);
-  void blade_patches(Shape &shape);
-  void guide_line(Shape &shape, int wall);
   gp_Pnt at(double r, double theta, double z) const {
     return gp_Pnt(mm * r * std::cos(theta), mm * r * std::sin(theta), mm * z);
   }
   gp_Ax3 frame(int k, double z = 0) const;
   Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
   Handle(Geom_Curve) nut_curve(double theta) const;
-  // The blade's boundary on hub or shroud, turned to blade k.
-  Handle(Geom_Curve) wall_curve(const Patch &patch, int wall, int k) const;
   // The line on the interface from the shroud's to the hub's angle: axial, or with lean part of a helix.
   int interface_line(const double theta[2], double turn, int begin, int end);
+  void level_edges(Blade &b, int level);
+  void band_edges(Blade &b, int band);
+  void wall_edges(Blade &b);
+  void arcs(int i);
+  void wall_face(int i, int w);
+  void pipe_faces(int i);
+  void blade_faces(int i);
+  void disk(double height, double r, int w, bool outward, const char *patch, const char *kind,
+            const char *name);
+  // Angle of the next blade's frame in that of blade i: 0, or the pitch where it is the first of its pitch.
+  double far_of(int i) const { return (i + 1) % (int)shapes.size() == 0 ? pitch : 0; }
 };
 
 Handle(Geom2d_Curve) line(double u, double v, double du, double dv) {
@@ -119,12 +116,10 @@ CwStatus Rotor::sections() {
   CwStatus status = CW_OK;
   pitch = 2 * M_PI / design->blade_count;
   CW_TRY(cw_meridian_make(design, &meridian));
-  span.resize(span_points);
   shapes.resize(design->splitter_start > 0 ? 2 : 1);
-  for (int j = 0; j < span_points; j++) {
+  for (int j = 0; j < CW_SPAN_POINTS; j++) {
     CwBladeSection section;
-    span[j] = (double)j / (span_points - 1);
-    CW_TRY(cw_blade_section(design, &meridian, span[j], &section));
+    CW_TRY(cw_blade_section(design, &meridian, (double)j / (CW_SPAN_POINTS - 1), &section));
     shapes[0].section.push_back(section);
     if (shapes.size() > 1)
       shapes[1].section.push_back(cw_blade_splitter(design, &section));
@@ -132,7 +127,7 @@ CwStatus Rotor::sections() {
   shapes[0].name = "blade";
   if (shapes.size() > 1)
     shapes[1].name = "splitter";
-  for (const Shape &shape : shapes)
+  for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
       const double last = cw_blade_theta(&s, 0);
       CW_REQUIRE(
@@ -148,174 +143,6 @@ CwStatus Rotor::sections() {
     }
 done:
   return status;
-}
-
-// Points, surface and curves on hub and shroud from (q, theta).
-void Rotor::fill(Patch &patch) {
-  std::vector<gp_Pnt> points;
-  for (size_t i = 0; i < patch.u.size(); i++)
-    for (int j = 0; j < span_points; j++) {
-      const CwBladePoint &point = patch.points[i * span_points + j];
-      double x[2];
-      cw_meridian_blade_point(&meridian, span[j], point.q, x, nullptr);
-      points.push_back(at(x[0], point.theta, x[1]));
-    }
-  patch.surface = cw_bspline_surface(patch.u, span, points);
-  for (int wall : {HUB, SHROUD}) {
-    const CwMeridianCurve &curve = wall == HUB ? meridian.hub : meridian.shroud;
-    const double begin = wall == HUB ? meridian.hub_leading : meridian.shroud_leading;
-    const double end = wall == HUB ? meridian.hub_trailing : meridian.shroud_trailing;
-    std::vector<gp_Pnt2d> on_wall;
-    for (size_t i = 0; i < patch.u.size(); i++) {
-      const CwBladePoint &point = patch.points[i * span_points + (wall == HUB ? 0 : span_points - 1)];
-      on_wall.push_back(
-          gp_Pnt2d(point.theta, cw_meridian_parameter(&curve, begin + point.q * (end - begin))));
-    }
-    patch.on_wall[wall] = cw_bspline_curve_2d(patch.u, on_wall);
-  }
-}
-
-// Bevel and cut, both from the suction to the pressure side.
-void Rotor::trailing_patches(Shape &shape, double p_bevel) {
-  const bool round = design->trailing_edge == CW_EDGE_ROUNDED;
-  const int points = round || design->trailing_edge == CW_EDGE_SHARP ? 33 : 5;
-  const CwBladeSection &middle = shape.section[span_points / 2];
-  const double theta_bevel = cw_blade_bevel_theta(&middle, p_bevel);
-  for (int i = 0; i < points; i++) {
-    const double f = (double)i / (points - 1);
-    shape.bevel.u.push_back(f);
-    shape.trailing.u.push_back(f);
-    for (int j = 0; j < span_points; j++) {
-      const CwBladeSection &s = shape.section[j];
-      // The corner's angle is the same at every span but for lean, unless the angles differ.
-      const bool alike = design->blade_form == CW_BLADE_TWISTED && !round;
-      const double corner = cw_blade_side(alike ? &middle : &s, CW_BLADE_PRESSURE, s.end).theta +
-                            (alike ? s.shift - middle.shift : 0);
-      const CwBladePoint begin = cw_blade_side(&s, CW_BLADE_SUCTION, p_bevel);
-      const double to = shape.has_trailing ? theta_bevel - middle.shift + s.shift : corner;
-      const double from = shape.has_bevel ? to : begin.theta;
-      shape.bevel.points.push_back({begin.q + (1 - begin.q) * f, begin.theta + (to - begin.theta) * f});
-      shape.trailing.points.push_back(round ? cw_blade_trailing_edge(&s, M_PI * (f - 0.5))
-                                            : CwBladePoint{1, from + (corner - from) * f});
-    }
-  }
-}
-
-void Rotor::blade_patches(Shape &shape) {
-  const int side_points = 81, nose_points = 33, bevel_points = 8;
-  const CwTrailingEdge edge = design->trailing_edge;
-  const CwBladeSection &middle = shape.section[span_points / 2];
-  shape.has_bevel = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
-  shape.has_trailing = edge != CW_EDGE_SHARP;
-  const double p_bevel =
-      shape.has_bevel ? cw_blade_bevel_begin(&middle, edge, design->trailing_edge_bevel) : middle.end;
-  const double theta_corner = cw_blade_side(&middle, CW_BLADE_PRESSURE, middle.end).theta;
-  if (!(p_bevel > (edge == CW_EDGE_SHARP ? 0.7 : 0.8)) ||
-      (edge == CW_EDGE_BEVELLED && cw_blade_bevel_theta(&middle, p_bevel) >= theta_corner))
-    throw Standard_Failure("the bevel is longer than the trailing edge: lower trailing_edge_bevel_mm or "
-                           "trailing_edge_thickness_mm");
-  for (int i = 0; i < nose_points; i++) {
-    shape.leading.u.push_back((double)i / (nose_points - 1));
-    for (int j = 0; j < span_points; j++)
-      shape.leading.points.push_back(
-          cw_blade_leading_edge(&shape.section[j], M_PI * (shape.leading.u.back() - 0.5)));
-  }
-  // Parameters of the sides run from 0 at the leading to 1 at the trailing edge, closer together towards the
-  // leading edge. The suction side has a row where the bevel begins, so that the bevel's row of points is one
-  // of its own.
-  for (int i = 0; i < side_points; i++) {
-    const double g = (double)i / (side_points - 1);
-    shape.pressure.u.push_back(0.4 * g + 0.6 * g * g);
-  }
-  const double nose = middle.nose;
-  const double u_bevel = shape.u_bevel = shape.has_bevel ? (p_bevel - nose) / (1 - nose) : 1;
-  for (double u : shape.pressure.u)
-    if (!shape.has_bevel || u < u_bevel * 0.995)
-      shape.suction.u.push_back(u);
-  for (int i = 0; shape.has_bevel && i < bevel_points; i++)
-    shape.suction.u.push_back(u_bevel + (1 - u_bevel) * i / (bevel_points - 1));
-  for (Patch *side : {&shape.pressure, &shape.suction})
-    for (double u : side->u)
-      for (int j = 0; j < span_points; j++) {
-        const CwBladeSection &s = shape.section[j];
-        // Near the end p depends on u in the same way for all sections, so that the bevel begins at one p.
-        const double p = !shape.has_bevel ? s.nose + (s.end - s.nose) * u
-                         : u >= u_bevel   ? nose + (1 - nose) * u
-                                          : s.nose + (p_bevel - s.nose) * u / u_bevel;
-        side->points.push_back(
-            cw_blade_side(&s, side == &shape.pressure ? CW_BLADE_PRESSURE : CW_BLADE_SUCTION, p));
-      }
-  trailing_patches(shape, p_bevel);
-  for (Patch *patch : {&shape.pressure, &shape.suction, &shape.leading, &shape.bevel, &shape.trailing})
-    fill(*patch);
-  for (int w : {HUB, SHROUD}) {
-    const CwMeridianCurve &curve = w == HUB ? meridian.hub : meridian.shroud;
-    const double begin = w == HUB ? meridian.hub_leading : meridian.shroud_leading;
-    const double length = (w == HUB ? meridian.hub_trailing : meridian.shroud_trailing) - begin;
-    const int j = w == HUB ? 0 : span_points - 1;
-    const CwBladePoint &tip = shape.leading.points[(nose_points / 2) * span_points + j];
-    const CwBladePoint &corner = shape.pressure.points[(side_points - 1) * span_points + j];
-    shape.theta_tip[w] = tip.theta;
-    shape.theta_corner[w] = corner.theta;
-    shape.t_tip[w] = cw_meridian_parameter(&curve, begin + tip.q * length);
-    shape.t_corner[w] = cw_meridian_parameter(&curve, begin + corner.q * length);
-    shape.theta_up[w] = tip.theta;
-    if (shape.section[j].start > 0)
-      guide_line(shape, w);
-  }
-  if (std::fabs(shape.theta_corner[HUB] - shape.theta_corner[SHROUD]) < level)
-    shape.theta_corner[HUB] = shape.theta_corner[SHROUD];
-}
-
-// From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into
-// the meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through
-// them wriggles.
-void Rotor::guide_line(Shape &shape, int wall) {
-  const int fine = 4000, points = 160;
-  const CwMeridianCurve &curve = wall == HUB ? meridian.hub : meridian.shroud;
-  const double begin = wall == HUB ? meridian.hub_leading : meridian.shroud_leading;
-  const double length = (wall == HUB ? meridian.hub_trailing : meridian.shroud_trailing) - begin;
-  const CwBladeSection &s = shape.section[wall == HUB ? 0 : span_points - 1];
-  const double end = begin + s.start * length, step = 1e-4;
-  const auto in_passage = [&](double q) { return cw_blade_theta(&s, (q - s.start) / (1 - s.start)); };
-  const double slope = (in_passage(0) - in_passage(step)) / (step * length); // of theta by length upstream
-  const double turning = std::min(0.7 * begin, 0.4 * pitch / slope);
-  const auto theta_at = [&](double at_length) {
-    if (at_length >= begin)
-      return in_passage((at_length - begin) / length);
-    const double f = std::min(1.0, (begin - at_length) / turning), f4 = f * f * f * f;
-    return in_passage(0) + slope * turning * (f - f4 * (2.5 - 3 * f + f * f));
-  };
-  const auto point_at = [&](double at_length, double theta, double *t) {
-    double x[2];
-    *t = cw_meridian_parameter(&curve, at_length);
-    cw_meridian_point(&curve, *t, x, nullptr);
-    return at(x[0], theta, x[1]);
-  };
-  std::vector<double> travelled(1, 0), u;
-  std::vector<gp_Pnt> x;
-  std::vector<gp_Pnt2d> on_wall;
-  double t;
-  gp_Pnt last = point_at(0, theta_at(0), &t);
-  for (int i = 1; i <= fine; i++) {
-    const double at_length = end * i / fine;
-    const gp_Pnt next = point_at(at_length, theta_at(at_length), &t);
-    travelled.push_back(travelled.back() + next.Distance(last));
-    last = next;
-  }
-  for (int i = 0, j = 0; i < points; i++) {
-    const double wanted = travelled.back() * i / (points - 1);
-    while (j < fine - 1 && travelled[j + 1] < wanted)
-      j++;
-    const double share = (wanted - travelled[j]) / (travelled[j + 1] - travelled[j]);
-    const double at_length = i == points - 1 ? end : end * (j + share) / fine;
-    u.push_back((double)i / (points - 1));
-    x.push_back(point_at(at_length, theta_at(at_length), &t));
-    on_wall.push_back(gp_Pnt2d(theta_at(at_length), t));
-  }
-  shape.guide[wall] = cw_bspline_curve_3d(u, x);
-  shape.guide_on_wall[wall] = cw_bspline_curve_2d(u, on_wall);
-  shape.theta_up[wall] = on_wall.front().X();
 }
 
 // Axes whose x axis is the zero of the parameter plane of passage k.
@@ -351,14 +178,10 @@ Handle(Geom_Curve) turned(const Handle(Geom_Curve) & curve, double angle) {
   return copy;
 }
 
-Handle(Geom_Curve) Rotor::wall_curve(const Patch &patch, int wall, int k) const {
-  return turned(patch.surface->VIso(wall == HUB ? 0 : 1), k * pitch);
-}
-
 int Rotor::interface_line(const double theta[2], double turn, int begin, int end) {
   const double half = design->outlet_width / 2, ri = design->interface_radius;
-  if (theta[HUB] == theta[SHROUD])
-    return shell.edge(new Geom_Line(at(ri, turn + theta[HUB], 0), gp::DZ()), -mm * half, mm * half, begin,
+  if (theta[CW_HUB] == theta[CW_SHROUD])
+    return shell.edge(new Geom_Line(at(ri, turn + theta[CW_HUB], 0), gp::DZ()), -mm * half, mm * half, begin,
                       end);
   const int points = 33;
   std::vector<double> u;
@@ -366,225 +189,304 @@ int Rotor::interface_line(const double theta[2], double turn, int begin, int end
   for (int i = 0; i < points; i++) {
     u.push_back((double)i / (points - 1));
     x.push_back(
-        at(ri, turn + theta[SHROUD] + u.back() * (theta[HUB] - theta[SHROUD]), half * (2 * u.back() - 1)));
+        at(ri, turn + theta[CW_SHROUD] + u.back() * (theta[CW_HUB] - theta[CW_SHROUD]), half * (2 * u.back() - 1)));
   }
   return shell.edge(cw_bspline_curve_3d(u, x), 0, 1, begin, end);
 }
 
-CwSolid *Rotor::build() {
-  for (Shape &shape : shapes)
-    blade_patches(shape);
-  const int kinds = (int)shapes.size(), n = design->blade_count * kinds;
-  const CwMeridianCurve *curve[2] = {&meridian.hub, &meridian.shroud};
-  const double r_disk = meridian.nut_disk_radius, r_pipe = design->inlet_diameter / 2;
-  const double ri = design->interface_radius;
+// The curve along a patch at a level, of blade 0.
+Handle(Geom_Curve) along(const CwBladePatch &patch, int level) {
+  const int bands = (int)patch.band.size();
+  return level < bands ? patch.band[level]->VIso(0) : patch.band[bands - 1]->VIso(1);
+}
 
-  // Vertices and edges, blade by blade, splitters among them. [wall] is HUB or SHROUD.
-  struct Blade {
-    const Shape *shape;
-    int turns; // multiples of the pitch
-    // Upstream corner of the meridian line on the wall, tip of the nose, nose/pressure, nose/suction,
-    // end of the pressure side, begin and end of the bevel, on the interface.
-    int up[2], tip[2], nose_p[2], nose_s[2], corner[2], bevel0[2], bevel1[2], out[2], disk, inlet;
-    // Edges: meridian lines, their continuation on nut or pipe, the blade's foot, and across the span.
-    int e_up[2], e_down[2], e_end[2], e_nose_s[2], e_nose_p[2], e_p[2], e_s[2], e_bevel[2], e_te[2];
-    int x_p, x_s, x_bevel0, x_bevel1, x_corner, x_out;
-    // Arcs from this blade to the next.
-    int a_out[2], a_up[2], a_end[2];
+// Vertices and edges along the blade at a level.
+void Rotor::level_edges(Blade &b, int level) {
+  const CwBladeShape &s = *b.shape;
+  const double turn = b.turns * pitch;
+  const Handle(Geom_Curve) nose = turned(along(s.leading, level), turn);
+  const Handle(Geom_Curve) side_p = turned(along(s.pressure, level), turn);
+  const Handle(Geom_Curve) side_s = turned(along(s.suction, level), turn);
+  b.nose_p[level] = shell.vertex(nose->Value(1));
+  b.nose_s[level] = shell.vertex(nose->Value(0));
+  b.corner[level] = shell.vertex(side_p->Value(1));
+  b.bevel0[level] = b.bevel1[level] = shell.vertex(side_s->Value(s.u_bevel));
+  if (s.has_bevel)
+    b.bevel1[level] =
+        s.has_trailing ? shell.vertex(turned(along(s.trailing, level), turn)->Value(0)) : b.corner[level];
+  b.e_nose_s[level] = -1;
+  if (level > 0 && level < bands) {
+    b.e_nose_p[level] = shell.edge(nose, 0, 1, b.nose_s[level], b.nose_p[level]);
+  } else {
+    const int w = level == 0 ? CW_HUB : CW_SHROUD;
+    b.tip[w] = shell.vertex(nose->Value(0.5));
+    b.e_nose_s[level] = shell.edge(nose, 0, 0.5, b.nose_s[level], b.tip[w]);
+    b.e_nose_p[level] = shell.edge(nose, 0.5, 1, b.tip[w], b.nose_p[level]);
+  }
+  b.e_p[level] = shell.edge(side_p, 0, 1, b.nose_p[level], b.corner[level]);
+  b.e_s[level] = shell.edge(side_s, 0, s.u_bevel, b.nose_s[level], b.bevel0[level]);
+  if (s.has_bevel)
+    b.e_bevel[level] =
+        shell.edge(turned(along(s.bevel, level), turn), 0, 1, b.bevel0[level], b.bevel1[level]);
+  if (s.has_trailing)
+    b.e_te[level] = shell.edge(turned(along(s.trailing, level), turn), 0, 1, b.bevel1[level], b.corner[level]);
+}
+
+// Edges across the span, from a level to the next.
+void Rotor::band_edges(Blade &b, int band) {
+  const CwBladeShape &s = *b.shape;
+  const auto across = [&](const CwBladePatch &patch, double u, const int *vertex) {
+    return shell.edge(turned(patch.band[band]->UIso(u), b.turns * pitch), 0, 1, vertex[band], vertex[band + 1]);
   };
-  std::vector<Blade> blade(n);
+  b.x_p[band] = across(s.leading, 1, b.nose_p);
+  b.x_s[band] = across(s.leading, 0, b.nose_s);
+  b.x_bevel0[band] = across(s.has_bevel ? s.bevel : s.trailing, 0, b.bevel0);
+  b.x_bevel1[band] = s.has_bevel && s.has_trailing ? across(s.trailing, 0, b.bevel1) : b.x_bevel0[band];
+  b.x_corner[band] = across(s.has_trailing ? s.trailing : s.bevel, 1, b.corner);
+}
+
+// Vertices and edges on hub, shroud, nut, shaft and pipe, along the flow.
+void Rotor::wall_edges(Blade &b) {
+  const CwBladeShape &s = *b.shape;
+  const double turn = b.turns * pitch, r_pipe = design->inlet_diameter / 2;
+  for (int w : {CW_HUB, CW_SHROUD}) {
+    const Handle(Geom_Curve) down = meridian_curve(*curve[w], turn + s.theta_corner[w]);
+    b.up[w] = shell.vertex(at(curve[w]->pole[0][0], turn + s.theta_up[w], curve[w]->pole[0][1]));
+    b.out[w] = shell.vertex(down->Value(1));
+    if (s.guide[w].IsNull())
+      b.e_up[w] =
+          shell.edge(meridian_curve(*curve[w], turn + s.theta_up[w]), 0, s.t_tip[w], b.up[w], b.tip[w]);
+    else
+      b.e_up[w] = shell.edge(turned(s.guide[w], turn), 0, 1, b.up[w], b.tip[w]);
+    b.e_down[w] = shell.edge(down, s.t_corner[w], 1, b.corner[w == CW_HUB ? 0 : bands], b.out[w]);
+  }
+  const double at_hub = turn + s.theta_up[CW_HUB], at_shroud = turn + s.theta_up[CW_SHROUD];
+  b.inlet = shell.vertex(at(r_pipe, at_shroud, meridian.inlet_z));
+  b.e_end[CW_SHROUD] = shell.edge(new Geom_Line(at(r_pipe, at_shroud, 0), gp::DZ()), mm * meridian.inlet_z,
+                                  mm * curve[CW_SHROUD]->pole[0][1], b.inlet, b.up[CW_SHROUD]);
+  b.disk = b.up[CW_HUB];
+  if (has_nut) {
+    b.disk = shell.vertex(at(meridian.nut_disk_radius, at_hub, meridian.nut_end_z));
+    b.e_end[CW_HUB] = shell.edge(nut_curve(at_hub), 0, 1, b.disk, b.up[CW_HUB]);
+  }
+  if (has_shaft) {
+    const double r = meridian.shaft_radius;
+    const gp_Pnt from = at(r, at_hub, meridian.inlet_z), to = at(r_pipe, at_shroud, meridian.inlet_z);
+    b.shaft = shell.vertex(from);
+    b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), mm * meridian.inlet_z,
+                           mm * meridian.nut_end_z, b.shaft, b.disk);
+    b.e_inlet = shell.edge(new Geom_Line(from, gp_Dir(gp_Vec(from, to))), 0, from.Distance(to), b.shaft, b.inlet);
+  }
+  b.x_out = interface_line(s.theta_corner, turn, b.out[CW_SHROUD], b.out[CW_HUB]);
+}
+
+// Arcs to the next blade. They have the angle in the frame of their passage as parameter.
+void Rotor::arcs(int i) {
+  Blade &b = blade[i];
+  const Blade &next = blade[(i + 1) % blade.size()];
+  const CwBladeShape &s = *b.shape, &f = *next.shape;
+  const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
+    return shell.edge(new Geom_Circle(frame(b.turns, height).Ax2(), mm * r), from + margin,
+                      to + margin + far_of(i), begin, end);
+  };
+  for (int w : {CW_HUB, CW_SHROUD}) {
+    b.a_out[w] = arc(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w],
+                     b.out[w], next.out[w]);
+    b.a_up[w] =
+        arc(curve[w]->pole[0][0], curve[w]->pole[0][1], s.theta_up[w], f.theta_up[w], b.up[w], next.up[w]);
+  }
+  b.a_end[CW_SHROUD] = arc(design->inlet_diameter / 2, meridian.inlet_z, s.theta_up[CW_SHROUD],
+                           f.theta_up[CW_SHROUD], b.inlet, next.inlet);
+  b.a_end[CW_HUB] = has_nut ? arc(meridian.nut_disk_radius, meridian.nut_end_z, s.theta_up[CW_HUB],
+                                  f.theta_up[CW_HUB], b.disk, next.disk)
+                            : b.a_up[CW_HUB];
+  if (has_shaft)
+    b.a_shaft = arc(meridian.shaft_radius, meridian.inlet_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB], b.shaft,
+                    next.shaft);
+}
+
+Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
+  return new Geom_SurfaceOfRevolution(basis, gp::OZ());
+}
+
+// Hub or shroud between a blade and the next.
+void Rotor::wall_face(int i, int w) {
+  const Blade &b = blade[i], &next = blade[(i + 1) % blade.size()];
+  const CwBladeShape &s = *b.shape, &f = *next.shape;
+  const double near = margin, far = margin + far_of(i);
+  const int level = w == CW_HUB ? 0 : bands;
+  const char *patch = w == CW_HUB ? "hub" : "shroud";
+  const auto up_on_wall = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
+    if (shape.guide[w].IsNull())
+      return along_v(shape.theta_up[w] + offset);
+    return moved(shape.guide_on_wall[w], offset);
+  };
+  std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)},
+                                 {b.e_nose_p[level], true, moved(s.leading.on_wall[w], near)},
+                                 {b.e_p[level], true, moved(s.pressure.on_wall[w], near)},
+                                 {b.e_down[w], true, along_v(s.theta_corner[w] + near)},
+                                 {b.a_out[w], true, along_u(1)},
+                                 {next.e_down[w], false, along_v(f.theta_corner[w] + far)}};
+  if (f.has_trailing)
+    loop.push_back({next.e_te[level], false, moved(f.trailing.on_wall[w], far)});
+  if (f.has_bevel)
+    loop.push_back({next.e_bevel[level], false, moved(f.bevel.on_wall[w], far)});
+  loop.push_back({next.e_s[level], false, moved(f.suction.on_wall[w], far)});
+  loop.push_back({next.e_nose_s[level], true, moved(f.leading.on_wall[w], far)});
+  loop.push_back({next.e_up[w], false, up_on_wall(f, far)});
+  loop.push_back({b.a_up[w], false, along_u(0)});
+  shell.face(revolved(meridian_curve(*curve[w], b.turns * pitch - margin)), loop, w == CW_SHROUD, patch, "wall",
+             patch + ("_" + std::to_string(i + 1)));
+}
+
+// Nut, shaft, suction pipe, the inlet round a shaft, and interface, between a blade and the next.
+void Rotor::pipe_faces(int i) {
+  const Blade &b = blade[i], &next = blade[(i + 1) % blade.size()];
+  const CwBladeShape &s = *b.shape, &f = *next.shape;
+  const std::string number = "_" + std::to_string(i + 1);
+  const double near = margin, far = margin + far_of(i), half = mm * design->outlet_width / 2;
+  // A face of revolution between the lines of this blade and the next and the arcs below and above.
+  const auto tube = [&](const Handle(Geom_Surface) & surface, int w, int line, int next_line, int low,
+                        double v_low, int high, double v_high, bool outward, const char *patch) {
+    shell.face(surface,
+               {{line, true, along_v(s.theta_up[w] + near)},
+                {high, true, along_u(v_high)},
+                {next_line, false, along_v(f.theta_up[w] + far)},
+                {low, false, along_u(v_low)}},
+               outward, patch, "wall", patch + number);
+  };
+  const auto cylinder = [&](double r) -> Handle(Geom_Surface) {
+    return new Geom_CylindricalSurface(frame(b.turns), mm * r);
+  };
+  const double z_inlet = mm * meridian.inlet_z;
+  if (has_nut)
+    tube(revolved(nut_curve(b.turns * pitch - margin)), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB],
+         b.a_end[CW_HUB], 0, b.a_up[CW_HUB], 1, false, "hub_nut");
+  tube(cylinder(design->inlet_diameter / 2), CW_SHROUD, b.e_end[CW_SHROUD], next.e_end[CW_SHROUD],
+       b.a_end[CW_SHROUD], z_inlet, b.a_up[CW_SHROUD], mm * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
+  if (has_shaft) {
+    tube(cylinder(meridian.shaft_radius), CW_HUB, b.e_shaft, next.e_shaft, b.a_shaft, z_inlet,
+         b.a_end[CW_HUB], mm * meridian.nut_end_z, false, "hub_shaft");
+    // In the plane of the inlet, whose axes are those of the passage.
+    const auto in_plane = [&](double r, double theta) {
+      return gp_Pnt2d(mm * r * std::cos(theta), mm * r * std::sin(theta));
+    };
+    const auto spoke = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
+      const gp_Pnt2d from = in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset),
+                     to = in_plane(design->inlet_diameter / 2, shape.theta_up[CW_SHROUD] + offset);
+      return new Geom2d_Line(from, gp_Dir2d(gp_Vec2d(from, to)));
+    };
+    const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
+      return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), mm * r);
+    };
+    shell.face(new Geom_Plane(frame(b.turns, meridian.inlet_z)),
+               {{b.e_inlet, true, spoke(s, near)},
+                {b.a_end[CW_SHROUD], true, circle(design->inlet_diameter / 2)},
+                {next.e_inlet, false, spoke(f, far)},
+                {b.a_shaft, false, circle(meridian.shaft_radius)}},
+               false, "inlet", "inlet", "inlet" + number);
+  }
+  // An axial line has z as its parameter, a helix 0 to 1.
+  const auto across_interface = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
+    if (shape.theta_corner[CW_HUB] == shape.theta_corner[CW_SHROUD])
+      return along_v(shape.theta_corner[CW_HUB] + offset);
+    TColgp_Array1OfPnt2d poles(1, 2);
+    poles.SetValue(1, gp_Pnt2d(shape.theta_corner[CW_SHROUD] + offset, -half));
+    poles.SetValue(2, gp_Pnt2d(shape.theta_corner[CW_HUB] + offset, half));
+    return new Geom2d_BezierCurve(poles);
+  };
+  shell.face(cylinder(design->interface_radius),
+             {{b.x_out, true, across_interface(s, near)},
+              {b.a_out[CW_HUB], true, along_u(half)},
+              {next.x_out, false, across_interface(f, far)},
+              {b.a_out[CW_SHROUD], false, along_u(-half)}},
+             true, "rotor_interface", "interface", "rotor_interface" + number);
+}
+
+// All patches of a blade, band by band.
+void Rotor::blade_faces(int i) {
+  const Blade &b = blade[i];
+  const CwBladeShape &s = *b.shape;
+  const std::string number = "_" + std::to_string(b.turns + 1);
+  for (int band = 0; band < bands; band++) {
+    const bool fillet = bands > 1 && band != 1;
+    const std::string root = band == 0 ? "_hub_root" : "_shroud_root";
+    // A patch between its edges along both levels and across the span at its begin and end.
+    const auto face = [&](const CwBladePatch &patch, const int *row, const int *row_before, const int *begin,
+                          const int *end, bool outward, const std::string &part, const std::string &more,
+                          const char *patch_name) {
+      Handle(Geom_Surface) surface = Handle(Geom_Surface)::DownCast(patch.band[band]->Copy());
+      surface->Rotate(gp::OZ(), b.turns * pitch);
+      std::vector<CwEdgeUse> loop;
+      if (row_before && row_before[band] >= 0)
+        loop.push_back({row_before[band], true, along_u(0)});
+      loop.push_back({row[band], true, along_u(0)});
+      loop.push_back({end[band], true, along_v(patch.u.back())});
+      loop.push_back({row[band + 1], false, along_u(1)});
+      if (row_before && row_before[band + 1] >= 0)
+        loop.push_back({row_before[band + 1], false, along_u(1)});
+      loop.push_back({begin[band], false, along_v(patch.u.front())});
+      shell.face(surface, loop, outward, patch_name, "wall", s.name + part + (fillet ? root : more) + number);
+    };
+    face(s.leading, b.e_nose_p, b.e_nose_s, b.x_s, b.x_p, false, "_leading", "_edge", "blade_leading_edge");
+    face(s.pressure, b.e_p, nullptr, b.x_p, b.x_corner, false, "_pressure", "", "blade_pressure");
+    face(s.suction, b.e_s, nullptr, b.x_s, b.x_bevel0, true, "_suction", "", "blade_suction");
+    if (s.has_bevel)
+      face(s.bevel, b.e_bevel, nullptr, b.x_bevel0, s.has_trailing ? b.x_bevel1 : b.x_corner, true,
+           fillet ? "_bevel" : "_trailing", "_bevel", "blade_trailing_edge");
+    if (s.has_trailing)
+      face(s.trailing, b.e_te, nullptr, b.x_bevel1, b.x_corner, true, "_trailing", "_edge",
+           "blade_trailing_edge");
+  }
+}
+
+// A flat end: one disk, bounded by the arcs of the passages. The plane's axes are those of passage 0, the
+// arcs' those of their own passage.
+void Rotor::disk(double height, double r, int w, bool outward, const char *patch, const char *kind,
+                 const char *name) {
+  std::vector<CwEdgeUse> loop;
+  for (const Blade &b : blade) {
+    const double angle = b.turns * pitch - margin;
+    loop.push_back(
+        {b.a_end[w], true,
+         new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
+  }
+  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch, kind,
+             name);
+}
+
+CwSolid *Rotor::build() {
+  for (CwBladeShape &shape : shapes)
+    cw_blade_patches(design, &meridian, &shape);
+  const int kinds = (int)shapes.size(), n = design->blade_count * kinds;
+  curve[CW_HUB] = &meridian.hub;
+  curve[CW_SHROUD] = &meridian.shroud;
+  bands = (int)shapes[0].pressure.band.size();
+  has_shaft = meridian.shaft_radius > 0;
+  has_nut = meridian.nut_end_z < meridian.hub.pole[0][1];
+  blade.resize(n);
   for (int i = 0; i < n; i++) {
     Blade &b = blade[i];
-    const int k = b.turns = i / kinds;
-    const Shape &s = *(b.shape = &shapes[i % kinds]);
-    const double turn = k * pitch;
-    for (int w : {HUB, SHROUD}) {
-      const double r0 = curve[w]->pole[0][0], z0 = curve[w]->pole[0][1];
-      const Handle(Geom_Curve) down = meridian_curve(*curve[w], turn + s.theta_corner[w]);
-      const Handle(Geom_Curve) nose = wall_curve(s.leading, w, k), side_p = wall_curve(s.pressure, w, k);
-      const Handle(Geom_Curve) side_s = wall_curve(s.suction, w, k);
-      b.up[w] = shell.vertex(at(r0, turn + s.theta_up[w], z0));
-      b.tip[w] = shell.vertex(nose->Value(0.5));
-      b.nose_p[w] = shell.vertex(nose->Value(1));
-      b.nose_s[w] = shell.vertex(nose->Value(0));
-      b.corner[w] = shell.vertex(side_p->Value(1));
-      b.bevel0[w] = b.bevel1[w] = shell.vertex(side_s->Value(s.u_bevel));
-      if (s.has_bevel)
-        b.bevel1[w] = s.has_trailing ? shell.vertex(wall_curve(s.trailing, w, k)->Value(0)) : b.corner[w];
-      b.out[w] = shell.vertex(down->Value(1));
-      if (s.guide[w].IsNull())
-        b.e_up[w] =
-            shell.edge(meridian_curve(*curve[w], turn + s.theta_up[w]), 0, s.t_tip[w], b.up[w], b.tip[w]);
-      else
-        b.e_up[w] = shell.edge(turned(s.guide[w], turn), 0, 1, b.up[w], b.tip[w]);
-      b.e_down[w] = shell.edge(down, s.t_corner[w], 1, b.corner[w], b.out[w]);
-      b.e_nose_s[w] = shell.edge(nose, 0, 0.5, b.nose_s[w], b.tip[w]);
-      b.e_nose_p[w] = shell.edge(nose, 0.5, 1, b.tip[w], b.nose_p[w]);
-      b.e_p[w] = shell.edge(side_p, 0, 1, b.nose_p[w], b.corner[w]);
-      b.e_s[w] = shell.edge(side_s, 0, s.u_bevel, b.nose_s[w], b.bevel0[w]);
-      if (s.has_bevel)
-        b.e_bevel[w] = shell.edge(wall_curve(s.bevel, w, k), 0, 1, b.bevel0[w], b.bevel1[w]);
-      if (s.has_trailing)
-        b.e_te[w] = shell.edge(wall_curve(s.trailing, w, k), 0, 1, b.bevel1[w], b.corner[w]);
-    }
-    b.disk = shell.vertex(at(r_disk, turn + s.theta_up[HUB], meridian.nut_end_z));
-    b.inlet = shell.vertex(at(r_pipe, turn + s.theta_up[SHROUD], meridian.inlet_z));
-    b.e_end[HUB] = shell.edge(nut_curve(turn + s.theta_up[HUB]), 0, 1, b.disk, b.up[HUB]);
-    b.e_end[SHROUD] =
-        shell.edge(new Geom_Line(at(r_pipe, turn + s.theta_up[SHROUD], 0), gp::DZ()), mm * meridian.inlet_z,
-                   mm * curve[SHROUD]->pole[0][1], b.inlet, b.up[SHROUD]);
-    const auto across = [&](const Patch &patch, double u, int begin, int end) {
-      return shell.edge(turned(patch.surface->UIso(u), turn), 0, 1, begin, end);
-    };
-    b.x_p = across(s.leading, 1, b.nose_p[HUB], b.nose_p[SHROUD]);
-    b.x_s = across(s.leading, 0, b.nose_s[HUB], b.nose_s[SHROUD]);
-    b.x_bevel0 = across(s.has_bevel ? s.bevel : s.trailing, 0, b.bevel0[HUB], b.bevel0[SHROUD]);
-    if (s.has_bevel && s.has_trailing)
-      b.x_bevel1 = across(s.trailing, 0, b.bevel1[HUB], b.bevel1[SHROUD]);
-    else
-      b.x_bevel1 = b.x_bevel0;
-    b.x_corner = across(s.has_trailing ? s.trailing : s.bevel, 1, b.corner[HUB], b.corner[SHROUD]);
-    b.x_out = interface_line(s.theta_corner, turn, b.out[SHROUD], b.out[HUB]);
+    b.turns = i / kinds;
+    b.shape = &shapes[i % kinds];
+    for (int level = 0; level <= bands; level++)
+      level_edges(b, level);
+    for (int band = 0; band < bands; band++)
+      band_edges(b, band);
+    wall_edges(b);
   }
-  // Arcs have the angle in the frame of their passage as parameter. The angles of the next blade are those of
-  // its shape, and the pitch besides where it is the first of its pitch.
-  const auto far_of = [&](int i) { return (i + 1) % kinds == 0 ? pitch : 0; };
+  for (int i = 0; i < n; i++)
+    arcs(i);
   for (int i = 0; i < n; i++) {
-    Blade &b = blade[i], &next = blade[(i + 1) % n];
-    const Shape &s = *b.shape, &f = *next.shape;
-    const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
-      const gp_Ax3 axes = frame(b.turns, height);
-      return shell.edge(new Geom_Circle(axes.Ax2(), mm * r), from + margin, to + margin + far_of(i), begin,
-                        end);
-    };
-    for (int w : {HUB, SHROUD}) {
-      b.a_out[w] = arc(ri, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w], b.out[w], next.out[w]);
-      b.a_up[w] =
-          arc(curve[w]->pole[0][0], curve[w]->pole[0][1], s.theta_up[w], f.theta_up[w], b.up[w], next.up[w]);
-    }
-    b.a_end[HUB] = arc(r_disk, meridian.nut_end_z, s.theta_up[HUB], f.theta_up[HUB], b.disk, next.disk);
-    b.a_end[SHROUD] =
-        arc(r_pipe, meridian.inlet_z, s.theta_up[SHROUD], f.theta_up[SHROUD], b.inlet, next.inlet);
+    wall_face(i, CW_HUB);
+    wall_face(i, CW_SHROUD);
+    pipe_faces(i);
+    blade_faces(i);
   }
-
-  const auto revolved = [&](const Handle(Geom_Curve) & basis) -> Handle(Geom_Surface) {
-    return new Geom_SurfaceOfRevolution(basis, gp::OZ());
-  };
-  for (int i = 0; i < n; i++) {
-    Blade &b = blade[i], &next = blade[(i + 1) % n];
-    const Shape &s = *b.shape, &f = *next.shape;
-    const std::string number = "_" + std::to_string(i + 1), blade_number = "_" + std::to_string(b.turns + 1);
-    const double base = b.turns * pitch - margin, turn = b.turns * pitch, near = margin,
-                 far = margin + far_of(i);
-    for (int w : {HUB, SHROUD}) {
-      const auto up_on_wall = [&](const Shape &shape, double offset) -> Handle(Geom2d_Curve) {
-        if (shape.guide[w].IsNull())
-          return along_v(shape.theta_up[w] + offset);
-        return moved(shape.guide_on_wall[w], offset);
-      };
-      std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)},
-                                     {b.e_nose_p[w], true, moved(s.leading.on_wall[w], near)},
-                                     {b.e_p[w], true, moved(s.pressure.on_wall[w], near)},
-                                     {b.e_down[w], true, along_v(s.theta_corner[w] + near)},
-                                     {b.a_out[w], true, along_u(1)},
-                                     {next.e_down[w], false, along_v(f.theta_corner[w] + far)}};
-      if (f.has_trailing)
-        loop.push_back({next.e_te[w], false, moved(f.trailing.on_wall[w], far)});
-      if (f.has_bevel)
-        loop.push_back({next.e_bevel[w], false, moved(f.bevel.on_wall[w], far)});
-      loop.push_back({next.e_s[w], false, moved(f.suction.on_wall[w], far)});
-      loop.push_back({next.e_nose_s[w], true, moved(f.leading.on_wall[w], far)});
-      loop.push_back({next.e_up[w], false, up_on_wall(f, far)});
-      loop.push_back({b.a_up[w], false, along_u(0)});
-      shell.face(revolved(meridian_curve(*curve[w], base)), loop, w == SHROUD, w == HUB ? "hub" : "shroud",
-                 "wall", (w == HUB ? "hub" : "shroud") + number);
-    }
-    shell.face(revolved(nut_curve(base)),
-               {{b.e_end[HUB], true, along_v(s.theta_up[HUB] + near)},
-                {b.a_up[HUB], true, along_u(1)},
-                {next.e_end[HUB], false, along_v(f.theta_up[HUB] + far)},
-                {b.a_end[HUB], false, along_u(0)}},
-               false, "hub_nut", "wall", "hub_nut" + number);
-    const double z_inlet = mm * meridian.inlet_z, z_eye = mm * curve[SHROUD]->pole[0][1],
-                 half = mm * design->outlet_width / 2;
-    shell.face(new Geom_CylindricalSurface(frame(b.turns), mm * r_pipe),
-               {{b.e_end[SHROUD], true, along_v(s.theta_up[SHROUD] + near)},
-                {b.a_up[SHROUD], true, along_u(z_eye)},
-                {next.e_end[SHROUD], false, along_v(f.theta_up[SHROUD] + far)},
-                {b.a_end[SHROUD], false, along_u(z_inlet)}},
-               true, "suction_pipe", "wall", "suction_pipe" + number);
-    // An axial line has z as its parameter, a helix 0 to 1.
-    const auto across_interface = [&](const Shape &shape, double offset) -> Handle(Geom2d_Curve) {
-      if (shape.theta_corner[HUB] == shape.theta_corner[SHROUD])
-        return along_v(shape.theta_corner[HUB] + offset);
-      TColgp_Array1OfPnt2d poles(1, 2);
-      poles.SetValue(1, gp_Pnt2d(shape.theta_corner[SHROUD] + offset, -half));
-      poles.SetValue(2, gp_Pnt2d(shape.theta_corner[HUB] + offset, half));
-      return new Geom2d_BezierCurve(poles);
-    };
-    shell.face(new Geom_CylindricalSurface(frame(b.turns), mm * ri),
-               {{b.x_out, true, across_interface(s, near)},
-                {b.a_out[HUB], true, along_u(half)},
-                {next.x_out, false, across_interface(f, far)},
-                {b.a_out[SHROUD], false, along_u(-half)}},
-               true, "rotor_interface", "interface", "rotor_interface" + number);
-    const auto blade_face = [&](const Patch &patch, std::vector<CwEdgeUse> loop, bool outward,
-                                const char *part, const char *patch_name) {
-      Handle(Geom_Surface) surface = Handle(Geom_Surface)::DownCast(patch.surface->Copy());
-      surface->Rotate(gp::OZ(), turn);
-      shell.face(surface, loop, outward, patch_name, "wall", std::string(s.name) + part + blade_number);
-    };
-    blade_face(s.leading,
-               {{b.e_nose_s[HUB], true, along_u(0)},
-                {b.e_nose_p[HUB], true, along_u(0)},
-                {b.x_p, true, along_v(1)},
-                {b.e_nose_p[SHROUD], false, along_u(1)},
-                {b.e_nose_s[SHROUD], false, along_u(1)},
-                {b.x_s, false, along_v(0)}},
-               false, "_leading_edge", "blade_leading_edge");
-    blade_face(s.pressure,
-               {{b.e_p[HUB], true, along_u(0)},
-                {b.x_corner, true, along_v(1)},
-                {b.e_p[SHROUD], false, along_u(1)},
-                {b.x_p, false, along_v(0)}},
-               false, "_pressure", "blade_pressure");
-    blade_face(s.suction,
-               {{b.e_s[HUB], true, along_u(0)},
-                {b.x_bevel0, true, along_v(s.u_bevel)},
-                {b.e_s[SHROUD], false, along_u(1)},
-                {b.x_s, false, along_v(0)}},
-               true, "_suction", "blade_suction");
-    if (s.has_bevel)
-      blade_face(s.bevel,
-                 {{b.e_bevel[HUB], true, along_u(0)},
-                  {s.has_trailing ? b.x_bevel1 : b.x_corner, true, along_v(1)},
-                  {b.e_bevel[SHROUD], false, along_u(1)},
-                  {b.x_bevel0, false, along_v(0)}},
-                 true, "_trailing_bevel", "blade_trailing_edge");
-    if (s.has_trailing)
-      blade_face(s.trailing,
-                 {{b.e_te[HUB], true, along_u(0)},
-                  {b.x_corner, true, along_v(1)},
-                  {b.e_te[SHROUD], false, along_u(1)},
-                  {b.x_bevel1, false, along_v(0)}},
-                 true, "_trailing_edge", "blade_trailing_edge");
+  if (!has_shaft) {
+    disk(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", "wall", "hub_nut_end");
+    disk(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", "inlet", "inlet");
   }
-  // The flat ends: one disk each, bounded by the arcs of the passages. The plane's axes are those of passage
-  // 0, the arcs' those of their own passage.
-  const auto disk = [&](double height, double r, int w, bool outward, const char *patch, const char *kind,
-                        const char *name) {
-    std::vector<CwEdgeUse> loop;
-    for (int i = 0; i < n; i++) {
-      const double angle = blade[i].turns * pitch - margin;
-      loop.push_back(
-          {blade[i].a_end[w], true,
-           new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
-    }
-    shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch,
-               kind, name);
-  };
-  disk(meridian.nut_end_z, r_disk, HUB, true, "hub_nut", "wall", "hub_nut_end");
-  disk(meridian.inlet_z, r_pipe, SHROUD, false, "inlet", "inlet", "inlet");
   return shell.finish("rotor");
 }
 

@@ -7,74 +7,140 @@
 #include "mesher/background_tessellate.h"
 
 typedef struct {
-  int32_t low, high; // points of the edge
-  int32_t forward;   // its triangle runs from low to high
-  int32_t triangle, side;
+  int32_t other;          // point at the far end of the edge
+  int32_t triangle, side; // its triangle runs from the near end to the far one where `forward`
+  int forward;
 } HalfEdge;
 
-static int by_points(const void *a, const void *b) {
-  const HalfEdge *p = a, *q = b;
-  if (p->low != q->low)
-    return p->low < q->low ? -1 : 1;
-  if (p->high != q->high)
-    return p->high < q->high ? -1 : 1;
-  if (p->forward != q->forward)
-    return p->forward < q->forward ? -1 : 1;
-  return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
+static CwStatus not_closed(const CwCad *cad, const CwBackground *background, const HalfEdge *half, int32_t point,
+                           int pair) {
+  const double *x = background->x[point];
+  return CW_FAIL(CW_ERR_GEOMETRY, "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm",
+                 cw_cad_face_name(cad, background->face[half->triangle]), pair ? "folds or turns over" : "is open",
+                 x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
 }
 
-static int same_edge(const HalfEdge *a, const HalfEdge *b) {
-  return a->low == b->low && a->high == b->high;
+// Pairs the half edges of one point, whose other ends have greater numbers.
+static CwStatus pair_up(const CwCad *cad, CwBackground *background, int32_t point, const HalfEdge *half,
+                        int32_t count) {
+  for (int32_t i = 0; i < count; i++) {
+    int32_t mate = -1, met = 0;
+    for (int32_t j = 0; j < count; j++) {
+      if (j == i || half[j].other != half[i].other) continue;
+      mate = j;
+      met++;
+    }
+    if (met != 1 || half[mate].forward == half[i].forward) {
+      return not_closed(cad, background, &half[i], point, met > 0);
+    }
+    background->neighbour[half[i].triangle][half[i].side] = half[mate].triangle;
+  }
+  return CW_OK;
 }
 
-CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background,
-                                  int32_t (**neighbour)[3]) {
+// Finds the triangle across each edge. Fails where an edge is not shared by exactly two triangles that run opposite
+// ways.
+static CwStatus find_neighbours(const CwCad *cad, CwBackground *background) {
   CwStatus status = CW_OK;
   HalfEdge *half = NULL;
-  int32_t(*across)[3] = NULL;
-  size_t count = 0;
+  int32_t *start = NULL;
   CW_NEW(half, 3 * (size_t)background->triangle_count);
-  CW_NEW(across, background->triangle_count);
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    for (int k = 0; k < 3; k++) {
-      int32_t a = background->triangle[t][k], b = background->triangle[t][(k + 1) % 3];
-      half[count++] = (HalfEdge){a < b ? a : b, a < b ? b : a, a < b, t, k};
+  CW_NEW(start, background->point_count + 2);
+  CW_NEW(background->neighbour, background->triangle_count);
+  // Half edges by the lesser of their two points.
+  for (int store = 0; store < 2; store++) {
+    for (int32_t t = 0; t < background->triangle_count; t++) {
+      for (int k = 0; k < 3; k++) {
+        int32_t a = background->triangle[t][k], b = background->triangle[t][(k + 1) % 3];
+        int32_t low = a < b ? a : b;
+        if (store) {
+          half[start[low + 1]++] = (HalfEdge){a < b ? b : a, t, k, a < b};
+        } else {
+          start[low + 2]++;
+        }
+      }
     }
+    for (int32_t p = 2; !store && p < background->point_count + 2; p++) start[p] += start[p - 1];
   }
-  qsort(half, count, sizeof *half, by_points);
-  for (size_t i = 0; i < count; i += 2) {
-    const HalfEdge *h = &half[i];
-    const double *x = background->x[h->low];
-    int pair = i + 1 < count && same_edge(h, h + 1);
-    int whole = pair && h[0].forward != h[1].forward && !(i + 2 < count && same_edge(h, h + 2));
-    CW_REQUIRE(whole, CW_ERR_GEOMETRY, "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm",
-               cw_cad_face_name(cad, background->face[h->triangle]), pair ? "folds or turns over" : "is open",
-               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
-    across[h[0].triangle][h[0].side] = h[1].triangle;
-    across[h[1].triangle][h[1].side] = h[0].triangle;
+  for (int32_t p = 0; p < background->point_count; p++) {
+    CW_TRY(pair_up(cad, background, p, half + start[p], start[p + 1] - start[p]));
   }
-  *neighbour = across;
-  across = NULL;
 done:
   free(half);
-  free(across);
+  free(start);
   return status;
 }
 
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background) {
   CwStatus status = CW_OK;
-  int32_t(*neighbour)[3] = NULL;
   memset(background, 0, sizeof *background);
   CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE,
              "deflection %g m and angle %g rad must be greater than zero", deflection, angle);
   CW_TRY(cw_background_tessellate(cad, deflection, angle, background));
-  CW_TRY(cw_background_neighbours(cad, background, &neighbour)); // closed, or it fails
+  CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(cw_background_volume(background) > 0, CW_ERR_GEOMETRY,
              "the tessellation encloses %g m3; it must be positive", cw_background_volume(background));
 done:
-  free(neighbour);
   if (status != CW_OK)
     cw_background_free(background);
+  return status;
+}
+
+enum { PARTS = 5 };
+
+static CwStatus parts_new(CwBackground *background) {
+  CwStatus status = CW_OK;
+  CW_NEW(background->x, background->point_count);
+  CW_NEW(background->triangle, background->triangle_count);
+  CW_NEW(background->face, background->triangle_count);
+  CW_NEW(background->uv, background->triangle_count);
+  CW_NEW(background->neighbour, background->triangle_count);
+done:
+  return status;
+}
+
+static void parts_of(const CwBackground *background, void *part[PARTS], size_t size[PARTS]) {
+  size_t points = (size_t)background->point_count, triangles = (size_t)background->triangle_count;
+  part[0] = background->x, size[0] = points * sizeof *background->x;
+  part[1] = background->triangle, size[1] = triangles * sizeof *background->triangle;
+  part[2] = background->face, size[2] = triangles * sizeof *background->face;
+  part[3] = background->uv, size[3] = triangles * sizeof *background->uv;
+  part[4] = background->neighbour, size[4] = triangles * sizeof *background->neighbour;
+}
+
+CwStatus cw_background_pack(const CwBackground *background, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  const int32_t count[2] = {background->point_count, background->triangle_count};
+  void *part[PARTS];
+  size_t size[PARTS], all = sizeof count;
+  char *block, *at;
+  parts_of(background, part, size);
+  for (int i = 0; i < PARTS; i++) all += size[i];
+  CW_NEW(block, all);
+  memcpy(block, count, sizeof count);
+  at = block + sizeof count;
+  for (int i = 0; i < PARTS; at += size[i++]) memcpy(at, part[i], size[i]);
+  *bytes = block;
+  *byte_count = (int64_t)all;
+done:
+  return status;
+}
+
+CwStatus cw_background_unpack(const void *bytes, CwBackground *background) {
+  CwStatus status = CW_OK;
+  int32_t count[2];
+  void *part[PARTS];
+  size_t size[PARTS];
+  const char *at = (const char *)bytes + sizeof count;
+  memset(background, 0, sizeof *background);
+  memcpy(count, bytes, sizeof count);
+  background->point_count = count[0];
+  background->triangle_count = count[1];
+  CW_TRY(parts_new(background));
+  parts_of(background, part, size);
+  for (int i = 0; i < PARTS; at += size[i++]) memcpy(part[i], at, size[i]);
+done:
+  if (status != CW_OK) cw_background_free(background);
   return status;
 }
 
@@ -83,6 +149,7 @@ void cw_background_free(CwBackground *background) {
   free(background->triangle);
   free(background->face);
   free(background->uv);
+  free(background->neighbour);
   memset(background, 0, sizeof *background);
 }
 

@@ -21,6 +21,7 @@ typedef struct {
   int32_t (*triangle)[3]; // normal out of the domain
   int32_t *face;          // CAD face of each triangle
   double (*uv)[3][2];     // of each corner on that face
+  int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
 } CwBackground;
 
 // Tessellates with the given chord deflection (m) and angle (rad). Fails with CW_ERR_GEOMETRY where the
@@ -28,9 +29,9 @@ typedef struct {
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
 void cw_background_free(CwBackground *background);
 
-// The triangle across edge (k, k+1) of each triangle: (*neighbour)[t][k]; the caller frees it. Fails with
-// CW_ERR_GEOMETRY and the place where an edge is not shared by exactly two triangles that run opposite ways.
-CwStatus cw_background_neighbours(const CwCad *cad, const CwBackground *background, int32_t (**neighbour)[3]);
+// The whole in one block of bytes (malloc'd), to travel between ranks, and back: the same bits.
+CwStatus cw_background_pack(const CwBackground *background, void **bytes, int64_t *byte_count);
+CwStatus cw_background_unpack(const void *bytes, CwBackground *background);
 
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -68,7 +70,13 @@ void cw_cad_close(CwCad **cad) {
 }
 
 double cw_cad_volume(const CwCad *cad) {
-  return std::fabs(cad->volume) * metre_per_mm * metre_per_mm * metre_per_mm;
+  try {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(cad->solid, properties);
+    return std::fabs(properties.Mass()) * metre_per_mm * metre_per_mm * metre_per_mm;
+  } catch (const Standard_Failure &) {
+    return 0;
+  }
 }
 
 int cw_cad_patch_count(const CwCad *cad) {

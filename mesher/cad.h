@@ -22,7 +22,7 @@ typedef struct CwCad CwCad;
 CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
 void cw_cad_close(CwCad **cad);
 
-// Volume of the solid, m3, by OpenCASCADE.
+// Volume of the solid, m3, by OpenCASCADE, integrated anew each time; 0 where it cannot be.
 double cw_cad_volume(const CwCad *cad);
 
 int cw_cad_patch_count(const CwCad *cad);

@@ -3,12 +3,12 @@
 #include <cstring>
 #include <fstream>
 
-#include <BRepGProp.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <GProp_GProps.hxx>
+#include <Precision.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -47,11 +47,10 @@ CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
   TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
   TopExp::MapShapes(cad->solid, TopAbs_VERTEX, cad->vertex_map);
 
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(cad->solid, properties);
-  cad->volume = properties.Mass();
-  if (!(std::fabs(cad->volume) > 0))
-    return CW_FAIL(CW_ERR_INPUT, "%s: the solid has no volume", path);
+  // A solid that holds the point at infinity is inside out: cheaper to see than a volume below zero.
+  BRepClass3d_SolidClassifier classifier(cad->solid);
+  classifier.PerformInfinitePoint(Precision::Confusion());
+  cad->inside_out = classifier.State() == TopAbs_IN;
   return CW_OK;
 }
 
@@ -96,7 +95,7 @@ static void read_face(CwCad *cad, int index) {
   face.v_range[0] = surface.IsVPeriodic() ? -INFINITY : surface.FirstVParameter();
   face.v_range[1] = surface.IsVPeriodic() ? INFINITY : surface.LastVParameter();
   // A forward face of a solid has its natural normal out of it, unless the solid is inside out as a whole.
-  face.reversed = (shape.Orientation() == TopAbs_REVERSED) != (cad->volume < 0);
+  face.reversed = (shape.Orientation() == TopAbs_REVERSED) != cad->inside_out;
 }
 
 static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face,

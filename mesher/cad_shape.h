@@ -45,7 +45,7 @@ struct CwCad {
   TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based
   std::vector<CwCadFace> face;
   std::vector<CwCadEdge> edge;
-  double volume; // mm3
+  bool inside_out; // faces of the file point into the solid
   CwFaceTable table;
 };
 

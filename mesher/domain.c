@@ -13,15 +13,12 @@
 
 enum { LEAST_REGIONS = 4 };
 static const double TALLEST_COLUMN = 2; // of the edge length on the wall
+static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
+static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
-
-double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch) {
-  if (cw_case_given(table->walls.total_thickness)) return table->walls.total_thickness;
-  return cw_layer_thickness(domain->patch_first_height[patch], table->walls.layer_count, table->walls.growth_ratio);
-}
 
 static double triangle_area(const CwBackground *background, int32_t t, double centre[3]) {
   const double *a = background->x[background->triangle[t][0]], *b = background->x[background->triangle[t][1]],
@@ -34,18 +31,17 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// Columns much taller than their triangles are wide crowd together at noses and roots. They give up growth there, never
-// the first height.
-static double fair_height(double thickness, double least, double size) {
-  return fmin(thickness, fmax(least, TALLEST_COLUMN * size));
-}
-
-static double least_height(double first_height, const CwCase *table) {
-  return EVEN_LAYERS * table->walls.layer_count * first_height;
+// The tallest column that is fair where the cells have the size `size`: no taller than the triangles under it are wide by
+// a factor, or it crowds its neighbours at noses and roots, and its last layer no taller than the tetrahedron above. Columns
+// give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size) {
+  double last = LAST_LAYER * REGULAR_HEIGHT * size, fair = TALLEST_COLUMN * size;
+  if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
+  return fmax(EVEN_LAYERS * count * first, fmin(fair, cw_layer_thickness(first, count, growth)));
 }
 
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
-static CwStatus integrate(CwDomain *domain, const CwCase *table) {
+static CwStatus integrate(CwDomain *domain) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, *volume = NULL;
   int32_t count = 0;
@@ -56,9 +52,7 @@ static CwStatus integrate(CwDomain *domain, const CwCase *table) {
     double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
     int patch = cw_cad_face_patch(domain->cad, face);
     domain->prism_integral += area / (h * h);
-    domain->layer_sample[domain->layer_sample_count++] =
-        (CwLayerSample){area / (h * h * h), h, cw_domain_thickness(domain, table, patch),
-                        least_height(domain->patch_first_height[patch], table)};
+    domain->layer_sample[domain->layer_sample_count++] = (CwLayerSample){area / (h * h * h), h, patch};
   }
   CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
   for (int32_t i = 0; i < count; i++) {
@@ -75,7 +69,9 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   double layers = 0;
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
-    layers += sample->density * fair_height(sample->thickness, sample->least, scale * sample->size);
+    const CwLayerTarget *target = &domain->patch_layers[sample->patch];
+    double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size);
+    layers += sample->density * fmin(target->thickness, fair);
   }
   // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
   return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
@@ -86,11 +82,40 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   CwStatus status = CW_OK;
   memset(domain, 0, sizeof *domain);
   domain->name = name;
+  domain->layer_count = table->walls.layer_count;
   CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
   CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
-  CW_NEW(domain->patch_first_height, cw_cad_patch_count(domain->cad));
-  cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_first_height);
-  CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->background));
+  CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
+  cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_layers);
+done:
+  return status;
+}
+
+CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  CwBackground background = {0};
+  double *volume = NULL;
+  if (part == 0) {
+    CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &background));
+    CW_TRY(cw_background_pack(&background, bytes, byte_count));
+  } else {
+    CW_NEW(volume, 1);
+    *volume = cw_cad_volume(domain->cad);
+    CW_REQUIRE(*volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
+    *bytes = volume;
+    *byte_count = sizeof *volume;
+    volume = NULL;
+  }
+done:
+  free(volume);
+  cw_background_free(&background);
+  return status;
+}
+
+CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_background_unpack(bytes[0], &domain->background));
+  memcpy(&domain->solid_volume, bytes[1], sizeof domain->solid_volume);
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));
@@ -98,20 +123,33 @@ done:
   return status;
 }
 
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count) {
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  if (!domain->seeds) {
+    CW_TRY(cw_size_seeds_start(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE,
+                               &domain->seeds));
+  }
+  CW_TRY(cw_size_seeds_of_face(domain->seeds, face, bytes, byte_count));
+done:
+  return status;
+}
+
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
+                             int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwSize *size = NULL;
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, &size));
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, seeds, &size));
   CW_TRY(cw_size_pack(size, bytes, byte_count));
 done:
   cw_size_free(&size);
   return status;
 }
 
-CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes) {
+CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes) {
   CwStatus status = CW_OK;
+  cw_size_seeds_free(&domain->seeds);
   CW_TRY(cw_size_unpack(bytes, &domain->size));
-  CW_TRY(integrate(domain, table));
+  CW_TRY(integrate(domain));
 done:
   return status;
 }
@@ -121,13 +159,18 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = ceil(cells / (double)table->mesh.cells_per_region);
-  double *thickness = NULL;
+  double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
+  CW_NEW(least, cw_cad_patch_count(domain->cad));
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) thickness[p] = cw_domain_thickness(domain, table, p);
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
+    thickness[p] = domain->patch_layers[p].thickness;
+    least[p] = EVEN_LAYERS * table->walls.layer_count * domain->patch_layers[p].first_height;
   }
   CwPlanOptions options = {.region_count = regions < LEAST_REGIONS ? LEAST_REGIONS : (int32_t)regions,
                            .thickness = thickness,
+                           .least_thickness = least,
+                           .tallest = TALLEST_COLUMN,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
   status = domain->symmetry ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
@@ -141,6 +184,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
 done:
   cw_plan_free(&plan);
   free(thickness);
+  free(least);
   return status;
 }
 
@@ -201,15 +245,16 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   const CwSkeleton *skeleton = &domain->skeleton;
   CW_NEW(domain->first_height, skeleton->wall_count);
   CW_NEW(domain->target, skeleton->wall_count);
+  CW_NEW(domain->growth, skeleton->wall_count);
   for (int32_t v = 0; v < skeleton->wall_count; v++) domain->first_height[v] = domain->target[v] = INFINITY;
   // Where patches meet, the finer one holds.
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    int patch = cw_cad_face_patch(domain->cad, skeleton->wall_face[t]);
-    double thickness = cw_domain_thickness(domain, table, patch);
+    const CwLayerTarget *layers = &domain->patch_layers[cw_cad_face_patch(domain->cad, skeleton->wall_face[t])];
     for (int k = 0; k < 3; k++) {
       int32_t v = skeleton->wall_triangle[t][k];
-      domain->first_height[v] = fmin(domain->first_height[v], domain->patch_first_height[patch]);
-      domain->target[v] = fmin(domain->target[v], thickness);
+      domain->first_height[v] = fmin(domain->first_height[v], layers->first_height);
+      domain->target[v] = fmin(domain->target[v], layers->thickness);
+      domain->growth[v] = fmax(domain->growth[v], layers->growth);
     }
   }
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
@@ -217,8 +262,8 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
-    domain->target[v] =
-        fair_height(domain->target[v], least_height(domain->first_height[v], table), cw_size_at(domain->size, x));
+    domain->target[v] = fmin(domain->target[v], fair_height(domain->first_height[v], table->walls.layer_count,
+                                                            domain->growth[v], cw_size_at(domain->size, x)));
   }
   for (int32_t v = 0; v < skeleton->wall_count; v++) { // the size field is symmetric only to within its grid
     if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
@@ -239,7 +284,7 @@ CwStatus cw_domain_number(CwDomain *domain, const CwCase *table) {
   domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
                                       .domain = domain->name,
                                       .layer_count = table->walls.layer_count,
-                                      .growth_max = table->walls.growth_ratio,
+                                      .growth = domain->growth,
                                       .fill = table->mesh.fill,
                                       .first_height = domain->first_height};
   CW_TRY(cw_region_context_make(&domain->context));
@@ -252,9 +297,10 @@ void cw_domain_clear(CwDomain *domain) {
   cw_skeleton_free(&domain->skeleton);
   free(domain->first_height);
   free(domain->target);
+  free(domain->growth);
   free(domain->number);
   free(domain->pair);
-  domain->first_height = domain->target = NULL;
+  domain->first_height = domain->target = domain->growth = NULL;
   domain->number = NULL;
   domain->pair = NULL;
 }
@@ -262,6 +308,7 @@ void cw_domain_clear(CwDomain *domain) {
 void cw_domain_close(CwDomain *domain) {
   cw_domain_clear(domain);
   cw_plan_free(&domain->plan);
+  cw_size_seeds_free(&domain->seeds);
   cw_size_free(&domain->size);
   cw_symmetry_free(&domain->symmetry);
   cw_inside_free(&domain->inside);
@@ -269,5 +316,5 @@ void cw_domain_close(CwDomain *domain) {
   cw_cad_close(&domain->cad);
   free(domain->layer_sample);
   free(domain->relative_size);
-  free(domain->patch_first_height);
+  free(domain->patch_layers);
 }

@@ -10,42 +10,50 @@
 #include "mesher/wall_targets.h"
 
 // The layers over a piece of wall.
-typedef struct CwLayerSample {
+typedef struct {
   double density;          // area / h^3 at scale 1, m-1
   double size;             // h at scale 1, m
-  double thickness, least; // asked height of the columns, and that below which they never give way to h, m
+  int32_t patch;
 } CwLayerSample;
 
 typedef struct {
   const char *name;
   CwCad *cad;
   CwBackground background;
+  double solid_volume;                        // m3, exact
   CwInside *inside;
   CwSymmetry *symmetry;                       // of solid and plan; NULL: the domain is meshed whole
+  CwSizeSeeds *seeds;                         // while the seeds of the faces are made
   CwSize *size;
-  double *relative_size, *patch_first_height; // of each patch; m
+  double *relative_size;                      // of each patch
+  CwLayerTarget *patch_layers;                // of each patch
+  int layer_count;
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
   double volume_integral;                     // integral of h^-3 over the domain, at scale 1
-  struct CwLayerSample *layer_sample;         // what the layers take of it: one for each background triangle of a wall
+  CwLayerSample *layer_sample;                // what the layers take of it: one for each background triangle of a wall
   int32_t layer_sample_count;
   CwPlan plan;
   CwSkeleton skeleton;
-  double *first_height, *target;              // of each wall vertex, m
+  double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
   CwRegionContext context;
   int32_t *number, colours;                   // region numbers
   int32_t pair_count, (*pair)[2];             // adjacent regions
 } CwDomain;
 
-// Opens geometry and makes the background triangulation.
+// Opens the exact geometry.
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
 
-// Makes the size field, packed: a task of one rank. All ranks take it up with cw_domain_take_size.
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, const CwCase *table, const void *bytes);
+// What one rank makes for all, packed, and how all take it up: the background triangulation (part 0) and the exact
+// volume (part 1); the seeds of one face; the size field from the seeds of all faces.
+enum { CW_DOMAIN_PARTS = 2 };
+CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
+                             int64_t *byte_count);
+CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
 
-// Target thickness of the layers of a patch, m: as asked, or from first height, count and growth.
-double cw_domain_thickness(const CwDomain *domain, const CwCase *table, int patch);
 
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.

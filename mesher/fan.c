@@ -7,9 +7,14 @@ int cw_fan_holds(const CwPlan *plan, int32_t node) {
   return node >= plan->fan_first && node < plan->fan_first + plan->fan_count;
 }
 
-double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]) {
+CwPlane cw_fan_end(const CwPlan *plan, int32_t node) {
   const double *n = plan->node[node].plane.normal;
-  return n[1] * x[0] - n[0] * x[1]; // along normal x z
+  return (CwPlane){{n[1], -n[0], 0}, 0}; // normal x z
+}
+
+double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]) {
+  CwPlane end = cw_fan_end(plan, node);
+  return cw_plane_distance(&end, x);
 }
 
 int32_t cw_fan_locate(const CwPlan *plan, const double x[3]) {

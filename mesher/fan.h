@@ -17,7 +17,9 @@ extern "C" {
 
 // True where `node` is a half-plane. Its plane acts only where cw_fan_reach is not negative.
 int cw_fan_holds(const CwPlan *plan, int32_t node);
-// Way from the axis along the half-plane, m.
+// Where it ends: the plane that holds the axis and stands across it; the distance to it is the way from the axis along
+// the half-plane.
+CwPlane cw_fan_end(const CwPlan *plan, int32_t node);
 double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]);
 // The region of a point on the fan's side of node 0 (a point on a half-plane belongs to the wedge before it).
 int32_t cw_fan_locate(const CwPlan *plan, const double x[3]);

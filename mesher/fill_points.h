@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Inner points of a region before it is filled: a body-centred cubic lattice on an octree that follows the
 // size field. Its tetrahedra have edges in the ratio 1.155 and dihedral angles of 60 and 90 degrees; only the
-// shell between it and the boundary is left to optimise.
+// shell between it and the boundary is left to optimise. The boundary is looked at cell by coarse cell, and a
+// whole line of the lattice is cut by it at once.
 #ifndef CUTWATER_MESHER_FILL_POINTS_H
 #define CUTWATER_MESHER_FILL_POINTS_H
 

@@ -7,19 +7,11 @@
 // Corners of the face opposite corner i, outward.
 static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
+// An edge of a triangle at its end of the smaller number.
 typedef struct {
-  int32_t low, high; // ends of an edge
-  int32_t sign;      // +1: from low to high
+  int32_t high; // the other end
+  int32_t sign; // +1: towards it
 } Directed;
-
-static int compare_edges(const void *left, const void *right) {
-  const Directed *a = left, *b = right;
-  if (a->low != b->low)
-    return a->low < b->low ? -1 : 1;
-  if (a->high != b->high)
-    return a->high < b->high ? -1 : 1;
-  return a->sign - b->sign;
-}
 
 static int compare_places(const void *left, const void *right) {
   const double *a = *(const double *const *)left, *b = *(const double *const *)right;
@@ -51,33 +43,46 @@ done:
 CwStatus cw_fill_check_closed(const CwFillInput *input) {
   CwStatus status = CW_OK;
   Directed *edge = NULL;
-  int64_t count = 3 * (int64_t)input->triangle_count;
+  int64_t *start = NULL, count = 3 * (int64_t)input->triangle_count;
+  int32_t *sum = NULL; // of the signs of the edges from one point to each other
   CW_TRY(check_points(input));
   CW_NEW(edge, count);
+  CW_NEW(sum, input->point_count);
+  CW_NEW(start, (int64_t)input->point_count + 2);
   CW_REQUIRE(input->triangle_count >= 4, CW_ERR_MESH,
              "%s: the boundary has %d triangles; at least 4 are needed", input->name, input->triangle_count);
   for (int64_t k = 0; k < count; k++) {
     const int32_t *p = input->triangle[k / 3];
     int32_t a = p[k % 3], b = p[(k + 1) % 3];
     CW_REQUIRE(
-        a >= 0 && a < input->point_count && a != b, CW_ERR_MESH,
+        a >= 0 && a < input->point_count && b >= 0 && b < input->point_count && a != b, CW_ERR_MESH,
         "%s: boundary triangle %lld has points %d, %d, %d; three different ones from 0 to %d are allowed",
         input->name, (long long)(k / 3), p[0], p[1], p[2], input->point_count - 1);
-    edge[k] = a < b ? (Directed){a, b, 1} : (Directed){b, a, -1};
+    start[(a < b ? a : b) + 2]++;
   }
-  qsort(edge, (size_t)count, sizeof *edge, compare_edges);
-  for (int64_t from = 0, to; from < count; from = to) {
-    int sum = 0;
-    for (to = from; to < count && edge[to].low == edge[from].low && edge[to].high == edge[from].high; to++)
-      sum += edge[to].sign;
-    const double *a = input->x[edge[from].low], *b = input->x[edge[from].high];
-    CW_REQUIRE(sum == 0, CW_ERR_MESH,
-               "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
-               "%.6g) mm",
-               input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
+  for (int32_t p = 0; p < input->point_count; p++)
+    start[p + 2] += start[p + 1];
+  for (int64_t k = 0; k < count; k++) { // leaves start[p + 1] at the end of the list of p
+    const int32_t *p = input->triangle[k / 3];
+    int32_t a = p[k % 3], b = p[(k + 1) % 3];
+    edge[start[(a < b ? a : b) + 1]++] = a < b ? (Directed){b, 1} : (Directed){a, -1};
+  }
+  for (int32_t p = 0; p < input->point_count; p++) {
+    for (int64_t k = start[p]; k < start[p + 1]; k++)
+      sum[edge[k].high] += edge[k].sign;
+    for (int64_t k = start[p]; k < start[p + 1]; k++) { // all sums are 0 again, or it fails
+      const double *a = input->x[p], *b = input->x[edge[k].high];
+      CW_REQUIRE(
+          sum[edge[k].high] == 0, CW_ERR_MESH,
+          "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
+          "%.6g) mm",
+          input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
+    }
   }
 done:
   free(edge);
+  free(start);
+  free(sum);
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/flip_mesh.h"
 #include "mesher/vec.h"
 
 enum { SWEEPS = 12 };
@@ -13,28 +14,19 @@ static const double WALL_SHARE = 0.6;    // of its least angle the wall keeps
 static const double FAIR_ANGLE = 0.35;   // rad: a wall triangle with angles above it is fair in any case
 static const double VALID_PRISM = 0.02;  // scaled Jacobian of a prism, least
 
-typedef struct {
-  int32_t a, b, triangle; // a < b
-} Side;
-
-static int compare_sides(const void *p, const void *q) {
-  const Side *x = p, *y = q;
-  if (x->a != y->a) return x->a < y->a ? -1 : 1;
-  if (x->b != y->b) return x->b < y->b ? -1 : 1;
-  return (x->triangle > y->triangle) - (x->triangle < y->triangle);
-}
-
+// Least angle of a triangle: the one across from its shortest edge.
 static double least_angle(const double (*x)[3], int32_t a, int32_t b, int32_t c) {
   const int32_t corner[3] = {a, b, c};
-  double least = M_PI;
+  double edge[3][3], square[3], n[3]; // edge k lies across from corner k
+  int least = 0;
   for (int k = 0; k < 3; k++) {
-    double u[3], v[3], n[3];
-    cw_sub(x[corner[(k + 1) % 3]], x[corner[k]], u);
-    cw_sub(x[corner[(k + 2) % 3]], x[corner[k]], v);
-    cw_cross(u, v, n);
-    least = fmin(least, atan2(cw_norm(n), cw_dot(u, v)));
+    cw_sub(x[corner[(k + 2) % 3]], x[corner[(k + 1) % 3]], edge[k]);
+    square[k] = cw_dot(edge[k], edge[k]);
+    if (square[k] < square[least]) least = k;
   }
-  return least;
+  const double *u = edge[(least + 1) % 3], *v = edge[(least + 2) % 3];
+  cw_cross(u, v, n);
+  return atan2(cw_norm(n), -cw_dot(u, v));
 }
 
 static void unit_normal(const double (*x)[3], int32_t a, int32_t b, int32_t c, double normal[3]) {
@@ -74,9 +66,9 @@ static int flat_pair(const double (*x)[3], const int32_t p[3], const int32_t q[3
   return cw_dot(n, m) > FLAT;
 }
 
-// Whether the edge a-b between c (left) and d is better as c-d.
-static int flip_helps(const double (*wall)[3], const double (*front)[3], int32_t a, int32_t b, int32_t c, int32_t d) {
-  double before = fmin(least_angle(front, a, b, c), least_angle(front, b, a, d));
+// Whether the edge a-b between c (left) and d is better as c-d; `before`: least angle of the front now.
+static int flip_helps(const double (*wall)[3], const double (*front)[3], double before, int32_t a, int32_t b, int32_t c,
+                      int32_t d) {
   double after = fmin(least_angle(front, c, d, b), least_angle(front, d, c, a));
   if (after < GAIN * before) return 0;
   double wall_before = fmin(least_angle(wall, a, b, c), least_angle(wall, b, a, d));
@@ -92,81 +84,51 @@ static int flip_helps(const double (*wall)[3], const double (*front)[3], int32_t
   return 1;
 }
 
-// The corner across the side a-b, and whether the triangle runs from a to b.
-static int32_t opposite(const int32_t corner[3], int32_t a, int32_t b, int *along) {
-  for (int k = 0; k < 3; k++) {
-    int32_t p = corner[k], q = corner[(k + 1) % 3];
-    if ((p == a && q == b) || (p == b && q == a)) {
-      *along = p == a;
-      return corner[(k + 2) % 3];
-    }
-  }
-  return -1;
-}
-
-static int edge_exists(const Side *side, int32_t count, int32_t a, int32_t b) {
-  int32_t low = 0, high = count;
-  if (a > b) {
-    int32_t swap = a;
-    a = b;
-    b = swap;
-  }
-  while (low < high) {
-    int32_t middle = (low + high) / 2;
-    if (side[middle].a < a || (side[middle].a == a && side[middle].b < b)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < count && side[low].a == a && side[low].b == b;
-}
-
 CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const double (*front)[3], int32_t triangle_count,
                        int32_t (*triangle)[3], const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
-  Side *side = NULL;
-  uint8_t *touched = NULL;
-  int32_t sides = 3 * triangle_count;
+  CwFlipMesh mesh = {.triangle = triangle};
+  double *angle = NULL; // least of each front triangle
+  uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
-  CW_NEW(side, sides);
-  CW_NEW(touched, point_count);
+  CW_NEW(angle, triangle_count);
+  CW_NEW(fresh, triangle_count);
+  CW_TRY(cw_flip_neighbours(point_count, triangle_count, &mesh));
+  for (int32_t t = 0; t < triangle_count; t++) {
+    angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
+    fresh[t] = 1;
+  }
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     for (int32_t t = 0; t < triangle_count; t++) {
-      for (int k = 0; k < 3; k++) {
-        int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3];
-        side[3 * t + k] = a < b ? (Side){a, b, t} : (Side){b, a, t};
+      if (!fresh[t]) continue;
+      int turned = 0;
+      for (int k = 0; k < 3 && !turned; k++) {
+        int32_t u = mesh.near[t][k];
+        if (u < 0 || group[t] != group[u]) continue;
+        int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3], c = triangle[t][(k + 2) % 3];
+        int32_t d = triangle[u][(cw_flip_corner(&mesh, u, b) + 2) % 3];
+        double before = fmin(angle[t], angle[u]);
+        if (c == d || !flip_helps(wall, front, before, a, b, c, d) || cw_flip_joined(&mesh, t, c, d)) continue;
+        cw_flip(&mesh, t, k, u);
+        angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
+        angle[u] = least_angle(front, triangle[u][0], triangle[u][1], triangle[u][2]);
+        fresh[u] = 1;
+        for (int i = 0; i < 3; i++) {
+          if (mesh.near[t][i] >= 0) fresh[mesh.near[t][i]] = 1;
+          if (mesh.near[u][i] >= 0) fresh[mesh.near[u][i]] = 1;
+        }
+        turned = 1;
       }
-    }
-    qsort(side, (size_t)sides, sizeof *side, compare_sides);
-    for (int32_t i = 0; i < point_count; i++) touched[i] = 0;
-    for (int32_t s = 0; s + 1 < sides; s++) {
-      int32_t a = side[s].a, b = side[s].b, t = side[s].triangle, u = side[s + 1].triangle;
-      int along, against;
-      if (side[s + 1].a != a || side[s + 1].b != b || group[t] != group[u]) continue;
-      int32_t c = opposite(triangle[t], a, b, &along), d = opposite(triangle[u], a, b, &against);
-      // One flip about a point in a sweep: the sorted sides are those of its start.
-      if (c < 0 || d < 0 || along == against || touched[a] || touched[b] || touched[c] || touched[d]) continue;
-      if (!along) { // make c lie left of a -> b
-        int32_t swap = t;
-        t = u;
-        u = swap;
-        swap = c;
-        c = d;
-        d = swap;
-      }
-      if (edge_exists(side, sides, c, d) || !flip_helps(wall, front, a, b, c, d)) continue;
-      const int32_t first[3] = {c, d, b}, second[3] = {d, c, a};
-      for (int k = 0; k < 3; k++) triangle[t][k] = first[k], triangle[u][k] = second[k];
-      touched[a] = touched[b] = touched[c] = touched[d] = 1;
-      made++;
+      fresh[t] = (uint8_t)turned;
+      made += turned;
     }
     *flips += made;
     if (made == 0) break;
   }
 done:
-  free(side);
-  free(touched);
+  free(mesh.near);
+  free(angle);
+  free(fresh);
   return status;
 }

@@ -24,22 +24,18 @@ using Pair = std::array<int32_t, 2>;
 
 struct Soup {
   const double (*x)[3];
-  const int32_t (*triangle)[3];
 
   Point point(int32_t v) const { return Point(x[v][0], x[v][1], x[v][2]); }
 
-  Triangle shape(int32_t f) const {
-    return Triangle(point(triangle[f][0]), point(triangle[f][1]), point(triangle[f][2]));
-  }
+  Triangle shape(const int32_t *t) const { return Triangle(point(t[0]), point(t[1]), point(t[2])); }
 
   // Crossing beyond the vertices that both triangles share.
-  bool cross(int32_t f, int32_t g) const {
-    const int32_t *a = triangle[f], *b = triangle[g];
+  bool cross(const int32_t *a, const int32_t *b) const {
     int shared = 0, in_a[3] = {0, 0, 0}, in_b[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
         if (a[i] == b[j]) shared++, in_a[i] = 1, in_b[j] = 1;
-    if (shared == 0) return CGAL::do_intersect(shape(f), shape(g));
+    if (shared == 0) return CGAL::do_intersect(shape(a), shape(b));
     if (shared == 3) return true;
     int i = 0, j = 0;
     if (shared == 2) { // overlap only when folded flat onto each other
@@ -52,7 +48,7 @@ struct Soup {
     while (!in_b[j]) j++;
     const Segment s(point(a[(i + 1) % 3]), point(a[(i + 2) % 3]));
     const Segment t(point(b[(j + 1) % 3]), point(b[(j + 2) % 3]));
-    return CGAL::do_intersect(shape(f), t) || CGAL::do_intersect(shape(g), s);
+    return CGAL::do_intersect(shape(a), t) || CGAL::do_intersect(shape(b), s);
   }
 };
 
@@ -65,7 +61,7 @@ extern "C" CwStatus cw_self_intersections(int32_t point_count, const double (*x)
   *pair_count = 0;
   *pair = nullptr;
   try {
-    const Soup soup{x, triangle};
+    const Soup soup{x};
     std::vector<Pair> found;
     std::vector<Box> boxes;
     boxes.reserve(triangle_count);
@@ -76,7 +72,7 @@ extern "C" CwStatus cw_self_intersections(int32_t point_count, const double (*x)
         for (int k = 0; k < 3; k++)
           CW_REQUIRE(std::isfinite(x[v][k]), CW_ERR_INPUT, "point %d has a coordinate that is not a number", v);
       }
-      const Triangle shape = soup.shape(f);
+      const Triangle shape = soup.shape(triangle[f]);
       if (shape.is_degenerate())
         found.push_back({f, f});
       else
@@ -88,7 +84,7 @@ extern "C" CwStatus cw_self_intersections(int32_t point_count, const double (*x)
     CGAL::box_self_intersection_d(
         order.begin(), order.end(),
         [&](const Box *a, const Box *b) {
-          if (soup.cross(a->info(), b->info()))
+          if (soup.cross(triangle[a->info()], triangle[b->info()]))
             found.push_back({std::min(a->info(), b->info()), std::max(a->info(), b->info())});
         },
         std::ptrdiff_t(2000));
@@ -106,4 +102,8 @@ extern "C" CwStatus cw_self_intersections(int32_t point_count, const double (*x)
   }
 done:
   return status;
+}
+
+extern "C" int cw_triangles_cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
+  return Soup{x}.cross(a, b);
 }

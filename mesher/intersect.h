@@ -20,6 +20,9 @@ extern "C" {
 CwStatus cw_self_intersections(int32_t point_count, const double (*x)[3], int32_t triangle_count,
                                const int32_t (*triangle)[3], int32_t *pair_count, int32_t (**pair)[2]);
 
+// Whether triangles a and b cross or touch beyond the vertices they share by index; both must have an area.
+int cw_triangles_cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]);
+
 #ifdef __cplusplus
 }
 #endif

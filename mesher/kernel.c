@@ -4,12 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/boundary_check.h"
 #include "mesher/delaunay.h"
+#include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
 #include "mesher/kernel_facets.h"
-#include "mesher/kernel_improve.h"
-#include "mesher/kernel_points.h"
+#include "mesher/kernel_flat.h"
 #include "mesher/kernel_recover.h"
+#include "mesher/kernel_split.h"
+#include "mesher/tet_improve.h"
+#include "mesher/tet_mesh.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates.
@@ -17,7 +21,7 @@ static CwStatus all_points(const CwFillInput *input, int32_t *count, double (**x
   CwStatus status = CW_OK;
   double(*inner)[3] = NULL;
   int32_t inner_count = 0;
-  CW_TRY(cw_kernel_points(input, &inner_count, &inner));
+  CW_TRY(cw_fill_points(input, 1.0, &inner_count, &inner));
   CW_NEW(*x, input->point_count + inner_count);
   memcpy(*x, input->x, (size_t)input->point_count * sizeof **x);
   memcpy(*x + input->point_count, inner, (size_t)inner_count * sizeof **x);
@@ -27,7 +31,8 @@ done:
   return status;
 }
 
-enum { ROUNDS = 6 }; // of recovery: what one facet could not have may be free after others have theirs
+enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
+static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { AHEAD = 12 }; // places of the queue whose tetrahedra are on their way from memory
 enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
 
@@ -88,61 +93,63 @@ static CwStatus keep_inside(const CwFillInput *input, CwDelaunay *mesh, const ui
       CW_TRY(cw_delaunay_free_tet(mesh, t));
       continue;
     }
+    int own = 0;
+    while (own < 3 && tet->corner[own] < CW_DELAUNAY_CORNERS)
+      own++;
+    const double *x = mesh->point[tet->corner[own]].x;
     for (int i = 0; i < 4; i++) {
       if (place[t] & 4 << i)
         tet->neighbour[i] = -1;
       CW_REQUIRE(tet->corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
-                 "%s: nothing lies inside the boundary: its normals point inward", input->name);
+                 "%s: the boundary encloses all that lies outside it: its normals point inward near "
+                 "(%.6g, %.6g, %.6g) mm",
+                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
     }
   }
 done:
   return status;
 }
 
-// All tetrahedra; the given boundary points first, then the inner points that are used, in the order of their
-// sources. The corners are moved together in the mesh's own memory, which goes over to the fill: no second
-// copy at the peak.
-static CwStatus take(const CwFillInput *input, CwDelaunay *mesh, int32_t source_count, CwFill *fill) {
+// Brings all boundary triangles into the mesh: by flips and cleared hollows, and at last by divisions of the
+// boundary. CW_RETRY where some are still missing.
+static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, int32_t *source_count,
+                        CwSplits *splits, CwFillWay *way) {
   CwStatus status = CW_OK;
-  int32_t *number = NULL, kept = 0, points = input->point_count;
-  int32_t(*made)[4] = (int32_t(*)[4])(void *)mesh->tet;
-  CW_NEW(number, source_count);
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    int32_t corner[4];
-    memcpy(corner, mesh->tet[t].corner, sizeof corner);
-    if (corner[0] < 0)
-      continue;
-    for (int i = 0; i < 4; i++) {
-      corner[i] = mesh->source[corner[i]];
-      number[corner[i]] = 1;
-    }
-    memcpy(made[kept++], corner, sizeof corner);
+  CwRecovered recovered = {0};
+  cw_facets_locate(mesh, input->point_count, facets);
+  way->missing = facets->missing_count;
+  for (int round = 0; round < ROUNDS && facets->missing_count; round++) {
+    CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
   }
-  mesh->tet = NULL;
-  fill->tetrahedron = realloc(made, (size_t)kept * sizeof *made);
-  if (!fill->tetrahedron)
-    fill->tetrahedron = made;
-  fill->tetrahedron_count = kept;
-  for (int32_t p = 0; p < source_count; p++) {
-    if (p < input->point_count)
-      number[p] = p;
-    else
-      number[p] = number[p] ? points++ : -1;
+  if (facets->missing_count) {
+    CW_TRY(cw_boundary_check_crossing(input));
+    CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
   }
-  for (int32_t t = 0; t < kept; t++) {
-    for (int i = 0; i < 4; i++)
-      fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
+  if (facets->missing_count) {
+    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count,
+                 facets->count);
+    status = CW_RETRY;
   }
-  fill->x = malloc((size_t)points * sizeof *fill->x);
-  CW_REQUIRE(fill->x, CW_ERR_MEMORY, "%s: out of memory: %d points", input->name, points);
-  for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh->point_count; p++) {
-    int32_t to = number[mesh->source[p]];
-    if (to >= 0)
-      memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
-  }
-  fill->point_count = points;
 done:
-  free(number);
+  way->flips = (int32_t)(recovered.flips < INT32_MAX ? recovered.flips : INT32_MAX);
+  way->cleared = recovered.cleared;
+  way->divided = splits->count;
+  return status;
+}
+
+// Where the improvement left tetrahedra that may be flat.
+static CwStatus raise_flat(const CwFillInput *input, CwDelaunay *mesh, int32_t *source_count,
+                           const CwTetImproved *improved, int32_t *raised) {
+  CwStatus status = CW_OK;
+  int32_t left;
+  *raised = 0;
+  if (improved->least_after > NEARLY_FLAT)
+    goto done;
+  CW_TRY(cw_kernel_flat(mesh, source_count, raised, &left));
+  cw_log_debug("%s: %d flat tetrahedra raised, %d not", input->name, *raised, left);
+done:
   return status;
 }
 
@@ -150,36 +157,43 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwDelaunay mesh = {0};
   CwFacets facets = {0};
+  CwSplits splits = {0};
   CwTetImproved improved;
+  CwFillWay way = {0};
   double(*x)[3] = NULL;
   uint8_t *place = NULL;
-  int32_t count = 0;
+  int32_t count = 0, raised = 0;
+  int good = 1;
   memset(fill, 0, sizeof *fill);
-  CW_TRY(cw_fill_check_closed(input));
+  CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &count, &x));
   CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
   free(x);
   x = NULL;
   CW_TRY(cw_facets_make(input, &mesh, &facets));
-  cw_facets_locate(&mesh, input->point_count, &facets);
-  for (int round = 0; round < ROUNDS && facets.missing_count; round++) {
-    CW_TRY(cw_kernel_recover(&mesh, &facets, round, &count));
-    cw_facets_locate(&mesh, input->point_count, &facets);
-  }
-  if (facets.missing_count) {
-    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets.missing_count,
-                 facets.count);
-    status = CW_RETRY;
-    goto done;
-  }
+  CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
   CW_NEW(place, mesh.tet_count);
   CW_TRY(classify(input, &mesh, &facets, place));
   cw_facets_free(&facets);
   CW_TRY(keep_inside(input, &mesh, place));
   free(place);
   place = NULL;
-  CW_TRY(cw_kernel_improve(&mesh, input->point_count, &count, &improved));
-  CW_TRY(take(input, &mesh, count, fill));
+  if (splits.count) {
+    // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
+    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
+    CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+    CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
+  }
+  if (!good) {
+    cw_log_debug("%s: no room to take %d points off the boundary", input->name, splits.count);
+    status = CW_RETRY;
+    goto done;
+  }
+  CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
+  CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+  if (raised)
+    CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
+  CW_TRY(cw_tet_mesh_take(&mesh, input->point_count, count, fill));
   cw_log_debug(
       "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
       input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
@@ -187,9 +201,11 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
 done:
   free(place);
   free(x);
+  cw_splits_free(&splits);
   cw_facets_free(&facets);
   cw_delaunay_free(&mesh);
   if (status != CW_OK)
     cw_fill_free(fill);
+  fill->way = way;
   return status;
 }

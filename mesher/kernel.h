@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-// Promises and errors of cw_fill, and CW_RETRY where a triangle of the boundary cannot be recovered: the
-// caller goes on with cw_fill, which also finds out whether the boundary crosses itself. Thread-safe if the
-// size field is.
+// Promises and errors of cw_fill, and CW_RETRY where rounding leaves no room to recover a triangle of the
+// boundary, or bodies that touch along an edge have it missing: then fill->way still tells how far it got.
+// Thread-safe if the size field is.
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill);
 
 #ifdef __cplusplus

@@ -12,13 +12,10 @@
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // Flips that only prepare others, before the other end is tried; tries of an edge.
-enum { HOLD = 16, TRIES = 12 };
+enum { HOLD = 16, TRIES = 8 };
 
-// What is to be recovered: the edge of the first two points, or the face of all three.
-typedef struct {
-  const CwDelaunay *mesh;
-  int32_t point[3];
-} Goal;
+typedef CwRecoveryGoal Goal;
+typedef CwRecovery Recovery;
 
 static int side(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
   const CwDelaunayPoint *p = mesh->point;
@@ -48,13 +45,6 @@ static int edge_crosses_face(const void *context, int count, const int32_t *poin
     return 0;
   return cw_kernel_meet(goal->mesh, point[0], point[1], goal->point);
 }
-
-typedef struct {
-  CwFlips flips;
-  const CwFacets *facets;
-  Goal goal;
-  uint32_t random;
-} Recovery;
 
 static int draw(Recovery *r, int below) {
   r->random = r->random * 1664525u + 1013904223u;
@@ -158,13 +148,13 @@ done:
 }
 
 // From both ends in turn; deeper searches only where simple flips are stuck.
-static CwStatus recover_edge(Recovery *r, int32_t a, int32_t b, int *found) {
+CwStatus cw_recovery_edge(CwRecovery *r, int32_t a, int32_t b, int tries, int *found) {
   CwStatus status = CW_OK;
   r->goal.point[0] = a;
   r->goal.point[1] = b;
   r->flips.crossing = face_crosses_edge;
   r->flips.slack = 0;
-  for (int stuck = 0; stuck < TRIES; stuck++) {
+  for (int stuck = 0; stuck < tries; stuck++) {
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
       CW_TRY(clear_way(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
       if (*found)
@@ -176,14 +166,14 @@ done:
 }
 
 // The face, once its edges are there: takes away the edges through it, seen from each of its own edges.
-static CwStatus recover_face(Recovery *r, const int32_t corner[3], int *found) {
+CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int *found) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
   memcpy(r->goal.point, corner, sizeof r->goal.point);
   flips->crossing = edge_crosses_face;
   flips->slack = 0;
   *found = 0;
-  for (int stuck = 0; stuck < TRIES; stuck++) {
+  for (int stuck = 0; stuck < tries; stuck++) {
     int32_t a = corner[stuck % 3], b = corner[(stuck + 1) % 3], c = corner[(stuck + 2) % 3], t;
     int32_t tet[CW_RING], ring[CW_RING];
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
@@ -205,34 +195,48 @@ done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, int32_t *source_count) {
+CwStatus cw_recovery_make(CwDelaunay *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery) {
   CwStatus status = CW_OK;
-  Recovery r = {.facets = facets, .goal = {.mesh = mesh}};
+  *recovery = (CwRecovery){.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + seed};
+  CW_TRY(cw_flips_make(mesh, &recovery->flips));
+  recovery->flips.context = &recovery->goal;
+done:
+  return status;
+}
+
+void cw_recovery_free(CwRecovery *recovery) {
+  cw_flips_free(&recovery->flips);
+}
+
+CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, int32_t *source_count,
+                           CwRecovered *recovered) {
+  CwStatus status = CW_OK;
+  CwRecovery r;
   int lost_edges = 0, lost_faces = 0;
-  r.random = 20240611u + (uint32_t)round;
-  CW_TRY(cw_flips_make(mesh, &r.flips));
-  r.flips.context = &r.goal;
+  CW_TRY(cw_recovery_make(mesh, facets, (uint32_t)round, &r));
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0)
       continue;
     for (int k = 0; k < 3; k++) {
       int found;
-      CW_TRY(recover_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], &found));
+      CW_TRY(cw_recovery_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], TRIES, &found));
       lost_edges += !found;
     }
   }
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0)
       continue;
-    int found;
-    CW_TRY(recover_face(&r, facets->corner[f], &found));
+    int found, cleared = 0;
+    CW_TRY(cw_recovery_face(&r, facets->corner[f], TRIES, &found));
     if (!found && round >= 2)
-      CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &found));
-    lost_faces += !found;
+      CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &cleared));
+    recovered->cleared += cleared;
+    lost_faces += !found && !cleared;
   }
+  recovered->flips += r.flips.done;
   cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered",
                facets->missing_count, (long long)r.flips.done, lost_edges, lost_faces);
 done:
-  cw_flips_free(&r.flips);
+  cw_recovery_free(&r);
   return status;
 }

@@ -28,10 +28,10 @@ double cw_layer_thickness(double first, int count, double growth) {
   return first * geometric_sum(count, growth, NULL);
 }
 
-// The growth ratio in [1, growth_max] whose sum is `wanted`, which lies between the sums of both ends.
+// The growth ratio between `low` and `high` whose sum is `wanted`, which lies between the sums of both.
 // The sum is convex and increasing, so Newton from the right end does not overshoot but by rounding.
-static double solve_growth(int count, double wanted, double growth_max) {
-  double low = 1.0, high = growth_max, growth = growth_max;
+static double solve_growth(int count, double wanted, double low, double high) {
+  double growth = high;
   for (int round = 0; round < 200; round++) {
     double slope, excess = geometric_sum(count, growth, &slope) - wanted;
     if (excess > 0.0)
@@ -47,18 +47,16 @@ static double solve_growth(int count, double wanted, double growth_max) {
 }
 
 double cw_layer_fractions(double height, double first, int count, double growth_max, double *fraction) {
-  double growth = 1.0, start = height / count;
-  if (growth_max < 1.0)
-    growth_max = 1.0;
-  if (height > count * first) {
-    double most = geometric_sum(count, growth_max, NULL);
-    if (first * most < height) {
-      growth = growth_max;
-      start = height / most;
-    } else {
-      growth = solve_growth(count, height / first, growth_max);
-      start = first;
-    }
+  double growth = fmax(growth_max, 1.0), least = CW_LEAST_GROWTH;
+  double most_sum = geometric_sum(count, growth, NULL), least_sum = geometric_sum(count, least, NULL);
+  double start = first;
+  if (height >= first * most_sum) {
+    start = height / most_sum;
+  } else if (height <= first * least_sum) {
+    growth = least;
+    start = height / least_sum;
+  } else {
+    growth = solve_growth(count, height / first, least, growth);
   }
   fraction[0] = 0.0;
   for (int k = 1; k < count; k++)

@@ -8,7 +8,7 @@
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   CwStatus status = CW_OK;
   CwLayerWork work = {0};
-  CwGapTree *tree = NULL;
+  CwBoxTree tree = {0};
   memset(layers, 0, sizeof *layers);
   CW_TRY(cw_layers_topology(input, &work));
   CW_NEW(layers->front, work.n);
@@ -20,7 +20,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   // The fan needs heights and the gap needs directions: twice is enough for both to settle.
   for (int pass = 0; pass < 2; pass++) {
     CW_TRY(cw_layers_fan(&work));
-    cw_layers_limit_by_gap(&work, tree);
+    CW_TRY(cw_layers_limit_by_gap(&work, &tree));
     CW_TRY(cw_layers_grade(&work));
   }
   CW_TRY(cw_layers_repair(&work, layers->front, &layers->repair_rounds));
@@ -35,7 +35,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
     if (work.reason[v] == CW_LAYER_FULL) layers->reason[v] = CW_LAYER_REPAIR;
   }
 done:
-  cw_gap_tree_free(tree);
+  cw_box_tree_free(&tree);
   cw_layers_work_free(&work);
   if (status != CW_OK) cw_layers_free(layers);
   return status;

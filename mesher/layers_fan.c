@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "mesher/layers_inner.h"
+#include "mesher/schedule.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6 };
 static const double REACH = 6;         // the fan ends at this many heights from its crease
@@ -133,124 +134,396 @@ done:
 
 static double range(const CwLayerWork *work, int32_t v, const Fan *fan) {
   double fade = fmax(0, 1 - fan->distance / (FADE * fan->height));
-  return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade) * fan->widen;
+  return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade);
 }
 
-// One step of the solution at v; returns how far its displacement moved, in heights.
-static double relax(const CwLayerWork *work, Fan *fan, int32_t v) {
-  double reach = range(work, v, &fan[v]), l2 = reach * reach, sum[3] = {0}, weights = 0, u[3];
-  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-    int32_t w = work->near[k];
-    memcpy(u, fan[w].u, sizeof u);
-    if (work->crease[w] == CW_CREASE_CONVEX && fan[w].source != w) {
-      // A convex edge may lean along itself only; across it the lean of v goes on undisturbed.
-      double h = dot3(work->along[w], u) - dot3(work->along[w], fan[v].u);
-      for (int c = 0; c < 3; c++) u[c] = fan[v].u[c] + h * work->along[w][c];
-    }
-    for (int c = 0; c < 3; c++) sum[c] += work->weight[k] * u[c];
-    weights += work->weight[k];
+// What all components share.
+typedef struct {
+  const CwLayerWork *work;
+  Fan *fan;
+  int32_t *local;               // scratch of a component: local number + 1 of every vertex of the domain, else 0
+  int32_t component_count;
+  int32_t *start, *member;      // vertices of each component, in order of distance from its sources
+} Fans;
+
+// One component on its own: a set of vertices that lean with one another. Local numbers: members first, then the
+// vertices around them, whose displacement stays.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t count, all;
+  const int32_t *member;
+  int32_t *outer;               // vertices around: all - count
+  int32_t *near_start, *near;   // local numbers of the neighbours of members
+  uint8_t *across;              // neighbour is a convex edge that leans along itself only
+  double *weight, *weights;     // of neighbours; their sum
+  double *reach;                // of members, where nothing is widened
+  uint8_t *stirred, *changed;   // members to relax; those whose displacement changed since the columns were set
+  uint8_t *touched;             // whose displacement changed at all
+  Fan *fan;                     // of all
+  double (*column)[3], (*front)[3];
+  int32_t triangle_count, *triangle; // of the wall, with a member
+  double *quality;              // of the prisms over them
+  int32_t *local;               // of the domain's vertices; as in Fans
+} Part;
+
+static int32_t vertex_of(const Part *part, int32_t i) {
+  return i < part->count ? part->member[i] : part->outer[i - part->count];
+}
+
+static void part_free(Part *part) {
+  for (int32_t i = 0; part->local && i < part->all; i++) part->local[vertex_of(part, i)] = 0;
+  free(part->outer);
+  free(part->near_start);
+  free(part->near);
+  free(part->across);
+  free(part->weight);
+  free(part->weights);
+  free(part->reach);
+  free(part->stirred);
+  free(part->changed);
+  free(part->touched);
+  free(part->quality);
+  free(part->fan);
+  free(part->column);
+  free(part->front);
+  free(part->triangle);
+}
+
+static CwStatus part_make(const Fans *fans, int32_t component, int32_t *local, Part *part) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = fans->work;
+  int32_t first = fans->start[component], count = fans->start[component + 1] - first, links = 0, faces = 0;
+  *part = (Part){.work = work, .count = count, .all = count, .member = fans->member + first, .local = local};
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = part->member[i];
+    local[v] = i + 1;
+    links += work->near_start[v + 1] - work->near_start[v];
+    faces += work->face_start[v + 1] - work->face_start[v];
   }
-  for (int c = 0; c < 3; c++) u[c] = l2 * sum[c] / (work->area[v] + l2 * weights);
-  if (fan[v].source == v) {
-    double h = dot3(fan[v].line, u);
-    for (int c = 0; c < 3; c++) u[c] = fan[v].given[c] + h * fan[v].line[c];
+  CW_NEW(part->outer, links);
+  CW_NEW(part->near_start, count + 1);
+  CW_NEW(part->near, links);
+  CW_NEW(part->across, links);
+  CW_NEW(part->weight, links);
+  CW_NEW(part->weights, count);
+  CW_NEW(part->triangle, faces);
+  CW_NEW(part->quality, faces);
+  CW_NEW(part->reach, count);
+  CW_NEW(part->stirred, count);
+  CW_NEW(part->changed, count);
+  CW_NEW(part->touched, count);
+  memset(part->stirred, 1, (size_t)count);
+  memset(part->changed, 1, (size_t)count);
+  links = 0;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = part->member[i];
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++, links++) {
+      int32_t w = work->near[k];
+      if (!local[w]) {
+        part->outer[part->all - count] = w;
+        local[w] = ++part->all;
+      }
+      part->near[links] = local[w] - 1;
+      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && fans->fan[w].source != w;
+      part->weight[links] = work->weight[k];
+      part->weights[i] += work->weight[k];
+    }
+    part->near_start[i + 1] = links;
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      const int32_t *corner = work->in->triangle[work->face[k]];
+      int is_first = 1; // of the members of this triangle: the one that lists it
+      for (int c = 0; c < 3; c++) is_first &= corner[c] == v || !local[corner[c]] || local[corner[c]] - 1 >= i;
+      if (is_first) part->triangle[part->triangle_count++] = work->face[k];
+    }
+  }
+  CW_NEW(part->fan, part->all);
+  CW_NEW(part->column, part->all);
+  CW_NEW(part->front, part->all);
+  for (int32_t i = 0; i < part->all; i++) part->fan[i] = fans->fan[vertex_of(part, i)];
+  for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
+  for (int32_t i = 0; i < count; i++) part->reach[i] = range(work, part->member[i], &part->fan[i]);
+done:
+  return status;
+}
+
+// One step of the solution at member i; returns how far its displacement moved, in heights.
+static double relax(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  Fan *own = &part->fan[i];
+  int32_t v = part->member[i];
+  double reach = part->reach[i] * own->widen, l2 = reach * reach, sum[3] = {0}, u[3];
+  for (int32_t k = part->near_start[i]; k < part->near_start[i + 1]; k++) {
+    const double *near = part->fan[part->near[k]].u;
+    double weight = part->weight[k];
+    if (part->across[k]) {
+      // A convex edge may lean along itself only; across it the lean of v goes on undisturbed.
+      const double *along = work->along[vertex_of(part, part->near[k])];
+      double h = dot3(along, near) - dot3(along, own->u);
+      for (int c = 0; c < 3; c++) sum[c] += weight * (own->u[c] + h * along[c]);
+    } else {
+      for (int c = 0; c < 3; c++) sum[c] += weight * near[c];
+    }
+  }
+  double factor = l2 / (work->area[v] + l2 * part->weights[i]);
+  for (int c = 0; c < 3; c++) u[c] = factor * sum[c];
+  if (own->source == v) {
+    double h = dot3(own->line, u);
+    for (int c = 0; c < 3; c++) u[c] = own->given[c] + h * own->line[c];
   } else {
     allow(work, v, u);
   }
-  double moved = distance3(fan[v].u, u) / work->t[v];
-  memcpy(fan[v].u, u, sizeof u);
+  double moved = distance3(own->u, u) / work->t[v];
+  memcpy(own->u, u, sizeof u);
   return moved;
 }
 
-// Relaxes the vertices of `order` outward and inward by turns: news of a source crosses the whole reach in
-// one sweep.
-static void solve(const CwLayerWork *work, Fan *fan, const int32_t *order, int32_t count, int sweeps) {
-  for (int i = 0; i < sweeps; i++) {
-    double most = 0;
-    for (int32_t k = 0; k < count; k++) most = fmax(most, relax(work, fan, order[i % 2 ? count - 1 - k : k]));
-    if (most < SETTLED) break;
+static int is_wide(const Fan *fan) {
+  return fan->widen > 1.05;
+}
+
+// Relaxes the members outward and inward by turns: news of a source crosses the whole reach in one sweep. Only those are
+// looked at that are stirred: told to, or beside one that moved. `wide`: those alone where the fan was widened; elsewhere
+// the solution stands.
+static void solve(Part *part, int wide, int sweeps) {
+  for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] = is_wide(&part->fan[i]);
+  for (int s = 0; s < sweeps; s++) {
+    int32_t stirred = 0;
+    for (int32_t k = 0; k < part->count; k++) {
+      int32_t i = s % 2 ? part->count - 1 - k : k;
+      if (!part->stirred[i]) continue;
+      stirred++;
+      part->stirred[i] = 0;
+      part->changed[i] = 1;
+      if (relax(part, i) < SETTLED) continue;
+      part->stirred[i] = 1;
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        int32_t j = part->near[l];
+        if (j < part->count && (!wide || is_wide(&part->fan[j]))) part->stirred[j] = 1;
+      }
+    }
+    if (stirred == 0) break;
   }
 }
 
-// Leans the column of v as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal
-// height.
-static void lean(CwLayerWork *work, int32_t v, const Fan *fan) {
-  double least = fmin(LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1;
-  double height = cw_layers_least_cosine(work, v, work->column[v]);
+// Sets where the column of i ends; the snap changes too little to matter here.
+static void set_end(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = vertex_of(part, i);
+  for (int k = 0; k < 3; k++) part->front[i][k] = work->in->x[v][k] + work->t[v] * part->column[i][k];
+}
+
+// Leans the column of member i as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal height.
+static void lean(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  const Fan *fan = &part->fan[i];
+  int32_t v = part->member[i];
+  double least = fmin(LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1, upright[3];
+  cw_layers_upright(work, v, upright);
+  memcpy(part->column[i], upright, sizeof upright);
+  double height = cw_layers_least_cosine(work, v, upright);
   for (int halving = 0; halving < 6; halving++, scale *= 0.5) {
     double column[3];
     for (int k = 0; k < 3; k++) {
       double u = fan->u[k] - (fan->source == v ? fan->given[k] : 0);
-      column[k] = work->column[v][k] + scale * u / work->t[v];
+      column[k] = upright[k] + scale * u / work->t[v];
     }
     double now = cw_layers_least_cosine(work, v, column);
     if (now < least * length3(column)) continue;
-    for (int k = 0; k < 3; k++) work->column[v][k] = column[k] * fmin(height / now, 1.5);
-    return;
+    for (int k = 0; k < 3; k++) part->column[i][k] = column[k] * fmin(height / now, 1.5);
+    break;
   }
+  set_end(part, i);
 }
 
-// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a
-// blade's bevel on the
+// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's bevel on the
 // hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
-static int32_t widen(const CwLayerWork *work, Fan *fan, const int32_t *order, int32_t count, double (*front)[3]) {
+static int32_t widen(Part *part) {
+  const CwLayerWork *work = part->work;
   const CwLayerInput *in = work->in;
   int32_t poor = 0;
-  for (int32_t v = 0; v < work->n; v++) // the snap changes too little to matter here
-    for (int k = 0; k < 3; k++) front[v][k] = in->x[v][k] + work->t[v] * work->column[v][k];
-  for (int32_t f = 0; f < in->triangle_count; f++) {
-    const int32_t *v = in->triangle[f];
-    if (fan[v[0]].source < 0 && fan[v[1]].source < 0 && fan[v[2]].source < 0) continue;
-    if (cw_layers_prism_quality(work, f, (const double (*)[3])front) >= POOR) continue;
+  for (int32_t f = 0; f < part->triangle_count; f++) {
+    const int32_t *v = in->triangle[part->triangle[f]];
+    int32_t local[3] = {part->local[v[0]] - 1, part->local[v[1]] - 1, part->local[v[2]] - 1};
+    int changed = 0;
+    for (int k = 0; k < 3; k++) changed |= local[k] < part->count && part->changed[local[k]];
+    if (changed) {
+      const double *wall[3], *front[3];
+      for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], front[k] = part->front[local[k]];
+      part->quality[f] = cw_layers_corner_quality(wall, front);
+    }
+    if (part->quality[f] >= POOR) continue;
     poor++;
-    for (int i = 0; i < 3; i++) fan[v[i]].widen = fmin(fan[v[i]].widen * 1.4, WIDEST);
+    for (int k = 0; k < 3; k++) {
+      part->fan[local[k]].widen = fmin(part->fan[local[k]].widen * 1.4, WIDEST);
+    }
   }
+  memset(part->changed, 0, (size_t)part->count);
   // Over about a height around, so that the lean stays smooth.
-  for (int pass = 0; pass < 2; pass++)
-    for (int32_t i = 0; i < count && poor; i++) {
-      int32_t v = order[pass ? count - 1 - i : i];
-      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-        double away = distance3(in->x[v], in->x[work->near[k]]) / work->t[v];
-        fan[v].widen = fmax(fan[v].widen, fan[work->near[k]].widen * exp(-0.5 * away));
+  for (int pass = 0; pass < 2 && poor; pass++)
+    for (int32_t k = 0; k < part->count; k++) {
+      int32_t i = pass ? part->count - 1 - k : k, v = part->member[i];
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        double there = part->fan[part->near[l]].widen;
+        if (there <= part->fan[i].widen) continue;
+        double away = distance3(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
+        part->fan[i].widen = fmax(part->fan[i].widen, there * exp(-0.5 * away));
       }
     }
   return poor;
 }
 
-CwStatus cw_layers_fan(CwLayerWork *work) {
+// Whether the heights on and around v are those of the last fan.
+static int is_settled(const CwLayerWork *work, int32_t v) {
+  if (!work->lean || work->lean_t[v] != work->t[v]) return 0;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    if (work->lean_t[w] >= 0 && work->lean_t[w] != work->t[w]) return 0;
+  }
+  return 1;
+}
+
+// Where the solution at member i starts: what the last fan found, or what falls off from the nearest source.
+static void start_member(const Fans *fans, Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = part->member[i];
+  Fan *at = &part->fan[i];
+  if (work->lean && work->lean_t[v] > 0) {
+    const CwLean *last = &work->lean[v];
+    at->widen = last->widen;
+    for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / work->lean_t[v];
+    if (is_settled(work, v)) {
+      memcpy(part->column[i], last->column, sizeof last->column);
+      part->stirred[i] = part->changed[i] = 0;
+      set_end(part, i);
+    }
+  } else if (at->source != v) {
+    double fall = exp(-at->distance / part->reach[i]);
+    for (int k = 0; k < 3; k++) at->u[k] = fall * fans->fan[at->source].u[k];
+    allow(work, v, at->u);
+  }
+}
+
+// Solves one component; gives the columns of its members.
+static CwStatus solve_part(void *context, int32_t component, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  Fan *fan = NULL;
-  int32_t *order = NULL, *wide = NULL, count = 0;
-  double (*front)[3] = NULL;
-  CW_NEW(fan, work->n);
-  CW_NEW(order, work->n);
-  CW_NEW(wide, work->n);
-  CW_NEW(front, work->n);
-  CW_TRY(spread(work, fan, order, &count));
-  for (int32_t i = 0; i < count; i++) {
-    Fan *at = &fan[order[i]];
-    if (at->source == order[i]) continue;
-    double fall = exp(-at->distance / range(work, order[i], at));
-    for (int k = 0; k < 3; k++) at->u[k] = fall * fan[at->source].u[k];
-    allow(work, order[i], at->u);
+  Fans *fans = context;
+  const CwLayerWork *work = fans->work;
+  Part part = {0};
+  CwLean *lean_of = NULL;
+  CW_TRY(part_make(fans, component, fans->local, &part));
+  for (int32_t i = 0; i < part.count; i++) start_member(fans, &part, i);
+  for (int32_t i = part.count; i < part.all; i++) {
+    cw_layers_upright(work, vertex_of(&part, i), part.column[i]);
+    set_end(&part, i);
   }
   for (int round = 0; round <= WIDENINGS; round++) {
-    if (round == 0) {
-      solve(work, fan, order, count, SWEEPS);
-    } else { // where nothing was widened the solution stands
-      int32_t active = 0;
-      for (int32_t i = 0; i < count; i++)
-        if (fan[order[i]].widen > 1.05) wide[active++] = order[i];
-      solve(work, fan, wide, active, MORE_SWEEPS);
+    solve(&part, round > 0, round ? MORE_SWEEPS : SWEEPS);
+    for (int32_t i = 0; i < part.count; i++) {
+      if (!part.changed[i]) continue;
+      part.touched[i] = 1;
+      lean(&part, i);
     }
-    for (int32_t v = 0; v < work->n; v++) cw_layers_set_column(work, v, work->base[v], cw_layers_floor(work, v));
-    for (int32_t i = 0; i < count; i++) lean(work, order[i], &fan[order[i]]);
-    if (round == WIDENINGS || widen(work, fan, order, count, front) == 0) break;
+    if (round == WIDENINGS || widen(&part) == 0) break;
+  }
+  CW_NEW(lean_of, part.count);
+  for (int32_t i = 0; i < part.count; i++) {
+    memcpy(lean_of[i].column, part.column[i], sizeof part.column[i]);
+    memcpy(lean_of[i].u, part.fan[i].u, sizeof part.fan[i].u);
+    lean_of[i].widen = part.fan[i].widen;
+    lean_of[i].changed = part.touched[i];
+  }
+  *size = (int64_t)part.count * (int64_t)sizeof *lean_of;
+  *bytes = lean_of;
+  lean_of = NULL;
+done:
+  free(lean_of);
+  part_free(&part);
+  return status;
+}
+
+// Divides the vertices in `order` into components: those that are neighbours of one another.
+static CwStatus find_components(Fans *fans, const int32_t *order, int32_t count) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = fans->work;
+  int32_t *component = NULL, *stack = NULL, *fill = NULL;
+  CW_NEW(component, work->n);
+  CW_NEW(stack, work->n);
+  CW_NEW(fans->member, count);
+  for (int32_t i = 0; i < count; i++) component[order[i]] = -1;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t depth = 0;
+    if (component[order[i]] >= 0) continue;
+    component[order[i]] = ++fans->component_count;
+    stack[depth++] = order[i];
+    while (depth) {
+      int32_t v = stack[--depth];
+      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+        int32_t w = work->near[k];
+        if (component[w] >= 0) continue;
+        component[w] = component[v];
+        stack[depth++] = w;
+      }
+    }
+  }
+  CW_NEW(fans->start, fans->component_count + 1);
+  CW_NEW(fill, fans->component_count);
+  for (int32_t i = 0; i < count; i++) fans->start[component[order[i]]]++;
+  for (int32_t c = 0; c < fans->component_count; c++) {
+    fill[c] = fans->start[c];
+    fans->start[c + 1] += fans->start[c];
+  }
+  for (int32_t i = 0; i < count; i++) fans->member[fill[component[order[i]] - 1]++] = order[i];
+done:
+  free(component);
+  free(stack);
+  free(fill);
+  return status;
+}
+
+CwStatus cw_layers_fan(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  Fans fans = {.work = work};
+  int32_t *order = NULL, count = 0;
+  int64_t *size = NULL;
+  void **bytes = NULL;
+  double *cost = NULL;
+  CW_NEW(fans.fan, work->n);
+  CW_NEW(fans.local, work->n);
+  CW_NEW(order, work->n);
+  CW_TRY(spread(work, fans.fan, order, &count));
+  CW_TRY(find_components(&fans, order, count));
+  CW_NEW(bytes, fans.component_count);
+  CW_NEW(size, fans.component_count);
+  CW_NEW(cost, fans.component_count);
+  for (int32_t c = 0; c < fans.component_count; c++) cost[c] = fans.start[c + 1] - fans.start[c];
+  CwSchedule schedule = {.count = fans.component_count, .cost = cost, .run = solve_part, .context = &fans, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  if (!work->lean) {
+    CW_NEW(work->lean, work->n);
+    CW_NEW(work->lean_t, work->n);
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    int was_held = work->lean_t[v] > 0;
+    work->lean_t[v] = fans.fan[v].source >= 0 ? work->t[v] : -1;
+    if (was_held && work->lean_t[v] < 0) cw_layers_upright(work, v, work->column[v]);
+  }
+  for (int32_t c = 0; c < fans.component_count; c++) {
+    const CwLean *lean_of = bytes[c];
+    for (int32_t i = fans.start[c]; i < fans.start[c + 1]; i++) {
+      int32_t v = fans.member[i];
+      work->lean[v] = lean_of[i - fans.start[c]];
+      if (work->lean[v].changed) memcpy(work->column[v], work->lean[v].column, sizeof work->column[v]);
+    }
   }
 done:
-  free(fan);
+  for (int32_t c = 0; bytes && c < fans.component_count; c++) free(bytes[c]);
+  free(bytes);
+  free(size);
+  free(cost);
   free(order);
-  free(wide);
-  free(front);
+  free(fans.fan);
+  free(fans.local);
+  free(fans.start);
+  free(fans.member);
   return status;
 }

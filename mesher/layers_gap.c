@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
+#include "mesher/box_tree.h"
 #include "mesher/layers_inner.h"
-
-enum { LEAF = 4 };
-
-typedef struct {
-  double low[3], high[3];
-  int32_t first, count; // leaf: items; inner: count 0, children at `first` and `first + 1`
-} Node;
-
-struct CwGapTree {
-  Node *node;
-  int32_t node_count;
-  int32_t *item; // wall triangles first, then obstacles
-  double (*middle)[3];
-};
 
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
@@ -24,93 +11,24 @@ static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) 
                                        : in->obstacle_x[in->obstacle_triangle[f - in->triangle_count][i]];
 }
 
-// Puts the items with the smaller middles along `axis` before `nth` (quickselect; ties by number, so the
-// same each run).
-static void divide(CwGapTree *tree, int32_t low, int32_t high, int32_t nth, int axis) {
-  while (low < high) {
-    int32_t pivot = tree->item[(low + high) / 2], i = low, j = high;
-    double key = tree->middle[pivot][axis];
-    while (i <= j) {
-      for (;; i++) {
-        double k = tree->middle[tree->item[i]][axis];
-        if (!(k < key || (k == key && tree->item[i] < pivot))) break;
-      }
-      for (;; j--) {
-        double k = tree->middle[tree->item[j]][axis];
-        if (!(k > key || (k == key && tree->item[j] > pivot))) break;
-      }
-      if (i <= j) {
-        int32_t swap = tree->item[i];
-        tree->item[i++] = tree->item[j];
-        tree->item[j--] = swap;
-      }
-    }
-    if (nth <= j)
-      high = j;
-    else if (nth >= i)
-      low = i;
-    else
-      return;
-  }
-}
-
-static void build(const CwLayerInput *in, CwGapTree *tree, int32_t at, int32_t first, int32_t count) {
-  Node *node = &tree->node[at];
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (int k = 0; k < 3; k++) node->low[k] = INFINITY, node->high[k] = -INFINITY;
-  for (int32_t i = first; i < first + count; i++) {
-    const double *corner[3];
-    corners(in, tree->item[i], corner);
-    for (int k = 0; k < 3; k++) {
-      for (int c = 0; c < 3; c++) {
-        node->low[k] = fmin(node->low[k], corner[c][k]);
-        node->high[k] = fmax(node->high[k], corner[c][k]);
-      }
-      low[k] = fmin(low[k], tree->middle[tree->item[i]][k]);
-      high[k] = fmax(high[k], tree->middle[tree->item[i]][k]);
-    }
-  }
-  node->first = first;
-  node->count = count;
-  if (count <= LEAF) return;
-  int axis = 0;
-  for (int k = 1; k < 3; k++)
-    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-  divide(tree, first, first + count - 1, first + count / 2, axis);
-  node->first = tree->node_count;
-  node->count = 0;
-  tree->node_count += 2;
-  int32_t child = node->first;
-  build(in, tree, child, first, count / 2);
-  build(in, tree, child + 1, first + count / 2, count - count / 2);
-}
-
-CwStatus cw_gap_tree_make(const CwLayerWork *work, CwGapTree **tree) {
+CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   int32_t total = in->triangle_count + in->obstacle_triangle_count;
-  CW_NEW(*tree, 1);
-  CW_NEW((*tree)->node, 2 * (size_t)total + 1);
-  CW_NEW((*tree)->item, total);
-  CW_NEW((*tree)->middle, total);
+  CwBox *box = NULL;
+  CW_NEW(box, total);
   for (int32_t f = 0; f < total; f++) {
     const double *corner[3];
     corners(in, f, corner);
-    (*tree)->item[f] = f;
-    for (int k = 0; k < 3; k++) (*tree)->middle[f][k] = (corner[0][k] + corner[1][k] + corner[2][k]) / 3;
+    for (int k = 0; k < 3; k++) {
+      box[f].low[k] = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
+      box[f].high[k] = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
+    }
   }
-  (*tree)->node_count = 1;
-  if (total > 0) build(in, *tree, 0, 0, total);
+  CW_TRY(cw_box_tree_make(total, box, tree));
 done:
+  free(box);
   return status;
-}
-
-void cw_gap_tree_free(CwGapTree *tree) {
-  if (!tree) return;
-  free(tree->node);
-  free(tree->item);
-  free(tree->middle);
-  free(tree);
 }
 
 // Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the
@@ -140,21 +58,6 @@ static double hit(const CwLayerInput *in, int32_t f, const double x[3], const do
   return dot3(e2, q) / det;
 }
 
-static int in_box(const Node *node, const double x[3], const double g[3], double far) {
-  double enter = 0, leave = far;
-  for (int k = 0; k < 3; k++) {
-    double hair = 1e-9 * (node->high[k] - node->low[k]) + 1e-15;
-    if (g[k] == 0) {
-      if (x[k] < node->low[k] - hair || x[k] > node->high[k] + hair) return 0;
-      continue;
-    }
-    double a = (node->low[k] - hair - x[k]) / g[k], b = (node->high[k] + hair - x[k]) / g[k];
-    enter = fmax(enter, fmin(a, b));
-    leave = fmin(leave, fmax(a, b));
-  }
-  return enter <= leave * (1 + 1e-12);
-}
-
 // Walls around v, and walls at a concave crease next to v, bound no gap: the fan keeps columns clear of
 // those.
 static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
@@ -168,47 +71,56 @@ static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
   return 0;
 }
 
-// Largest height that the gap along the column of v allows; INFINITY where nothing stands within reach.
-static double free_height(const CwLayerWork *work, const CwGapTree *tree, int32_t v) {
-  const CwLayerInput *in = work->in;
-  int32_t stack[128], depth = 0;
-  double g[3] = {work->column[v][0], work->column[v][1], work->column[v][2]};
-  double stretch = unit3(g), offset = 1e-3 * work->edge_min[v], best = INFINITY;
-  double far = in->target[v] * stretch / 0.35;
-  int guided = in->guide_count && in->guide_count[v] > 0;
-  if (tree->node_count && in->triangle_count + in->obstacle_triangle_count) stack[depth++] = 0;
-  while (depth) {
-    const Node *node = &tree->node[stack[--depth]];
-    if (!in_box(node, in->x[v], g, far)) continue;
-    if (node->count == 0) {
-      stack[depth++] = node->first;
-      stack[depth++] = node->first + 1;
-      continue;
-    }
-    for (int32_t i = node->first; i < node->first + node->count; i++) {
-      int32_t f = tree->item[i];
-      int wall = f < in->triangle_count;
-      double facing = 0, way = hit(in, f, in->x[v], g, &facing);
-      if (way <= offset || way > far) continue;
-      if (wall) {
-        if (facing < 0.05 || belongs_to_crease(work, v, f)) continue;
-        best = fmin(best, 0.35 * way / stretch);
-      } else {
-        // A column on a rim runs inside its own cap and must not take that for an obstacle.
-        if (facing < (guided ? 0.3 : 0.05)) continue;
-        best = fmin(best, 0.6 * way / stretch);
-      }
-    }
+// The ray along the column of v, and what it has found.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t v;
+  int guided;
+  double g[3], stretch, offset, best, far;
+} Ray;
+
+static int meet(void *context, int32_t f) {
+  Ray *ray = context;
+  const CwLayerInput *in = ray->work->in;
+  int wall = f < in->triangle_count;
+  double facing = 0, way = hit(in, f, in->x[ray->v], ray->g, &facing);
+  if (way <= ray->offset || way > ray->far) return 0;
+  if (wall) {
+    if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
+    ray->best = fmin(ray->best, 0.35 * way / ray->stretch);
+  } else {
+    // A column on a rim runs inside its own cap and must not take that for an obstacle.
+    if (facing < (ray->guided ? 0.3 : 0.05)) return 0;
+    ray->best = fmin(ray->best, 0.6 * way / ray->stretch);
   }
-  return best;
+  return 0;
 }
 
-void cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree) {
+// Largest height that the gap along the column of v allows; INFINITY where nothing stands within reach.
+static CwStatus free_height(const CwLayerWork *work, void *tree, int32_t v, void *out) {
+  const CwLayerInput *in = work->in;
+  Ray ray = {.work = work, .v = v, .guided = in->guide_count && in->guide_count[v] > 0, .best = INFINITY};
+  memcpy(ray.g, work->column[v], sizeof ray.g);
+  ray.stretch = unit3(ray.g);
+  ray.offset = 1e-3 * work->edge_min[v];
+  ray.far = in->target[v] * ray.stretch / 0.35;
+  cw_box_tree_ray(tree, in->x[v], ray.g, &ray.far, meet, &ray);
+  *(double *)out = ray.best;
+  return CW_OK;
+}
+
+CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  double *most = NULL;
+  CW_NEW(most, work->n);
+  CW_TRY(cw_layers_share(work, work->n, sizeof *most, free_height, tree, most));
   for (int32_t v = 0; v < work->n; v++) {
-    double most = free_height(work, tree, v);
-    work->t[v] = fmin(work->in->target[v], most);
+    work->t[v] = fmin(work->in->target[v], most[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
   }
+done:
+  free(most);
+  return status;
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work) {

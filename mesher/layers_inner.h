@@ -7,9 +7,16 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "mesher/box_tree.h"
 #include "mesher/layers.h"
 
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
+
+// A column as the fan leaves it: its displacement relative to an undisturbed neighbour, and how far the fan was widened.
+typedef struct {
+  double column[3], u[3], widen;
+  int32_t changed;                     // by the last fan
+} CwLean;
 
 // All normals point into the fluid. A column is t[v] * column[v]: `column` is the displacement for a unit
 // normal height.
@@ -28,6 +35,8 @@ typedef struct {
   double (*along)[3];                  // crease: direction of the edge, or zero at a corner
   double (*column)[3];                 // unit-height displacement
   double *t;                           // height, m
+  CwLean *lean;                        // what the last fan made of each vertex in its reach; NULL before the first
+  double *lean_t;                      // the heights it was made for; negative out of its reach
   uint8_t *reason;                     // CwLayerReason
 } CwLayerWork;
 
@@ -64,6 +73,12 @@ static inline void flatten3(double a[3], const double n[3]) {
 CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
 void cw_layers_work_free(CwLayerWork *work);
 
+// layers_share.c: calls body for the items 0 .. count-1, in blocks over the ranks; each fills `width` bytes of `out`, which
+// all ranks get. Collective.
+typedef CwStatus (*CwLayerBody)(const CwLayerWork *work, void *context, int32_t item, void *out);
+CwStatus cw_layers_share(const CwLayerWork *work, int32_t count, size_t width, CwLayerBody body, void *context,
+                         void *out);
+
 // layers_normal.c
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the
 // best of the single
@@ -72,7 +87,7 @@ void cw_layers_work_free(CwLayerWork *work);
 // two on the line of both. Returns the least cosine; negative where no direction sees all faces.
 double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
                              double g[3]);
-// Directions and creases of all vertices. Fails where a wall triangle is invisible from a vertex's guides.
+// Directions and creases of all vertices. Collective. Fails where a wall triangle is invisible from a vertex's guides.
 CwStatus cw_layers_normals(CwLayerWork *work);
 // Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
 enum { CW_LAYER_NORMALS = 48 };
@@ -81,19 +96,19 @@ double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double d
 // Sets column[v] to the offset g / max(n.g, floor); floor 0.3 on concave creases, 0.55 elsewhere.
 void cw_layers_set_column(CwLayerWork *work, int32_t v, const double direction[3], double floor_cosine);
 double cw_layers_floor(const CwLayerWork *work, int32_t v);
+// The column of v without any fan.
+void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);
 // Outer end of the column of v at height t[v], put back on its guides.
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 
-// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. Sets every
-// column.
+// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. The first time it sets every
+// column, later those that the change of heights concerns. Collective.
 CwStatus cw_layers_fan(CwLayerWork *work);
 
-// layers_gap.c: a tree of triangles, and the free way along a ray.
-typedef struct CwGapTree CwGapTree;
-CwStatus cw_gap_tree_make(const CwLayerWork *work, CwGapTree **tree);
-void cw_gap_tree_free(CwGapTree *tree);
-// t = min(target, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand.
-void cw_layers_limit_by_gap(CwLayerWork *work, const CwGapTree *tree);
+// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray.
+CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree);
+// t = min(target, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
+CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Lowers heights until |dt| <= 0.3 length along every edge.
 CwStatus cw_layers_grade(CwLayerWork *work);
 
@@ -110,10 +125,33 @@ CwStatus cw_heap_push(CwHeap *heap, double key, int32_t v);
 CwHeapItem cw_heap_pop(CwHeap *heap);
 void cw_heap_free(CwHeap *heap);
 
+// layers_crossing.c: pairs of triangles that cross; kinds are 0 front, 1 wall, 2 caps.
+typedef struct {
+  int32_t f, g, kind_f, kind_g;
+} CwLayerPair;
+typedef struct {
+  const CwLayerWork *work;
+  int32_t item_count;
+  double (*x)[3];       // front, wall, caps
+  CwBox *box;           // of each prism, then of each cap triangle
+  CwBoxTree tree;
+  uint8_t *active;      // triangles that moved
+  int32_t *list, list_count;
+  int searched;         // a first time
+  int32_t pair_count;
+  CwLayerPair *pair;    // front with front, wall or cap; wall with wall, looked for once
+} CwLayerCrossing;
+CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing); // zeroed before
+void cw_layers_crossing_free(CwLayerCrossing *crossing);
+// Brings the pairs up to date with the front; moved: vertices that moved since the last time (not read the first time).
+// Collective.
+CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved);
+
 // layers_repair.c: makes prisms and front valid; fills `front`.
 // Quality of the prism over triangle f with column ends `front`: the least corner Jacobian at any layer
 // between wall and front,
 // scaled to 1 for a right prism over the same wall triangle.
+double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]);
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
 CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds);
 

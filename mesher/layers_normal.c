@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <stdlib.h>
+
 #include "mesher/layers_inner.h"
 
 // What keeps the best candidate direction.
@@ -110,6 +112,11 @@ void cw_layers_set_column(CwLayerWork *work, int32_t v, const double direction[3
   for (int k = 0; k < 3; k++) work->column[v][k] = direction[k] / c;
 }
 
+void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
+  double c = fmax(work->base_cos[v], cw_layers_floor(work, v));
+  for (int k = 0; k < 3; k++) column[k] = work->base[v][k] / c;
+}
+
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
   const CwLayerInput *in = work->in;
   for (int k = 0; k < 3; k++) end[k] = in->x[v][k] + work->t[v] * work->column[v][k];
@@ -133,43 +140,62 @@ static void edge_direction(int count, double (*normal)[3], double along[3]) {
     if (fabs(dot3(normal[i], along)) > 0.3) memset(along, 0, 3 * sizeof *along);
 }
 
-CwStatus cw_layers_normals(CwLayerWork *work) {
+typedef struct {
+  double normal[3], normal_cos, base[3], base_cos, along[3];
+  int32_t crease;
+} Direction;
+
+static CwStatus find_direction(const CwLayerWork *work, void *context, int32_t v, void *out) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
-  const double none[2][3] = {{0}};
+  const double none[2][3] = {{0}}, *x = in->x[v];
+  Direction *made = out;
+  double normal[CW_LAYER_NORMALS][3], *g = made->normal;
+  int count = cw_layers_distinct_normals(work, v, normal), guides = in->guide_count ? in->guide_count[v] : 0;
+  double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
+  CW_REQUIRE(c > 0.05, CW_ERR_MESH,
+             "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
+             "least 0.05 needed): the wall is folded or has an edge too sharp there",
+             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
+  made->normal_cos = c;
+  if (c < 0.92) {
+    double most = -1;
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+      double e[3];
+      sub3(in->x[work->near[k]], x, e);
+      most = fmax(most, dot3(e, g) / length3(e));
+    }
+    made->crease = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
+    edge_direction(count, normal, made->along);
+  }
+  memcpy(made->base, g, sizeof made->base);
+  made->base_cos = c;
+  if (guides == 0) goto done;
+  c = cw_layers_most_normal(count, (const double (*)[3])normal, guides, in->guide_normal[v], made->base);
+  CW_REQUIRE(c > 0.05, CW_ERR_MESH,
+             "layers: no column inside the cap or dividing plane at (%.4f, %.4f, %.4f) mm leaves the wall (best "
+             "cosine %.3f, at least 0.05 needed): it is nearly tangent to the wall there",
+             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
+  made->base_cos = c;
+done:
+  return status;
+}
+
+CwStatus cw_layers_normals(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  Direction *made = NULL;
+  CW_NEW(made, work->n);
+  CW_TRY(cw_layers_share(work, work->n, sizeof *made, find_direction, NULL, made));
   for (int32_t v = 0; v < work->n; v++) {
-    const double *x = in->x[v];
-    double normal[CW_LAYER_NORMALS][3], *g = work->normal[v];
-    int count = cw_layers_distinct_normals(work, v, normal), guides = in->guide_count ? in->guide_count[v] : 0;
-    double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
-    CW_REQUIRE(c > 0.05, CW_ERR_MESH,
-               "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
-               "least 0.05 needed): the wall is folded or has an edge too sharp there",
-               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
-    work->normal_cos[v] = c;
-    if (c < 0.92) {
-      double most = -1;
-      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-        double e[3];
-        sub3(in->x[work->near[k]], x, e);
-        most = fmax(most, dot3(e, g) / length3(e));
-      }
-      work->crease[v] = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
-      edge_direction(count, normal, work->along[v]);
-    }
-    if (guides == 0) {
-      memcpy(work->base[v], g, 3 * sizeof *g);
-      work->base_cos[v] = c;
-    } else {
-      c = cw_layers_most_normal(count, (const double (*)[3])normal, guides, in->guide_normal[v], work->base[v]);
-      CW_REQUIRE(c > 0.05, CW_ERR_MESH,
-                 "layers: no column inside the cap or dividing plane at (%.4f, %.4f, %.4f) mm leaves the wall (best "
-                 "cosine %.3f, at least 0.05 needed): it is nearly tangent to the wall there",
-                 x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
-      work->base_cos[v] = c;
-    }
-    cw_layers_set_column(work, v, work->base[v], cw_layers_floor(work, v));
+    memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
+    memcpy(work->base[v], made[v].base, sizeof made[v].base);
+    memcpy(work->along[v], made[v].along, sizeof made[v].along);
+    work->normal_cos[v] = made[v].normal_cos;
+    work->base_cos[v] = made[v].base_cos;
+    work->crease[v] = (uint8_t)made[v].crease;
+    cw_layers_upright(work, v, work->column[v]);
   }
 done:
+  free(made);
   return status;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Layers over the first of each orbit of a symmetric wall, and their copies.
+// Layers over the first of each orbit of a symmetric wall, and their copies: all ranks grow and check them together, and
+// each turns them for itself.
 #include <stdlib.h>
 
-#include "mesher/intersect.h"
 #include "mesher/layers_inner.h"
 #include "mesher/orbit_skeleton.h"
 #include "pipeline/log.h"
@@ -178,51 +178,47 @@ done:
   return status;
 }
 
+static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
+  for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
+}
+
 // Checks the part with the columns as they were spread; marks the points whose columns do not fit.
 static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad, int32_t *bad_count) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = &part->in;
   CwLayerWork work = {.in = in, .n = in->point_count};
-  int32_t n = in->point_count, walls = in->triangle_count, pairs = 0, (*pair)[2] = NULL, (*triangle)[3] = NULL;
-  double (*x)[3] = NULL, most = 0;
+  CwLayerCrossing crossing = {0};
+  double (*front)[3] = NULL, most = 0;
   *bad_count = 0;
   memset(bad, 0, (size_t)part->whole->point_count);
-  CW_NEW(x, 2 * (size_t)n);
-  for (int32_t i = 0; i < n; i++) {
-    memcpy(x[i], layers->front[part->global[i]], sizeof *x);
-    memcpy(x[n + i], in->x[i], sizeof *x);
-  }
-  for (int32_t f = 0; f < walls; f++) { // all that stands on or beside a first face
+  CW_NEW(front, in->point_count);
+  for (int32_t i = 0; i < in->point_count; i++) memcpy(front[i], layers->front[part->global[i]], sizeof *front);
+  for (int32_t f = 0; f < in->triangle_count; f++) { // all that stands on or beside a first face
     const int32_t *corner = in->triangle[f];
     int beside = 0;
     for (int k = 0; k < 3; k++) beside |= part->is_first[part->global[corner[k]]];
-    for (int k = 0; k < 3 && beside; k++) most = fmax(most, distance3(x[corner[k]], made->front[corner[k]]));
+    for (int k = 0; k < 3 && beside; k++) most = fmax(most, distance3(front[corner[k]], made->front[corner[k]]));
   }
-  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies", walls,
-               part->whole->triangle_count, 1e3 * most);
+  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
+               in->triangle_count, part->whole->triangle_count, 1e3 * most);
   if (most < SAME) goto done; // as the layers were made and checked
-  CW_NEW(triangle, 2 * (size_t)walls);
-  for (int32_t f = 0; f < walls; f++) {
-    int poor = cw_layers_prism_quality(&work, f, (const double(*)[3])x) < VALID;
-    *bad_count += poor;
-    for (int k = 0; k < 3; k++) {
-      triangle[f][k] = in->triangle[f][k];
-      triangle[walls + f][k] = n + in->triangle[f][k];
-      if (poor) bad[part->global[in->triangle[f][k]]] = 1;
-    }
-  }
-  CW_TRY(cw_self_intersections(2 * n, (const double(*)[3])x, 2 * walls, (const int32_t(*)[3])triangle, &pairs, &pair));
-  for (int32_t i = 0; i < pairs; i++) {
-    if (pair[i][0] >= walls) continue;
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    if (cw_layers_prism_quality(&work, f, (const double(*)[3])front) >= VALID) continue;
     ++*bad_count;
-    for (int side = 0; side < 2; side++) {
-      for (int k = 0; k < 3; k++) bad[part->global[triangle[pair[i][side]][k] % n]] = 1;
-    }
+    mark(part, f, bad);
+  }
+  CW_TRY(cw_layers_crossing_make(&work, &crossing));
+  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])front, NULL));
+  for (int32_t i = 0; i < crossing.pair_count; i++) {
+    const CwLayerPair *pair = &crossing.pair[i];
+    if (pair->kind_f == 1 && pair->kind_g == 1) continue; // the wall is as it is
+    ++*bad_count;
+    mark(part, pair->f, bad);
+    if (pair->kind_g < 2) mark(part, pair->g, bad);
   }
 done:
-  free(x);
-  free(triangle);
-  free(pair);
+  cw_layers_crossing_free(&crossing);
+  free(front);
   return status;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
-#include "mesher/intersect.h"
 #include "mesher/layers_inner.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
@@ -10,13 +9,11 @@ static const double THIN = 0.8;          // what a thinned column keeps
 static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
 static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
 
-double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
-  const int32_t *v = work->in->triangle[f];
-  const double (*x)[3] = work->in->x;
+double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]) {
   double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3];
-  for (int i = 0; i < 3; i++) sub3(front[v[i]], x[v[i]], d[i]);
+  for (int i = 0; i < 3; i++) sub3(front[i], wall[i], d[i]);
   for (int i = 0; i < 3; i++) {
-    sub3(x[v[(i + 1) % 3]], x[v[i]], e[i]); // edge from corner i to the next
+    sub3(wall[(i + 1) % 3], wall[i], e[i]); // edge from corner i to the next
     sub3(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to front
   }
   for (int i = 0; i < 3; i++) {
@@ -40,6 +37,13 @@ double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double 
     }
   }
   return least;
+}
+
+double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
+  const int32_t *v = work->in->triangle[f];
+  const double (*x)[3] = work->in->x;
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
+  return cw_layers_corner_quality(wall, end);
 }
 
 static double around(const CwLayerWork *work, int32_t v, const double (*front)[3]) {
@@ -96,22 +100,47 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
 typedef struct {
   CwLayerWork *work;
   double (*front)[3];
-  int32_t *bad, bad_count;
-  uint8_t *mark;        // vertices to turn or to thin
-  double limit;         // prism quality asked for
-  int32_t point_count;  // walls, front, obstacles: the surfaces that must not cross
-  double (*x)[3];
-  int32_t triangle_count, (*triangle)[3];
+  double *quality;         // of each prism
+  int32_t bad_count;
+  uint8_t *mark;           // vertices to turn or to thin
+  uint8_t *moved;          // vertices that moved since prisms were judged
+  uint8_t *uncrossed;      // and since crossings were looked for
+  double limit;            // prism quality asked for
+  double *height;          // as placed
+  CwLayerCrossing crossing;
 } Repair;
 
+static CwStatus judge_prism(const CwLayerWork *work, void *front, int32_t f, void *out) {
+  *(double *)out = cw_layers_prism_quality(work, f, (const double (*)[3])front);
+  return CW_OK;
+}
+
+// Brings the qualities up to date and marks the vertices of bad prisms.
 static void find_bad(Repair *repair) {
   const CwLayerWork *work = repair->work;
+  const double (*front)[3] = (const double (*)[3])repair->front;
   memset(repair->mark, 0, work->n);
   repair->bad_count = 0;
   for (int32_t f = 0; f < work->in->triangle_count; f++) {
-    if (cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= repair->limit) continue;
-    repair->bad[repair->bad_count++] = f;
-    for (int i = 0; i < 3; i++) repair->mark[work->in->triangle[f][i]] = 1;
+    const int32_t *v = work->in->triangle[f];
+    if (repair->moved[v[0]] || repair->moved[v[1]] || repair->moved[v[2]])
+      repair->quality[f] = cw_layers_prism_quality(work, f, front);
+    if (repair->quality[f] >= repair->limit) continue;
+    repair->bad_count++;
+    for (int i = 0; i < 3; i++) repair->mark[v[i]] = 1;
+  }
+  for (int32_t v = 0; v < work->n; v++) repair->uncrossed[v] |= repair->moved[v];
+  memset(repair->moved, 0, work->n);
+}
+
+// Puts the ends of the columns whose height changed where they belong.
+static void place_changed(Repair *repair) {
+  const CwLayerWork *work = repair->work;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (work->t[v] == repair->height[v]) continue;
+    cw_layers_place(work, v, repair->front[v]);
+    repair->height[v] = work->t[v];
+    repair->moved[v] = 1;
   }
 }
 
@@ -124,42 +153,9 @@ static CwStatus thin_marked(Repair *repair) {
       work->reason[v] = CW_LAYER_REPAIR;
     }
   CW_TRY(cw_layers_grade(work));
-  for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, repair->front[v]);
+  place_changed(repair);
 done:
   return status;
-}
-
-static CwStatus collect_surfaces(Repair *repair) {
-  CwStatus status = CW_OK;
-  const CwLayerInput *in = repair->work->in;
-  int32_t n = in->point_count, walls = in->triangle_count;
-  repair->point_count = 2 * n + in->obstacle_point_count;
-  repair->triangle_count = 2 * walls + in->obstacle_triangle_count;
-  CW_NEW(repair->x, repair->point_count);
-  CW_NEW(repair->triangle, repair->triangle_count);
-  memcpy(repair->x + n, in->x, n * sizeof *in->x);
-  for (int32_t f = 0; f < walls; f++)
-    for (int i = 0; i < 3; i++) {
-      repair->triangle[f][i] = in->triangle[f][i];
-      repair->triangle[walls + f][i] = n + in->triangle[f][i];
-    }
-  for (int32_t v = 0; v < in->obstacle_point_count; v++)
-    memcpy(repair->x[2 * n + v], in->obstacle_x[v], sizeof *repair->x);
-  for (int32_t f = 0; f < in->obstacle_triangle_count; f++)
-    for (int i = 0; i < 3; i++) repair->triangle[2 * walls + f][i] = 2 * n + in->obstacle_triangle[f][i];
-done:
-  return status;
-}
-
-// Whether a column of front triangle f runs in a guide: there it touches its cap, as it should, and the two
-// triangulations of a curved cap differ by their chords.
-static int is_guided(const Repair *repair, int32_t f) {
-  const CwLayerInput *in = repair->work->in;
-  if (!in->guide_count) return 0;
-  for (int i = 0; i < 3; i++) {
-    if (in->guide_count[in->triangle[f][i]]) return 1;
-  }
-  return 0;
 }
 
 // Marks the columns of crossing front triangles; *crossing: pairs that matter.
@@ -167,41 +163,59 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
   const CwLayerInput *in = work->in;
-  int32_t walls = in->triangle_count, pair_count = 0, (*pair)[2] = NULL;
-  *crossing = 0;
   memset(repair->mark, 0, work->n);
-  memcpy(repair->x, repair->front, work->n * sizeof *repair->front);
-  CW_TRY(cw_self_intersections(repair->point_count, (const double (*)[3])repair->x, repair->triangle_count,
-                               (const int32_t (*)[3])repair->triangle, &pair_count, &pair));
-  for (int32_t i = 0; i < pair_count; i++) {
-    int32_t f = pair[i][0], g = pair[i][1];
-    if (f >= walls) {
-      const double *x = repair->x[repair->triangle[f][0]];
-      CW_REQUIRE(g >= 2 * walls, CW_ERR_MESH, "layers: the wall itself crosses or touches itself near "
-                 "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, f - walls,
-                 g - walls);
-      continue; // caps are not ours to judge
-    }
-    if (g >= 2 * walls && is_guided(repair, f)) continue;
-    (*crossing)++;
+  CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double (*)[3])repair->front, repair->uncrossed));
+  memset(repair->uncrossed, 0, work->n);
+  *crossing = repair->crossing.pair_count;
+  for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
+    const CwLayerPair *pair = &repair->crossing.pair[i];
+    const double *x = in->x[in->triangle[pair->f][0]];
+    CW_REQUIRE(pair->kind_f == 0, CW_ERR_MESH, "layers: the wall itself crosses or touches itself near "
+               "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, pair->f,
+               pair->g);
     double share = 0;
     for (int k = 0; k < 3; k++) {
-      int32_t v = in->triangle[f][k];
+      int32_t v = in->triangle[pair->f][k];
       repair->mark[v] = 1;
       share = fmax(share, work->t[v] / in->target[v]);
-      if (g < walls) {
-        v = in->triangle[g][k];
+      if (pair->kind_g == 0) {
+        v = in->triangle[pair->g][k];
         repair->mark[v] = 1;
         share = fmax(share, work->t[v] / in->target[v]);
       }
     }
-    const double *x = in->x[in->triangle[f][0]];
     CW_REQUIRE(share > LEAST_SHARE, CW_ERR_MESH,
                "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made", x[0] * 1e3,
-               x[1] * 1e3, x[2] * 1e3, g < walls ? "itself" : g < 2 * walls ? "the wall" : "a cap");
+               x[1] * 1e3, x[2] * 1e3, pair->kind_g == 0 ? "itself" : pair->kind_g == 1 ? "the wall" : "a cap");
   }
 done:
-  free(pair);
+  return status;
+}
+
+// Turns marked columns one after the other, so that each sees what the last one did.
+static void turn_marked(Repair *repair) {
+  CwLayerWork *work = repair->work;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (!repair->mark[v]) continue;
+    double before[3];
+    memcpy(before, repair->front[v], sizeof before);
+    turn(work, v, repair->front);
+    repair->moved[v] |= memcmp(before, repair->front[v], sizeof before) != 0;
+  }
+}
+
+// Fans the columns anew for the heights as they are now.
+static CwStatus fan_again(Repair *repair) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  CW_TRY(cw_layers_fan(work));
+  for (int32_t v = 0; v < work->n; v++) {
+    double before[3];
+    memcpy(before, repair->front[v], sizeof before);
+    cw_layers_place(work, v, repair->front[v]);
+    repair->moved[v] |= memcmp(before, repair->front[v], sizeof before) != 0;
+  }
+done:
   return status;
 }
 
@@ -210,18 +224,22 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
   const CwLayerInput *in = work->in;
   Repair repair = {.work = work, .front = front};
   int32_t crossing = 0;
-  CW_NEW(repair.bad, in->triangle_count);
+  CW_NEW(repair.quality, in->triangle_count);
   CW_NEW(repair.mark, work->n);
-  CW_TRY(collect_surfaces(&repair));
-  for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, front[v]);
+  CW_NEW(repair.moved, work->n);
+  CW_NEW(repair.uncrossed, work->n);
+  CW_NEW(repair.height, work->n);
+  CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
+  place_changed(&repair); // no height is 0: all of them
+  memset(repair.moved, 0, work->n);
+  CW_TRY(cw_layers_share(work, in->triangle_count, sizeof *repair.quality, judge_prism, front, repair.quality));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
     repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;
     find_bad(&repair);
     if (repair.bad_count) {
       for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
-        for (int32_t v = 0; v < work->n; v++)
-          if (repair.mark[v]) turn(work, v, front);
+        turn_marked(&repair);
         find_bad(&repair);
       }
       if (!repair.bad_count) continue;
@@ -232,13 +250,11 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
     CW_TRY(thin_marked(&repair));
     // What is bad still leans as the old heights asked; less height needs less lean. Once only: the turned columns are
     // lost by it, and only thinning is sure to come to an end.
-    if (*rounds != REFAN) continue;
-    CW_TRY(cw_layers_fan(work));
-    for (int32_t v = 0; v < work->n; v++) cw_layers_place(work, v, front[v]);
+    if (*rounds == REFAN) CW_TRY(fan_again(&repair));
   }
   find_bad(&repair);
-  int32_t first = repair.bad_count ? in->triangle[repair.bad[0]][0] : 0;
-  for (int32_t v = 0; v < work->n && !repair.bad_count; v++)
+  int32_t first = 0;
+  for (int32_t v = 0; v < work->n; v++)
     if (repair.mark[v]) first = v;
   const double *x = in->x[first];
   status = CW_FAIL(CW_ERR_MESH,
@@ -246,9 +262,11 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
                    "(%.4f, %.4f, %.4f) mm",
                    ROUNDS, repair.bad_count, crossing, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
 done:
-  free(repair.bad);
+  free(repair.quality);
   free(repair.mark);
-  free(repair.x);
-  free(repair.triangle);
+  free(repair.moved);
+  free(repair.uncrossed);
+  free(repair.height);
+  cw_layers_crossing_free(&repair.crossing);
   return status;
 }

@@ -166,5 +166,7 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->column);
   free(work->t);
   free(work->reason);
+  free(work->lean);
+  free(work->lean_t);
   memset(work, 0, sizeof *work);
 }

@@ -6,8 +6,10 @@
 #include <string.h>
 
 #include "mesher/layer_heights.h"
+#include "mesher/layers.h"
 #include "mesher/mesh_run.h"
 #include "mesher/vec.h"
+#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
 static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
@@ -43,44 +45,10 @@ static json_t *manifest_json(const CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
                                              (json_int_t)domain->context.shared_count, "solid_volume_m3",
-                                             cw_json_number(cw_cad_volume(domain->cad)), "patches",
+                                             cw_json_number(domain->solid_volume), "patches",
                                              patches_json(domain), "regions", regions_json(run, d)));
   }
   return json_pack("{s:i, s:s, s:o}", "format", 1, "case", run->table->name, "domains", domains);
-}
-
-// Layers on one patch: how many faces carry them, how many have their first height, and why not the others.
-static json_t *coverage_json(const CwMeshRun *run, const CwDomain *domain, int patch) {
-  const CwSkeleton *skeleton = &domain->skeleton;
-  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0};
-  double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
-    int is_full = 1, met = 1, worst = 0;
-    for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      double height = skeleton->height[v];
-      double first = cw_layer_fractions(height, domain->first_height[v], run->table->walls.layer_count,
-                                        run->table->walls.growth_ratio, fraction);
-      is_full &= height >= 0.99 * domain->target[v];
-      met &= fabs(first / domain->patch_first_height[patch] - 1) <= FIRST_HEIGHT_TOLERANCE;
-      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
-      thickness += height / 3;
-      least = fmin(least, height);
-    }
-    faces++;
-    full += is_full;
-    first_met += met;
-    reason[is_full ? 0 : worst]++;
-  }
-  return json_pack("{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch",
-                   cw_cad_patch_name(domain->cad, patch), "wall_faces", (json_int_t)faces, "full_thickness_faces",
-                   (json_int_t)full, "first_height_met_faces", (json_int_t)first_met, "first_height_target_m",
-                   cw_json_number(domain->patch_first_height[patch]), "mean_thickness_m",
-                   cw_json_number(faces ? thickness / (double)faces : 0), "least_thickness_m",
-                   cw_json_number(faces ? least : 0), "thinned_by_gap_faces", (json_int_t)reason[1],
-                   "thinned_by_gradation_faces", (json_int_t)reason[2], "thinned_by_repair_faces",
-                   (json_int_t)reason[3]);
 }
 
 static json_t *counts_json(const int64_t *count, int size) {
@@ -89,15 +57,68 @@ static json_t *counts_json(const int64_t *count, int size) {
   return array;
 }
 
+// Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the last
+// layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
+static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
+  const CwDomain *domain = &run->domain[d];
+  const CwSkeleton *skeleton = &domain->skeleton;
+  const CwLayerTarget *target = &domain->patch_layers[patch];
+  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0}, ratio[CW_RATIO_BINS] = {0};
+  double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
+    int is_full = 1, met = 1, worst = 0;
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      double height = skeleton->height[v];
+      double first = cw_layer_fractions(height, domain->first_height[v], run->table->walls.layer_count,
+                                        domain->growth[v], fraction);
+      is_full &= height >= 0.99 * domain->target[v];
+      met &= fabs(first / domain->first_height[v] - 1) <= FIRST_HEIGHT_TOLERANCE;
+      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
+      thickness += height / 3;
+      least = fmin(least, height);
+    }
+    faces++;
+    full += is_full;
+    first_met += met;
+    reason[is_full ? 0 : worst]++;
+    if (!met) missed[worst]++;
+  }
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
+    for (int b = 0; b < CW_RATIO_BINS; b++) ratio[b] += run->summary[d][r].ratio_bin[patch][b];
+  }
+  json_t *result = json_pack(
+      "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
+      (json_int_t)faces, "full_thickness_faces", (json_int_t)full, "first_height_met_faces", (json_int_t)first_met,
+      "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
+      cw_json_number(faces ? thickness / (double)faces : 0), "least_thickness_m", cw_json_number(faces ? least : 0),
+      "thinned_by_gap_faces", (json_int_t)reason[CW_LAYER_GAP], "thinned_by_gradation_faces",
+      (json_int_t)reason[CW_LAYER_GRADATION], "thinned_by_repair_faces", (json_int_t)reason[CW_LAYER_REPAIR]);
+  json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
+  json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)missed[CW_LAYER_GAP]));
+  json_object_set_new(result, "first_height_missed_by_gradation_faces",
+                      json_integer((json_int_t)missed[CW_LAYER_GRADATION]));
+  json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)missed[CW_LAYER_REPAIR]));
+  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(ratio, CW_RATIO_BINS));
+  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(ratio[2] + ratio[3] + ratio[4] + ratio[5])));
+  return result;
+}
+
 static json_t *domain_json(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   CwQuality quality;
   int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
-  double area[CW_PATCH_LIMIT] = {0}, most = 0, sum = 0, error = 0, predicted_sum = 0;
-  int32_t regions = domain->plan.region_count;
+  double area[CW_PATCH_LIMIT] = {0}, most = 0, least = INFINITY, sum = 0, error = 0, predicted_sum = 0,
+         predicted_most = 0, predicted_least = INFINITY;
+  int32_t regions = domain->plan.region_count, tetgen = 0;
   cw_quality_start(&quality);
   json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
-  for (int32_t r = 0; r < regions; r++) predicted_sum += domain->plan.predicted_cells[r];
+  for (int32_t r = 0; r < regions; r++) {
+    predicted_sum += domain->plan.predicted_cells[r];
+    predicted_most = fmax(predicted_most, domain->plan.predicted_cells[r]);
+    predicted_least = fmin(predicted_least, domain->plan.predicted_cells[r]);
+  }
   for (int32_t r = 0; r < regions; r++) {
     const CwRegionSummary *made = &run->summary[d][r];
     double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
@@ -106,14 +127,19 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     tets += made->tetrahedra;
     prisms += made->prisms;
     sum += cells;
-    if (cells > most) most = cells;
+    most = fmax(most, cells);
+    least = fmin(least, cells);
+    tetgen += made->way.tetgen;
     for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
     int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r);
     json_array_append_new(region_list,
-                          json_pack("{s:i, s:i, s:i, s:I, s:I, s:o, s:o}", "region", r + 1, "copy_of", first + 1, "number",
+                          json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o}", "region", r + 1,
+                                     "copy_of", first + 1, "number",
                                     domain->number[r],
                                     "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
-                                    "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
+                                    "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
+                                    "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided,
+                                    "tetgen", made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
                                     "seconds", cw_json_number(run->region_seconds[d][r])));
   }
   for (int32_t r = 0; r < regions; r++) {
@@ -125,9 +151,9 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     json_array_append_new(patch_list, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
                                                 KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2",
                                                 cw_json_number(area[p])));
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, domain, p));
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
-  double solid = cw_cad_volume(domain->cad);
+  double solid = domain->solid_volume;
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", regions, "interfaces",
@@ -135,7 +161,15 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
       "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
       "least_cell_volume_m3", cw_json_number(quality.least_volume));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
+  json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
+  json_object_set_new(result, "region_balance_least", cw_json_number(least / (sum / regions)));
+  json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted_most / (predicted_sum / regions)));
+  json_object_set_new(result, "region_balance_least_predicted",
+                      cw_json_number(predicted_least / (predicted_sum / regions)));
+  cw_log("%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name,
+         least / (sum / regions), most / (sum / regions), predicted_least / (predicted_sum / regions),
+         predicted_most / (predicted_sum / regions));
   json_object_set_new(result, "region_prediction_error", cw_json_number(error));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
   json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));

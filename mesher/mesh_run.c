@@ -11,16 +11,16 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 30 };
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
-// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 20
-// million cells: 13.1 at scale 1.9, 11.0 at 1.1, 9.2 at 0.35).
+// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 3
+// million cells: 14.4 at scale 1.9, 11.6 at 1.1, 10.7 at 0.7).
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
-  return 8.4 + 2.5 * scale;
+  return 8.2 + 3.25 * scale;
 }
 
 static const char *const DOMAIN_NAMES[CW_DOMAINS] = {"rotor", "stator"};
@@ -94,8 +94,9 @@ static void results_free(Results *results) {
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
+  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(scale); // 0: nothing learned yet
   return run->prism_factor * run->domain[d].prism_integral / (scale * scale) +
-         run->tet_factor * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
+         tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
 
 double cw_predicted_cells(const CwMeshRun *run, int domain) {
@@ -108,18 +109,14 @@ static double all_cells_at(const CwMeshRun *run, double scale) {
   return cells;
 }
 
-// Sets the scale of the size fields so that the predicted count is the asked one; the count falls with the scale.
+// Sets the scale of the size fields so that the predicted count is the asked one: cells go by about the -2.7th power of it.
 static void solve_scale(CwMeshRun *run) {
-  double low = 1e-3, high = 1e3;
-  for (int step = 0; step < 60; step++) {
-    double middle = sqrt(low * high);
-    if (all_cells_at(run, middle) > (double)run->table->mesh.cells) {
-      low = middle;
-    } else {
-      high = middle;
-    }
+  double asked = (double)run->table->mesh.cells, off = INFINITY;
+  run->scale = 1; // the same bits, whatever scale was before
+  for (int step = 0; step < SCALE_STEPS && fabs(off - 1) > 1e-12; step++) {
+    off = all_cells_at(run, run->scale) / asked;
+    run->scale *= pow(off, 1 / 2.7);
   }
-  run->scale = sqrt(low * high);
   for (int d = 0; d < CW_DOMAINS; d++) cw_size_set_scale(run->domain[d].size, run->scale);
 }
 
@@ -190,13 +187,20 @@ done:
   return status;
 }
 
+// All ranks work on one domain after the other. CW_RETRY where a symmetric one has no symmetric layers.
 static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  Results results = {0};
-  CW_TRY(run_domains(run, "layers", cw_step_layers, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_skeleton_set_front(&run->domain[d].skeleton, results.bytes[d][0]));
+  double started = cw_seconds();
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CwDomain *domain = &run->domain[d];
+    cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
+    status = cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target);
+    if (status == CW_OK) cw_progress(domain->skeleton.wall_triangle_count);
+    cw_progress_end();
+    CW_TRY(status);
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, CW_DOMAINS, "domains"));
 done:
-  results_free(&results);
   return status;
 }
 
@@ -293,10 +297,75 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
+// Background triangulations and exact volumes: each made by one rank.
+static CwStatus measure_domains(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  CwMeshTask task[CW_DOMAINS * CW_DOMAIN_PARTS];
+  int32_t count = 0;
+  CW_TRY(results_make(&results, CW_DOMAIN_PARTS, CW_DOMAIN_PARTS));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    for (int part = 0; part < CW_DOMAIN_PARTS; part++) {
+      // Faces are measured in half the time that their triangles take.
+      task[count++] = (CwMeshTask){d, part, cw_cad_face_count(run->domain[d].cad) / (1.0 + part)};
+    }
+  }
+  CW_TRY(run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
+    cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
+           run->domain[d].background.triangle_count);
+  }
+done:
+  results_free(&results);
+  return status;
+}
+
+// Looks for equal passages, which the rotor alone can have.
+static CwStatus find_symmetry(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &run->domain[0];
+  if (!run->table->mesh.periodic_impeller) goto done;
+  CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
+  if (domain->symmetry) {
+    cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
+  } else {
+    cw_log("%s: no equal passages; it is meshed whole", domain->name);
+  }
+done:
+  return status;
+}
+
+// The size fields: seeds face by face, then the fields they spread to.
+static CwStatus make_sizes(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  Results seeds = {0}, results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count = 0, faces[CW_DOMAINS];
+  for (int d = 0; d < CW_DOMAINS; d++) faces[d] = cw_cad_face_count(run->domain[d].cad);
+  CW_TRY(results_make(&seeds, faces[0], faces[1]));
+  CW_NEW(task, faces[0] + faces[1]);
+  for (int d = 0; d < CW_DOMAINS; d++) {
+    const CwBackground *background = &run->domain[d].background;
+    for (int32_t f = 0; f < faces[d]; f++) task[count + f] = (CwMeshTask){d, f, 0};
+    for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
+    count += faces[d];
+    run->seeds[d] = seeds.bytes[d];
+  }
+  CW_TRY(run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
+  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
+  for (int d = 0; d < CW_DOMAINS; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
+done:
+  for (int d = 0; d < CW_DOMAINS; d++) run->seeds[d] = NULL;
+  results_free(&seeds);
+  results_free(&results);
+  free(task);
+  return status;
+}
+
 static CwStatus open_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwFlowScales scales;
-  Results results = {0};
   char path[4096];
   double started = cw_seconds();
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
@@ -307,23 +376,12 @@ static CwStatus open_domains(CwMeshRun *run) {
     CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
                "%s: %s has %d patches; at most %d are allowed", path, DOMAIN_NAMES[d],
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
-    cw_log("%s: %d faces, %d background triangles", DOMAIN_NAMES[d], cw_cad_face_count(run->domain[d].cad),
-           run->domain[d].background.triangle_count);
-    if (d > 0 || !run->table->mesh.periodic_impeller) continue;
-    CW_TRY(cw_symmetry_find(run->domain[d].cad, &run->domain[d].background, &run->domain[d].symmetry));
-    if (run->domain[d].symmetry) {
-      cw_log("%s: one of %d equal passages is meshed", DOMAIN_NAMES[d], run->domain[d].symmetry->count);
-    } else {
-      cw_log("%s: no equal passages; it is meshed whole", DOMAIN_NAMES[d]);
-    }
   }
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, 2, "domains"));
-  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
-  for (int d = 0; d < CW_DOMAINS; d++) {
-    CW_TRY(cw_domain_take_size(&run->domain[d], run->table, results.bytes[d][0]));
-  }
+  CW_TRY(measure_domains(run));
+  CW_TRY(find_symmetry(run));
+  CW_TRY(make_sizes(run));
 done:
-  results_free(&results);
   return status;
 }
 
@@ -424,10 +482,9 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
   double asked = (double)run->table->mesh.cells;
   run->scale = 1;
-  for (int step = 0; step < SCALE_STEPS; step++) {
-    run->tet_factor = tets_per_volume(run->scale);
-    solve_scale(run);
-  }
+  run->tet_factor = 0;
+  solve_scale(run);
+  run->tet_factor = tets_per_volume(run->scale);
   CW_TRY(plan_domains(run));
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, fingerprint));

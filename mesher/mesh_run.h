@@ -5,6 +5,7 @@
 
 #include "mesher/audit.h"
 #include "mesher/domain.h"
+#include "mesher/layer_ratio.h"
 #include "pipeline/record.h"
 
 enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
@@ -13,6 +14,8 @@ enum { CW_DOMAINS = 2, CW_PATCH_LIMIT = 32 };
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
+  int64_t ratio_bin[CW_PATCH_LIMIT][CW_RATIO_BINS]; // wall faces by last layer over first tetrahedron
+  CwFillWay way;
   CwQuality quality;
 } CwRegionSummary;
 
@@ -24,6 +27,7 @@ typedef struct {
   CwDomain domain[CW_DOMAINS];
   CwRegionSummary *summary[CW_DOMAINS];
   double *region_seconds[CW_DOMAINS];
+  void **seeds[CW_DOMAINS];        // of the size field, by face, while it is made
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
   // With which the domains were planned.
@@ -48,10 +52,11 @@ typedef struct {
 
 // The steps that run as tasks; each a CwTask body over run->domain[task.domain].
 typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);

@@ -9,8 +9,16 @@
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
+CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_measure(&run->domain[task.domain], task.index, bytes, size);
+}
+
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_seed(&run->domain[task.domain], run->table, task.index, bytes, size);
+}
+
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_make_size(&run->domain[task.domain], run->table, bytes, size);
+  return cw_domain_make_size(&run->domain[task.domain], run->table, run->seeds[task.domain], bytes, size);
 }
 
 CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
@@ -20,11 +28,6 @@ CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
-}
-
-CwStatus cw_step_layers(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  const CwDomain *domain = &run->domain[task.domain];
-  return cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target, bytes, size);
 }
 
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
@@ -55,6 +58,7 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   summary->prisms = mesh->prism_count;
   summary->triangles = mesh->triangle_count;
   summary->quads = mesh->quad_count;
+  summary->way = mesh->way;
   for (int32_t i = 0; i < mesh->triangle_count; i++) {
     summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
   }
@@ -116,6 +120,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   if (!current) CW_TRY(cw_region_write(path, &mesh));
   CW_TRY(write_copies(run, domain, &mesh));
   summarise(&mesh, summary);
+  CW_TRY(cw_layer_ratio(&mesh, run->table->walls.layer_count, CW_PATCH_LIMIT, summary->ratio_bin));
   *bytes = summary;
   *size = sizeof *summary;
   summary = NULL;

@@ -122,6 +122,7 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
                          const CwPlan *plan, CwNetwork *network) {
   CwStatus status = CW_OK;
   Place *place = NULL;
+  int32_t *below = NULL;
   memset(network, 0, sizeof *network);
   network->cad = cad;
   network->plan = plan;
@@ -132,11 +133,16 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
   }
   for (int32_t node = 0; node < plan->node_count; node++) CW_TRY(cw_network_trace(network, background, node));
 
-  // Three planes: every triple is tried; even some hundred planes make only millions of cheap tests.
+  // Three planes meet only where one is above the two others: cells side by side touch on a plane above both alone.
+  CW_NEW(below, plan->node_count);
   for (int32_t a = 0; a < plan->node_count; a++) {
+    int32_t count = 0;
     for (int32_t b = a + 1; b < plan->node_count; b++) {
-      for (int32_t c = b + 1; c < plan->node_count; c++) {
-        CwCorner corner = {{0}, -1, -1, 0, -1, {a, b, c}, 0};
+      if (cw_plan_is_ancestor(plan, a, b)) below[count++] = b;
+    }
+    for (int32_t b = 0; b < count; b++) {
+      for (int32_t c = b + 1; c < count; c++) {
+        CwCorner corner = {{0}, -1, -1, 0, -1, {a, below[b], below[c]}, 0};
         if (!triple_point(network, inside, corner.plane, corner.x)) continue;
         CW_REQUIRE(cw_network_corner(network, &corner, SAME_CORNER) >= 0, CW_ERR_MEMORY, "out of memory: %d corners",
                    network->corner_count);
@@ -156,6 +162,7 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
   }
 done:
   free(place);
+  free(below);
   if (status != CW_OK) cw_network_free(network);
   return status;
 }

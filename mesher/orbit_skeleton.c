@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "mesher/fan.h"
-#include "mesher/front_flip.h"
 
 static int by_number(const void *p, const void *q) {
   int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
@@ -49,24 +48,8 @@ done:
   return status;
 }
 
-CwStatus cw_orbit_front_flip(CwSkeleton *skeleton, const int64_t *group, int32_t *flips) {
-  CwStatus status = CW_OK;
+void cw_orbit_copy_triangles(CwSkeleton *skeleton) {
   const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  int32_t count = 0, (*triangle)[3] = NULL;
-  int64_t *of = NULL;
-  CW_NEW(triangle, skeleton->wall_triangle_count);
-  CW_NEW(of, skeleton->wall_triangle_count);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_source[t] != t) continue;
-    memcpy(triangle[count], skeleton->wall_triangle[t], sizeof *triangle);
-    of[count++] = group[t];
-  }
-  CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x,
-                       (const double(*)[3])skeleton->front, count, triangle, of, flips));
-  count = 0;
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_source[t] == t) memcpy(skeleton->wall_triangle[t], triangle[count++], sizeof *triangle);
-  }
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     int32_t source = skeleton->wall_source[t];
     if (source == t) continue;
@@ -75,8 +58,4 @@ CwStatus cw_orbit_front_flip(CwSkeleton *skeleton, const int64_t *group, int32_t
       skeleton->wall_triangle[t][k] = cw_orbit_node(orbits, skeleton->wall_triangle[source][k], turns);
     }
   }
-done:
-  free(triangle);
-  free(of);
-  return status;
 }

@@ -10,10 +10,10 @@
 CwStatus cw_orbit_outlines(CwSkeleton *skeleton);
 
 // The layers of the whole wall `input` of a skeleton with orbits: grown over the first of each orbit with what stands
-// near them, copied, and checked as copied. CW_RETRY where no symmetric front is found.
+// near them, copied, and checked as copied. Collective. CW_RETRY, on all ranks, where no symmetric front is found.
 CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers);
 
-// cw_front_flip on the first wall triangle of each orbit; the copies follow.
-CwStatus cw_orbit_front_flip(CwSkeleton *skeleton, const int64_t *group, int32_t *flips);
+// Makes the wall triangles that are copies anew, from those that they are copies of.
+void cw_orbit_copy_triangles(CwSkeleton *skeleton);
 
 #endif

@@ -33,11 +33,17 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, char fin
   const CwMeshTable *mesh = &table->mesh;
   // Value by value: structures have padding.
   const double value[] = {walls->layer_count, walls->growth_ratio, walls->total_thickness, walls->y_plus_at,
-                          walls->y_plus_blade, walls->y_plus_hub_shroud, walls->y_plus_volute, walls->y_plus_pipe,
-                          (double)mesh->cells, (double)mesh->cells_per_region, mesh->fill, mesh->periodic_impeller, mesh->gradation, mesh->curvature_angle,
+                          (double)mesh->cells, (double)mesh->cells_per_region, mesh->fill, mesh->periodic_impeller,
+                          mesh->gradation, mesh->curvature_angle,
                           mesh->cells_across_gap, mesh->size_blade, mesh->size_hub_shroud, mesh->size_volute,
                           mesh->size_pipe, mesh->size_interface, table->fluid.kinematic_viscosity};
   cw_hash_bytes(&hash, value, sizeof value);
+  const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
+  for (size_t i = 0; i < sizeof group / sizeof *group; i++) {
+    const double of_group[] = {group[i]->y_plus, group[i]->velocity, group[i]->first_height, group[i]->growth_ratio,
+                               group[i]->total_thickness};
+    cw_hash_bytes(&hash, of_group, sizeof of_group);
+  }
   for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++) CW_TRY(hash_file(&hash, run_path, FILES[i]));
   cw_hash_hex(&hash, fingerprint);
 done:

@@ -8,87 +8,54 @@
 #include "mesher/fan.h"
 #include "mesher/plan_score.h"
 
-// What is left of the surface and of the domain in one node of the tree.
-typedef struct {
-  CwPieces pieces;
-  int32_t sample_count;
-  int32_t *sample;
-} Part;
-
-typedef struct {
-  CwPlanScorer *scorer;
-  CwPlan *plan;
-} Planner;
-
-static void part_free(Part *part) {
-  cw_pieces_free(&part->pieces);
-  free(part->sample);
-  memset(part, 0, sizeof *part);
-}
-
-// The part of `whole` on the negative side of `plane` (or, flipped, on the other).
-static CwStatus part_clip(const CwPlanScorer *scorer, const Part *whole, const CwPlane *plane, int other, Part *half) {
+// Splits `part` into `regions` leaves under node `parent` (on its side `side`), or leaves it whole where no plane
+// will do. `next_region` counts leaves.
+static CwStatus split(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
+                      int side, int32_t *next_region) {
   CwStatus status = CW_OK;
-  CwPlane side = other ? cw_plane_flipped(plane) : *plane;
-  CW_TRY(cw_pieces_clip(&whole->pieces, &side, &half->pieces));
-  CW_NEW(half->sample, whole->sample_count);
-  for (int32_t i = 0; i < whole->sample_count; i++) {
-    int positive = cw_plane_distance(plane, scorer->sample_x[whole->sample[i]]) > 0;
-    if (positive == other) half->sample[half->sample_count++] = whole->sample[i];
+  CwPlanPart half[2] = {0};
+  int32_t first = 0, node = plan->node_count;
+  if (regions > 1) {
+    plan->node[node].parent = parent;
+    CW_TRY(cw_plan_best_plane(model, plan, node, part, regions, &plan->node[node].plane, &first,
+                              &plan->worst_angle[node]));
   }
-done:
-  return status;
-}
-
-// Splits `part` into `regions` leaves under node `parent` (on its side `side`). `next_region` counts leaves.
-static CwStatus split(Planner *planner, Part *part, int32_t regions, int32_t parent, int side, int32_t *next_region) {
-  CwStatus status = CW_OK;
-  Part half[2] = {{{0}, 0, NULL}, {{0}, 0, NULL}};
-  CwPlan *plan = planner->plan;
-  if (regions == 1) {
+  if (first == 0) {
     int32_t region = (*next_region)++;
     if (parent >= 0) plan->node[parent].child[side] = -1 - region;
-    plan->predicted_cells[region] =
-        cw_plan_work(planner->scorer, &part->pieces, part->sample_count, part->sample);
+    plan->predicted_cells[region] = part->work;
     goto done;
   }
-  int32_t first = 0, node = plan->node_count++;
-  plan->node[node].parent = parent;
+  plan->node_count++;
   if (parent >= 0) plan->node[parent].child[side] = node;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
-  CW_TRY(cw_plan_best_plane(planner->scorer, plan, node, &part->pieces, part->sample_count, part->sample,
-                            regions, &plan->node[node].plane, &first, &plan->worst_angle[node]));
-  for (int s = 0; s < 2; s++) CW_TRY(part_clip(planner->scorer, part, &plan->node[node].plane, s, &half[s]));
-  part_free(part); // its pieces are no more needed below
-  CW_TRY(split(planner, &half[0], first, node, 0, next_region));
-  CW_TRY(split(planner, &half[1], regions - first, node, 1, next_region));
+  for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half[s]));
+  cw_plan_part_free(part); // no more needed below
+  CW_TRY(split(model, plan, &half[0], first, node, 0, next_region));
+  CW_TRY(split(model, plan, &half[1], regions - first, node, 1, next_region));
 done:
-  part_free(&half[0]);
-  part_free(&half[1]);
+  cw_plan_part_free(&half[0]);
+  cw_plan_part_free(&half[1]);
   return status;
 }
 
 CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
                       const CwPlanOptions *options, CwPlan *plan) {
   CwStatus status = CW_OK;
-  CwPlanScorer scorer = {0};
-  Part whole = {{0}, 0, NULL};
-  Planner planner = {&scorer, plan};
+  CwPlanModel model = {0};
+  CwPlanPart whole = {0};
   memset(plan, 0, sizeof *plan);
-  plan->region_count = options->region_count;
   CW_NEW(plan->node, options->region_count);
   CW_NEW(plan->worst_angle, options->region_count);
   CW_NEW(plan->predicted_cells, options->region_count);
-  CW_TRY(cw_plan_scorer_make(cad, background, inside, size, options, &scorer));
-  CW_TRY(cw_pieces_from_background(background, &whole.pieces));
-  CW_NEW(whole.sample, scorer.sample_count);
-  whole.sample_count = scorer.sample_count;
-  for (int32_t i = 0; i < scorer.sample_count; i++) whole.sample[i] = i;
-  int32_t next_region = 0;
-  CW_TRY(split(&planner, &whole, options->region_count, -1, 0, &next_region));
+  CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
+  CW_TRY(cw_plan_part_whole(&model, &whole));
+  model.mean_work = whole.work / options->region_count;
+  plan->region_count = 0;
+  CW_TRY(split(&model, plan, &whole, options->region_count, -1, 0, &plan->region_count));
 done:
-  part_free(&whole);
-  cw_plan_scorer_free(&scorer);
+  cw_plan_part_free(&whole);
+  cw_plan_model_free(&model);
   if (status != CW_OK) cw_plan_free(plan);
   return status;
 }
@@ -168,6 +135,7 @@ int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double 
 }
 
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
+  if (cw_plan_locate(plan, x) == region) return 1; // as a rule
   if (plan->fan_count && region >= plan->fan_region) return cw_fan_in_wedge(plan, region, x, tolerance);
   for (int32_t node = 0; node < plan->node_count; node++) {
     for (int side = 0; side < 2; side++) {

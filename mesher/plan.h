@@ -30,14 +30,16 @@ typedef struct {
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
-  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over wall triangles crossed (1: normal to all walls)
+  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers (1: normal to all)
   int32_t fan_first, fan_count, fan_region; // half-planes and the first wedge (fan.h); fan_count 0: none
 } CwPlan;
 
 typedef struct {
-  int32_t region_count;     // at least 1
+  int32_t region_count;     // at least 1; the plan has fewer where no plane divides a part of the domain any more
   const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and their lines keep room for it
-  double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3)
+  const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
+  double tallest;
+  double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3), outside the layers
   double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 

@@ -5,15 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/fill.h"
+#include "mesher/fill_sure.h"
 #include "mesher/hash.h"
-#include "mesher/kernel.h"
 #include "mesher/layer_heights.h"
 #include "mesher/vec.h"
-#include "pipeline/log.h"
 
 enum { LAYERS_MAX = 200 };
-static const double FLAT_CELL = 1e-7; // six times the volume over the cube of an edge
 
 static int compare_rims(const void *p, const void *q) {
   const int32_t *a = p, *b = q;
@@ -87,7 +84,7 @@ void cw_region_context_free(CwRegionContext *context) {
 void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
   const CwSkeleton *skeleton = context->skeleton;
   CwHash hash = cw_hash_start();
-  double numbers[4] = {context->layer_count, context->growth_max, (double)context->shared_count, context->fill};
+  double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
@@ -98,6 +95,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
       cw_hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
       cw_hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
+      cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
       cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
@@ -214,7 +212,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
     int32_t *next = base >= 0 ? &next_shared : &next_own;
     if (on_front) {
       build->column[i] = *next;
-      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth_max, fraction);
+      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth[node], fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->shared_id[*next] = base + k;
         cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[k], mesh->x[(*next)++]);
@@ -350,31 +348,6 @@ done:
   return status;
 }
 
-// Whether some tetrahedron is as flat as rounding: its volume is nothing beside the cube of its edges.
-static int has_flat_cell(const CwFill *fill) {
-  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
-    double edge[3][3], normal[3], longest = 0;
-    for (int k = 0; k < 3; k++) {
-      cw_sub(fill->x[fill->tetrahedron[t][k + 1]], fill->x[fill->tetrahedron[t][0]], edge[k]);
-      longest = fmax(longest, cw_norm(edge[k]));
-    }
-    cw_cross(edge[0], edge[1], normal);
-    if (cw_dot(normal, edge[2]) <= FLAT_CELL * longest * longest * longest) return 1;
-  }
-  return 0;
-}
-
-// By the kernel, where the case does not ask for TetGen and the kernel recovers the boundary; else by TetGen.
-static CwStatus fill(const CwRegionContext *context, const CwFillInput *input, CwFill *result) {
-  if (context->fill == CW_FILL_KERNEL) {
-    CwStatus status = cw_kernel_fill(input, result);
-    if (status != CW_RETRY && (status != CW_OK || !has_flat_cell(result))) return status;
-    cw_fill_free(result);
-    cw_log_debug("%s: left to TetGen", input->name);
-  }
-  return cw_fill(input, result);
-}
-
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh) {
   CwStatus status = CW_OK;
   Build build = {.context = context, .region = region};
@@ -393,7 +366,8 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
                        .size = context->skeleton->size_at,
                        .size_context = context->skeleton->size,
                        .name = name};
-  CW_TRY(fill(context, &input, &build.fill));
+  CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
+  mesh->way = build.fill.way;
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);

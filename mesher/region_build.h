@@ -12,9 +12,9 @@ typedef struct {
   const CwSkeleton *skeleton;
   const char *domain;
   int layer_count;
-  double growth_max;
   CwFillMethod fill;
   const double *first_height; // of each wall vertex, m
+  const double *growth;       // of each wall vertex, largest ratio of neighbouring layers
   // Filled by cw_region_context_make:
   int64_t *shared_base;       // of each skeleton node: first shared number of its column (or its own), -1: not shared
   int64_t shared_count;

@@ -51,7 +51,7 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
   *turned = context->shared_base[node] + level;
   if (node < skeleton->wall_count && level < context->layer_count) {
     double fraction[LAYERS_MAX + 1];
-    cw_layer_fractions(skeleton->height[node], context->first_height[node], context->layer_count, context->growth_max,
+    cw_layer_fractions(skeleton->height[node], context->first_height[node], context->layer_count, context->growth[node],
                        fraction);
     cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[level], x);
   } else {

@@ -77,6 +77,11 @@ static CwStatus write_items(hid_t file, hid_t properties, const CwRegionMesh *r)
   CW_TRY(write_attribute(file, "region", index, &r->region));
   CW_TRY(write_attribute(file, "number", index, &r->number));
   CW_TRY(write_text(file, "fingerprint", r->fingerprint));
+  CW_TRY(write_attribute(file, "recovered_triangles", index, &r->way.missing));
+  CW_TRY(write_attribute(file, "recovery_flips", index, &r->way.flips));
+  CW_TRY(write_attribute(file, "recovery_hollows", index, &r->way.cleared));
+  CW_TRY(write_attribute(file, "recovery_points", index, &r->way.divided));
+  CW_TRY(write_attribute(file, "tetgen", index, &r->way.tetgen));
   CW_TRY(write_data(file, properties, "points", real, r->point_count, 3, r->x));
   CW_TRY(write_data(file, properties, "shared_id", wide, r->shared_count, 1, r->shared_id));
   CW_TRY(write_data(file, properties, "tetrahedra", index, r->tetrahedron_count, 4, r->tetrahedron));
@@ -257,6 +262,11 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   CW_TRY(read_attribute(file, path, "region", &r->region));
   CW_TRY(read_attribute(file, path, "number", &r->number));
   CW_TRY(read_text(file, path, "fingerprint", r->fingerprint, sizeof r->fingerprint));
+  CW_TRY(read_attribute(file, path, "recovered_triangles", &r->way.missing));
+  CW_TRY(read_attribute(file, path, "recovery_flips", &r->way.flips));
+  CW_TRY(read_attribute(file, path, "recovery_hollows", &r->way.cleared));
+  CW_TRY(read_attribute(file, path, "recovery_points", &r->way.divided));
+  CW_TRY(read_attribute(file, path, "tetgen", &r->way.tetgen));
   r->point_count = r->shared_count = r->tetrahedron_count = r->pyramid_count = r->prism_count = -1;
   r->triangle_count = r->quad_count = -1;
 // Takes the memory over even where reading failed half-way, so that the caller frees it.

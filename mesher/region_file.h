@@ -8,6 +8,8 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/fill.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -17,6 +19,7 @@ typedef struct {
   int32_t region; // 1-based
   int32_t number;
   char fingerprint[33]; // hex of all that the region follows from
+  CwFillWay way;        // how its boundary was recovered
   int32_t point_count, shared_count;
   double (*x)[3]; // shared points first
   int64_t *shared_id;

@@ -178,7 +178,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     }
     quiet_barrier(0);
   }
-  cw_progress_start(schedule->step, schedule->count, schedule->unit);
+  if (schedule->step) cw_progress_start(schedule->step, schedule->count, schedule->unit);
   for (;;) {
     int64_t place = world.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
     if (place >= schedule->count)
@@ -197,10 +197,10 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     if (size)
       size[task] = result_size;
     finished = world.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
-    cw_progress(finished);
+    if (schedule->step) cw_progress(finished);
   }
   if (world.ranks > 1) {
-    quiet_barrier(world.rank == 0);
+    quiet_barrier(world.rank == 0 && schedule->step);
     MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     if (schedule->gather)
@@ -208,7 +208,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   }
   if (seconds)
     memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
-  cw_progress_end();
+  if (schedule->step) cw_progress_end();
 done:
   free(time);
   free(owner);

@@ -9,8 +9,9 @@
 #include "mesher/size_grid.h"
 #include "mesher/size_sources.h"
 
-static const double spacing_share = 0.6; // of the base size
-static const int64_t node_limit = 6000000;
+struct CwSizeSeeds {
+  CwSizeSurface *surface;
+};
 
 struct CwSize {
   double scale;
@@ -34,30 +35,98 @@ done:
   return status;
 }
 
+CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
+                             const double *patch_size, double base_size, CwSizeSeeds **seeds) {
+  CwStatus status = CW_OK;
+  const CwSizeInput input = {cad, background, table, patch_size, base_size};
+  CwSizeSeeds *made = NULL;
+  CW_TRY(check_input(&input));
+  CW_NEW(made, 1);
+  CW_TRY(cw_size_surface_make(&input, &made->surface));
+  *seeds = made;
+  made = NULL;
+done:
+  cw_size_seeds_free(&made);
+  return status;
+}
+
+CwStatus cw_size_seeds_of_face(CwSizeSeeds *seeds, int face, void **bytes, int64_t *byte_count) {
+  return cw_size_seed_face(seeds->surface, face, bytes, byte_count);
+}
+
+void cw_size_seeds_free(CwSizeSeeds **seeds) {
+  if (!*seeds)
+    return;
+  cw_size_surface_free(&(*seeds)->surface);
+  free(*seeds);
+  *seeds = NULL;
+}
+
+// Sets a byte for the nodes of the cells that lie in the domain, as the lines see it, and of those beside.
+static CwStatus mark_inside(const CwSize *size, uint8_t **within) {
+  CwStatus status = CW_OK;
+  const CwSizeGrid *grid = &size->grid;
+  const CwScanlines *lines = &size->lines;
+  const int32_t *n = grid->count;
+  size_t row = (size_t)n[0], slab = row * (size_t)n[1];
+  CW_NEW(*within, slab * (size_t)n[2]);
+  for (int32_t k = 0; k < lines->count[1]; k++) {
+    for (int32_t j = 0; j < lines->count[0]; j++) {
+      size_t line = (size_t)j + (size_t)lines->count[0] * (size_t)k;
+      for (int64_t c = lines->start[line]; c + 1 < lines->start[line + 1]; c += 2) {
+        // The lattice begins one spacing into the grid: square (j, k) is cell (j + 1, k + 1).
+        int32_t first = (int32_t)fmax(floor((lines->crossing[c] - grid->low[0]) / grid->spacing) - 1, 0);
+        int32_t last = (int32_t)fmin(floor((lines->crossing[c + 1] - grid->low[0]) / grid->spacing) + 2, n[0] - 1);
+        for (int32_t z = k; z <= k + 3 && z < n[2]; z++) {
+          for (int32_t y = j; y <= j + 3 && y < n[1]; y++)
+            memset(*within + (size_t)z * slab + (size_t)y * row + first, 1, (size_t)(last - first + 1));
+        }
+      }
+    }
+  }
+  // Thin passages may lie between the lines; seeds are everywhere on the surface.
+  for (int32_t z = 0; z < n[2]; z++) {
+    for (int32_t y = 0; y < n[1]; y++) {
+      for (int32_t x = 0; x < n[0]; x++) {
+        size_t node = (size_t)z * slab + (size_t)y * row + (size_t)x;
+        if (!cw_size_grid_is_set(grid, (int64_t)node))
+          continue;
+        int32_t first = x > 0 ? x - 1 : x, last = x + 1 < n[0] ? x + 1 : x;
+        for (int32_t c = z > 0 ? z - 1 : z; c <= z + 1 && c < n[2]; c++) {
+          for (int32_t b = y > 0 ? y - 1 : y; b <= y + 1 && b < n[1]; b++)
+            memset(*within + (size_t)c * slab + (size_t)b * row + first, 1, (size_t)(last - first + 1));
+        }
+      }
+    }
+  }
+done:
+  return status;
+}
+
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, CwSize **size) {
+                      const double *patch_size, double base_size, void *const *seeds, CwSize **size) {
   CwStatus status = CW_OK;
   const CwSizeInput input = {cad, background, table, patch_size, base_size};
   CwSize *made = NULL;
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  uint8_t *within = NULL;
   *size = NULL;
   CW_TRY(check_input(&input));
-  for (int32_t i = 0; i < background->point_count; i++) {
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], background->x[i][k]);
-      high[k] = fmax(high[k], background->x[i][k]);
-    }
-  }
   CW_NEW(made, 1);
   made->scale = 1;
-  CW_TRY(cw_size_grid_make(low, high, spacing_share * base_size, node_limit, &made->grid));
-  CW_TRY(cw_size_seed_surface(&input, &made->grid));
-  CW_TRY(cw_size_seed_edges(&input, &made->grid));
-  cw_size_grid_spread(&made->grid, table->gradation);
-  CW_TRY(cw_scanlines_make(background, &low[1], &high[1], made->grid.spacing, &made->lines));
+  CW_TRY(cw_size_surface_grid(&input, &made->grid));
+  CwSizeGrid *grid = &made->grid;
+  for (int f = 0; f < cw_cad_face_count(cad); f++)
+    cw_size_take_seeds(grid, seeds[f]);
+  CW_TRY(cw_size_seed_edges(&input, grid));
+  double low[3], high[3];
+  cw_size_box(background, low, high);
+  CW_TRY(cw_scanlines_make(background, &low[1], &high[1], grid->spacing, &made->lines));
+  CW_TRY(mark_inside(made, &within));
+  CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
   *size = made;
   made = NULL;
 done:
+  free(within);
   cw_size_free(&made);
   return status;
 }

@@ -19,10 +19,19 @@ extern "C" {
 
 typedef struct CwSize CwSize;
 
+// The field begins with seeds on the surface, face by face: what patch sizes, curvature and gaps ask for there.
 // `patch_size` gives the relative size of each patch of the CAD (from the mesh table of the case). Sizes are
-// relative to `base_size` (m), the edge length at relative size 1 before scaling.
+// relative to `base_size` (m), the edge length at relative size 1 before scaling. Seeds of different faces may
+// be made on different ranks; they come packed (malloc'd).
+typedef struct CwSizeSeeds CwSizeSeeds;
+CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
+                             const double *patch_size, double base_size, CwSizeSeeds **seeds);
+CwStatus cw_size_seeds_of_face(CwSizeSeeds *seeds, int face, void **bytes, int64_t *byte_count);
+void cw_size_seeds_free(CwSizeSeeds **seeds);
+
+// The field that spreads from the seeds of all faces (seeds[face]) through the domain.
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, CwSize **size);
+                      const double *patch_size, double base_size, void *const *seeds, CwSize **size);
 void cw_size_free(CwSize **size);
 
 // The field in one block of bytes (malloc'd), to travel between ranks, and back. An unpacked field gives the same bits.

@@ -40,6 +40,14 @@ void cw_size_grid_free(CwSizeGrid *grid) {
   memset(grid, 0, sizeof *grid);
 }
 
+int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node) {
+  return grid->value[node] < unset;
+}
+
+void cw_size_grid_unset(CwSizeGrid *grid, int64_t node) {
+  grid->value[node] = unset;
+}
+
 // Cell of x and the place in it, 0..1.
 static size_t locate(const CwSizeGrid *grid, const double x[3], double part[3]) {
   size_t index = 0;
@@ -97,35 +105,78 @@ static double upwind(double a, double b, double c, double step) {
   return (sum + sqrt(fmax(0.0, sum * sum - 3 * (a * a + b * b + c * c - step * step)))) / 3;
 }
 
-static double least_of(const float *node, int32_t i, int32_t count, size_t stride) {
+static float least_of(const float *node, int32_t i, int32_t count, size_t stride) {
   float before = i > 0 ? node[-(ptrdiff_t)stride] : unset, after = i + 1 < count ? node[stride] : unset;
   return before < after ? before : after;
 }
 
+// The nodes that take part, as runs along x: run r of line l covers begin[r] .. end[r], start[l] <= r < start[l + 1].
+typedef struct {
+  int32_t *start, *begin, *end;
+} Runs;
+
+static void runs_free(Runs *runs) {
+  free(runs->start);
+  free(runs->begin);
+  free(runs->end);
+}
+
+static CwStatus runs_make(const CwSizeGrid *grid, const uint8_t *within, Runs *runs) {
+  CwStatus status = CW_OK;
+  int32_t along = grid->count[0], lines = grid->count[1] * grid->count[2], count = 0;
+  for (int store = 0; store < 2; store++) {
+    count = 0;
+    if (store) CW_NEW(runs->start, lines + 1);
+    for (int32_t line = 0; line < lines; line++) {
+      const uint8_t *in = within ? within + (size_t)line * (size_t)along : NULL;
+      if (store) runs->start[line] = count;
+      for (int32_t i = 0; i < along; i++) {
+        if (in && !in[i]) continue;
+        int32_t begin = i;
+        while (i + 1 < along && (!in || in[i + 1])) i++;
+        if (store) runs->begin[count] = begin, runs->end[count] = i;
+        count++;
+      }
+    }
+    if (store) {
+      runs->start[lines] = count;
+    } else {
+      CW_NEW(runs->begin, count);
+      CW_NEW(runs->end, count);
+    }
+  }
+done:
+  return status;
+}
+
 // One sweep in the direction of bits of `sweep`; returns how many nodes went lower.
-static int64_t sweep_once(CwSizeGrid *grid, int sweep, double step) {
+static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step) {
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
-  double least_change = 1e-3 * step;
+  float least_change = (float)(1e-3 * step), least_rise = (float)(0.57 * step);
   int64_t lowered = 0;
   for (int32_t kk = 0; kk < n[2]; kk++) {
     int32_t k = sweep & 4 ? n[2] - 1 - kk : kk;
     for (int32_t jj = 0; jj < n[1]; jj++) {
       int32_t j = sweep & 2 ? n[1] - 1 - jj : jj;
       float *line = grid->value + (size_t)k * slab + (size_t)j * row;
-      for (int32_t ii = 0; ii < n[0]; ii++) {
-        int32_t i = sweep & 1 ? n[0] - 1 - ii : ii;
-        float *node = line + i;
-        double a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row),
-               c = least_of(node, k, n[2], slab);
-        double lowest = a < b ? a : b;
-        lowest = lowest < c ? lowest : c;
-        if (lowest + 0.57 * step >= *node)
-          continue; // no root is under lowest + step / sqrt(3)
-        double f = upwind(a, b, c, step);
-        if (f < *node - least_change) {
-          *node = (float)f;
-          lowered++;
+      int32_t first = runs->start[k * n[1] + j], last = runs->start[k * n[1] + j + 1] - 1;
+      for (int32_t rr = first; rr <= last; rr++) {
+        int32_t r = sweep & 1 ? first + last - rr : rr, begin = runs->begin[r], end = runs->end[r];
+        for (int32_t ii = begin; ii <= end; ii++) {
+          int32_t i = sweep & 1 ? begin + end - ii : ii;
+          float *node = line + i;
+          float a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row),
+                c = least_of(node, k, n[2], slab);
+          float lowest = a < b ? a : b;
+          lowest = lowest < c ? lowest : c;
+          if (lowest + least_rise >= *node)
+            continue; // no root is under lowest + step / sqrt(3)
+          double f = upwind(a, b, c, step);
+          if (f < *node - least_change) {
+            *node = (float)f;
+            lowered++;
+          }
         }
       }
     }
@@ -133,9 +184,38 @@ static int64_t sweep_once(CwSizeGrid *grid, int sweep, double step) {
   return lowered;
 }
 
-void cw_size_grid_spread(CwSizeGrid *grid, double slope) {
-  double step = slope * grid->spacing;
-  for (int quiet = 0, sweep = 0; quiet < 8; sweep = (sweep + 1) % 8) {
-    quiet = sweep_once(grid, sweep, step) > 0 ? 0 : quiet + 1;
+// The nodes outside of `within`, from those before them along each axis, then from those behind.
+static void go_on_outside(CwSizeGrid *grid, const uint8_t *within, float step) {
+  const int32_t *n = grid->count;
+  size_t stride[3] = {1, (size_t)n[0], (size_t)n[0] * (size_t)n[1]};
+  for (int back = 0; back < 2; back++) {
+    for (int32_t kk = 0; kk < n[2]; kk++) {
+      for (int32_t jj = 0; jj < n[1]; jj++) {
+        for (int32_t ii = 0; ii < n[0]; ii++) {
+          const int32_t at[3] = {back ? n[0] - 1 - ii : ii, back ? n[1] - 1 - jj : jj, back ? n[2] - 1 - kk : kk};
+          size_t node = (size_t)at[0] + stride[1] * (size_t)at[1] + stride[2] * (size_t)at[2];
+          if (within[node]) continue;
+          for (int axis = 0; axis < 3; axis++) {
+            if (back ? at[axis] + 1 == n[axis] : at[axis] == 0) continue;
+            float next = grid->value[back ? node + stride[axis] : node - stride[axis]] + step;
+            if (next < grid->value[node]) grid->value[node] = next;
+          }
+        }
+      }
+    }
   }
+}
+
+CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *within) {
+  CwStatus status = CW_OK;
+  Runs runs = {0};
+  double step = slope * grid->spacing;
+  CW_TRY(runs_make(grid, within, &runs));
+  for (int quiet = 0, sweep = 0; quiet < 8; sweep = (sweep + 1) % 8) {
+    quiet = sweep_once(grid, &runs, sweep, step) > 0 ? 0 : quiet + 1;
+  }
+  if (within) go_on_outside(grid, within, (float)step);
+done:
+  runs_free(&runs);
+  return status;
 }

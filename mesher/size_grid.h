@@ -28,9 +28,14 @@ void cw_size_grid_free(CwSizeGrid *grid);
 // Lowers the eight nodes around x to `value`, so that the field at x is at most that.
 void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value);
 
+// Whether a node has a value yet; and back to having none.
+int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node);
+void cw_size_grid_unset(CwSizeGrid *grid, int64_t node);
+
 // Lowers every node to the greatest field of gradient `slope` under the seeds: |grad f| = slope by fast
-// sweeping (H. Zhao, Math. Comp. 74, 2005), to convergence.
-void cw_size_grid_spread(CwSizeGrid *grid, double slope);
+// sweeping (H. Zhao, Math. Comp. 74, 2005), to convergence. With `within` (a byte for each node) it spreads
+// through these nodes alone; the others then only go on from their neighbours, step by step along the axes.
+CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *within);
 
 // Trilinear; outside of the grid the value of its nearest point.
 double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]);

@@ -25,10 +25,28 @@ typedef struct {
 // alone.
 static const double cw_size_least_share = 0.15;
 
-// Seeds `grid` all over the surface with min(patch size, curvature, gap). Curvature asks for at least a
-// two fifths of the patch size. A gap is seen by a ray along the inward normal that leaves the domain through a
-// facing triangle; walls that meet in a crease there are not a gap.
-CwStatus cw_size_seed_surface(const CwSizeInput *input, CwSizeGrid *grid);
+// What the seeds of all faces follow from: rays through the domain, its creases, and a grid to seed one face at
+// a time on.
+typedef struct CwSizeSurface CwSizeSurface;
+
+// The grid the seeds are for is that of cw_size_surface_grid. The input is copied; what it points to must
+// outlive the surface.
+CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **surface);
+void cw_size_surface_free(CwSizeSurface **surface);
+
+// Box of the domain, m.
+void cw_size_box(const CwBackground *background, double low[3], double high[3]);
+
+// Makes an unseeded grid over the domain; every rank comes to the same one.
+CwStatus cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
+
+// Seeds of one face, packed (malloc'd): min(patch size, curvature, gap) all over it. Curvature asks for at
+// least two fifths of the patch size. A gap is seen by a ray along the inward normal that leaves the domain
+// through a facing triangle; walls that meet in a crease there are not a gap.
+CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count);
+
+// Lowers the nodes of the grid by packed seeds; the order of faces does not matter.
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes);
 
 // Seeds `grid` along those CAD edges that are creases: with the length of a short one, and with the width of
 // the face between two that have no vertex in common.

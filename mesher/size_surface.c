@@ -3,9 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/cubes.h"
 #include "mesher/rays.h"
 #include "mesher/size_sources.h"
 
+static const double spacing_share = 0.6; // of the base size
+static const int64_t node_limit = 6000000;
 static const double least_curvature_share = 0.4; // of the patch size
 static const double least_facing = 0.7;           // cosine of the angle between a ray and the wall it meets
 static const double parallel_facing = 0.95;       // from here on no crease can be the cause
@@ -18,12 +21,24 @@ typedef struct {
   double curvature[3]; // at the corners, 1/m
 } Piece;
 
-typedef struct {
-  const CwSizeInput *input;
-  CwSizeGrid *grid;
+struct CwSizeSurface {
+  CwSizeInput input;
+  CwSizeGrid grid;        // of the face in hand; unset in between
+  float *curvature;       // of each background point on that face, 1/m; below 0: not known yet
   CwRays *rays;
-  CwSizeGrid crease_distance; // to the nearest crease where walls meet at less than 160 degrees of fluid
-} Surface;
+  int32_t *face_start;    // triangles of face f: face_triangle[face_start[f] .. face_start[f + 1])
+  int32_t *face_triangle;
+  double (*crease)[3];    // points along creases where walls meet at less than 160 degrees of fluid
+  int32_t crease_count, crease_capacity;
+  CwCubes cubes;          // of these
+};
+
+typedef struct {
+  int32_t node;
+  float value;
+} Seed;
+
+typedef struct CwSizeSurface Surface;
 
 static double length(const double a[3]) {
   return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -66,20 +81,31 @@ static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3])
   }
 }
 
-static void seed_along(CwSizeGrid *grid, const double a[3], const double b[3], double value) {
+static CwStatus add_crease(Surface *surface, const double a[3], const double b[3]) {
+  CwStatus status = CW_OK;
   double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  int count = (int)ceil(length(d) / grid->spacing) + 1;
-  for (int i = 0; i <= count; i++) {
-    double s = (double)i / count, x[3] = {a[0] + s * d[0], a[1] + s * d[1], a[2] + s * d[2]};
-    cw_size_grid_seed(grid, x, value);
+  int count = (int)ceil(length(d) / surface->grid.spacing) + 1;
+  if (surface->crease_count + count + 1 > surface->crease_capacity) {
+    int32_t capacity = 2 * (surface->crease_capacity + count + 1);
+    double(*grown)[3] = realloc(surface->crease, (size_t)capacity * sizeof *grown);
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d points of creases", capacity);
+    surface->crease = grown;
+    surface->crease_capacity = capacity;
   }
+  for (int i = 0; i <= count; i++) {
+    double s = (double)i / count;
+    for (int k = 0; k < 3; k++)
+      surface->crease[surface->crease_count][k] = a[k] + s * d[k];
+    surface->crease_count++;
+  }
+done:
+  return status;
 }
 
-static CwStatus measure_creases(Surface *surface) {
+static CwStatus find_creases(Surface *surface) {
   CwStatus status = CW_OK;
-  const CwBackground *b = surface->input->background;
-  int32_t(*neighbour)[3] = NULL;
-  CW_TRY(cw_background_neighbours(surface->input->cad, b, &neighbour));
+  const CwBackground *b = surface->input.background;
+  const int32_t(*neighbour)[3] = (const int32_t(*)[3])b->neighbour;
   for (int32_t t = 0; t < b->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t other = neighbour[t][k];
@@ -89,8 +115,8 @@ static CwStatus measure_creases(Surface *surface) {
       while (neighbour[other][side] != t)
         side++;
       double n[3], m[3], facet[3], away[3];
-      edge_normal(surface->input, t, k, n);
-      edge_normal(surface->input, other, side, m);
+      edge_normal(&surface->input, t, k, n);
+      edge_normal(&surface->input, other, side, m);
       if (dot(n, m) > crease_angle_cosine)
         continue;
       triangle_normal(b, t, facet);
@@ -99,19 +125,39 @@ static CwStatus measure_creases(Surface *surface) {
         away[i] = apex[i] - from[i];
       if (dot(facet, away) >= 0)
         continue; // the walls turn away from each other: no wedge of fluid
-      seed_along(&surface->crease_distance, from, b->x[b->triangle[t][(k + 1) % 3]], 0);
+      CW_TRY(add_crease(surface, from, b->x[b->triangle[t][(k + 1) % 3]]));
     }
   }
-  cw_size_grid_spread(&surface->crease_distance, 1);
+  CW_TRY(cw_cubes_make(surface->crease_count, (const double(*)[3])surface->crease, 4 * surface->grid.spacing,
+                       &surface->cubes));
 done:
-  free(neighbour);
   return status;
+}
+
+static int crease_within(const Surface *surface, const double x[3], double radius) {
+  const CwCubes *cubes = &surface->cubes;
+  int32_t from[3], to[3];
+  cw_cubes_near(cubes, x, radius, from, to);
+  if (from[0] > to[0])
+    return 0;
+  for (int32_t c = from[2]; c <= to[2]; c++) {
+    for (int32_t b = from[1]; b <= to[1]; b++) {
+      int32_t end = cubes->start[cw_cube(cubes, to[0], b, c) + 1];
+      for (int32_t i = cubes->start[cw_cube(cubes, from[0], b, c)]; i < end; i++) {
+        const double *p = surface->crease[cubes->member[i]];
+        double d[3] = {p[0] - x[0], p[1] - x[1], p[2] - x[2]};
+        if (dot(d, d) < radius * radius)
+          return 1;
+      }
+    }
+  }
+  return 0;
 }
 
 // Size that the gap before x asks for, or infinity.
 static double gap_size(const Surface *surface, int32_t t, const double x[3], const double outward[3],
                        double patch_size) {
-  const CwSizeInput *input = surface->input;
+  const CwSizeInput *input = &surface->input;
   const CwBackground *b = input->background;
   const double inward[3] = {-outward[0], -outward[1], -outward[2]};
   double cells = fmax(input->table->cells_across_gap, 1), distance;
@@ -133,8 +179,7 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   if (facing < parallel_facing) {
     // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
     double meeting = distance * facing / sqrt(1 - facing * facing);
-    double crease = cw_size_grid_at(&surface->crease_distance, x);
-    if (crease < fmax(2 * patch_size, 1.2 * meeting))
+    if (crease_within(surface, x, fmax(2 * patch_size, 1.2 * meeting)))
       return INFINITY;
   }
   return fmax(distance / cells, cw_size_least_share * input->base_size);
@@ -180,20 +225,20 @@ static void seed_piece(Surface *surface, const Piece *whole, double size, double
   stack[top++] = *whole;
   while (top > 0) {
     Piece piece = stack[--top], other;
-    if (top + 2 <= PIECE_STACK && halve(&piece, 0.7 * surface->grid->spacing, &other)) {
+    if (top + 2 <= PIECE_STACK && halve(&piece, 0.7 * surface->grid.spacing, &other)) {
       stack[top++] = other;
       stack[top++] = piece;
       continue;
     }
     double x[3], curvature;
     centre_of(&piece, x, &curvature);
-    double turn = surface->input->table->curvature_angle / fmax(curvature, 1e-9);
-    cw_size_grid_seed(surface->grid, x, fmin(size, fmax(turn, least_curvature_share * patch_size)));
+    double turn = surface->input.table->curvature_angle / fmax(curvature, 1e-9);
+    cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, least_curvature_share * patch_size)));
   }
 }
 
 static void seed_triangle(Surface *surface, int32_t t) {
-  const CwSizeInput *input = surface->input;
+  const CwSizeInput *input = &surface->input;
   const CwBackground *b = input->background;
   double patch_size = input->base_size * input->patch_size[cw_cad_face_patch(input->cad, b->face[t])];
   double outward[3];
@@ -202,12 +247,15 @@ static void seed_triangle(Surface *surface, int32_t t) {
   triangle_normal(b, t, outward);
   for (int k = 0; k < 3; k++) {
     memcpy(stack[0].x[k], b->x[b->triangle[t][k]], sizeof stack[0].x[k]);
-    stack[0].curvature[k] = cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k]);
+    float *curvature = &surface->curvature[b->triangle[t][k]];
+    if (*curvature < 0)
+      *curvature = (float)cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k]);
+    stack[0].curvature[k] = *curvature;
   }
   while (top > 0) {
     Piece piece = stack[--top], other;
     // A ray sees a gap for a place of about two spacings: distances vary slowly along the walls of a gap.
-    if (top + 2 <= PIECE_STACK && halve(&piece, 2 * surface->grid->spacing, &other)) {
+    if (top + 2 <= PIECE_STACK && halve(&piece, 2 * surface->grid.spacing, &other)) {
       stack[top++] = other;
       stack[top++] = piece;
       continue;
@@ -218,19 +266,125 @@ static void seed_triangle(Surface *surface, int32_t t) {
   }
 }
 
-CwStatus cw_size_seed_surface(const CwSizeInput *input, CwSizeGrid *grid) {
-  CwStatus status = CW_OK;
-  Surface surface = {.input = input, .grid = grid};
-  double high[3];
+void cw_size_box(const CwBackground *background, double low[3], double high[3]) {
   for (int k = 0; k < 3; k++)
-    high[k] = grid->low[k] + grid->spacing * (grid->count[k] - 1);
-  CW_TRY(cw_rays_make(input->background, &surface.rays));
-  CW_TRY(cw_size_grid_make(grid->low, high, 2 * grid->spacing, INT32_MAX, &surface.crease_distance));
-  CW_TRY(measure_creases(&surface));
-  for (int32_t t = 0; t < input->background->triangle_count; t++)
-    seed_triangle(&surface, t);
+    low[k] = INFINITY, high[k] = -INFINITY;
+  for (int32_t i = 0; i < background->point_count; i++) {
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], background->x[i][k]);
+      high[k] = fmax(high[k], background->x[i][k]);
+    }
+  }
+}
+
+CwStatus cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid) {
+  double low[3], high[3];
+  cw_size_box(input->background, low, high);
+  return cw_size_grid_make(low, high, spacing_share * input->base_size, node_limit, grid);
+}
+
+CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) {
+  CwStatus status = CW_OK;
+  Surface *surface = NULL;
+  const CwBackground *b = input->background;
+  int faces = cw_cad_face_count(input->cad);
+  CW_NEW(surface, 1);
+  surface->input = *input;
+  CW_TRY(cw_size_surface_grid(input, &surface->grid));
+  CW_NEW(surface->curvature, b->point_count);
+  CW_NEW(surface->face_start, faces + 1);
+  CW_NEW(surface->face_triangle, b->triangle_count);
+  for (int32_t t = 0; t < b->triangle_count; t++)
+    surface->face_start[b->face[t]]++;
+  for (int f = 0; f < faces; f++) // ends of the faces, filled from behind
+    surface->face_start[f + 1] += surface->face_start[f];
+  for (int32_t t = b->triangle_count - 1; t >= 0; t--)
+    surface->face_triangle[--surface->face_start[b->face[t]]] = t;
+  CW_TRY(cw_rays_make(b, &surface->rays));
+  CW_TRY(find_creases(surface));
+  *result = surface;
+  surface = NULL;
 done:
-  cw_rays_free(&surface.rays);
-  cw_size_grid_free(&surface.crease_distance);
+  cw_size_surface_free(&surface);
   return status;
+}
+
+void cw_size_surface_free(CwSizeSurface **surface) {
+  if (!*surface)
+    return;
+  cw_rays_free(&(*surface)->rays);
+  cw_cubes_free(&(*surface)->cubes);
+  cw_size_grid_free(&(*surface)->grid);
+  free((*surface)->curvature);
+  free((*surface)->face_start);
+  free((*surface)->face_triangle);
+  free((*surface)->crease);
+  free(*surface);
+  *surface = NULL;
+}
+
+// Nodes of the grid that the face can have seeded.
+static void box_of_face(const Surface *surface, int face, int32_t from[3], int32_t to[3]) {
+  const CwSizeGrid *grid = &surface->grid;
+  const CwBackground *b = surface->input.background;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++) {
+    for (int c = 0; c < 9; c++) {
+      double x = b->x[b->triangle[surface->face_triangle[i]][c / 3]][c % 3];
+      low[c % 3] = fmin(low[c % 3], x);
+      high[c % 3] = fmax(high[c % 3], x);
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    from[k] = (int32_t)fmax(floor((low[k] - grid->low[k]) / grid->spacing) - 1, 0);
+    to[k] = (int32_t)fmin(ceil((high[k] - grid->low[k]) / grid->spacing) + 1, grid->count[k] - 1);
+  }
+}
+
+CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  CwSizeGrid *grid = &surface->grid;
+  int32_t from[3], to[3];
+  int64_t count = 0;
+  char *block = NULL;
+  for (int32_t i = 0; i < surface->input.background->point_count; i++)
+    surface->curvature[i] = -1;
+  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++)
+    seed_triangle(surface, surface->face_triangle[i]);
+  box_of_face(surface, face, from, to);
+  for (int store = 0; store < 2; store++) {
+    Seed *seed = store ? (Seed *)(block + sizeof count) : NULL;
+    count = 0;
+    for (int32_t k = from[2]; k <= to[2]; k++) {
+      for (int32_t j = from[1]; j <= to[1]; j++) {
+        int64_t line = ((int64_t)k * grid->count[1] + j) * grid->count[0];
+        for (int64_t node = line + from[0]; node <= line + to[0]; node++) {
+          if (!cw_size_grid_is_set(grid, node))
+            continue;
+          if (store) {
+            seed[count] = (Seed){.node = (int32_t)node, .value = grid->value[node]};
+            cw_size_grid_unset(grid, node);
+          }
+          count++;
+        }
+      }
+    }
+    if (!store)
+      CW_NEW(block, sizeof count + (size_t)count * sizeof(Seed));
+  }
+  memcpy(block, &count, sizeof count);
+  *bytes = block;
+  *byte_count = (int64_t)(sizeof count + (size_t)count * sizeof(Seed));
+done:
+  return status;
+}
+
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes) {
+  int64_t count;
+  memcpy(&count, bytes, sizeof count);
+  const Seed *seed = (const Seed *)((const char *)bytes + sizeof count);
+  for (int64_t i = 0; i < count; i++) {
+    if (seed[i].value < grid->value[seed[i].node])
+      grid->value[seed[i].node] = seed[i].value;
+  }
 }

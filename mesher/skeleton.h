@@ -75,11 +75,9 @@ CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **
 // Joins the meshes of all wall faces (bytes[face]; NULL for caps).
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
-// Grows the envelope of the layers to `target` heights (m, per wall vertex); result for cw_skeleton_set_front.
-CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          void **bytes, int64_t *size);
-// CW_RETRY where the result is nothing: a symmetric front was not found.
-CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes);
+// Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front. Collective: all ranks work on
+// it and have the same result. CW_RETRY where no symmetric front is found.
+CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 // CW_RETRY where the polygons are not symmetric.

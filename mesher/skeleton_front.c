@@ -9,6 +9,7 @@
 #include "mesher/orbit_skeleton.h"
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
+#include "mesher/wall_unfold.h"
 #include "pipeline/log.h"
 
 static const double DIRECTION_LENGTH = 1e-5; // m
@@ -22,18 +23,37 @@ static void cap_normal(const CwCad *cad, int32_t face, const double x[3], double
   cw_unit(normal);
 }
 
-// Some (u,v) on a cap near x: that of the nearest background corner.
-static void cap_start(const CwBackground *background, int32_t face, const double x[3], double uv[2]) {
-  double best = INFINITY;
+// Corners of background triangles on a cap.
+typedef struct {
+  int32_t count;
+  double (*x)[3], (*uv)[2];
+} CapCorners;
+
+static CwStatus collect_corners(const CwBackground *background, int32_t face, CapCorners *corners) {
+  CwStatus status = CW_OK;
+  int32_t triangles = 0;
+  for (int32_t t = 0; t < background->triangle_count; t++) triangles += background->face[t] == face;
+  CW_NEW(corners->x, 3 * (size_t)triangles);
+  CW_NEW(corners->uv, 3 * (size_t)triangles);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     if (background->face[t] != face) continue;
-    for (int k = 0; k < 3; k++) {
-      double distance = cw_distance(background->x[background->triangle[t][k]], x);
-      if (distance < best) {
-        best = distance;
-        memcpy(uv, background->uv[t][k], sizeof(double[2]));
-      }
+    for (int k = 0; k < 3; k++, corners->count++) {
+      cw_copy(background->x[background->triangle[t][k]], corners->x[corners->count]);
+      memcpy(corners->uv[corners->count], background->uv[t][k], sizeof(double[2]));
     }
+  }
+done:
+  return status;
+}
+
+// Some (u,v) on a cap near x: that of the nearest background corner.
+static void cap_start(const CapCorners *corners, const double x[3], double uv[2]) {
+  double best = INFINITY;
+  for (int32_t i = 0; i < corners->count; i++) {
+    double distance = cw_distance(corners->x[i], x);
+    if (distance >= best) continue;
+    best = distance;
+    memcpy(uv, corners->uv[i], sizeof(double[2]));
   }
 }
 
@@ -85,29 +105,66 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
   }
 }
 
-// The packed front: x, y, z, height of every wall vertex, then the reasons.
-CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          void **bytes, int64_t *size) {
+// Edges may be flipped inside one CAD face and one region: curves stay. Turned copies are left to follow.
+static CwStatus make_groups(const CwSkeleton *skeleton, int64_t **group) {
   CwStatus status = CW_OK;
-  int32_t n = skeleton->wall_count, caps = 0;
-  int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
-  double(*guide_normal)[2][3] = NULL;
-  Snap snapping = {skeleton, NULL};
-  CwLayers layers = {0};
-  char *block = NULL;
-  CW_NEW(guide_count, n);
-  CW_NEW(guide_normal, n);
-  CW_NEW(snapping.uv, n);
-  for (int32_t v = 0; v < n; v++) {
+  CW_NEW(*group, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    (*group)[t] = skeleton->wall_source[t] != t
+                      ? -1 - (int64_t)t
+                      : (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
+  }
+done:
+  return status;
+}
+
+static CwStatus unfold_wall(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  int64_t *group = NULL;
+  int32_t flips, folded;
+  CW_TRY(make_groups(skeleton, &group));
+  CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count,
+                        skeleton->wall_triangle, group, &flips, &folded));
+  cw_orbit_copy_triangles(skeleton);
+  if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
+done:
+  free(group);
+  return status;
+}
+
+static CwStatus flip_front(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  int64_t *group = NULL;
+  int32_t flips;
+  CW_TRY(make_groups(skeleton, &group));
+  CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
+                       skeleton->wall_triangle_count, skeleton->wall_triangle, group, &flips));
+  cw_orbit_copy_triangles(skeleton);
+  cw_log_debug("%d edges of wall and front flipped", flips);
+done:
+  free(group);
+  return status;
+}
+
+// What holds the columns on rims and cuts.
+static CwStatus make_guides(const CwSkeleton *skeleton, const CwBackground *background, int32_t *guide_count,
+                            double (*guide_normal)[2][3], double (*uv)[2]) {
+  CwStatus status = CW_OK;
+  int32_t faces = cw_cad_face_count(skeleton->cad);
+  CapCorners *corners = NULL;
+  CW_NEW(corners, faces);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
     CwGuide guide = skeleton->guide[v];
     const double *x = skeleton->wall_x[v];
     if (guide.kind == CW_GUIDE_PLANE) {
       guide_count[v] = 1;
       cw_copy(skeleton->plan->node[guide.index].plane.normal, guide_normal[v][0]);
     } else if (guide.kind == CW_GUIDE_CAP) {
+      CapCorners *cap = &corners[guide.index];
       guide_count[v] = 1;
-      cap_start(background, guide.index, x, snapping.uv[v]);
-      cap_normal(skeleton->cad, guide.index, x, snapping.uv[v], guide_normal[v][0]);
+      if (!cap->x) CW_TRY(collect_corners(background, guide.index, cap));
+      cap_start(cap, x, uv[v]);
+      cap_normal(skeleton->cad, guide.index, x, uv[v], guide_normal[v][0]);
     } else if (guide.kind == CW_GUIDE_CURVE) {
       double direction[3];
       guide_count[v] = 2;
@@ -115,6 +172,27 @@ CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *backgr
       across(direction, guide_normal[v][0], guide_normal[v][1]);
     }
   }
+done:
+  for (int32_t f = 0; corners && f < faces; f++) {
+    free(corners[f].x);
+    free(corners[f].uv);
+  }
+  free(corners);
+  return status;
+}
+
+CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target) {
+  CwStatus status = CW_OK;
+  int32_t n = skeleton->wall_count, caps = 0;
+  int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
+  double(*guide_normal)[2][3] = NULL;
+  Snap snapping = {skeleton, NULL};
+  CwLayers layers = {0};
+  CW_TRY(unfold_wall(skeleton));
+  CW_NEW(guide_count, n);
+  CW_NEW(guide_normal, n);
+  CW_NEW(snapping.uv, n);
+  CW_TRY(make_guides(skeleton, background, guide_count, guide_normal, snapping.uv));
   CW_NEW(cap_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     if (cw_face_is_wall(skeleton->cad, background->face[t])) continue;
@@ -133,53 +211,17 @@ CwStatus cw_skeleton_grow(const CwSkeleton *skeleton, const CwBackground *backgr
                         .obstacle_x = (const double(*)[3])background->x,
                         .obstacle_triangle_count = caps,
                         .obstacle_triangle = (const int32_t(*)[3])cap_triangle};
-  status = skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers) : cw_layers_make(&input, &layers);
-  if (status == CW_RETRY) { // other ranks must know: a result of nothing
-    status = CW_OK;
-    goto done;
-  }
-  CW_TRY(status);
-  CW_NEW(block, (size_t)n * 33);
-  memcpy(block, layers.front, (size_t)n * 24);
-  memcpy(block + (size_t)n * 24, layers.height, (size_t)n * 8);
-  memcpy(block + (size_t)n * 32, layers.reason, (size_t)n);
-  *bytes = block;
-  *size = (int64_t)n * 33;
+  CW_TRY(skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers) : cw_layers_make(&input, &layers));
+  skeleton->front = layers.front;
+  skeleton->height = layers.height;
+  skeleton->reason = layers.reason;
+  layers = (CwLayers){0};
+  CW_TRY(flip_front(skeleton));
 done:
   cw_layers_free(&layers);
   free(guide_count);
   free(guide_normal);
   free(snapping.uv);
   free(cap_triangle);
-  return status;
-}
-
-CwStatus cw_skeleton_set_front(CwSkeleton *skeleton, const void *bytes) {
-  CwStatus status = CW_OK;
-  int64_t *group = NULL;
-  size_t n = (size_t)skeleton->wall_count;
-  if (!bytes) return CW_RETRY;
-  CW_NEW(skeleton->front, n);
-  CW_NEW(skeleton->height, n);
-  CW_NEW(skeleton->reason, n);
-  memcpy(skeleton->front, bytes, n * 24);
-  memcpy(skeleton->height, (const char *)bytes + n * 24, n * 8);
-  memcpy(skeleton->reason, (const char *)bytes + n * 32, n);
-  // Only inside one CAD face and one region: curves stay.
-  CW_NEW(group, skeleton->wall_triangle_count);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    group[t] = (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
-  }
-  int32_t flips;
-  if (skeleton->orbits.symmetry) {
-    CW_TRY(cw_orbit_front_flip(skeleton, group, &flips));
-  } else {
-    CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x,
-                         (const double(*)[3])skeleton->front, skeleton->wall_triangle_count, skeleton->wall_triangle,
-                         group, &flips));
-  }
-  cw_log_debug("%d edges of wall and front flipped", flips);
-done:
-  free(group);
   return status;
 }

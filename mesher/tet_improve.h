@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Improves tetrahedra with the boundary fixed: edge removal (3-2, 4-4 and larger), face removal (2-3),
 // smoothing of inner points, and new points under flat tetrahedra that hang on the boundary. Only tetrahedra
-// below a limit of shape are touched.
+// below a limit of shape, and what lies next to them, are touched.
 #ifndef CUTWATER_MESHER_TET_IMPROVE_H
 #define CUTWATER_MESHER_TET_IMPROVE_H
 
@@ -9,6 +9,7 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/delaunay.h"
 #include "mesher/fill.h"
 
 #ifdef __cplusplus
@@ -17,11 +18,17 @@ extern "C" {
 
 typedef struct {
   int32_t edges_removed, faces_removed, points_moved, points_added;
-  double least_before, least_after; // least sine of a dihedral angle
+  double least_before, least_after; // least quality, as cw_tet_quality
 } CwTetImproved;
 
-// The first `fixed_count` points of *fill keep their numbers and places, and all faces on the boundary stay.
-// The least quality round any place never falls. Deterministic. `improved` may be NULL.
+// All tetrahedra of *mesh are inside; their faces on the boundary have no neighbour. Points that come from
+// the first `fixed_count` given ones stay. New points have sources from *source_count on, which is counted
+// up. The least quality round any place never falls. Deterministic. `improved` may be NULL.
+CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count,
+                             CwTetImproved *improved);
+
+// The same for a fill whose first `fixed_count` points are those of the boundary. Where it fails *fill is
+// empty.
 CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improved);
 
 #ifdef __cplusplus

@@ -2,6 +2,7 @@
 #include "mesher/wall_targets.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <string.h>
 
 #include "mesher/layer_heights.h"
@@ -40,33 +41,46 @@ static int starts_with(const char *text, const char *start) {
   return strncmp(text, start, strlen(start)) == 0;
 }
 
-void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *scales, double *relative_size,
-                     double *first_height) {
+CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, double speed, double length) {
   const CwWalls *walls = &table->walls;
+  CwLayerTarget target = {.first_height = group->first_height, .growth = walls->growth_ratio};
+  if (cw_case_given(group->velocity)) speed = group->velocity;
+  if (!cw_case_given(target.first_height)) {
+    target.first_height = cw_first_height(group->y_plus, speed, length, table->fluid.kinematic_viscosity,
+                                          walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE);
+  }
+  if (cw_case_given(group->growth_ratio)) target.growth = group->growth_ratio;
+  // More than this would raise the first height.
+  target.thickness = cw_layer_thickness(target.first_height, walls->layer_count, target.growth);
+  double asked = cw_case_given(group->total_thickness) ? group->total_thickness : walls->total_thickness;
+  if (cw_case_given(asked)) target.thickness = fmin(target.thickness, asked);
+  return target;
+}
+
+void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *scales, double *relative_size,
+                     CwLayerTarget *layers) {
   const CwMeshTable *mesh = &table->mesh;
   for (int p = 0; p < cw_cad_patch_count(cad); p++) {
     const char *name = cw_cad_patch_name(cad, p);
     CwPatchKind kind = cw_cad_patch_kind(cad, p);
-    double y_plus = walls->y_plus_volute, speed = scales->volute_speed, length = scales->volute_length;
+    const CwWallGroup *group = &table->walls.volute;
+    double speed = scales->volute_speed, length = scales->volute_length;
     relative_size[p] = mesh->size_volute;
     if (starts_with(name, "blade")) {
       relative_size[p] = mesh->size_blade;
-      y_plus = walls->y_plus_blade, speed = scales->relative_speed, length = scales->blade_length;
+      group = &table->walls.blade, speed = scales->relative_speed, length = scales->blade_length;
     } else if (starts_with(name, "hub") || starts_with(name, "shroud")) {
       relative_size[p] = mesh->size_hub_shroud;
-      y_plus = walls->y_plus_hub_shroud, speed = scales->relative_speed, length = scales->blade_length;
+      group = &table->walls.hub_shroud, speed = scales->relative_speed, length = scales->blade_length;
     } else if (kind == CW_PATCH_INTERFACE || !strcmp(name, "neck") || !strcmp(name, "step")) {
       relative_size[p] = mesh->size_interface;
     } else if (!strcmp(name, "suction_pipe") || kind == CW_PATCH_INLET) {
       relative_size[p] = mesh->size_pipe;
-      y_plus = walls->y_plus_pipe, speed = scales->suction_speed, length = scales->pipe_length;
+      group = &table->walls.pipe, speed = scales->suction_speed, length = scales->pipe_length;
     } else if (!strcmp(name, "discharge") || !strcmp(name, "diffuser") || kind == CW_PATCH_OUTLET) {
       relative_size[p] = mesh->size_pipe;
-      y_plus = walls->y_plus_pipe, speed = scales->discharge_speed, length = scales->pipe_length;
+      group = &table->walls.pipe, speed = scales->discharge_speed, length = scales->pipe_length;
     }
-    first_height[p] = kind == CW_PATCH_WALL
-                          ? cw_first_height(y_plus, speed, length, table->fluid.kinematic_viscosity,
-                                            walls->y_plus_at == CW_Y_PLUS_AT_CELL_CENTRE)
-                          : 0;
+    layers[p] = kind == CW_PATCH_WALL ? cw_layer_target(table, group, speed, length) : (CwLayerTarget){0};
   }
 }

@@ -82,6 +82,8 @@ typedef struct {
   double splitter_position;       // share of the pitch from a blade to the splitter behind its pressure side
   double nut_length;              // m, of the hub's nose before the hub
   double nut_flat_diameter;       // m, of its flat end
+  double through_shaft_diameter;  // m, of a shaft that goes out through the inlet; 0: none
+  double root_fillet_radius;      // m, between blades and hub and shroud; 0: none
   double suction_pipe_length;     // m, from the shroud's inlet
 } CwImpellerTable;
 
@@ -105,13 +107,23 @@ typedef struct {
   double discharge_pipe_length; // m
 } CwVoluteTable;
 
-// Prism layers. The first height follows from y+ with the velocity and length scales of the wall.
+// What one group of walls asks of its layers.
+typedef struct {
+  double y_plus;             // target
+  double velocity;           // m/s, of the flow along the wall; NAN: from the design
+  double first_height;       // m; NAN: from y+ and velocity
+  double growth_ratio;       // the largest; NAN: that of all walls
+  double total_thickness;    // m, the target of a column; NAN: that of all walls
+} CwWallGroup;
+
+// Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one for
+// all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
 typedef struct {
   int layer_count;
   double growth_ratio;       // the largest
   double total_thickness;    // m, the target of a column; NAN: from first height, count and growth
   CwYPlusAt y_plus_at;
-  double y_plus_blade, y_plus_hub_shroud, y_plus_volute, y_plus_pipe;
+  CwWallGroup blade, hub_shroud, volute, pipe;
   CwWallTreatment treatment;
   double roughness;          // m, equivalent sand grain
 } CwWalls;

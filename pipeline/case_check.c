@@ -35,11 +35,17 @@ static const Rule rules[] = {
      "this is the largest thickness of the blade"},
     {"impeller", "hub_nut_flat_diameter_mm", BELOW, 1, "impeller", "hub_diameter_mm",
      "the flat end is a part of the hub's nose"},
+    {"impeller", "through_shaft_diameter_mm", AT_MOST, 1, "impeller", "hub_diameter_mm",
+     "the shaft goes on from the hub"},
+    {"impeller", "through_shaft_diameter_mm", BELOW, 1, "impeller", "inlet_diameter_mm",
+     "the eye must stay open"},
     {"volute", "base_diameter_mm", ABOVE, 1, "impeller", "outlet_diameter_mm",
      "the volute lies around the impeller"},
     {"volute", "inlet_width_mm", AT_LEAST, 1, "impeller", "outlet_width_mm",
      "the volute takes the impeller's outlet"},
     {"walls", "total_thickness_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
+     "layers on hub and shroud would meet"},
+    {"walls", "total_thickness_hub_shroud_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
      "layers on hub and shroud would meet"},
 };
 

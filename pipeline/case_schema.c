@@ -30,6 +30,18 @@ static const char *const treatments[] = {"smooth", "rough", NULL};
 #define CHOICE(section, key, choices, fallback, field, meaning)                                              \
   { section, key, CW_KEY_CHOICE, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
 
+// The layers of one group of walls.
+#define WALL_GROUP(suffix, group, place)                                                                     \
+  REAL_DEFAULT("walls", "y_plus_" suffix, "", 0.05, 1000, 30, walls.group.y_plus, "target " place),          \
+      REAL_COMPUTED("walls", "velocity_" suffix "_m_per_s", "m_per_s", 0.001, 1000, walls.group.velocity,    \
+                    "of the flow along the walls " place "; computed: by the design"),                        \
+      REAL_COMPUTED("walls", "first_height_" suffix "_um", "um", 0.01, 1e5, walls.group.first_height,        \
+                    "of the first layer " place "; computed: from y+ and velocity"),                         \
+      REAL_COMPUTED("walls", "growth_ratio_" suffix, "", 1, 2, walls.group.growth_ratio,                     \
+                    "largest growth ratio " place "; computed: growth_ratio"),                               \
+      REAL_COMPUTED("walls", "total_thickness_" suffix "_mm", "mm", 0.001, 200, walls.group.total_thickness, \
+                    "of all layers together " place "; computed: total_thickness, or as that one is")
+
 const CwCaseKey cw_case_keys[] = {
     {"", "name", CW_KEY_NAME, CW_KEY_REQUIRED, "", 1, CW_NAME_SIZE - 1, 0, NULL, AT(name),
      "name of the case, used for the run's folder and as a name in the exported files"},
@@ -78,6 +90,10 @@ const CwCaseKey cw_case_keys[] = {
                   "of the hub's elliptic nose"),
     REAL_COMPUTED("impeller", "hub_nut_flat_diameter_mm", "mm", 0.1, 4000, impeller.nut_flat_diameter,
                   "of the flat end of the hub's nose"),
+    REAL_DEFAULT("impeller", "through_shaft_diameter_mm", "mm", 0, 4000, 0, impeller.through_shaft_diameter,
+                 "of a shaft that goes on from the hub out through the inlet, which becomes a ring; 0: none"),
+    REAL_DEFAULT("impeller", "root_fillet_radius_mm", "mm", 0, 100, 0, impeller.root_fillet_radius,
+                 "of the fillets between blades and hub and shroud; 0: none"),
     REAL_COMPUTED("impeller", "leading_edge_radius_hub_mm", "mm", 1, 2500, impeller.leading_edge_radius_hub,
                   "radius where the leading edge meets the hub"),
     REAL_COMPUTED("impeller", "leading_edge_radius_shroud_mm", "mm", 1, 2500,
@@ -156,15 +172,12 @@ const CwCaseKey cw_case_keys[] = {
            "wall function: smooth, or rough with the roughness above"),
     CHOICE("walls", "y_plus_at", y_plus_places, CW_Y_PLUS_AT_CELL_CENTRE, walls.y_plus_at,
            "where y+ is asked: at the first node (CFX) or at the first cell centre (OpenFOAM)"),
-    REAL_DEFAULT("walls", "y_plus_blade", "", 0.05, 1000, 30, walls.y_plus_blade, "target on the blades"),
-    REAL_DEFAULT("walls", "y_plus_hub_shroud", "", 0.05, 1000, 30, walls.y_plus_hub_shroud,
-                 "target on hub and shroud"),
-    REAL_DEFAULT("walls", "y_plus_volute", "", 0.05, 1000, 30, walls.y_plus_volute,
-                 "target in the volute, on the tongue and in the neck"),
-    REAL_DEFAULT("walls", "y_plus_pipe", "", 0.05, 1000, 30, walls.y_plus_pipe,
-                 "target in the suction and discharge pipes"),
+    WALL_GROUP("blade", blade, "on the blades"),
+    WALL_GROUP("hub_shroud", hub_shroud, "on hub and shroud"),
+    WALL_GROUP("volute", volute, "in the volute, on the tongue and in the neck"),
+    WALL_GROUP("pipe", pipe, "in the suction and discharge pipes"),
     {"walls", "layer_count", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 40, 5, NULL, AT(walls.layer_count),
-     "number of prism layers"},
+     "number of prism layers, on all walls"},
     REAL_DEFAULT("walls", "growth_ratio", "", 1, 2, 1.2, walls.growth_ratio,
                  "largest ratio of the heights of neighbouring layers"),
     REAL_COMPUTED("walls", "total_thickness_mm", "mm", 0.001, 200, walls.total_thickness,
@@ -172,7 +185,7 @@ const CwCaseKey cw_case_keys[] = {
 
     {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
      "cells of rotor and stator together; --cells on the command line goes before it"},
-    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 20000, 4e6, 400000, NULL,
+    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_DEFAULT, "", 5000, 4e6, 400000, NULL,
      AT(mesh.cells_per_region), "about this many cells a region; at least four regions a domain in any case"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
            "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen alone"),

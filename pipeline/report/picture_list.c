@@ -242,6 +242,7 @@ uint32_t cw_patch_colour(const char *name, int index) {
                {"suction_pipe", 0xc3ccd4},
                {"hub", 0xa9bcae},
                {"hub_nut", 0xd9c27a},
+               {"hub_shaft", 0xd9c27a},
                {"shroud", 0xb9c7d6},
                {"blade_pressure", 0xd9805f},
                {"blade_suction", 0x5b98c7},

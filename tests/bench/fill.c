@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Fills closed surfaces and prints a row: tetrahedra, seconds of one core, tetrahedra per second, bytes a
-// tetrahedron (peak memory less that before), mean and greatest longest/shortest edge, least dihedral angle
-// in degrees. Use: fill ring EDGE_LENGTH SURFACE       writes a ring-shaped surface with a ring-shaped void
+// Fills closed surfaces and prints a row: triangles, tetrahedra, seconds of one core, tetrahedra per second,
+// bytes a tetrahedron (peak memory less that before), mean and greatest longest/shortest edge, least dihedral
+// angle in degrees, mean ratio.
+// Use: fill ring EDGE_LENGTH SURFACE       writes a ring-shaped surface with six blade-shaped voids
 //      fill region REGION.h5 SURFACE       writes the inner boundary of a region of the mesher
 //      fill kernel|tetgen SURFACE          fills it
 //      fill quality MESH                   of a mesh of somebody else
@@ -21,6 +22,7 @@
 #include "mesher/region_file.h"
 #include "mesher/size_grid.h"
 #include "pipeline/log.h"
+#include "tests/mesher/closed_surfaces.h"
 
 typedef struct {
   int32_t point_count, triangle_count, tetrahedron_count;
@@ -44,8 +46,11 @@ static void check(CwStatus status) {
   exit(status == CW_RETRY ? 1 : (int)status);
 }
 
-// Triangles from `second` on belong to surface 2, those before to surface 1.
-static void write_surface(const char *path, const Mesh *mesh, int32_t second) {
+enum { BLADES = 6 };
+
+// shell_end: one past the last triangle of each closed part, which is a surface of its own number.
+static void write_surface(const char *path, const Mesh *mesh, const int32_t *shell_end) {
+  int shell = 1;
   FILE *file = fopen(path, "w");
   if (!file)
     perror(path), exit(4);
@@ -53,9 +58,12 @@ static void write_surface(const char *path, const Mesh *mesh, int32_t second) {
   for (int32_t p = 0; p < mesh->point_count; p++)
     fprintf(file, "%d %.17g %.17g %.17g\n", p + 1, mesh->x[p][0], mesh->x[p][1], mesh->x[p][2]);
   fprintf(file, "$EndNodes\n$Elements\n%d\n", mesh->triangle_count);
-  for (int32_t t = 0; t < mesh->triangle_count; t++)
-    fprintf(file, "%d 2 2 1 %d %d %d %d\n", t + 1, t < second ? 1 : 2, mesh->triangle[t][0] + 1,
-            mesh->triangle[t][1] + 1, mesh->triangle[t][2] + 1);
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    if (t == shell_end[shell - 1])
+      shell++;
+    fprintf(file, "%d 2 2 1 %d %d %d %d\n", t + 1, shell, mesh->triangle[t][0] + 1, mesh->triangle[t][1] + 1,
+            mesh->triangle[t][2] + 1);
+  }
   fprintf(file, "$EndElements\n");
   if (fclose(file))
     perror(path), exit(4);
@@ -110,7 +118,7 @@ static void read_mesh(const char *path, Mesh *mesh) {
 }
 
 // A torus of triangles; rows are shifted by half a triangle.
-static void add_torus(Mesh *mesh, double great, double small, double edge, int outward) {
+static void add_torus(Mesh *mesh, double great, double small, double edge) {
   int rows = 2 * (int)ceil(3.141592653589793 * 2.0 * small / (edge * 0.8660254) / 2.0);
   int columns = (int)ceil(6.283185307179586 * great / edge);
   int32_t base = mesh->point_count;
@@ -134,14 +142,38 @@ static void add_torus(Mesh *mesh, double great, double small, double edge, int o
       for (int k = 0; k < 2; k++) {
         int32_t *t = mesh->triangle[mesh->triangle_count++];
         memcpy(t, r % 2 ? odd[k] : even[k], sizeof *mesh->triangle);
-        if (!outward) {
-          int32_t swap = t[1];
-          t[1] = t[2];
-          t[2] = swap;
-        }
       }
     }
   }
+}
+
+// An ellipsoid across the ring at angle `turn`, its chord at 35 degrees to the way round; normals inward.
+static void add_blade(Mesh *mesh, double great, double turn, double edge) {
+  static const double half[3] = {0.018, 0.013, 0.006}; // chord, span, thickness
+  Surface ball = {0};
+  int level = 0;
+  while (level < 5 && 1.05 * 0.015 / (1 << level) > edge)
+    level++;
+  surface_add_sphere(&ball, (double[3]){0, 0, 0}, 1.0, level, 0);
+  int32_t base = mesh->point_count;
+  mesh->x = realloc(mesh->x, (size_t)(base + ball.point_count) * sizeof *mesh->x);
+  mesh->triangle =
+      realloc(mesh->triangle, (size_t)(mesh->triangle_count + ball.triangle_count) * sizeof *mesh->triangle);
+  if (!mesh->x || !mesh->triangle)
+    exit(5);
+  for (int32_t p = 0; p < ball.point_count; p++) {
+    double c = half[0] * ball.x[p][0], r = half[1] * ball.x[p][1], n = half[2] * ball.x[p][2];
+    double round = c * cos(0.61) - n * sin(0.61), up = c * sin(0.61) + n * cos(0.61);
+    double *x = mesh->x[mesh->point_count++];
+    x[0] = (great + r) * cos(turn) - round * sin(turn);
+    x[1] = (great + r) * sin(turn) + round * cos(turn);
+    x[2] = up;
+  }
+  for (int32_t t = 0; t < ball.triangle_count; t++, mesh->triangle_count++) {
+    for (int k = 0; k < 3; k++) // the map to (round, outward, up) mirrors
+      mesh->triangle[mesh->triangle_count][k] = base + ball.triangle[t][2 - k];
+  }
+  surface_free(&ball);
 }
 
 // Open faces of the tetrahedra of a region: the front of its layers, its caps and dividing faces.
@@ -228,9 +260,10 @@ static double resident(void) {
 }
 
 static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const double (*x)[3]) {
-  double mean = 0.0, most = 0.0, least = 180.0;
+  double mean = 0.0, most = 0.0, least = 180.0, ratio = 0.0;
   for (int32_t t = 0; t < count; t++) {
     CwTetShape shape;
+    double squares = 0.0;
     const double *corner[4];
     for (int i = 0; i < 4; i++)
       corner[i] = x[tetrahedron[t][i]];
@@ -243,21 +276,31 @@ static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const 
     mean += shape.edge_longest / shape.edge_shortest / count;
     most = fmax(most, shape.edge_longest / shape.edge_shortest);
     least = fmin(least, shape.dihedral_least);
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < i; j++)
+        squares += distance(corner[i], corner[j]) * distance(corner[i], corner[j]);
+    }
+    // A. Liu and B. Joe, On the shape of tetrahedra from bisection, Math. Comp. 63 (1994): 1 is regular.
+    ratio += 12.0 * cbrt(9.0 * shape.volume * shape.volume) / squares / count;
   }
-  printf("%.3f %.2f %.2f\n", mean, most, least);
+  printf("%.3f %.2f %.2f %.3f\n", mean, most, least, ratio);
 }
 
 int main(int argc, char **argv) {
   Mesh mesh = {0};
   if (argc == 4 && !strcmp(argv[1], "ring")) {
     double edge = atof(argv[2]);
-    add_torus(&mesh, 0.1, 0.03, edge, 1);
-    int32_t outer = mesh.triangle_count;
-    add_torus(&mesh, 0.1, 0.01, 0.5 * edge, 0);
-    write_surface(argv[3], &mesh, outer);
+    int32_t shell_end[1 + BLADES];
+    add_torus(&mesh, 0.1, 0.03, edge);
+    shell_end[0] = mesh.triangle_count;
+    for (int k = 0; k < BLADES; k++) {
+      add_blade(&mesh, 0.1, 6.283185307179586 * k / BLADES, 0.7 * edge);
+      shell_end[k + 1] = mesh.triangle_count;
+    }
+    write_surface(argv[3], &mesh, shell_end);
   } else if (argc == 4 && !strcmp(argv[1], "region")) {
     region_surface(argv[2], &mesh);
-    write_surface(argv[3], &mesh, mesh.triangle_count);
+    write_surface(argv[3], &mesh, &mesh.triangle_count);
   } else if (argc == 3 && !strcmp(argv[1], "quality")) {
     read_mesh(argv[2], &mesh);
     printf("%d %d ", mesh.triangle_count, mesh.tetrahedron_count);

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""Compares the ways to fill a closed surface: our kernel, TetGen behind the same call, and Gmsh's HXT.
+"""Compares the ways to fill a closed surface: our kernel, TetGen behind the same call, and gmsh's HXT (with
+--delaunay its older Delaunay mesher on the first surface, too).
 
 Use, from the top of the source:
-  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...] [--repeat N]
-Surfaces are a ring with a void, for each edge length in m (of 0.26 m across), and the inner boundaries of the
-regions that a run of the mesher left in RUN_DIR/mesh. Seconds are user time of one core, the least of N runs
-in turn; memory is the peak less what stood before. HXT chooses its own number of tetrahedra.
+  tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...]
+    [--repeat N] [--cores N ...] [--delaunay]
+Surfaces are a ring (0.26 m across) with six blade-shaped voids, for each edge length in m, and the inner
+boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Seconds are user time of one core, the
+least of N runs in turn; memory is the peak less what stood before. Each way runs alone (cores 1) and as two
+processes at once (cores 2, the mean of both), which share the memory. gmsh chooses its own number of
+tetrahedra. The last column is our rate over that of the way.
 """
 import argparse
 import os
@@ -15,9 +19,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
+HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} "
+        f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
 
 
 def compile_program(build, folder):
@@ -33,23 +40,22 @@ def compile_program(build, folder):
 
 
 def run_ours(program, way, surface):
-    """triangles, tets, seconds, bytes a tet, aspect mean, aspect max, least dihedral"""
+    """triangles, tets, seconds, bytes a tet, aspect mean, aspect max, least dihedral, mean ratio"""
     done = subprocess.run([str(program), way, str(surface)], capture_output=True, text=True)
     if done.returncode:
         return done.stderr.strip().split("\n")[-1]
     words = done.stdout.split()
-    return [int(words[0]), int(words[1]), float(words[2]), float(words[4]), *map(float, words[5:8])]
+    return [int(words[0]), int(words[1]), float(words[2]), float(words[4]), *map(float, words[5:9])]
 
 
 def run_gmsh(folder, surface, shells, *options):
-    mesh = folder / "hxt.msh"
-    script = folder / "hxt.geo"
+    mesh = folder / "gmsh.msh"
+    script = folder / "gmsh.geo"
     loops = "".join(f"Surface Loop({k}) = {{{k}}};\n" for k in range(1, shells + 1))
     numbers = ", ".join(str(k) for k in range(1, shells + 1))
     script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n')
     mesh.unlink(missing_ok=True)
-    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-algo", "hxt", "-format", "msh2", "-o",
-                              str(mesh), str(script)],
+    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-format", "msh2", "-o", str(mesh), str(script)],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     text = child.stdout.read()
     _, status, use = os.wait4(child.pid, 0)
@@ -57,67 +63,93 @@ def run_gmsh(folder, surface, shells, *options):
     return text, use.ru_maxrss * 1024, mesh
 
 
-def run_hxt(program, folder, surface, shells):
-    _, before, _ = run_gmsh(folder, surface, shells, "-2")
-    text, peak, mesh = run_gmsh(folder, surface, shells, "-3")
-    seconds = re.search(r"Done meshing 3D \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)", text)
-    if not seconds or not mesh.exists():
-        return "failed"
-    words = subprocess.run([str(program), "quality", str(mesh)], check=True, capture_output=True,
-                           text=True).stdout.split()
+def fill_by_gmsh(program, surface, shells, algorithm):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        _, before, _ = run_gmsh(folder, surface, shells, "-2")
+        text, peak, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm)
+        # HXT improves within its own time, the older Delaunay mesher after it.
+        done = r"Done (?:meshing 3D|optimizing mesh) \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)"
+        seconds = re.findall(done, text)
+        if not seconds or not mesh.exists():
+            return "failed"
+        words = subprocess.run([str(program), "quality", str(mesh)], check=True, capture_output=True,
+                               text=True).stdout.split()
     tets = int(words[1])
     if tets == 0:
         return "failed"
-    return [int(words[0]), tets, float(seconds.group(1)), max(0, peak - before) / tets,
-            *map(float, words[2:5])]
+    return [int(words[0]), tets, sum(map(float, seconds)), max(0, peak - before) / tets,
+            *map(float, words[2:6])]
 
 
-def compare(program, folder, title, surface, shells, repeat):
+def at_once(way, cores):
+    """A row that is the mean of as many runs at the same time."""
+    with ThreadPoolExecutor(cores) as pool:
+        rows = [task.result() for task in [pool.submit(way) for _ in range(cores)]]
+    for row in rows:
+        if isinstance(row, str):
+            return row
+    return [sum(column) / cores for column in zip(*rows)]
+
+
+def compare(program, title, surface, shells, words, delaunay):
     ways = [("kernel", lambda: run_ours(program, "kernel", surface)),
             ("tetgen", lambda: run_ours(program, "tetgen", surface))]
     if shutil.which("gmsh"):
-        ways.append(("hxt", lambda: run_hxt(program, folder, surface, shells)))
+        ways.append(("hxt", lambda: fill_by_gmsh(program, surface, shells, "hxt")))
+        if delaunay:
+            ways.append(("delaunay", lambda: fill_by_gmsh(program, surface, shells, "del3d")))
     best = {}
-    for _ in range(repeat):
-        for name, way in ways:
-            row = way()
-            if name not in best or isinstance(best[name], str) or \
-                    (not isinstance(row, str) and row[2] < best[name][2]):
-                best[name] = row
-    for name, _ in ways:
-        row = best[name]
-        if isinstance(row, str):
-            print(f"{title:22s} {'':8s} {name:7s} {row}", flush=True)
-            continue
-        triangles, tets, seconds, size, mean, most, least = row
-        print(f"{title:22s} {triangles:8d} {name:7s} {tets:9d} {seconds:8.3f} {tets / seconds:9.0f} "
-              f"{size:6.0f} {mean:6.3f} {most:6.2f} {least:6.2f}", flush=True)
+    for _ in range(words.repeat):
+        for cores in words.cores:
+            for name, way in ways:
+                row = at_once(way, cores)
+                key = name, cores
+                if key not in best or isinstance(best[key], str) or \
+                        (not isinstance(row, str) and row[2] < best[key][2]):
+                    best[key] = row
+    for cores in words.cores:
+        ours = best["kernel", cores]
+        for name, _ in ways:
+            row = best[name, cores]
+            if isinstance(row, str):
+                print(f"{title:18s} {'':7s} {name:8s} {cores:5d} {row}", flush=True)
+                continue
+            facets, tets, seconds, size, mean, most, least, ratio = row
+            times = "" if isinstance(ours, str) else f"{ours[1] / ours[2] / (tets / seconds):7.2f}"
+            print(f"{title:18s} {facets:7.0f} {name:8s} {cores:5d} {tets:8.0f} {seconds:8.3f} "
+                  f"{tets / seconds:8.0f} {size:5.0f} {mean:6.3f} {most:5.2f} {least:5.2f} {ratio:5.3f} {times}",
+                  flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=Path)
-    parser.add_argument("--ring", type=float, nargs="*", default=[0.003, 0.002])
+    parser.add_argument("--ring", type=float, nargs="*", default=[0.004, 0.0025, 0.0016])
     parser.add_argument("--run", type=Path, nargs="*", default=[])
     parser.add_argument("--regions", nargs="*", help="names such as rotor-0001; all by default")
     parser.add_argument("--repeat", type=int, default=1)
+    parser.add_argument("--cores", type=int, nargs="*", default=[1, 2])
+    parser.add_argument("--delaunay", action="store_true", help="gmsh's Delaunay mesher on the first surface")
     words = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         program = compile_program(words.build, folder)
-        print(f"{'surface':22s} {'facets':>8s} {'way':7s} {'tets':>9s} {'seconds':>8s} {'tets/s':>9s} "
-              f"{'B/tet':>6s} {'aspect':>6s} {'max':>6s} {'least':>6s}", flush=True)
+        print(HEAD, flush=True)
         surface = folder / "surface.msh"
+        first = True
         for edge in words.ring:
             subprocess.run([str(program), "ring", str(edge), str(surface)], check=True)
-            compare(program, folder, f"ring {edge}", surface, 2, words.repeat)
+            compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first)
+            first = False
         for run in words.run:
             for region in sorted((run / "mesh").glob("*.h5")):
                 if words.regions and region.stem not in words.regions:
                     continue
                 subprocess.run([str(program), "region", str(region), str(surface)], check=True)
-                compare(program, folder, region.stem, surface, 1, words.repeat)
+                compare(program, region.stem, surface, 1, words, words.delaunay and first)
+                first = False
 
 
 if __name__ == "__main__":

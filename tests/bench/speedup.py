@@ -4,8 +4,8 @@
 
 1 and 2 ranks are measured, in turn, on this machine. More ranks are a model, marked so: the times of the one-rank run are
 replayed through the mesher's own rule of distribution (largest predicted cost first, each rank takes the next task when it
-is free). Steps with one task a domain gain from two ranks at most; steps whose single tasks are not recorded are divided
-evenly; reading the geometry is done by every rank and gains nothing."""
+is free). Steps with one task a domain, and the background with hardly more, gain from two ranks at most; steps whose single
+tasks are not recorded are divided evenly; reading the geometry is done by every rank and gains nothing."""
 
 import argparse
 import heapq
@@ -56,7 +56,7 @@ def modelled(seconds, record, ranks):
         elif step["name"] == "regions":
             continue
         else:
-            total += step["seconds"] / min(ranks, step["items"])
+            total += step["seconds"] / min(ranks, 2 if step["unit"] == "parts" else step["items"])
     measured = sum(step["seconds"] for step in record["steps"] if step["name"] == "regions") / passes
     scale = measured / sum(task[1] for task in regions)
     total += passes * scale * replay(regions, ranks)

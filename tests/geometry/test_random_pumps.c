@@ -16,9 +16,7 @@
 #include <cmocka.h>
 
 #include "geometry/hydraulic_design.h"
-#include "geometry/measure.h"
-#include "geometry/rotor.h"
-#include "geometry/stator.h"
+#include "geometry/pump.h"
 #include "pipeline/case.h"
 #include "pipeline/log.h"
 
@@ -71,6 +69,10 @@ static void draw_options(uint64_t *state, CwCase *table) {
     impeller->splitter_start = draw(state, 0.3, 0.6);
     impeller->splitter_position = draw(state, 0.42, 0.58);
   }
+  if (chance(state, 0.25)) {
+    impeller->nut_length = draw(state, 2e-3, 20e-3);
+    impeller->nut_flat_diameter = draw(state, 1e-3, 8e-3);
+  }
 }
 
 // Gives some dimensions near those of the computed design, and one of the priorities.
@@ -85,6 +87,15 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
   if (chance(state, 0.3))
     impeller->blade_thickness = design->blade_thickness * draw(state, 0.8, 1.2);
   const double choice = draw(state, 0, 1);
+  // Shafts and fillets as the pump's size has them.
+  if (chance(state, 0.25))
+    impeller->through_shaft_diameter =
+        chance(state, 0.3) ? design->hub_diameter : design->hub_diameter * draw(state, 0.5, 0.9);
+  if (impeller->through_shaft_diameter > 0)
+    impeller->hub_diameter = fmax(design->hub_diameter, impeller->through_shaft_diameter);
+  if (chance(state, 0.4))
+    impeller->root_fillet_radius =
+        fmin(design->outlet_diameter * draw(state, 0.002, 0.015), 0.25 * design->outlet_width);
   if (choice < 0.35) {
     impeller->priority = CW_PRIORITY_WRAP;
     impeller->wrap_angle = fmax(design->wrap_angle * draw(state, 0.9, 1.1), 21 * degree);
@@ -99,22 +110,14 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
 }
 
 static int build(const CwCase *table, CwDesign *design) {
-  CwSolid *solid[2] = {NULL, NULL};
-  int fine = cw_hydraulic_design(table, design) == CW_OK && cw_rotor_build(design, &solid[0]) == CW_OK &&
-             cw_stator_build(&design->volute, &solid[1]) == CW_OK;
-  for (int i = 0; i < 2 && fine; i++) {
-    CwMeasuredSolid measured;
-    if (design->rotation == CW_ROTATION_CLOCKWISE)
-      fine = cw_solid_mirror(solid[i]) == CW_OK;
-    fine = fine && cw_measure_solid(solid[i], &measured) == CW_OK;
-    // A solid that is built but not sound would be no line but a wrong pump.
-    if (fine && !(measured.valid && measured.closed && measured.largest_tolerance < 1e-6))
-      fine = CW_FAIL(CW_ERR_GEOMETRY, "%s: valid %d, closed %d, largest tolerance %.3g mm: UNSOUND",
-                     cw_solid_domain(solid[i]), measured.valid, measured.closed,
-                     measured.largest_tolerance * 1e3) == CW_OK;
-  }
-  cw_solid_free(&solid[0]);
-  cw_solid_free(&solid[1]);
+  CwSolid *solid[CW_PUMP_SOLIDS] = {NULL, NULL};
+  CwMeasuredPump measured;
+  const int fine = cw_hydraulic_design(table, design) == CW_OK &&
+                   cw_pump_solid(design, CW_PUMP_ROTOR, &solid[CW_PUMP_ROTOR]) == CW_OK &&
+                   cw_pump_solid(design, CW_PUMP_STATOR, &solid[CW_PUMP_STATOR]) == CW_OK &&
+                   cw_pump_measure(design, (const CwSolid *const *)solid, &measured) == CW_OK;
+  cw_solid_free(&solid[CW_PUMP_ROTOR]);
+  cw_solid_free(&solid[CW_PUMP_STATOR]);
   return fine;
 }
 
@@ -146,12 +149,11 @@ static void random_pumps(void **state_) {
       // One line, with a number in it and something to do.
       lines += strlen(message) > 20 && !strchr(message, '\n') && strpbrk(message, "0123456789") != NULL;
       print_message("pump %d, ns %.0f, %.1f m3/h, %.1f m, z %d%s, wrap %.0f deg, D2 %.0f, b2 %.1f mm, edge "
-                    "%d, form %d: "
-                    "%s\n",
+                    "%d, form %d, fillet %.2f, shaft %.1f mm: %s\n",
                     i + 1, design.specific_speed_ns, design.flow_rate * 3600, design.head, design.blade_count,
                     design.splitter_start > 0 ? " with splitters" : "", design.wrap_angle / degree,
                     design.outlet_diameter * 1e3, design.outlet_width * 1e3, design.trailing_edge,
-                    design.blade_form, message);
+                    design.blade_form, design.root_fillet_radius * 1e3, design.through_shaft_diameter * 1e3, message);
       cw_fail_clear();
     }
   }
@@ -159,7 +161,7 @@ static void random_pumps(void **state_) {
                 pump_count, 100.0 * built / pump_count, (cw_seconds() - begin) / pump_count, longest);
   assert_int_equal(unsound, 0);
   assert_int_equal(built + lines, pump_count);
-  assert_true(built >= 0.97 * pump_count);
+  assert_true(pump_count - built <= fmax(1, 0.03 * pump_count)); // one of a few is no sign
 }
 
 int main(int argc, char **argv) {

@@ -94,6 +94,34 @@ static void two_runs_are_the_same(void **state) {
   cw_cad_close(&cad);
 }
 
+static void a_packed_one_comes_back_whole(void **state) {
+  CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(5, 12, M_PI / 2).Shape());
+  CwBackground a = make(cad, 1e-5), b;
+  void *bytes;
+  int64_t size;
+  assert_int_equal(cw_background_pack(&a, &bytes, &size), CW_OK);
+  assert_int_equal(cw_background_unpack(bytes, &b), CW_OK);
+  assert_int_equal(a.point_count, b.point_count);
+  assert_int_equal(a.triangle_count, b.triangle_count);
+  assert_memory_equal(a.x, b.x, a.point_count * sizeof *a.x);
+  assert_memory_equal(a.triangle, b.triangle, a.triangle_count * sizeof *a.triangle);
+  assert_memory_equal(a.face, b.face, a.triangle_count * sizeof *a.face);
+  assert_memory_equal(a.uv, b.uv, a.triangle_count * sizeof *a.uv);
+  for (int32_t t = 0; t < b.triangle_count; t++) {
+    for (int k = 0; k < 3; k++) {
+      const int32_t *other = b.triangle[b.neighbour[t][k]];
+      int shared = 0;
+      for (int j = 0; j < 3; j++)
+        shared += other[j] == b.triangle[t][(k + 1) % 3] && other[(j + 1) % 3] == b.triangle[t][k];
+      assert_int_equal(shared, 1);
+    }
+  }
+  free(bytes);
+  cw_background_free(&a);
+  cw_background_free(&b);
+  cw_cad_close(&cad);
+}
+
 static void senseless_deflection_is_refused(void **state) {
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
   CwBackground b;
@@ -108,6 +136,7 @@ int main(void) {
       cmocka_unit_test(inside_out_file_still_has_normals_out),
       cmocka_unit_test(cylinder_converges_from_inside),
       cmocka_unit_test(two_runs_are_the_same),
+      cmocka_unit_test(a_packed_one_comes_back_whole),
       cmocka_unit_test(senseless_deflection_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

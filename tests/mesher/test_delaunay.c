@@ -158,6 +158,41 @@ static void on_one_shape(void **unused) {
   free(x);
 }
 
+// Many small sets, most of them degenerate: points of small lattices in any order, doubled ones, points of one
+// sphere, a cylinder's grid, a plane or line with few others, and each of them stretched or far from the origin.
+static void small_sets(void **unused) {
+  double x[60][3];
+  state = 23;
+  for (int trial = 0; trial < 400; trial++) {
+    int kind = trial % 6, count = 4 + (int)(draw() * 56), kept = 0;
+    double stretch = trial % 7 == 0 ? 1e-6 : 1.0, far = trial % 5 == 0 ? 1000.0 : 0.0;
+    for (int k = 0; k < count; k++) {
+      double p[3], a = 0.5235987755982988 * (int)(draw() * 12.0), z = (int)(draw() * 5.0) - 2.0;
+      for (int i = 0; i < 3; i++)
+        p[i] = kind == 0 ? (int)(draw() * 4.0) : draw();
+      double r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+      for (int i = 0; i < 3 && kind == 1; i++)
+        p[i] /= r;
+      if (kind == 2)
+        p[0] = cos(a), p[1] = sin(a), p[2] = z;
+      if (kind == 3 && k % 6)
+        p[2] = 0.5;
+      if (kind == 4 && k % 6)
+        p[1] = 2.0 * p[0], p[2] = -p[0];
+      p[2] *= stretch;
+      for (int i = 0; i < 3; i++)
+        p[i] += far;
+      int seen = 0;
+      for (int m = 0; m < kept && !seen; m++)
+        seen = memcmp(x[m], p, sizeof p) == 0 || (x[m][0] == p[0] && x[m][1] == p[1] && x[m][2] == p[2]);
+      if (seen)
+        continue;
+      memcpy(x[kept++], p, sizeof p);
+    }
+    connect_and_check(kept, x, 0);
+  }
+}
+
 // A new point whose cavity holds nearly everything: more points than the edge table has room for.
 static void great_cavity(void **unused) {
   double x[402][3];
@@ -219,6 +254,7 @@ int main(void) {
       cmocka_unit_test(grid),
       cmocka_unit_test(body_centred_grid),
       cmocka_unit_test(on_one_shape),
+      cmocka_unit_test(small_sets),
       cmocka_unit_test(great_cavity),
       cmocka_unit_test(duplicates_are_named),
       cmocka_unit_test(equal_bits_twice),

@@ -93,7 +93,7 @@ static void facets_that_cross_stay(void **unused) {
   cw_facets_locate(&mesh, 5, &facets);
   assert_int_equal(facets.missing_count, 1);
   for (int round = 0; round < 4; round++) {
-    assert_int_equal(cw_kernel_recover(&mesh, &facets, round, &sources), CW_OK);
+    assert_int_equal(cw_kernel_recover(&mesh, &facets, round, &sources, &(CwRecovered){0}), CW_OK);
     cw_facets_locate(&mesh, 5, &facets);
   }
   assert_int_equal(facets.missing_count, 1);

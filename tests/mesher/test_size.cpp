@@ -19,6 +19,11 @@
 
 static const double gradation = 0.2;
 
+static void check(CwStatus status) {
+  if (status != CW_OK)
+    fail_msg("%s", cw_fail_message());
+}
+
 // Everything of one solid; lengths in mm for the reader, as the field takes metres.
 struct Model {
   CwCad *cad;
@@ -34,9 +39,16 @@ struct Model {
     table.cells_across_gap = cells_across_gap;
     assert_int_equal(patch_size.size(), cw_cad_patch_count(cad));
     assert_int_equal(cw_background_make(cad, 1e-5, 0.1, &background), CW_OK);
-    if (cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &size) != CW_OK) {
-      fail_msg("%s", cw_fail_message());
-    }
+    CwSizeSeeds *seeds = nullptr;
+    std::vector<void *> seeds_of_face(cw_cad_face_count(cad));
+    int64_t bytes;
+    check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
+    for (int f = cw_cad_face_count(cad) - 1; f >= 0; f--)
+      check(cw_size_seeds_of_face(seeds, f, &seeds_of_face[f], &bytes));
+    cw_size_seeds_free(&seeds);
+    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, seeds_of_face.data(), &size));
+    for (void *of_face : seeds_of_face)
+      free(of_face);
   }
   ~Model() {
     cw_size_free(&size);
@@ -187,9 +199,9 @@ static void wrong_input_is_refused(void **state) {
   double patch_size = 1;
   table.gradation = table.curvature_angle = 0.2;
   assert_int_equal(cw_background_make(cad, 1e-5, 0.1, &background), CW_OK);
-  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, &size), CW_ERR_USAGE);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, nullptr, &size), CW_ERR_USAGE);
   patch_size = 0;
-  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, &size), CW_ERR_USAGE);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, nullptr, &size), CW_ERR_USAGE);
   assert_non_null(std::strstr(cw_fail_message(), "patch 'wall'"));
   assert_null(size);
   cw_background_free(&background);

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include <math.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -61,7 +62,7 @@ static void seeds_spread_with_the_slope(void **state) {
       cw_size_grid_seed(&grid, wall, 1.2);
     }
   }
-  cw_size_grid_spread(&grid, slope);
+  assert_int_equal(cw_size_grid_spread(&grid, slope, NULL), CW_OK);
   for (int s = 0; s < 2; s++)
     assert_true(cw_size_grid_at(&grid, seed[s]) <= value[s] + 1e-6);
   for (double z = 0.3; z < 6; z += 0.7) {
@@ -79,11 +80,35 @@ static void seeds_spread_with_the_slope(void **state) {
   cw_size_grid_free(&grid);
 }
 
+// A wall of nodes that take no part, with a gap at its end: the field goes round it, and is set behind it all the same.
+static void fields_keep_within(void **state) {
+  CwSizeGrid grid;
+  const double seed[3] = {1, 1, 3}, behind[3] = {9, 1, 3}, in_wall[3] = {5, 1, 3};
+  assert_int_equal(cw_size_grid_make(low, high, 0.25, 1000000, &grid), CW_OK);
+  size_t nodes = (size_t)grid.count[0] * (size_t)grid.count[1] * (size_t)grid.count[2];
+  uint8_t *within = calloc(nodes, 1);
+  assert_non_null(within);
+  for (size_t n = 0; n < nodes; n++) {
+    double x = grid.low[0] + (double)(n % (size_t)grid.count[0]) * grid.spacing;
+    double y = grid.low[1] + (double)(n / (size_t)grid.count[0] % (size_t)grid.count[1]) * grid.spacing;
+    within[n] = !(x > 4.4 && x < 5.6 && y < 6.9);
+  }
+  cw_size_grid_seed(&grid, seed, 1);
+  assert_int_equal(cw_size_grid_spread(&grid, 0.5, within), CW_OK);
+  double round = 1 + 0.5 * (hypot(3.5, 6) + 1 + hypot(3.5, 6)), at_behind = cw_size_grid_at(&grid, behind);
+  assert_true(at_behind > round - 0.5 && at_behind < 1.1 * round + 0.3);
+  double straight = 1 + 0.5 * 4;
+  assert_true(cw_size_grid_at(&grid, in_wall) < straight + 0.6 && cw_size_grid_at(&grid, in_wall) > straight - 0.6);
+  free(within);
+  cw_size_grid_free(&grid);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(grid_covers_its_box_within_the_limit),
       cmocka_unit_test(linear_values_come_back),
       cmocka_unit_test(seeds_spread_with_the_slope),
+      cmocka_unit_test(fields_keep_within),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,15 +121,13 @@ static void regions_fill_the_box(void **) {
   int faces = cw_cad_face_count(box.cad);
   std::vector<void *> walls(faces, nullptr), caps(faces, nullptr), interfaces;
   int64_t size;
-  void *front = nullptr;
   Box::check(cw_skeleton_wall_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
     if (cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
   }
   Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
   std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4);
-  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), &front, &size));
-  Box::check(cw_skeleton_set_front(&skeleton, front));
+  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data()));
   for (int v = 0; v < skeleton.wall_count; v++) { // corners and edges of a box keep the asked height to the walls
     for (int k = 1; k < 3; k++) {
       double side = k == 1 ? 0.030 : 0.020, x = skeleton.front[v][k];
@@ -156,7 +154,8 @@ static void regions_fill_the_box(void **) {
   context.skeleton = &skeleton;
   context.domain = "box";
   context.layer_count = 4;
-  context.growth_max = 1.5;
+  std::vector<double> growth(skeleton.wall_count, 1.5);
+  context.growth = growth.data();
   context.first_height = first.data();
   Box::check(cw_region_context_make(&context));
   double volume = 0;
@@ -184,7 +183,6 @@ static void regions_fill_the_box(void **) {
 
   cw_region_context_free(&context);
   free(pair);
-  free(front);
   for (void *bytes : walls) free(bytes);
   for (void *bytes : caps) free(bytes);
   for (void *bytes : interfaces) free(bytes);

@@ -250,7 +250,6 @@ static void copies_fill_the_tank(void **) {
   const int faces = cw_cad_face_count(tank.cad);
   std::vector<void *> walls(faces, nullptr), caps(faces, nullptr), interfaces;
   int64_t size;
-  void *front = nullptr;
   check(cw_orbit_network(&skeleton.network, &skeleton.orbits));
   check(cw_skeleton_wall_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
@@ -258,9 +257,9 @@ static void copies_fill_the_tank(void **) {
     if (cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
   }
   check(cw_skeleton_merge_walls(&skeleton, walls.data()));
-  std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4);
-  check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), &front, &size));
-  check(cw_skeleton_set_front(&skeleton, front));
+  std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4),
+      growth(skeleton.wall_count, 1.5);
+  check(cw_skeleton_grow(&skeleton, &tank.background, target.data()));
   check(cw_skeleton_free_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
     if (!cw_orbit_face_is_first(&orbits, f)) continue;
@@ -292,7 +291,7 @@ static void copies_fill_the_tank(void **) {
   context.skeleton = &skeleton;
   context.domain = "tank";
   context.layer_count = 4;
-  context.growth_max = 1.5;
+  context.growth = growth.data();
   context.first_height = first.data();
   check(cw_region_context_make(&context));
   double volume = 0;
@@ -333,7 +332,6 @@ static void copies_fill_the_tank(void **) {
 
   cw_region_context_free(&context);
   free(pair);
-  free(front);
   for (void *bytes : walls) free(bytes);
   for (void *bytes : caps) free(bytes);
   for (void *bytes : interfaces) free(bytes);

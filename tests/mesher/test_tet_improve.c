@@ -5,7 +5,7 @@
 #include <cmocka.h>
 
 #include "mesher/tet_improve.h"
-#include "mesher/tet_improve_mesh.h"
+#include "mesher/tet_quality.h"
 #include "closed_surfaces.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
@@ -48,8 +48,8 @@ static void quality_by_hand(void **state) {
   NEAR(cw_tet_quality(a, b, c, d), sqrt(8.0) / 3.0, 1e-14);       // sine of arccos(1/3)
   NEAR(cw_tet_quality(a, b, corner, up), sqrt(2.0 / 3.0), 1e-14); // sine of arctan(sqrt 2)
   assert_true(cw_tet_quality(b, a, c, d) <= 0.0);
-  const double far_up[3] = {0.5, h / 3.0, 9.0}; // edges 9.02 over 1: 1.35 / 9.02
-  NEAR(cw_tet_quality(a, b, c, far_up), 1.35 / sqrt(81.0 + 1.0 / 3.0), 1e-14);
+  const double far_up[3] = {0.5, h / 3.0, 9.0}; // edges 9.02 over 1: 2 / 9.02
+  NEAR(cw_tet_quality(a, b, c, far_up), 2.0 / sqrt(81.0 + 1.0 / 3.0), 1e-14);
 }
 
 // An octahedron can be cut along each of its three diagonals; the boundary is the same. Started from the
@@ -90,7 +90,7 @@ static void octahedron_gets_its_best_diagonal(void **state) {
 // to two.
 static void two_become_three_and_three_two(void **state) {
   const double h = sqrt(0.75);
-  double x[5][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3.0, 0.14}, {0.5, h / 3.0, -0.14}};
+  double x[5][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3.0, 0.12}, {0.5, h / 3.0, -0.12}};
   const int32_t two[2][4] = {{0, 1, 2, 3}, {0, 2, 1, 4}};
   const int32_t three[3][4] = {{0, 1, 4, 3}, {1, 2, 4, 3}, {2, 0, 4, 3}};
   double volume, least_two, least_three;
@@ -104,10 +104,12 @@ static void two_become_three_and_three_two(void **state) {
   // Apexes close to one another: compare the two cuts and expect the better of them, from either side.
   double best = fmax(least_two, least_three);
   assert_int_equal(cw_tet_improve(5, &fill, &improved), CW_OK);
-  NEAR(least_of(&fill, &volume), best, 1e-14);
+  assert_true(least_of(&fill, &volume) >= best - 1e-14); // a new point may go further
+  NEAR(volume, other_volume, 1e-15);
   assert_int_equal(improved.faces_removed + improved.edges_removed, least_three > least_two);
   assert_int_equal(cw_tet_improve(5, &other, &improved), CW_OK);
-  NEAR(least_of(&other, &volume), best, 1e-14);
+  assert_true(least_of(&other, &volume) >= best - 1e-14);
+  NEAR(volume, other_volume, 1e-15);
   assert_int_equal(improved.edges_removed + improved.faces_removed, least_two > least_three);
   free_fill(&fill);
   free_fill(&other);
@@ -120,8 +122,7 @@ static void two_become_three_and_three_two(void **state) {
   assert_true(least_three > least_two);
   assert_int_equal(cw_tet_improve(5, &fill, &improved), CW_OK);
   assert_int_equal(improved.faces_removed, 1);
-  assert_int_equal(fill.tetrahedron_count, 3);
-  NEAR(least_of(&fill, &volume), least_three, 1e-14);
+  assert_true(least_of(&fill, &volume) >= least_three - 1e-14);
   free_fill(&fill);
   free_fill(&other);
 }
@@ -156,12 +157,38 @@ static void inner_point_is_smoothed(void **state) {
   surface_free(&s);
 }
 
+// A ball cut from one of its corners: flips alone cannot make it good, points inside can.
+static void points_go_into_a_ball(void **state) {
+  Surface s = {0};
+  double volume;
+  int32_t tet[75][4], count = 0;
+  surface_add_sphere(&s, (double[3]){0, 0, 0}, 1.0, 1, 1);
+  for (int t = 0; t < 80; t++) {
+    const int32_t *f = s.triangle[t], one[4] = {f[0], f[2], f[1], 0};
+    if (f[0] != 0 && f[1] != 0 && f[2] != 0)
+      memcpy(tet[count++], one, sizeof one);
+  }
+  assert_int_equal(count, 75);
+  CwFill fill = fill_of(42, (const double(*)[3])s.x, 75, (const int32_t(*)[4])tet);
+  CwTetImproved improved;
+  assert_true(least_of(&fill, &volume) < 0.4);
+  NEAR(volume, surface_volume(&s), 1e-14);
+  assert_int_equal(cw_tet_improve(42, &fill, &improved), CW_OK);
+  assert_true(improved.points_added > 0 && fill.point_count > 42);
+  assert_true(least_of(&fill, &volume) > 0.4226);
+  NEAR(volume, surface_volume(&s), 1e-13);
+  assert_memory_equal(fill.x, s.x, 42 * sizeof *fill.x);
+  free_fill(&fill);
+  surface_free(&s);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(quality_by_hand),
       cmocka_unit_test(octahedron_gets_its_best_diagonal),
       cmocka_unit_test(two_become_three_and_three_two),
       cmocka_unit_test(inner_point_is_smoothed),
+      cmocka_unit_test(points_go_into_a_ball),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where vertical lines cross a closed triangulated surface: for points of a lattice, of which many stand on
 // one line.
-#ifndef CUTWATER_MESHER_KERNEL_COLUMNS_H
-#define CUTWATER_MESHER_KERNEL_COLUMNS_H
+#ifndef CUTWATER_MESHER_FILL_COLUMNS_H
+#define CUTWATER_MESHER_FILL_COLUMNS_H
 
 #include <stdint.h>
 

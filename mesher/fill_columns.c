@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/kernel_columns.h"
+#include "mesher/fill_columns.h"
 
 #include <math.h>
 #include <stdlib.h>

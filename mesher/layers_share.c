@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Work on vertices and triangles in blocks over the ranks. The blocks follow from the count alone and each item from
+// itself alone, so that the bits are the same for any number of ranks.
+#include <stdlib.h>
+
+#include "mesher/layers_inner.h"
+#include "mesher/schedule.h"
+
+enum { BLOCK = 4096 };
+
+typedef struct {
+  const CwLayerWork *work;
+  CwLayerBody body;
+  void *context;
+  int32_t count;
+  size_t width;
+} Share;
+
+static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Share *share = context;
+  int32_t first = block * BLOCK, last = share->count - first < BLOCK ? share->count : first + BLOCK;
+  size_t length = (size_t)(last - first) * share->width;
+  char *result = NULL;
+  CW_NEW(result, length);
+  for (int32_t i = first; i < last; i++)
+    CW_TRY(share->body(share->work, share->context, i, result + (size_t)(i - first) * share->width));
+  *bytes = result;
+  *size = (int64_t)length;
+  result = NULL;
+done:
+  free(result);
+  return status;
+}
+
+CwStatus cw_layers_share(const CwLayerWork *work, int32_t count, size_t width, CwLayerBody body, void *context,
+                         void *out) {
+  CwStatus status = CW_OK;
+  Share share = {work, body, context, count, width};
+  int32_t blocks = (count + BLOCK - 1) / BLOCK;
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  CW_NEW(bytes, blocks);
+  CW_NEW(size, blocks);
+  CwSchedule schedule = {.count = blocks, .run = run_block, .context = &share, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t i = 0; i < blocks; i++) memcpy((char *)out + (size_t)i * BLOCK * width, bytes[i], (size_t)size[i]);
+done:
+  for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  return status;
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/plan_lines.h"
+
+#include <math.h>
+
+#include "mesher/fan.h"
+#include "mesher/vec.h"
+
+enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64 };
+static const double LINE_STEP = 1e-3; // m between samples of a line
+static const double ROOM = 1.5;       // thicknesses of the layers: lines of two planes start behind the layers
+// Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
+// have room.
+static const double SAME_LINE = 1, APART = 3;
+static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
+
+// A line of the new plane and one above, as far as it lies in the cell.
+typedef struct {
+  const CwPlanModel *model;
+  const CwPlan *plan;
+  int32_t above;
+  double point[3], direction[3], from, to;
+  int neighbour_count;
+  int32_t neighbour[NEIGHBOURS]; // planes that come near the line
+} Line;
+
+static void at(const Line *line, double s, double x[3]) {
+  for (int k = 0; k < 3; k++) x[k] = line->point[k] + s * line->direction[k];
+}
+
+// Cuts the line to where plane . x <= 0 on the given side.
+static void cut(Line *line, const CwPlane *plane, int positive) {
+  double distance = cw_plane_distance(plane, line->point), slope = cw_dot(plane->normal, line->direction);
+  if (positive) distance = -distance, slope = -slope;
+  if (fabs(slope) < 1e-12) {
+    if (distance > 0) line->to = line->from;
+  } else if (slope > 0) {
+    line->to = fmin(line->to, -distance / slope);
+  } else {
+    line->from = fmax(line->from, -distance / slope);
+  }
+}
+
+// Cuts the line to the box of the part and to the cell of the node.
+static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
+  line->from = -INFINITY;
+  line->to = INFINITY;
+  for (int k = 0; k < 3; k++) {
+    CwPlane side = {{k == 0, k == 1, k == 2}, part->high[k] + 2 * LINE_STEP};
+    cut(line, &side, 0);
+    side.offset = part->low[k] - 2 * LINE_STEP;
+    cut(line, &side, 1);
+  }
+  const CwPlan *plan = line->plan;
+  if (cw_fan_holds(plan, node)) {
+    CwPlane end = cw_fan_end(plan, node);
+    cut(line, &end, 1);
+  }
+  for (int32_t below = node, a = plan->node[node].parent; a >= 0; below = a, a = plan->node[a].parent) {
+    if (a != line->above) cut(line, &plan->node[a].plane, plan->node[a].child[1] == below);
+  }
+}
+
+// Collects the planes, not those of the line, that come within `room` of it.
+static void find_neighbours(Line *line, int32_t node, double room) {
+  double ends[2][3];
+  at(line, line->from, ends[0]);
+  at(line, line->to, ends[1]);
+  line->neighbour_count = 0;
+  for (int32_t c = 0; c < node && line->neighbour_count < NEIGHBOURS; c++) {
+    if (c == line->above) continue;
+    double a = cw_plane_distance(&line->plan->node[c].plane, ends[0]);
+    double b = cw_plane_distance(&line->plan->node[c].plane, ends[1]);
+    if ((a > room && b > room) || (a < -room && b < -room)) continue;
+    line->neighbour[line->neighbour_count++] = c;
+  }
+}
+
+// Distance from x to the nearest other plane inside its own cell; `room` where none is nearer.
+static double plane_near(const Line *line, const double x[3], double room) {
+  double best = room;
+  for (int i = 0; i < line->neighbour_count; i++) {
+    int32_t c = line->neighbour[i];
+    double distance = fabs(cw_plane_distance(&line->plan->node[c].plane, x));
+    if (distance < best && cw_plan_in_cell(line->plan, c, x, room, NULL, 0)) best = distance;
+  }
+  return best;
+}
+
+// 0 where there is all the room that is wanted, 1 where there is no more than the least.
+static double shortage(double room, double least, double wanted) {
+  return fmin(fmax((wanted - room) / (wanted - least), 0), 1);
+}
+
+static double near_an_edge(const Line *line, const CwPlanPart *part, const double x[3]) {
+  const CwPlanModel *model = line->model;
+  double worst = 0;
+  for (int32_t i = 0; i < part->edge_count; i++) {
+    int32_t e = part->edge[i];
+    double room = model->edge_room[e], distance = cw_distance(model->edge_x[e], x);
+    if (distance < room) worst = fmax(worst, shortage(distance, room / 2, room));
+  }
+  return worst;
+}
+
+// One end of a run of the line through the domain.
+static double judge_end(const Line *line, const CwPlanPart *part, const double x[3], double *thickness) {
+  double distance;
+  *thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
+  double cramped = near_an_edge(line, part, x);
+  if (*thickness == 0) return cramped;
+  return fmax(cramped, shortage(plane_near(line, x, ROOM * *thickness), *thickness / 2, ROOM * *thickness));
+}
+
+// A run of the line through the domain from `from` to `to`.
+static void judge_run(const Line *line, const CwPlanPart *part, double from, double to, double step,
+                      CwPlanLines *lines) {
+  double start[3], end[3], layers[2], run = to - from + step, beside = 0;
+  at(line, from, start);
+  at(line, to, end);
+  double cramped = judge_end(line, part, start, &layers[0]);
+  cramped = fmax(cramped, judge_end(line, part, end, &layers[1]));
+  double taken = layers[0] + layers[1];
+  if (run < taken) lines->impossible = 1;
+  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
+  double margin = ROOM * fmax(layers[0], layers[1]);
+  for (double s = from; s <= to + 0.5 * step; s += step) {
+    double x[3], distance;
+    at(line, s, x);
+    double h = cw_size_at(line->model->size, x), near = plane_near(line, x, APART * h);
+    if (near < SAME_LINE * h) beside += step;
+    cramped = fmax(cramped, shortage(near, SAME_LINE * h, APART * h));
+    if (s - from < margin || to - s < margin) continue;
+    double thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
+    if (thickness > 0) cramped = fmax(cramped, shortage(distance, thickness, ROOM * thickness));
+    if (distance < thickness) lines->impossible = 1;
+  }
+  if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
+  lines->cramped += cramped;
+  lines->blocked += cramped >= 1;
+}
+
+static void judge_line(Line *line, int32_t node, const CwPlanPart *part, double sine, CwPlanLines *lines) {
+  cut_to_cell(line, node, part);
+  if (!(line->to > line->from)) return;
+  double length = line->to - line->from;
+  int samples = (int)fmin(fmax(ceil(length / LINE_STEP), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  double step = length / samples, begun = 0;
+  int inside_before = 0;
+  find_neighbours(line, node, 10e-3);
+  for (int i = 0; i <= samples; i++) {
+    double x[3], s = line->from + step * (i + 0.5);
+    at(line, s, x);
+    int inside = i < samples && cw_inside_test(line->model->inside, x);
+    if (inside && !inside_before) begun = s;
+    if (!inside && inside_before) {
+      lines->sharp = fmin(lines->sharp, sine);
+      judge_run(line, part, begun, s - step, step, lines);
+    }
+    inside_before = inside;
+    if (lines->impossible) return;
+  }
+}
+
+CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                          const CwPlane *plane) {
+  CwPlanLines lines = {.sharp = 1};
+  for (int32_t a = plan->node[node].parent; a >= 0 && !lines.impossible; a = plan->node[a].parent) {
+    Line line = {.model = model, .plan = plan, .above = a};
+    double across[3];
+    if (!cw_plane_line(&plan->node[a].plane, plane, line.point, line.direction)) continue;
+    cw_cross(plan->node[a].plane.normal, plane->normal, across);
+    judge_line(&line, node, part, cw_norm(across), &lines);
+  }
+  return lines;
+}

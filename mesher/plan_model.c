@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/plan_model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/vec.h"
+
+enum { EDGE_POINTS_LEAST = 9, EDGE_POINTS_MOST = 1000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
+enum { SAMPLES_LEAST = 30000, SAMPLES_PER_REGION = 1500 };
+static const double EDGE_STEP = 1.5e-3;   // m between points along CAD edges
+static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
+// Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
+// want a cell between them; beside a smooth edge only the surface triangles do.
+static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
+static const double WALL_STEP = 2e-3; // m: between points on walls, at most
+
+static void triangle_normal(const CwBackground *background, int32_t t, double normal[3]) {
+  const int32_t *corner = background->triangle[t];
+  double u[3], v[3];
+  cw_sub(background->x[corner[1]], background->x[corner[0]], u);
+  cw_sub(background->x[corner[2]], background->x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+// True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
+static int is_smooth(const CwCad *cad, int edge) {
+  int face[2];
+  double range[2], normal[2][3];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_faces(cad, edge, face);
+  for (int s = 0; s < 2; s++) {
+    double uv[2], x[3], xu[3], xv[3];
+    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
+    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
+    cw_cross(xu, xv, normal[s]);
+    cw_unit(normal[s]);
+    if (cw_cad_face_reversed(cad, face[s])) {
+      for (int k = 0; k < 3; k++) normal[s][k] = -normal[s][k];
+    }
+  }
+  return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
+}
+
+static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2]) {
+  double before[3], x[3], length = 0;
+  for (int i = 0; i <= EDGE_ROUGH; i++) {
+    cw_cad_edge_point(cad, edge, range[0] + (range[1] - range[0]) * i / EDGE_ROUGH, x, NULL);
+    if (i > 0) length += cw_distance(before, x);
+    cw_copy(x, before);
+  }
+  return (int32_t)fmin(fmax(ceil(length / EDGE_STEP) + 1, EDGE_POINTS_LEAST), EDGE_POINTS_MOST);
+}
+
+static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  int32_t most = 0;
+  double range[2];
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    cw_cad_edge_range(cad, e, range);
+    most += points_of_edge(cad, e, range);
+  }
+  CW_NEW(model->edge_x, most);
+  CW_NEW(model->edge_tangent, most);
+  CW_NEW(model->edge_room, most);
+  CW_NEW(model->edge_end, most);
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    double room = 0;
+    int faces[2];
+    cw_cad_edge_faces(cad, e, faces);
+    cw_cad_edge_range(cad, e, range);
+    for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
+    if (room == 0) continue; // between two caps
+    room *= is_smooth(cad, e) ? SMOOTH_ROOM : EDGE_ROOM;
+    int32_t points = points_of_edge(cad, e, range);
+    for (int32_t i = 0; i < points; i++) {
+      int32_t at = model->edge_count++;
+      cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
+                        model->edge_tangent[at]);
+      cw_unit(model->edge_tangent[at]);
+      model->edge_room[at] = room;
+      model->edge_end[at] = i == 0 || i == points - 1;
+    }
+  }
+done:
+  return status;
+}
+
+typedef struct {
+  double x[3][3];
+} Facet;
+
+// Halves the longest edge where it is longer than `limit`; the second half goes to *other. Returns whether it did.
+static int halve(Facet *facet, double limit, Facet *other) {
+  int longest = 0;
+  double most = -1;
+  for (int k = 0; k < 3; k++) {
+    double length = cw_distance(facet->x[k], facet->x[(k + 1) % 3]);
+    if (length > most) most = length, longest = k;
+  }
+  if (most <= limit) return 0;
+  int next = (longest + 1) % 3;
+  double middle[3];
+  *other = *facet;
+  cw_lerp(facet->x[longest], facet->x[next], 0.5, middle);
+  cw_copy(middle, facet->x[next]);
+  cw_copy(middle, other->x[longest]);
+  return 1;
+}
+
+// Visits points all over the walls; stores them where there is room for them.
+static void visit_walls(CwPlanModel *model) {
+  const CwBackground *background = model->background;
+  model->wall_count = 0;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    Facet stack[PIECE_STACK];
+    int top = 1;
+    if (!model->wall[t]) continue;
+    for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], stack[0].x[k]);
+    while (top > 0) {
+      Facet facet = stack[--top], other;
+      if (top + 2 <= PIECE_STACK && halve(&facet, WALL_STEP, &other)) {
+        stack[top++] = other;
+        stack[top++] = facet;
+        continue;
+      }
+      int32_t at = model->wall_count++;
+      if (!model->wall_x) continue;
+      for (int k = 0; k < 3; k++) model->wall_x[at][k] = (facet.x[0][k] + facet.x[1][k] + facet.x[2][k]) / 3;
+      model->wall_triangle[at] = t;
+    }
+  }
+}
+
+static CwStatus sample_walls(CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  visit_walls(model);
+  CW_NEW(model->wall_triangle, model->wall_count);
+  CW_NEW(model->wall_x, model->wall_count);
+  visit_walls(model);
+  for (int32_t t = 0; t < model->background->triangle_count; t++) {
+    model->thickest = fmax(model->thickest, model->thickness[t]);
+  }
+  CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP, &model->walls));
+done:
+  return status;
+}
+
+double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, double *distance) {
+  const CwCubes *walls = &model->walls;
+  int32_t nearest = -1, from[3], to[3];
+  double best = INFINITY;
+  cw_cubes_near(walls, x, hypot(reach, 0.5 * WALL_STEP), from, to);
+  for (int32_t c = from[2]; c <= to[2]; c++) {
+    for (int32_t b = from[1]; b <= to[1]; b++) {
+      if (from[0] > to[0]) continue;
+      int32_t end = walls->start[cw_cube(walls, to[0], b, c) + 1];
+      for (int32_t i = walls->start[cw_cube(walls, from[0], b, c)]; i < end; i++) {
+        double d[3];
+        cw_sub(model->wall_x[walls->member[i]], x, d);
+        double square = cw_dot(d, d);
+        if (square < best) best = square, nearest = walls->member[i];
+      }
+    }
+  }
+  *distance = sqrt(best);
+  if (nearest < 0) return 0;
+  // Beside a point the wall goes on: then its plane is what counts.
+  double d[3];
+  cw_sub(x, model->wall_x[nearest], d);
+  double off = fabs(cw_dot(d, model->normal[model->wall_triangle[nearest]]));
+  if (best - off * off < WALL_STEP * WALL_STEP) *distance = off;
+  return model->thickness[model->wall_triangle[nearest]];
+}
+
+static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = model->background;
+  CW_NEW(model->wall, background->triangle_count);
+  CW_NEW(model->density, background->triangle_count);
+  CW_NEW(model->thickness, background->triangle_count);
+  CW_NEW(model->normal, background->triangle_count);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    double centre[3] = {0, 0, 0};
+    int patch = cw_cad_face_patch(cad, background->face[t]);
+    triangle_normal(background, t, model->normal[t]);
+    model->wall[t] = cw_cad_patch_kind(cad, patch) == CW_PATCH_WALL;
+    if (!model->wall[t]) continue;
+    for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
+    double h = cw_size_at(model->size, centre);
+    model->density[t] = options->prism_factor / (h * h);
+    model->thickness[t] = options->thickness[patch];
+    if (options->least_thickness) {
+      model->thickness[t] = fmin(model->thickness[t], fmax(options->least_thickness[patch], options->tallest * h));
+    }
+  }
+done:
+  return status;
+}
+
+// Of the samples of the size field every n-th: planes need no finer picture.
+static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  int32_t all = 0;
+  CW_TRY(cw_size_samples(model->size, &all, &model->sample_x, &model->sample_volume));
+  int64_t wanted = SAMPLES_LEAST + (int64_t)SAMPLES_PER_REGION * options->region_count;
+  int32_t stride = (int32_t)(all / wanted) + 1;
+  for (int32_t i = 0; i < all; i += stride) {
+    cw_copy(model->sample_x[i], model->sample_x[model->sample_count]);
+    model->sample_volume[model->sample_count++] = stride * model->sample_volume[i];
+  }
+  CW_NEW(model->sample_work, model->sample_count);
+  for (int32_t i = 0; i < model->sample_count; i++) {
+    double h = cw_size_at(model->size, model->sample_x[i]), distance;
+    model->sample_spacing = fmax(model->sample_spacing, cbrt(model->sample_volume[i]));
+    double thickness = cw_plan_wall_near(model, model->sample_x[i], model->thickest, &distance);
+    if (distance >= thickness) model->sample_work[i] = options->tet_factor * model->sample_volume[i] / (h * h * h);
+  }
+done:
+  return status;
+}
+
+CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
+                            const CwSize *size, const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  memset(model, 0, sizeof *model);
+  model->background = background;
+  model->inside = inside;
+  model->size = size;
+  CW_TRY(measure_walls(cad, options, model));
+  CW_TRY(sample_walls(model));
+  CW_TRY(sample_volume(options, model));
+  CW_TRY(sample_edges(cad, options, model));
+done:
+  if (status != CW_OK) cw_plan_model_free(model);
+  return status;
+}
+
+void cw_plan_model_free(CwPlanModel *model) {
+  free(model->sample_x);
+  free(model->sample_volume);
+  free(model->sample_work);
+  free(model->wall);
+  free(model->density);
+  free(model->thickness);
+  free(model->normal);
+  free(model->edge_x);
+  free(model->edge_tangent);
+  free(model->edge_room);
+  free(model->edge_end);
+  free(model->wall_x);
+  free(model->wall_triangle);
+  cw_cubes_free(&model->walls);
+  memset(model, 0, sizeof *model);
+}

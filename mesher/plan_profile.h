@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One part of the domain seen along one direction: for every place along it the work below, the area of the section,
+// the sharpest wall and the CAD edges that a plane there would graze. One pass over the part serves all offsets.
+#ifndef CUTWATER_MESHER_PLAN_PROFILE_H
+#define CUTWATER_MESHER_PLAN_PROFILE_H
+
+#include "mesher/plan_model.h"
+
+enum { CW_PROFILE_BINS = 256 };
+
+typedef struct {
+  double low, width;                  // m: bin b covers low + b width .. low + (b + 1) width
+  double below[CW_PROFILE_BINS + 1];  // cells below the start of each bin
+  double area[CW_PROFILE_BINS];       // m2, of the section, mean over the bin
+  double worst[CW_PROFILE_BINS];      // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
+  double grazed[CW_PROFILE_BINS];     // points of CAD edges it runs along, and ends of them it comes near
+} CwPlanProfile;
+
+// Fails with nothing: a part without extent along the direction has width 0 and is of no use.
+void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const double direction[3],
+                     CwPlanProfile *profile);
+
+// Cells below a place, and the place below which so many cells are.
+double cw_profile_below(const CwPlanProfile *profile, double place);
+double cw_profile_place(const CwPlanProfile *profile, double cells);
+
+int cw_profile_bin(const CwPlanProfile *profile, double place);
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Root fillets, and a shaft through the inlet.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "geometry/pump.h"
+#include "geometry/rotor.h"
+#include "geometry/rotor_volume.h"
+#include "pipeline/case.h"
+
+static const double degree = M_PI / 180;
+
+static CwCase paper(void) {
+  CwCase table;
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  return table;
+}
+
+static void near_to(double value, double expected, double tolerance) {
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+}
+
+static CwDesign design_of(const CwCase *table) {
+  CwDesign design;
+  if (cw_hydraulic_design(table, &design) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  return design;
+}
+
+static void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured) {
+  CwSolid *rotor = NULL;
+  if (cw_pump_solid(design, CW_PUMP_ROTOR, &rotor) != CW_OK || cw_measure_solid(rotor, solid) != CW_OK ||
+      cw_measure_rotor(rotor, measured) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  cw_solid_free(&rotor);
+  assert_true(solid->valid && solid->closed && solid->largest_tolerance < 1e-6);
+}
+
+static int count(const CwSolid *solid, const char *patch, const char *part) {
+  int found = 0;
+  for (int face = 0; face < cw_solid_face_count(solid); face++)
+    found += (!patch || !strcmp(cw_solid_face_patch(solid, face), patch)) &&
+             strstr(cw_solid_face_name(solid, face), part) != NULL;
+  return found;
+}
+
+// A fillet of radius R in a right angle has (1 - pi/4) R^2 of section. The paper's blades stand at nearly right
+// angles, some 92 mm of foot on each side of six blades on two walls; near the trailing edge the fillet is
+// narrower.
+static void fillets_take_their_volume(void **state) {
+  CwCase table = paper();
+  CwMeasuredSolid solid;
+  CwMeasuredRotor rotor;
+  CwDesign design = design_of(&table);
+  measure(&design, &solid, &rotor);
+  const double without = solid.volume;
+  for (double radius = 0.5e-3; radius < 3.1e-3; radius *= 2) {
+    table.impeller.root_fillet_radius = radius;
+    design = design_of(&table);
+    measure(&design, &solid, &rotor);
+    const double one = (1 - M_PI / 4) * radius * radius, length = (without - solid.volume) / one;
+    if (!(length > 2.0 && length < 2.6))
+      fail_msg("fillets of %.2f mm are as long as %.3f m of fillets in a right angle", radius * 1e3, length);
+    double expected;
+    assert_int_equal(cw_rotor_volume(&design, &expected), CW_OK);
+    near_to(solid.volume / expected, 1, 2e-4);
+  }
+}
+
+// Tangent to the walls and to the blade, at most a third of a degree off; the fillets' faces lie in the patches
+// of the blade.
+static void fillets_are_tangent_and_named(void **state) {
+  CwCase table = paper();
+  table.impeller.root_fillet_radius = 2e-3;
+  const CwDesign design = design_of(&table);
+  CwMeasuredSolid solid;
+  CwMeasuredRotor measured;
+  CwSolid *rotor = NULL;
+  measure(&design, &solid, &measured);
+  near_to(measured.hub_crease.angle, 180 * degree, 0.35 * degree);
+  near_to(measured.shroud_crease.angle, 180 * degree, 0.35 * degree);
+  assert_true(measured.kink.angle < 0.6 * degree);
+  near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+  for (int w = 0; w < 2; w++) {
+    const char *root = w ? "_shroud_root" : "_hub_root";
+    assert_int_equal(count(rotor, "blade_pressure", root), 6);
+    assert_int_equal(count(rotor, "blade_suction", root), 6);
+    assert_int_equal(count(rotor, "blade_leading_edge", root), 6);
+    assert_int_equal(count(rotor, "blade_trailing_edge", root), 12);
+  }
+  for (int face = 0; face < cw_solid_face_count(rotor); face++)
+    assert_true(strlen(cw_solid_face_name(rotor, face)) < 32);
+  cw_solid_free(&rotor);
+}
+
+// With every trailing edge, with splitters, with lean, and mirrored.
+static void fillets_go_with_every_option(void **state) {
+  for (int i = 0; i < 7; i++) {
+    CwCase table = paper();
+    CwMeasuredSolid solid;
+    CwMeasuredRotor measured;
+    double expected;
+    table.impeller.root_fillet_radius = 1.5e-3;
+    if (i < 4)
+      table.impeller.trailing_edge = (CwTrailingEdge)i;
+    if (i == 4)
+      table.impeller.splitter_start = 0.4;
+    if (i == 5)
+      table.impeller.lean_angle = 10 * degree;
+    if (i == 6)
+      table.impeller.rotation = CW_ROTATION_CLOCKWISE;
+    const CwDesign design = design_of(&table);
+    measure(&design, &solid, &measured);
+    assert_true(measured.kink.angle < 1.5 * degree);
+    assert_true(measured.hub_crease.angle > 178 * degree && measured.shroud_crease.angle > 178 * degree);
+    assert_int_equal(cw_rotor_volume(&design, &expected), CW_OK);
+    near_to(solid.volume / expected, 1, 2e-4);
+  }
+}
+
+// Fillets that meet between hub and shroud, and fillets that reach before the hub, are refused with what to do.
+static void too_large_fillets_are_refused(void **state) {
+  CwCase table = paper();
+  CwSolid *rotor = NULL;
+  table.impeller.root_fillet_radius = 6e-3;
+  const CwDesign design = design_of(&table);
+  assert_int_equal(cw_rotor_build(&design, &rotor), CW_ERR_GEOMETRY);
+  assert_null(rotor);
+  assert_non_null(strstr(cw_fail_message(), "lower root_fillet_radius_mm to"));
+  cw_fail_clear();
+}
+
+// The shaft takes its cylinder from the inlet on; the inlet is a ring.
+static void shaft_through_the_inlet(void **state) {
+  for (int thick = 0; thick < 2; thick++) {
+    CwCase table = paper();
+    const double d = thick ? 24e-3 : 16e-3;
+    table.impeller.hub_diameter = 24e-3;
+    table.impeller.through_shaft_diameter = d;
+    const CwDesign design = design_of(&table);
+    CwMeasuredSolid solid;
+    CwMeasuredRotor measured;
+    CwSolid *rotor = NULL;
+    double expected;
+    measure(&design, &solid, &measured);
+    near_to(measured.inlet_diameter, 0.074, 1e-6);
+    near_to(measured.inlet_area, M_PI / 4 * (0.074 * 0.074 - d * d), 1e-9);
+    assert_true(measured.kink.angle < 0.1 * degree);
+    assert_int_equal(cw_rotor_volume(&design, &expected), CW_OK);
+    near_to(solid.volume / expected, 1, 1e-5);
+    assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
+    assert_int_equal(count(rotor, "inlet", "inlet_"), 6);
+    assert_int_equal(count(rotor, "hub_shaft", "hub_shaft_"), 6);
+    // A shaft as thick as the hub goes on from it without a nut.
+    assert_int_equal(count(rotor, "hub_nut", "hub_nut"), thick ? 0 : 6);
+    cw_solid_free(&rotor);
+  }
+}
+
+// The hub grows to a shaft that is thicker than its computed diameter.
+static void hub_follows_the_shaft(void **state) {
+  CwCase table = paper();
+  table.impeller.through_shaft_diameter = 30e-3;
+  const CwDesign design = design_of(&table);
+  near_to(design.hub_diameter, 30e-3, 1e-12);
+  near_to(design.nut_length, 0, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fillets_take_their_volume),    cmocka_unit_test(fillets_are_tangent_and_named),
+      cmocka_unit_test(fillets_go_with_every_option), cmocka_unit_test(too_large_fillets_are_refused),
+      cmocka_unit_test(shaft_through_the_inlet),      cmocka_unit_test(hub_follows_the_shaft),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The planner on the solids of the paper's pump: balance, angles, determinism and rooms for few and many regions. With
+// an argument (300): that many regions a domain, which takes its time.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/domain.h"
+#include "mesher/vec.h"
+
+enum { DOMAINS = 2, CELLS_PER_REGION = 20000 };
+static const char *const NAMES[DOMAINS] = {"rotor", "stator"};
+
+static int asked_regions;
+static CwCase table;
+static CwDomain domain[DOMAINS];
+static double prism_factor;
+static const double TET_FACTOR = 11.6;
+
+static void check(CwStatus status) {
+  if (status != CW_OK) fail_msg("%s", cw_fail_message());
+}
+
+static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
+  void *part[CW_DOMAIN_PARTS], **seed, *bytes;
+  int64_t size;
+  check(cw_domain_open(made, name, folder, &table, scales));
+  for (int i = 0; i < CW_DOMAIN_PARTS; i++) check(cw_domain_measure(made, i, &part[i], &size));
+  check(cw_domain_take_measures(made, part));
+  for (int i = 0; i < CW_DOMAIN_PARTS; i++) free(part[i]);
+  int faces = cw_cad_face_count(made->cad);
+  seed = calloc((size_t)faces, sizeof *seed);
+  assert_non_null(seed);
+  for (int f = 0; f < faces; f++) check(cw_domain_seed(made, &table, f, &seed[f], &size));
+  check(cw_domain_make_size(made, &table, seed, &bytes, &size));
+  check(cw_domain_take_size(made, bytes));
+  for (int f = 0; f < faces; f++) free(seed[f]);
+  free(seed);
+  free(bytes);
+}
+
+static int open_pump(void **state) {
+  char folder[] = "test-plan-XXXXXX", command[1024], path[128];
+  CwFlowScales scales;
+  assert_non_null(mkdtemp(folder));
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s/cases/paper/case.yaml --run %s > /dev/null 2>&1",
+           CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, folder);
+  assert_int_equal(system(command), 0);
+  check(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table));
+  prism_factor = 2.45 * table.walls.layer_count;
+  snprintf(path, sizeof path, "%s/geometry/design.json", folder);
+  check(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry", folder);
+  for (int d = 0; d < DOMAINS; d++) open_domain(&domain[d], NAMES[d], path, &scales);
+  snprintf(command, sizeof command, "rm -r %s", folder);
+  assert_int_equal(system(command), 0);
+  return 0;
+}
+
+static int close_pump(void **state) {
+  for (int d = 0; d < DOMAINS; d++) cw_domain_close(&domain[d]);
+  return 0;
+}
+
+static double cells_at(const CwDomain *of, double scale) {
+  return prism_factor * of->prism_integral / (scale * scale) +
+         TET_FACTOR * cw_domain_tet_integral(of, scale) / (scale * scale * scale);
+}
+
+// A plan of so many regions, at a size that gives each 20,000 cells or more.
+static void make_plan(CwDomain *of, int32_t regions, CwPlan *plan) {
+  double scale = 1.1;
+  void *bytes;
+  int64_t size;
+  while (cells_at(of, scale) < (double)CELLS_PER_REGION * regions) scale *= 0.99;
+  cw_size_set_scale(of->size, scale);
+  table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
+  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, TET_FACTOR, &bytes, &size));
+  check(cw_plan_unpack(bytes, plan));
+  free(bytes);
+}
+
+typedef struct {
+  double least, greatest; // work of a region over the mean
+  double angle;           // degrees, the sharpest of all planes to walls
+  int sharp;              // planes under 40 degrees
+} Figures;
+
+static Figures figures_of(const CwPlan *plan) {
+  Figures figures = {INFINITY, 0, 90, 0};
+  double sum = 0;
+  for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
+  for (int32_t r = 0; r < plan->region_count; r++) {
+    double share = plan->predicted_cells[r] / sum * plan->region_count;
+    figures.least = fmin(figures.least, share);
+    figures.greatest = fmax(figures.greatest, share);
+  }
+  for (int32_t n = 0; n < plan->node_count; n++) {
+    double angle = asin(plan->worst_angle[n]) * 180 / M_PI;
+    figures.angle = fmin(figures.angle, angle);
+    figures.sharp += angle < 40;
+  }
+  return figures;
+}
+
+// Every leaf once, parents before children, both halves there.
+static void check_tree(const CwPlan *plan) {
+  int *seen = calloc((size_t)plan->region_count, sizeof *seen);
+  assert_non_null(seen);
+  assert_int_equal(plan->node_count, plan->region_count - 1);
+  for (int32_t n = 0; n < plan->node_count; n++) {
+    assert_true(plan->node[n].parent < n);
+    assert_true(fabs(cw_norm(plan->node[n].plane.normal) - 1) < 1e-12);
+    for (int s = 0; s < 2; s++) {
+      int32_t child = plan->node[n].child[s];
+      if (child < 0) {
+        assert_true(-1 - child < plan->region_count);
+        seen[-1 - child]++;
+      } else {
+        assert_int_equal(plan->node[child].parent, n);
+      }
+    }
+  }
+  for (int32_t r = 0; r < plan->region_count; r++) assert_int_equal(seen[r], 1);
+  free(seen);
+}
+
+// Predicted work against a count of its own: all samples of the size field where they lie, and no layers.
+static void check_work(const CwDomain *of, const CwPlan *plan) {
+  double(*x)[3], *volume, *tets = calloc((size_t)plan->region_count, sizeof *tets), sum = 0, predicted = 0;
+  int32_t count;
+  assert_non_null(tets);
+  check(cw_size_samples(of->size, &count, &x, &volume));
+  for (int32_t i = 0; i < count; i++) {
+    double h = cw_size_at(of->size, x[i]), cells = TET_FACTOR * volume[i] / (h * h * h);
+    tets[cw_plan_locate(plan, x[i])] += cells;
+    sum += cells;
+  }
+  for (int32_t r = 0; r < plan->region_count; r++) predicted += plan->predicted_cells[r];
+  for (int32_t r = 0; r < plan->region_count; r++) {
+    double share = plan->predicted_cells[r] / predicted * plan->region_count;
+    double other = tets[r] / sum * plan->region_count;
+    // With the layers, and without: of one order. Small regions between walls are all layers.
+    assert_true(fabs(share - other) < (plan->region_count > 50 ? 1.5 : 0.5));
+  }
+  free(x);
+  free(volume);
+  free(tets);
+}
+
+static void judge(int d, int32_t regions, double greatest, double least, int sharp) {
+  CwPlan plan;
+  make_plan(&domain[d], regions, &plan);
+  Figures figures = figures_of(&plan);
+  print_message("%s: %d of %d regions, work %.3f to %.3f of the mean, walls at %.0f degrees, %d planes under 40\n",
+                NAMES[d], plan.region_count, regions, figures.least, figures.greatest, figures.angle, figures.sharp);
+  check_tree(&plan);
+  check_work(&domain[d], &plan);
+  assert_true(plan.region_count >= regions - regions / 50);
+  assert_true(figures.greatest <= greatest && figures.least >= least);
+  assert_true(figures.sharp <= sharp);
+  cw_plan_free(&plan);
+}
+
+static void few_regions_are_even_and_cut_cleanly(void **state) {
+  for (int d = 0; d < DOMAINS; d++) {
+    judge(d, 4, 1.16, 0.8, 0);
+    judge(d, 8, 1.16, 0.8, 0);
+  }
+}
+
+static void dozens_of_regions_too(void **state) {
+  for (int d = 0; d < DOMAINS; d++) judge(d, 32, 1.2, 0.8, 0);
+}
+
+// Where blades and layers leave little room a few planes stay sharp and a few parts whole.
+static void hundreds_of_regions_can_be_had(void **state) {
+  for (int d = 0; d < DOMAINS; d++) judge(d, asked_regions, 4, 0.5, asked_regions / 10);
+}
+
+static void two_plans_are_the_same(void **state) {
+  CwPlan a, b;
+  make_plan(&domain[0], 12, &a);
+  make_plan(&domain[0], 12, &b);
+  assert_int_equal(a.region_count, b.region_count);
+  assert_memory_equal(a.node, b.node, (size_t)a.node_count * sizeof *a.node);
+  assert_memory_equal(a.predicted_cells, b.predicted_cells, (size_t)a.region_count * sizeof *a.predicted_cells);
+  cw_plan_free(&a);
+  cw_plan_free(&b);
+}
+
+static void packed_plans_come_back_whole(void **state) {
+  CwPlan plan, copy;
+  void *bytes;
+  int64_t size;
+  make_plan(&domain[1], 5, &plan);
+  check(cw_plan_pack(&plan, &bytes, &size));
+  check(cw_plan_unpack(bytes, &copy));
+  assert_int_equal(copy.region_count, plan.region_count);
+  assert_memory_equal(copy.node, plan.node, (size_t)plan.node_count * sizeof *plan.node);
+  const double x[3] = {0.05, 0.1, 0.001};
+  assert_int_equal(cw_plan_locate(&copy, x), cw_plan_locate(&plan, x));
+  assert_true(cw_plan_in_region(&copy, cw_plan_locate(&plan, x), x, 0));
+  free(bytes);
+  cw_plan_free(&plan);
+  cw_plan_free(&copy);
+}
+
+int main(int argc, char **argv) {
+  const struct CMUnitTest quick[] = {
+      cmocka_unit_test(few_regions_are_even_and_cut_cleanly),
+      cmocka_unit_test(dozens_of_regions_too),
+      cmocka_unit_test(two_plans_are_the_same),
+      cmocka_unit_test(packed_plans_come_back_whole),
+  };
+  const struct CMUnitTest many[] = {cmocka_unit_test(hundreds_of_regions_can_be_had)};
+  asked_regions = argc > 1 ? atoi(argv[1]) : 0;
+  if (asked_regions) return cmocka_run_group_tests(many, open_pump, close_pump);
+  return cmocka_run_group_tests(quick, open_pump, close_pump);
+}
