@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/fan.h"
 #include "mesher/layer_heights.h"
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
@@ -171,12 +172,54 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
                            .tallest = TALLEST_COLUMN,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
-  CW_TRY(cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan));
+  status = domain->symmetry ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
+                                               domain->symmetry->count, &plan)
+                            : CW_RETRY;
+  if (status == CW_RETRY) {
+    status = cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
+  }
+  CW_TRY(status);
   CW_TRY(cw_plan_pack(&plan, bytes, byte_count));
 done:
   cw_plan_free(&plan);
   free(thickness);
   free(least);
+  return status;
+}
+
+// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the fan are copied with
+// their faces.
+static int fixed_faces_fit(const CwDomain *domain) {
+  const CwBackground *background = &domain->background;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (domain->symmetry->face.next[background->face[t]] != background->face[t]) continue;
+    for (int k = 0; k < 3; k++) {
+      if (cw_plane_distance(&domain->plan.node[0].plane, background->x[background->triangle[t][k]]) > 0) return 0;
+    }
+  }
+  return 1;
+}
+
+CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes) {
+  CwStatus status = CW_OK;
+  CwNetwork network = {0};
+  CwSkeletonOrbits orbits = {.symmetry = domain->symmetry};
+  cw_plan_free(&domain->plan);
+  CW_TRY(cw_plan_unpack(bytes, &domain->plan));
+  if (!domain->symmetry) goto done;
+  if (domain->plan.fan_count && fixed_faces_fit(domain)) {
+    status = cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &network);
+    if (status == CW_OK) status = cw_orbit_network(&network, &orbits);
+  } else {
+    status = CW_RETRY;
+  }
+  if (status == CW_OK) goto done;
+  cw_plan_free(&domain->plan);
+  if (status == CW_ERR_MESH) status = CW_RETRY; // a half-plane grazes something; planes of the other kind may not
+  cw_fail_clear();
+done:
+  cw_orbit_free(&orbits);
+  cw_network_free(&network);
   return status;
 }
 
@@ -189,6 +232,8 @@ CwStatus cw_domain_start(CwDomain *domain) {
   skeleton->size_at = cw_size_at;
   skeleton->size = domain->size;
   CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
+  skeleton->orbits.symmetry = domain->symmetry;
+  if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits));
 done:
   return status;
 }
@@ -217,6 +262,12 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
                1e3 * x[1], 1e3 * x[2]);
     domain->target[v] = fmin(domain->target[v], fair_height(domain->first_height[v], table->walls.layer_count,
                                                             domain->growth[v], cw_size_at(domain->size, x)));
+  }
+  for (int32_t v = 0; v < skeleton->wall_count; v++) { // the size field is symmetric only to within its grid
+    if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
+    for (int32_t at = cw_orbit_node(&skeleton->orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(&skeleton->orbits, at, 1)) {
+      domain->target[at] = domain->target[v];
+    }
   }
 done:
   return status;
@@ -263,6 +314,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_plan_free(&domain->plan);
   cw_size_seeds_free(&domain->seeds);
   cw_size_free(&domain->size);
+  cw_symmetry_free(&domain->symmetry);
   cw_inside_free(&domain->inside);
   cw_background_free(&domain->background);
   cw_cad_close(&domain->cad);

@@ -7,6 +7,7 @@
 #include "mesher/interface_rule.h"
 #include "mesher/region_build.h"
 #include "mesher/size.h"
+#include "mesher/symmetry.h"
 #include "mesher/wall_targets.h"
 
 // The layers over a piece of wall.
@@ -22,6 +23,7 @@ typedef struct {
   CwBackground background;
   double solid_volume;                        // m3, exact
   CwInside *inside;
+  CwSymmetry *symmetry;                       // of solid and plan; NULL: the domain is meshed whole
   CwSizeSeeds *seeds;                         // while the seeds of the faces are made
   CwSize *size;
   double *relative_size;                      // of each patch
@@ -60,9 +62,13 @@ CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
-// packed (cw_plan_unpack): a task of one rank.
+// packed (cw_plan_unpack): a task of one rank. With a symmetry it is a fan, where one can be had.
 CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
                         double tet_factor, void **bytes, int64_t *byte_count);
+
+// Takes up a plan. CW_RETRY, and nothing taken, where the domain has a symmetry and the plan or the curves that it cuts
+// have not.
+CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
 
 // Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
 // cw_skeleton_wall_curves.

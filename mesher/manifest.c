@@ -157,8 +157,10 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     least = fmin(least, cells);
     tetgen += made->way.tetgen;
     for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
+    int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r);
     json_array_append_new(region_list,
-                          json_pack("{s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o}", "region", r + 1, "number",
+                          json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o}", "region", r + 1,
+                                     "copy_of", first + 1, "number",
                                     domain->number[r],
                                     "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
                                     "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
@@ -184,6 +186,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
       domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
       "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
       "least_cell_volume_m3", cw_json_number(quality.least_volume));
+  json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
   json_object_set_new(result, "region_balance_least", cw_json_number(least / (sum / regions)));

@@ -158,6 +158,7 @@ static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMe
     const CwDomain *domain = &run->domain[d];
     for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
       if (cw_face_is_wall(domain->cad, f) != walls) continue;
+      if (domain->symmetry && domain->symmetry->face.first[f] != f) continue;
       double cost = 0; // background triangles stand for area and curvature well enough
       for (int32_t t = 0; t < domain->background.triangle_count; t++) cost += domain->background.face[t] == f;
       (*tasks)[(*count)++] = (CwMeshTask){d, f, cost};
@@ -240,16 +241,17 @@ done:
   return status;
 }
 
-// All ranks work on one domain after the other.
+// All ranks work on one domain after the other. CW_RETRY where a symmetric one has no symmetric layers.
 static CwStatus grow_layers(CwMeshRun *run) {
   CwStatus status = CW_OK;
   double started = cw_seconds();
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
-    CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target));
-    cw_progress(domain->skeleton.wall_triangle_count);
+    status = cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target);
+    if (status == CW_OK) cw_progress(domain->skeleton.wall_triangle_count);
     cw_progress_end();
+    CW_TRY(status);
   }
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
 done:
@@ -276,7 +278,9 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CW_TRY(results_make(&interfaces, run->domains.count, counts));
   CW_NEW(task, count);
   for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeletonOrbits *orbits = &run->domain[d].skeleton.orbits;
     for (int32_t i = 0; i < counts[d]; i++) {
+      if (cw_orbit_turns(orbits, &orbits->outline, i) > 0) continue;
       task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
     }
   }
@@ -292,7 +296,8 @@ done:
   return status;
 }
 
-// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3).
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where passages
+// are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
 static CwStatus refine_interfaces(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
@@ -307,7 +312,7 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t r = 0; r < regions[d]; r++) {
       int owns = 0;
-      for (int32_t i = 0; i < domain->skeleton.outline_count; i++) {
+      for (int32_t i = 0; i < domain->skeleton.outline_count && !domain->symmetry; i++) {
         owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
       }
       if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
@@ -317,6 +322,7 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
   CW_TRY(run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
+    if (domain->symmetry) continue;
     CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
     if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
@@ -328,6 +334,17 @@ done:
   results_free(&results);
   free(task);
   return status;
+}
+
+// The summaries of a region and of its turned copies; its time is that of all of them.
+static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
+  const CwSkeleton *skeleton = &run->domain[d].skeleton;
+  int32_t copies = cw_region_copies(skeleton, region);
+  for (int32_t turns = 0; turns < copies; turns++) {
+    int32_t copy = cw_orbit_region(&skeleton->orbits, skeleton->plan, region, turns);
+    run->summary[d][copy] = *made;
+    run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+  }
 }
 
 // *failed: how many regions could not be made.
@@ -348,7 +365,9 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   }
   CW_NEW(task, all);
   for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
     for (int32_t r = 0; r < regions[d]; r++) {
+      if (cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r) != r) continue;
       task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
     }
   }
@@ -359,9 +378,9 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   for (int d = 0; d < run->domains.count; d++) {
     uint64_t open_faces = 0;
     for (int32_t r = 0; r < regions[d]; r++) {
-      memcpy(&run->summary[d][r], results.bytes[d][r], sizeof(CwRegionSummary));
-      const CwRegionSummary *made = &run->summary[d][r];
-      run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+      const CwRegionSummary *made = results.bytes[d][r];
+      if (!made) continue; // a copy
+      take_summaries(run, d, r, made);
       open_faces += made->quality.open_faces;
       *failed += made->failure.failed;
     }
@@ -408,28 +427,6 @@ done:
   return status;
 }
 
-// One pass at the present scale: walls, layers, inner surfaces, regions; regions that fail are tried again.
-static CwStatus mesh_pass(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  int32_t failed = 0;
-  for (int attempt = 0;; attempt++) {
-    CW_TRY(mesh_walls(run));
-    CW_TRY(grow_layers(run));
-    CW_TRY(mesh_inner(run));
-    CW_TRY(refine_interfaces(run));
-    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
-    CW_TRY(mesh_regions(run, &failed));
-    if (!failed) break;
-    CW_TRY(thin_columns(run, attempt));
-  }
-done:
-  for (int d = 0; d < run->domains.count; d++) {
-    free(run->most_height[d]);
-    run->most_height[d] = NULL;
-  }
-  return status;
-}
-
 // Sets the factor of the tetrahedra to what the last pass made of them.
 static void learn_tets(CwMeshRun *run) {
   double made = 0, integral = 0;
@@ -464,6 +461,21 @@ static CwStatus measure_domains(CwMeshRun *run) {
   }
 done:
   results_free(&results);
+  return status;
+}
+
+// Looks for equal passages, which the rotor alone can have.
+static CwStatus find_symmetry(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &run->domain[0];
+  if (!run->table->mesh.periodic_impeller) goto done;
+  CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
+  if (domain->symmetry) {
+    cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
+  } else {
+    cw_log("%s: no equal passages; it is meshed whole", domain->name);
+  }
+done:
   return status;
 }
 
@@ -512,32 +524,127 @@ static CwStatus open_domains(CwMeshRun *run) {
   }
   if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
   CW_TRY(measure_domains(run));
+  CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:
   return status;
+}
+
+static void set_scale(CwMeshRun *run, double scale) {
+  run->scale = scale;
+  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
+}
+
+// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
+static CwStatus plan_whole(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  Results results = {0};
+  double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
+  cw_log("%s: its passages cannot be divided alike; it is meshed whole", run->domain[d].name);
+  cw_domain_clear(&run->domain[d]);
+  cw_symmetry_free(&run->domain[d].symmetry);
+  run->whole = 1;
+  run->prism_factor = run->planned_prism_factor;
+  run->tet_factor = run->planned_tet_factor;
+  set_scale(run, run->planned_scale);
+  int32_t one[CW_DOMAINS_MOST];
+  for (int i = 0; i < run->domains.count; i++) one[i] = 1;
+  CW_TRY(results_make(&results, run->domains.count, one));
+  CwMeshTask task = {d, 0, 1};
+  CW_TRY(run_step(run, "decomposition", "domains", cw_step_plan, 1, &task, results.bytes, NULL));
+  CW_TRY(cw_domain_take_plan(&run->domain[d], results.bytes[d][0]));
+  run->prism_factor = prism_factor;
+  run->tet_factor = tet_factor;
+  set_scale(run, scale);
+done:
+  results_free(&results);
+  return status;
+}
+
+// For all domains that have a symmetry.
+static CwStatus plan_all_whole(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
+  }
+done:
+  return status;
+}
+
+static void log_plan(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  double worst = 1;
+  for (int32_t n = 0; n < domain->plan.node_count; n++) {
+    const CwPlane *plane = &domain->plan.node[n].plane;
+    worst = fmin(worst, domain->plan.worst_angle[n]);
+    cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+                 n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
+                 1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+  }
+  cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
+         domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
 }
 
 // Regions for each domain by its share of the predicted cells.
 static CwStatus plan_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   Results results = {0};
+  run->planned_prism_factor = run->prism_factor;
+  run->planned_tet_factor = run->tet_factor;
+  run->planned_scale = run->scale;
   CW_TRY(run_domains(run, "decomposition", cw_step_plan, &results));
   for (int d = 0; d < run->domains.count; d++) {
-    CwDomain *domain = &run->domain[d];
-    double worst = 1;
-    CW_TRY(cw_plan_unpack(results.bytes[d][0], &domain->plan));
-    for (int32_t n = 0; n < domain->plan.node_count; n++) {
-      const CwPlane *plane = &domain->plan.node[n].plane;
-      worst = fmin(worst, domain->plan.worst_angle[n]);
-      cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
-                   n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
-                   1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
-    }
-    cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
-           domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+    status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
+    if (status == CW_RETRY) status = plan_whole(run, d);
+    CW_TRY(status);
+    log_plan(run, d);
   }
 done:
   results_free(&results);
+  return status;
+}
+
+// CW_RETRY where a symmetric domain does not come out symmetric.
+static CwStatus mesh_surfaces(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CW_TRY(mesh_walls(run));
+  CW_TRY(grow_layers(run));
+  CW_TRY(mesh_inner(run));
+done:
+  return status;
+}
+
+static int is_symmetric(const CwMeshRun *run) {
+  int found = 0;
+  for (int d = 0; d < run->domains.count; d++) found |= run->domain[d].symmetry != NULL;
+  return found;
+}
+
+// One pass at the present scale: walls, layers, inner surfaces, regions. Where that fails with equal passages, it is tried
+// without them; then regions that fail are tried again with thinner layers.
+static CwStatus mesh_pass(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  int32_t failed = 0;
+  for (int attempt = 0;;) {
+    status = mesh_surfaces(run);
+    if (status != CW_RETRY) {
+      CW_TRY(status);
+      CW_TRY(refine_interfaces(run));
+      for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+      CW_TRY(mesh_regions(run, &failed));
+      if (!failed) break;
+    }
+    if (is_symmetric(run)) {
+      CW_TRY(plan_all_whole(run));
+    } else {
+      CW_TRY(thin_columns(run, attempt++));
+    }
+  }
+done:
+  for (int d = 0; d < run->domains.count; d++) {
+    free(run->most_height[d]);
+    run->most_height[d] = NULL;
+  }
   return status;
 }
 
@@ -568,6 +675,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->tet_factor = state.tet_factor;
     solve_scale(run);
     cw_log("going on with pass %d of an earlier run", state.pass);
+    if (state.whole) CW_TRY(plan_all_whole(run));
   }
   for (run->passes = state.pass;; run->passes++) {
     CW_TRY(mesh_pass(run));
@@ -583,7 +691,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     // As many digits as the file keeps, so that a run that goes on from it has the same bits.
     run->prism_factor = rounded(run->prism_factor);
     run->tet_factor = rounded(run->tet_factor);
-    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor};
+    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole};
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
     solve_scale(run);
   }

@@ -37,6 +37,9 @@ typedef struct {
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
   double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
+  // With which the domains were planned.
+  double planned_prism_factor, planned_tet_factor, planned_scale;
+  int whole;                       // 1: a symmetry was given up
   int passes, retries;             // retries: of all passes
   int64_t cells;                   // made
   json_t *tasks;                   // of rank 0: predicted costs and seconds of all tasks, step by step
@@ -66,6 +69,9 @@ CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *siz
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+
+// How many regions a region stands for: itself and its turned copies.
+int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region);
 
 // Writes RUN/mesh/manifest.json and adds the results to the record. Rank 0 only.
 CwStatus cw_mesh_manifest(CwMeshRun *run);

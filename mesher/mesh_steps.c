@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/mesh_run.h"
+#include "mesher/region_copy.h"
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
@@ -73,16 +74,54 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   }
 }
 
-// Makes the region, or takes it up from its file where an earlier run left it whole.
+int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  return cw_orbit_region(orbits, skeleton->plan, region, 1) == region ? 1 : orbits->symmetry->count;
+}
+
+static CwStatus region_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(snprintf(path, size, "%s/mesh/%s-%04d.h5", run->run_path, domain->name, region + 1) < (int)size,
+             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+done:
+  return status;
+}
+
+// The files of the turned copies of a region that is whole.
+static CwStatus write_copies(const CwMeshRun *run, const CwDomain *domain, const CwRegionMesh *first, CwQuality *quality) {
+  CwStatus status = CW_OK;
+  CwRegionMesh mesh = {0};
+  CwQuality own;
+  char path[4096], fingerprint[33];
+  int32_t region = first->region - 1, copies = cw_region_copies(&domain->skeleton, region);
+  for (int32_t turns = 1; turns < copies; turns++) {
+    int32_t copy = cw_orbit_region(&domain->skeleton.orbits, &domain->plan, region, turns);
+    CW_TRY(region_path(run, domain, copy, sizeof path, path));
+    cw_region_copy_fingerprint(&domain->context, first, turns, fingerprint);
+    int current = cw_region_is_current(path, fingerprint);
+    if (current) {
+      CW_TRY(cw_region_read(path, &mesh));
+    } else {
+      CW_TRY(cw_region_copy(&domain->context, first, turns, domain->number[copy], fingerprint, &mesh));
+    }
+    CW_TRY(cw_audit_region(&mesh, &own));
+    if (!current) CW_TRY(cw_region_write(path, &mesh));
+    quality->open_faces += own.open_faces;
+    cw_region_free(&mesh);
+  }
+done:
+  cw_region_free(&mesh);
+  return status;
+}
+
+// Makes the region, or takes it up from its file where an earlier run left it whole; then its turned copies likewise.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
   char path[4096], boundary_path[4096], fingerprint[33];
-  CW_REQUIRE(snprintf(path, sizeof path, "%s/mesh/%s-%04d.h5", run->run_path, domain->name, task.index + 1) <
-                 (int)sizeof path,
-             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+  CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   snprintf(boundary_path, sizeof boundary_path, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name,
            task.index + 1);
   CW_NEW(summary, 1);
@@ -97,6 +136,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   } else {
     CW_TRY(made);
     if (!current) CW_TRY(cw_region_write(path, &mesh));
+    CW_TRY(write_copies(run, domain, &mesh, &summary->quality));
     summarise(&mesh, summary);
     CW_TRY(cw_layer_ratio(&mesh, run->table->walls.layer_count, CW_PATCH_LIMIT, summary->ratio_bin));
     remove(boundary_path); // of an earlier attempt

@@ -35,6 +35,7 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
   // Value by value: structures have padding.
   const double value[] = {walls->layer_count, walls->growth_ratio, walls->total_thickness, walls->y_plus_at,
                           (double)mesh->cells, (double)mesh->cells_per_region, mesh->least_regions, mesh->fill,
+                          mesh->periodic_impeller,
                           mesh->gradation, mesh->curvature_angle,
                           mesh->cells_across_gap, mesh->size_blade, mesh->size_hub_shroud, mesh->size_volute,
                           mesh->size_pipe, mesh->size_interface, table->fluid.kinematic_viscosity};
@@ -65,7 +66,7 @@ void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassSta
   double prisms = json_number_value(json_object_get(file, "prism_factor"));
   double tets = json_number_value(json_object_get(file, "tet_factor"));
   if (of && !strcmp(of, fingerprint) && pass > 1 && prisms > 0 && tets > 0) {
-    *state = (CwPassState){(int)pass, prisms, tets};
+    *state = (CwPassState){(int)pass, prisms, tets, json_is_true(json_object_get(file, "whole"))};
   }
   json_decref(file);
 }
@@ -73,8 +74,8 @@ void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassSta
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
-  json_t *file = json_pack("{s:s, s:i, s:f, s:f}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
-                           state->prism_factor, "tet_factor", state->tet_factor);
+  json_t *file = json_pack("{s:s, s:i, s:f, s:f, s:b}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
+                           state->prism_factor, "tet_factor", state->tet_factor, "whole", state->whole);
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_json_write(file, path));

@@ -9,6 +9,7 @@
 typedef struct {
   int pass;                        // the pass to run, from 1
   double prism_factor, tet_factor; // cells per unit of the integrals, as learned
+  int whole;                       // 1: the symmetry of the impeller was given up
 } CwPassState;
 
 // Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.

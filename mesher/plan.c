@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/fan.h"
 #include "mesher/plan_score.h"
 
 // Splits `part` into `regions` leaves under node `parent` (on its side `side`), or leaves it whole where no plane
@@ -62,7 +63,7 @@ done:
 CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
-  const int32_t count[2] = {plan->node_count, plan->region_count};
+  const int32_t count[5] = {plan->node_count, plan->region_count, plan->fan_first, plan->fan_count, plan->fan_region};
   char *block;
   CW_NEW(block, sizeof count + nodes + 2 * numbers);
   memcpy(block, count, sizeof count);
@@ -77,12 +78,15 @@ done:
 
 CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
   CwStatus status = CW_OK;
-  int32_t count[2];
+  int32_t count[5];
   const char *at = (const char *)bytes + sizeof count;
   memcpy(count, bytes, sizeof count);
   memset(plan, 0, sizeof *plan);
   plan->node_count = count[0];
   plan->region_count = count[1];
+  plan->fan_first = count[2];
+  plan->fan_count = count[3];
+  plan->fan_region = count[4];
   size_t n = (size_t)plan->region_count;
   CW_NEW(plan->node, n);
   CW_NEW(plan->predicted_cells, n);
@@ -108,13 +112,19 @@ int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {
   for (;;) {
     int32_t child = plan->node[node].child[cw_plane_distance(&plan->node[node].plane, x) > 0];
     if (child < 0) return -1 - child;
+    if (cw_fan_holds(plan, child)) return cw_fan_locate(plan, x);
     node = child;
   }
 }
 
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count) {
-  for (int32_t below = node, above = plan->node[node].parent; above >= 0; below = above, above = plan->node[above].parent) {
+  int32_t start = node;
+  if (cw_fan_holds(plan, node)) {
+    if (cw_fan_reach(plan, node, x) < -tolerance) return 0;
+    start = plan->fan_first; // the child of the plane above
+  }
+  for (int32_t below = start, above = plan->node[node].parent; above >= 0; below = above, above = plan->node[above].parent) {
     int skipped = 0;
     for (int k = 0; k < skip_count; k++) skipped |= skip[k] == above;
     if (skipped) continue;
@@ -126,6 +136,7 @@ int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double 
 
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
   if (cw_plan_locate(plan, x) == region) return 1; // as a rule
+  if (plan->fan_count && region >= plan->fan_region) return cw_fan_in_wedge(plan, region, x, tolerance);
   for (int32_t node = 0; node < plan->node_count; node++) {
     for (int side = 0; side < 2; side++) {
       if (plan->node[node].child[side] != -1 - region) continue;

@@ -21,16 +21,17 @@ extern "C" {
 
 typedef struct {
   CwPlane plane;      // child[0] lies on the negative side
-  int32_t parent;     // -1 for the root
+  int32_t parent;     // -1 for the root; of a half-plane the plane above the fan
   int32_t child[2];   // node, or -1 - region for a leaf
 } CwPlanNode;
 
 typedef struct {
-  int32_t node_count;      // region_count - 1
+  int32_t node_count;      // region_count - 1, of a fan region_count
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
   double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers (1: normal to all)
+  int32_t fan_first, fan_count, fan_region; // half-planes and the first wedge (fan.h); fan_count 0: none
 } CwPlan;
 
 typedef struct {

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "mesher/fan.h"
 #include "mesher/vec.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64 };
@@ -51,6 +52,10 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
     cut(line, &side, 1);
   }
   const CwPlan *plan = line->plan;
+  if (cw_fan_holds(plan, node)) {
+    CwPlane end = cw_fan_end(plan, node);
+    cut(line, &end, 1);
+  }
   for (int32_t below = node, a = plan->node[node].parent; a >= 0; below = a, a = plan->node[a].parent) {
     if (a != line->above) cut(line, &plan->node[a].plane, plan->node[a].child[1] == below);
   }

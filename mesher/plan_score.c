@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mesher/plan_lines.h"
 #include "mesher/plan_profile.h"
 #include "mesher/vec.h"
 
@@ -55,6 +54,14 @@ static double sharpness(double sine) {
   return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 30 * (SHARP - sine) : 0);
 }
 
+double cw_plan_place_cost(double worst, double grazed) {
+  return sharpness(worst) + fmin(0.5 * grazed, 3) + 0.02 * grazed;
+}
+
+double cw_plan_line_cost(const CwPlanLines *lines) {
+  return lines->impossible ? INFINITY : 2 * lines->cramped + 2 * lines->blocked + sharpness(lines->sharp);
+}
+
 // All but the lines.
 static double score_of(const CwPlanModel *model, const CwPlanPart *part, const CwPlanProfile *profile, int32_t regions,
                        int32_t below, double offset, double *worst) {
@@ -65,8 +72,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
                      fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
   *worst = profile->worst[bin];
   return 6 * load + 30 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
-         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + sharpness(*worst) +
-         fmin(0.5 * profile->grazed[bin], 3) + 0.02 * profile->grazed[bin];
+         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(*worst, profile->grazed[bin]);
 }
 
 // Numbers of regions to try below the plane: about half of them.
@@ -144,8 +150,7 @@ static void search(const CwPlanModel *model, const CwPlan *plan, int32_t node, c
     if (++judged > LINES_JUDGED && best->score < INFINITY) break;
     direction_of(candidate[i].direction, plane.normal);
     CwPlanLines lines = cw_plan_lines(model, plan, node, part, &plane);
-    if (lines.impossible) continue;
-    double score = candidate[i].score + 2 * lines.cramped + 2 * lines.blocked + sharpness(lines.sharp);
+    double score = candidate[i].score + cw_plan_line_cost(&lines);
     if (score < best->score) *best = (Best){plane, candidate[i].below, score};
   }
 }

@@ -3,7 +3,13 @@
 #ifndef CUTWATER_MESHER_PLAN_SCORE_H
 #define CUTWATER_MESHER_PLAN_SCORE_H
 
+#include "mesher/plan_lines.h"
 #include "mesher/plan_model.h"
+
+// What a place costs by the sharpest wall and the edges grazed there (CwPlanProfile), and by its lines: INFINITY where it
+// will not do.
+double cw_plan_place_cost(double worst, double grazed);
+double cw_plan_line_cost(const CwPlanLines *lines);
 
 // The best plane for `node` (its ancestors are in the plan) to divide a part that is to become `regions` regions;
 // *first of them on its negative side. *worst_angle: least sqrt(1 - (n.m)^2) over the wall triangles it

@@ -61,10 +61,12 @@ CwStatus cw_region_context_make(CwRegionContext *context) {
   CW_REQUIRE(context->layer_count <= LAYERS_MAX, CW_ERR_INPUT, "%d layers; at most %d can be made",
              context->layer_count, LAYERS_MAX);
   CW_NEW(context->shared_base, skeleton->node_count);
+  CW_NEW(context->shared_node, skeleton->node_count);
   for (int32_t i = 0; i < skeleton->node_count; i++) {
     context->shared_base[i] = -1;
     if (!skeleton->on_plane[i]) continue;
     context->shared_base[i] = context->shared_count;
+    context->shared_node[context->shared_node_count++] = i;
     context->shared_count += i < skeleton->wall_count ? context->layer_count + 1 : 1;
   }
   CW_TRY(find_rims(context));
@@ -74,8 +76,10 @@ done:
 
 void cw_region_context_free(CwRegionContext *context) {
   free(context->shared_base);
+  free(context->shared_node);
   free(context->rim);
   context->shared_base = NULL;
+  context->shared_node = NULL;
   context->rim = NULL;
 }
 

@@ -18,6 +18,7 @@ typedef struct {
   // Filled by cw_region_context_make:
   int64_t *shared_base;       // of each skeleton node: first shared number of its column (or its own), -1: not shared
   int64_t shared_count;
+  int32_t shared_node_count, *shared_node; // the shared nodes by ascending base
   int32_t rim_count;
   int32_t (*rim)[3];          // wall edges on caps: smaller vertex, greater vertex, cap face; sorted
 } CwRegionContext;

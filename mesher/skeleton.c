@@ -8,12 +8,14 @@ void cw_skeleton_free(CwSkeleton *skeleton) {
   cw_network_free(&skeleton->network);
   for (int32_t i = 0; i < skeleton->rim_count; i++) free(skeleton->rim[i].t);
   free(skeleton->rim);
+  cw_orbit_free(&skeleton->orbits);
   free(skeleton->wall_x);
   free(skeleton->guide);
   free(skeleton->corner_vertex);
   free(skeleton->wall_triangle);
   free(skeleton->wall_face);
   free(skeleton->wall_region);
+  free(skeleton->wall_source);
   free(skeleton->front);
   free(skeleton->height);
   free(skeleton->reason);

@@ -12,6 +12,7 @@
 #define CUTWATER_MESHER_SKELETON_H
 
 #include "mesher/network.h"
+#include "mesher/orbit.h"
 #include "mesher/patch_mesh.h"
 #include "mesher/polygons.h"
 
@@ -46,6 +47,7 @@ typedef struct {
   const CwCad *cad;
   const CwPlan *plan;
   CwNetwork network;
+  CwSkeletonOrbits orbits;
   int32_t rim_count;
   CwSkeletonRim *rim; // of edges shared with another domain, by cw_couple_rims
   CwSizeAt size_at;
@@ -57,6 +59,7 @@ typedef struct {
   int32_t *corner_vertex; // wall vertex of each corner of the network, or -1
   int32_t wall_triangle_count;
   int32_t (*wall_triangle)[3], *wall_face, *wall_region;
+  int32_t *wall_source;   // the wall triangle that this one is a copy of, turned; or itself
   double (*front)[3], *height;
   uint8_t *reason;
 
@@ -76,6 +79,9 @@ typedef struct {
   int32_t (*planned_triangle)[3], (*planned_region)[2];
 } CwSkeleton;
 
+// Where the solid has a symmetry that the plan has too, each orbit of faces, curves, caps and interfaces is meshed once
+// and copied (orbit.h): tasks are only the first of each orbit, and the results of the others are NULL.
+
 // Discretises all wall curves; makes their vertices. The network must be made, and the rims be coupled.
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton);
 
@@ -85,10 +91,11 @@ CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
 // Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front. Collective: all ranks work on
-// it and have the same result.
+// it and have the same result. CW_RETRY where no symmetric front is found.
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
+// CW_RETRY where the polygons are not symmetric.
 CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton);
 
 // Meshes cap face or interface outline `index`; results for cw_skeleton_merge_inner.

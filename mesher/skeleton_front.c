@@ -6,6 +6,7 @@
 
 #include "mesher/front_flip.h"
 #include "mesher/layers.h"
+#include "mesher/orbit_skeleton.h"
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
 #include "mesher/wall_unfold.h"
@@ -104,12 +105,14 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
   }
 }
 
-// Edges may be flipped inside one CAD face and one region: curves stay.
+// Edges may be flipped inside one CAD face and one region: curves stay. Turned copies are left to follow.
 static CwStatus make_groups(const CwSkeleton *skeleton, int64_t **group) {
   CwStatus status = CW_OK;
   CW_NEW(*group, skeleton->wall_triangle_count);
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    (*group)[t] = (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
+    (*group)[t] = skeleton->wall_source[t] != t
+                      ? -1 - (int64_t)t
+                      : (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
   }
 done:
   return status;
@@ -122,6 +125,7 @@ static CwStatus unfold_wall(CwSkeleton *skeleton) {
   CW_TRY(make_groups(skeleton, &group));
   CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count,
                         skeleton->wall_triangle, group, &flips, &folded));
+  cw_orbit_copy_triangles(skeleton);
   if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
 done:
   free(group);
@@ -135,6 +139,7 @@ static CwStatus flip_front(CwSkeleton *skeleton) {
   CW_TRY(make_groups(skeleton, &group));
   CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
                        skeleton->wall_triangle_count, skeleton->wall_triangle, group, &flips));
+  cw_orbit_copy_triangles(skeleton);
   cw_log_debug("%d edges of wall and front flipped", flips);
 done:
   free(group);
@@ -206,7 +211,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
                         .obstacle_x = (const double(*)[3])background->x,
                         .obstacle_triangle_count = caps,
                         .obstacle_triangle = (const int32_t(*)[3])cap_triangle};
-  CW_TRY(cw_layers_make(&input, &layers));
+  CW_TRY(skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers) : cw_layers_make(&input, &layers));
   skeleton->front = layers.front;
   skeleton->height = layers.height;
   skeleton->reason = layers.reason;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/orbit_skeleton.h"
 #include "mesher/patch_task.h"
 #include "mesher/plane_map.h"
 #include "mesher/skeleton_curves.h"
@@ -51,6 +52,12 @@ static CwStatus start_nodes(CwSkeleton *skeleton) {
     if (corner->on_wall) continue;
     CW_TRY(cw_skeleton_add_node(skeleton, corner->x, corner->plane[0] >= 0, &skeleton->corner_node[i]));
   }
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  for (int32_t i = 0; orbits->symmetry && i < network->corner_count; i++) {
+    if (network->corner[i].on_wall) continue;
+    int32_t next = orbits->corner.next[i];
+    CW_TRY(cw_orbit_link(orbits, skeleton->corner_node[i], skeleton->corner_node[next], orbits->corner.turns[next]));
+  }
 done:
   return status;
 }
@@ -86,6 +93,40 @@ static CwStatus divide_free_curve(CwSkeleton *skeleton, CwCurve *curve) {
   }
 done:
   free(place);
+  return status;
+}
+
+// The turned copies of a free curve that is divided.
+static CwStatus copy_free_curve(CwSkeleton *skeleton, int32_t first) {
+  CwStatus status = CW_OK;
+  CwNetwork *network = &skeleton->network;
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  const CwCurve *curve = &network->curve[first];
+  int32_t copies = cw_orbit_copies(orbits, &orbits->curve, first), previous = first;
+  for (int32_t turns = 1; turns <= copies && copies > 1; turns++) {
+    int32_t index = orbits->curve.next[previous];
+    CwCurve *copy = &network->curve[index];
+    if (turns < copies) {
+      copy->point_count = curve->point_count;
+      CW_NEW(copy->node, curve->point_count);
+      CW_NEW(copy->parameter, curve->point_count);
+      memcpy(copy->parameter, curve->parameter, (size_t)curve->point_count * sizeof *copy->parameter);
+    }
+    for (int32_t k = 0; k < curve->point_count; k++) {
+      if (k == 0 || k == curve->point_count - 1) {
+        copy->node[k] = skeleton->corner_node[copy->corner[k > 0]];
+        continue;
+      }
+      if (turns < copies) {
+        double x[3];
+        cw_orbit_point(orbits, turns, skeleton->node_x[curve->node[k]], x);
+        CW_TRY(cw_skeleton_add_node(skeleton, x, curve->kind != CW_CURVE_EDGE, &copy->node[k]));
+      }
+      CW_TRY(cw_orbit_link(orbits, network->curve[previous].node[k], copy->node[k], turns % copies));
+    }
+    previous = index;
+  }
+done:
   return status;
 }
 
@@ -146,9 +187,13 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   CW_TRY(start_nodes(skeleton));
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
-    if (!skeleton->network.curve[i].wall) CW_TRY(divide_free_curve(skeleton, &skeleton->network.curve[i]));
+    const CwSkeletonOrbits *orbits = &skeleton->orbits;
+    if (skeleton->network.curve[i].wall || cw_orbit_turns(orbits, &orbits->curve, i) > 0) continue;
+    CW_TRY(divide_free_curve(skeleton, &skeleton->network.curve[i]));
+    CW_TRY(copy_free_curve(skeleton, i));
   }
   for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node));
+  if (skeleton->orbits.symmetry) status = cw_orbit_outlines(skeleton);
 done:
   return status;
 }
@@ -203,35 +248,91 @@ done:
   return status;
 }
 
-// Appends a packed patch: its new points as nodes, its triangles at triangle[count...].
+// Appends a packed patch, turned: its new points as nodes, its triangles at triangle[count...].
 static CwStatus append(CwSkeleton *skeleton, const CwPatchOutline *outline, const CwPatchBlock *block, int on_plane,
-                       int32_t (*triangle)[3]) {
+                       int32_t turns, int32_t copies, int32_t (*triangle)[3]) {
   CwStatus status = CW_OK;
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t first = skeleton->node_count, node;
-  for (int32_t i = 0; i < block->point_count; i++) CW_TRY(cw_skeleton_add_node(skeleton, block->x[i], on_plane, &node));
+  for (int32_t i = 0; i < block->point_count; i++) {
+    double x[3];
+    cw_orbit_point(orbits, turns, block->x[i], x);
+    CW_TRY(cw_skeleton_add_node(skeleton, x, on_plane, &node));
+    if (turns > 0) CW_TRY(cw_orbit_link(orbits, node - block->point_count, node, turns));
+    if (turns > 0 && turns == copies - 1) {
+      CW_TRY(cw_orbit_link(orbits, node, node - turns * block->point_count, 0));
+    }
+  }
   for (int32_t t = 0; t < block->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t local = block->triangle[t][k];
-      triangle[t][k] = local < block->outline_points ? outline->node[local] : first + local - block->outline_points;
+      triangle[t][k] = local < block->outline_points ? cw_orbit_node(orbits, outline->node[local], turns)
+                                                     : first + local - block->outline_points;
     }
   }
 done:
   return status;
 }
 
-CwStatus cw_skeleton_merge_inner(CwSkeleton *skeleton, void *const *cap_bytes, void *const *interface_bytes) {
+static CwStatus merge_cap(CwSkeleton *skeleton, int32_t face, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
+  int32_t copies = cw_orbit_face_copies(&skeleton->orbits, face);
+  CW_TRY(cw_skeleton_cap_outline(skeleton, face, &outline));
+  for (int32_t turns = 0; turns < copies; turns++) {
+    CW_TRY(append(skeleton, &outline, block, 0, turns, copies, skeleton->cap_triangle + skeleton->cap_triangle_count));
+    for (int32_t t = 0; t < block->triangle_count; t++) {
+      skeleton->cap_face[skeleton->cap_triangle_count] = cw_orbit_face(&skeleton->orbits, face, turns);
+      skeleton->cap_region[skeleton->cap_triangle_count++] =
+          cw_orbit_region(&skeleton->orbits, skeleton->plan, block->label[t], turns);
+    }
+  }
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
+static CwStatus merge_interface(CwSkeleton *skeleton, int32_t index, const CwPatchBlock *block) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  int32_t copies = cw_orbit_copies(orbits, &orbits->outline, index), regions = skeleton->plan->region_count;
+  CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[skeleton->outline[index].node].plane);
+  CW_TRY(cw_skeleton_interface_outline(skeleton, &skeleton->outline[index], &map, &outline));
+  for (int32_t turns = 0, copy = index; turns < copies; turns++) {
+    CwInterfaceOutline *interface = &skeleton->outline[copy];
+    interface->free_start = skeleton->node_count;
+    interface->free_count = block->point_count;
+    interface->triangle_start = skeleton->interface_triangle_count;
+    interface->triangle_count = block->triangle_count;
+    CW_TRY(append(skeleton, &outline, block, 1, turns, copies,
+                  skeleton->interface_triangle + skeleton->interface_triangle_count));
+    for (int32_t t = 0; t < block->triangle_count; t++) {
+      int32_t *region = skeleton->interface_region[skeleton->interface_triangle_count++];
+      region[0] = cw_orbit_region(orbits, skeleton->plan, block->label[t] / regions, turns);
+      region[1] = cw_orbit_region(orbits, skeleton->plan, block->label[t] % regions, turns);
+    }
+    if (copies > 1) copy = orbits->outline.next[copy];
+  }
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
+CwStatus cw_skeleton_merge_inner(CwSkeleton *skeleton, void *const *cap_bytes, void *const *interface_bytes) {
+  CwStatus status = CW_OK;
   CwPatchBlock block;
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t faces = cw_cad_face_count(skeleton->cad), caps = 0, interfaces = 0;
   for (int32_t f = 0; f < faces; f++) {
     if (!cap_bytes[f]) continue;
     cw_patch_block(cap_bytes[f], &block);
-    caps += block.triangle_count;
+    caps += block.triangle_count * cw_orbit_face_copies(orbits, f);
   }
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
+    if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
-    interfaces += block.triangle_count;
+    interfaces += block.triangle_count * cw_orbit_copies(orbits, &orbits->outline, i);
   }
   CW_NEW(skeleton->cap_triangle, caps);
   CW_NEW(skeleton->cap_face, caps);
@@ -241,32 +342,13 @@ CwStatus cw_skeleton_merge_inner(CwSkeleton *skeleton, void *const *cap_bytes, v
   for (int32_t f = 0; f < faces; f++) {
     if (!cap_bytes[f]) continue;
     cw_patch_block(cap_bytes[f], &block);
-    CW_TRY(cw_skeleton_cap_outline(skeleton, f, &outline));
-    CW_TRY(append(skeleton, &outline, &block, 0, skeleton->cap_triangle + skeleton->cap_triangle_count));
-    for (int32_t t = 0; t < block.triangle_count; t++) {
-      skeleton->cap_face[skeleton->cap_triangle_count] = f;
-      skeleton->cap_region[skeleton->cap_triangle_count++] = block.label[t];
-    }
-    cw_outline_free(&outline);
+    CW_TRY(merge_cap(skeleton, f, &block));
   }
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
-    CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[skeleton->outline[i].node].plane);
+    if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
-    CW_TRY(cw_skeleton_interface_outline(skeleton, &skeleton->outline[i], &map, &outline));
-    CwInterfaceOutline *interface = &skeleton->outline[i];
-    interface->free_start = skeleton->node_count;
-    interface->free_count = block.point_count;
-    interface->triangle_start = skeleton->interface_triangle_count;
-    interface->triangle_count = block.triangle_count;
-    CW_TRY(append(skeleton, &outline, &block, 1, skeleton->interface_triangle + skeleton->interface_triangle_count));
-    for (int32_t t = 0; t < block.triangle_count; t++) {
-      int32_t *region = skeleton->interface_region[skeleton->interface_triangle_count++];
-      region[0] = block.label[t] / skeleton->plan->region_count;
-      region[1] = block.label[t] % skeleton->plan->region_count;
-    }
-    cw_outline_free(&outline);
+    CW_TRY(merge_interface(skeleton, i, &block));
   }
 done:
-  cw_outline_free(&outline);
   return status;
 }

@@ -120,6 +120,41 @@ done:
   return status;
 }
 
+// The turned copies of a curve that is divided.
+static CwStatus copy_wall_curve(CwSkeleton *skeleton, int32_t first) {
+  CwStatus status = CW_OK;
+  CwNetwork *network = &skeleton->network;
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  const CwCurve *curve = &network->curve[first];
+  int32_t copies = cw_orbit_copies(orbits, &orbits->curve, first), previous = first;
+  for (int32_t turns = 1; turns <= copies && copies > 1; turns++) {
+    int32_t index = orbits->curve.next[previous];
+    CwCurve *copy = &network->curve[index];
+    if (turns < copies) {
+      copy->point_count = curve->point_count;
+      CW_NEW(copy->node, curve->point_count);
+      CW_NEW(copy->parameter, curve->point_count);
+      memcpy(copy->parameter, curve->parameter, (size_t)curve->point_count * sizeof *copy->parameter);
+    }
+    CwGuide guide = curve_guide(skeleton, copy);
+    for (int32_t k = 0; k < curve->point_count; k++) {
+      if (k == 0 || k == curve->point_count - 1) {
+        copy->node[k] = skeleton->corner_vertex[copy->corner[k > 0]];
+        continue;
+      }
+      if (turns < copies) {
+        double x[3];
+        cw_orbit_point(orbits, turns, skeleton->wall_x[curve->node[k]], x);
+        CW_TRY(add_wall_vertex(skeleton, x, guide, &copy->node[k]));
+      }
+      CW_TRY(cw_orbit_link(orbits, network->curve[previous].node[k], copy->node[k], turns % copies));
+    }
+    previous = index;
+  }
+done:
+  return status;
+}
+
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   CwNetwork *network = &skeleton->network;
@@ -132,9 +167,15 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     CW_TRY(corner_guide(skeleton, i, &guide));
     CW_TRY(add_wall_vertex(skeleton, network->corner[i].x, guide, &skeleton->corner_vertex[i]));
   }
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  for (int32_t i = 0; orbits->symmetry && i < network->corner_count; i++) {
+    if (!network->corner[i].on_wall) continue;
+    int32_t next = orbits->corner.next[i];
+    CW_TRY(cw_orbit_link(orbits, skeleton->corner_vertex[i], skeleton->corner_vertex[next], orbits->corner.turns[next]));
+  }
   for (int32_t i = 0; i < network->curve_count; i++) {
     CwCurve *curve = &network->curve[i];
-    if (!curve->wall) continue;
+    if (!curve->wall || cw_orbit_turns(orbits, &orbits->curve, i) > 0) continue;
     int32_t count, closed = curve->corner[0] == curve->corner[1];
     CW_TRY(divide_rim(skeleton, curve, &count, &place));
     if (!place) {
@@ -156,6 +197,7 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     }
     free(place);
     place = NULL;
+    CW_TRY(copy_wall_curve(skeleton, i));
   }
 done:
   free(place);
@@ -244,42 +286,62 @@ done:
   return status;
 }
 
-CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
+// Appends the mesh of a face for itself and its turned copies.
+static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  int32_t copies = cw_orbit_face_copies(orbits, face), first = skeleton->wall_count;
+  int32_t source = skeleton->wall_triangle_count;
+  CW_TRY(wall_outline(skeleton, face, &outline));
+  for (int32_t turns = 0; turns < copies; turns++) {
+    int32_t base = skeleton->wall_count;
+    for (int32_t i = 0; i < block->point_count; i++) {
+      int32_t vertex;
+      double x[3];
+      cw_orbit_point(orbits, turns, block->x[i], x);
+      CW_TRY(add_wall_vertex(skeleton, x, (CwGuide){CW_GUIDE_NONE, -1}, &vertex));
+      if (turns > 0) CW_TRY(cw_orbit_link(orbits, vertex - block->point_count, vertex, turns));
+      if (turns > 0 && turns == copies - 1) CW_TRY(cw_orbit_link(orbits, vertex, first + i, 0));
+    }
+    for (int32_t t = 0; t < block->triangle_count; t++) {
+      int32_t *corner = skeleton->wall_triangle[skeleton->wall_triangle_count];
+      for (int k = 0; k < 3; k++) {
+        int32_t local = block->triangle[t][k];
+        corner[k] = local < block->outline_points ? cw_orbit_node(orbits, outline.node[local], turns)
+                                                  : base + local - block->outline_points;
+      }
+      skeleton->wall_face[skeleton->wall_triangle_count] = cw_orbit_face(orbits, face, turns);
+      skeleton->wall_source[skeleton->wall_triangle_count] = source + t;
+      skeleton->wall_region[skeleton->wall_triangle_count++] =
+          cw_orbit_region(orbits, skeleton->plan, block->label[t], turns);
+    }
+  }
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
+CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
+  CwStatus status = CW_OK;
   int32_t faces = cw_cad_face_count(skeleton->cad), total = 0;
   CwPatchBlock block;
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
     cw_patch_block(bytes[f], &block);
-    total += block.triangle_count;
+    total += block.triangle_count * cw_orbit_face_copies(&skeleton->orbits, f);
   }
   CW_NEW(skeleton->wall_triangle, total);
   CW_NEW(skeleton->wall_face, total);
   CW_NEW(skeleton->wall_region, total);
+  CW_NEW(skeleton->wall_source, total);
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
     cw_patch_block(bytes[f], &block);
-    CW_TRY(wall_outline(skeleton, f, &outline));
-    int32_t first = skeleton->wall_count;
-    for (int32_t i = 0; i < block.point_count; i++) {
-      int32_t vertex;
-      CW_TRY(add_wall_vertex(skeleton, block.x[i], (CwGuide){CW_GUIDE_NONE, -1}, &vertex));
-    }
-    for (int32_t t = 0; t < block.triangle_count; t++) {
-      int32_t *corner = skeleton->wall_triangle[skeleton->wall_triangle_count];
-      for (int k = 0; k < 3; k++) {
-        int32_t local = block.triangle[t][k];
-        corner[k] = local < block.outline_points ? outline.node[local] : first + local - block.outline_points;
-      }
-      skeleton->wall_face[skeleton->wall_triangle_count] = f;
-      skeleton->wall_region[skeleton->wall_triangle_count++] = block.label[t];
-    }
-    cw_outline_free(&outline);
+    CW_TRY(merge_wall(skeleton, f, &block));
   }
   CW_TRY(check_regions(skeleton));
 done:
-  cw_outline_free(&outline);
   return status;
 }
 

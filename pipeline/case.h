@@ -136,6 +136,7 @@ typedef struct {
   CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
   int64_t cells_per_region;  // about this many
   int least_regions;         // of a domain
+  int periodic_impeller;     // 1: of the equal passages of the impeller one is meshed and copied, 0: meshed whole
   double gradation;          // growth of size with distance, d(size)/d(distance)
   double curvature_angle;    // rad of turn of the surface normal across one edge, at relative size 1
   double cells_across_gap;   // least number of cells across a narrow place

@@ -18,6 +18,7 @@ static const char *const discharges[] = {"tangential", "radial", NULL};
 static const char *const suction_zones[] = {"rotor", "own", NULL};
 static const char *const discharge_zones[] = {"stator", "own", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
+static const char *const truths[] = {"false", "true", NULL};
 static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
@@ -196,6 +197,8 @@ const CwCaseKey cw_case_keys[] = {
      "least number of regions of a domain; with 1 and few cells a domain is not divided"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
            "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen alone"),
+    CHOICE("mesh", "periodic_impeller", truths, 1, mesh.periodic_impeller,
+           "true: one of the equal passages of the impeller is meshed and turned for the others; false: all at once"),
     REAL_DEFAULT("mesh", "gradation", "", 0.05, 1, 0.25, mesh.gradation,
                  "growth of the cell size with distance: change of size per distance"),
     REAL_DEFAULT("mesh", "curvature_angle_deg", "deg", 2, 60, 20, mesh.curvature_angle,

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Layers over the first of each orbit of a symmetric wall, and their copies: all ranks grow and check them together, and
+// each turns them for itself.
+#include <stdlib.h>
+
+#include "mesher/layers_inner.h"
+#include "mesher/orbit_skeleton.h"
+#include "pipeline/log.h"
+
+enum { ROUNDS = 8 };
+static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
+static const double VALID = 0.02;    // least prism quality
+static const double THIN = 0.8;      // of the target, where the copies do not fit one another
+static const double SAME = 1e-9;     // m: fronts that differ less are the same
+
+// The part of the wall that the first ones and what stands near them make up.
+typedef struct {
+  const CwSkeleton *skeleton;
+  const CwLayerInput *whole;
+  CwLayerInput in;
+  uint8_t *is_first;       // of each point of the whole: on a face that is the first of its orbit
+  int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
+  double (*x)[3], *target, (*guide_normal)[2][3];
+  int32_t (*triangle)[3], *guide_count;
+} Part;
+
+static void part_free(Part *part) {
+  free(part->is_first);
+  free(part->global);
+  free(part->local);
+  free(part->x);
+  free(part->target);
+  free(part->guide_normal);
+  free(part->triangle);
+  free(part->guide_count);
+}
+
+static void snap(const void *context, int32_t vertex, double x[3]) {
+  const Part *part = context;
+  part->whole->snap(part->whole->snap_context, part->global[vertex], x);
+}
+
+// Buckets of points in space, by cells of the given edge, hashed.
+typedef struct {
+  double edge;
+  int32_t size, *first, *next;
+} Buckets;
+
+static int32_t bucket(const Buckets *buckets, const int64_t cell[3]) {
+  uint64_t key = (uint64_t)cell[0] * 73856093u ^ (uint64_t)cell[1] * 19349663u ^ (uint64_t)cell[2] * 83492791u;
+  return (int32_t)(key % (uint64_t)buckets->size);
+}
+
+static void cell_of(const Buckets *buckets, const double x[3], int64_t cell[3]) {
+  for (int k = 0; k < 3; k++) cell[k] = (int64_t)floor(x[k] / buckets->edge);
+}
+
+static int is_near(const Buckets *buckets, const double (*x)[3], const double p[3]) {
+  int64_t middle[3], cell[3];
+  cell_of(buckets, p, middle);
+  for (int i = 0; i < 27; i++) {
+    cell[0] = middle[0] + i % 3 - 1;
+    cell[1] = middle[1] + i / 3 % 3 - 1;
+    cell[2] = middle[2] + i / 9 - 1;
+    for (int32_t v = buckets->first[bucket(buckets, cell)]; v >= 0; v = buckets->next[v]) {
+      if (distance3(x[v], p) < buckets->edge) return 1;
+    }
+  }
+  return 0;
+}
+
+// Marks the points within reach of the first ones.
+static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
+  CwStatus status = CW_OK;
+  Buckets buckets = {.size = whole->point_count + 1};
+  CW_NEW(buckets.first, buckets.size);
+  CW_NEW(buckets.next, whole->point_count);
+  for (int32_t i = 0; i < buckets.size; i++) buckets.first[i] = -1;
+  double longest = 0, thickest = 0;
+  for (int32_t t = 0; t < whole->triangle_count; t++) {
+    const int32_t *corner = whole->triangle[t];
+    if (skeleton->wall_source[t] != t) continue;
+    for (int k = 0; k < 3; k++) {
+      is_first[corner[k]] = 1;
+      longest = fmax(longest, distance3(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));
+      thickest = fmax(thickest, whole->target[corner[k]]);
+    }
+  }
+  buckets.edge = REACH * thickest + longest;
+  for (int32_t v = 0; v < whole->point_count; v++) {
+    if (!is_first[v]) continue;
+    int64_t cell[3];
+    cell_of(&buckets, whole->x[v], cell);
+    int32_t b = bucket(&buckets, cell);
+    buckets.next[v] = buckets.first[b];
+    buckets.first[b] = v;
+  }
+  for (int32_t v = 0; v < whole->point_count; v++) {
+    near[v] = is_first[v] || is_near(&buckets, whole->x, whole->x[v]);
+  }
+done:
+  free(buckets.first);
+  free(buckets.next);
+  return status;
+}
+
+static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole, Part *part) {
+  CwStatus status = CW_OK;
+  int32_t points = 0, triangles = 0;
+  uint8_t *near = NULL;
+  part->skeleton = skeleton;
+  part->whole = whole;
+  CW_NEW(near, whole->point_count);
+  CW_NEW(part->is_first, whole->point_count);
+  CW_TRY(mark_near(skeleton, whole, part->is_first, near));
+  CW_NEW(part->global, whole->point_count);
+  CW_NEW(part->local, whole->point_count);
+  CW_NEW(part->triangle, whole->triangle_count);
+  for (int32_t v = 0; v < whole->point_count; v++) part->local[v] = -1;
+  for (int32_t t = 0; t < whole->triangle_count; t++) {
+    const int32_t *corner = whole->triangle[t];
+    if (!near[corner[0]] && !near[corner[1]] && !near[corner[2]]) continue;
+    for (int k = 0; k < 3; k++) {
+      if (part->local[corner[k]] < 0) {
+        part->global[points] = corner[k];
+        part->local[corner[k]] = points++;
+      }
+      part->triangle[triangles][k] = part->local[corner[k]];
+    }
+    triangles++;
+  }
+  CW_NEW(part->x, points);
+  CW_NEW(part->target, points);
+  CW_NEW(part->guide_count, points);
+  CW_NEW(part->guide_normal, points);
+  for (int32_t i = 0; i < points; i++) {
+    int32_t v = part->global[i];
+    memcpy(part->x[i], whole->x[v], sizeof *part->x);
+    part->target[i] = whole->target[v];
+    part->guide_count[i] = whole->guide_count[v];
+    memcpy(part->guide_normal[i], whole->guide_normal[v], sizeof *part->guide_normal);
+  }
+  part->in = *whole;
+  part->in.point_count = points;
+  part->in.x = (const double(*)[3])part->x;
+  part->in.triangle_count = triangles;
+  part->in.triangle = (const int32_t(*)[3])part->triangle;
+  part->in.target = part->target;
+  part->in.guide_count = part->guide_count;
+  part->in.guide_normal = (const double(*)[2][3])part->guide_normal;
+  part->in.snap = snap;
+  part->in.snap_context = part;
+done:
+  free(near);
+  return status;
+}
+
+// Takes the columns of the first ones from the part and turns them for the copies. Of two members of an orbit that both
+// are on first faces (on a seam) that with the smaller number counts.
+static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  uint8_t *placed = NULL;
+  CW_NEW(placed, part->whole->point_count);
+  for (int32_t v = 0; v < part->whole->point_count; v++) {
+    if (!part->is_first[v] || placed[v]) continue;
+    int32_t local = part->local[v], at = v, turns = 0;
+    do {
+      cw_orbit_point(orbits, turns++, made->front[local], layers->front[at]);
+      layers->height[at] = made->height[local];
+      layers->reason[at] = made->reason[local];
+      placed[at] = 1;
+      at = cw_orbit_node(orbits, at, 1);
+    } while (at >= 0 && at != v);
+  }
+done:
+  free(placed);
+  return status;
+}
+
+static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
+  for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
+}
+
+// Checks the part with the columns as they were spread; marks the points whose columns do not fit.
+static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad, int32_t *bad_count) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = &part->in;
+  CwLayerWork work = {.in = in, .n = in->point_count};
+  CwLayerCrossing crossing = {0};
+  double (*front)[3] = NULL, most = 0;
+  *bad_count = 0;
+  memset(bad, 0, (size_t)part->whole->point_count);
+  CW_NEW(front, in->point_count);
+  for (int32_t i = 0; i < in->point_count; i++) memcpy(front[i], layers->front[part->global[i]], sizeof *front);
+  for (int32_t f = 0; f < in->triangle_count; f++) { // all that stands on or beside a first face
+    const int32_t *corner = in->triangle[f];
+    int beside = 0;
+    for (int k = 0; k < 3; k++) beside |= part->is_first[part->global[corner[k]]];
+    for (int k = 0; k < 3 && beside; k++) most = fmax(most, distance3(front[corner[k]], made->front[corner[k]]));
+  }
+  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
+               in->triangle_count, part->whole->triangle_count, 1e3 * most);
+  if (most < SAME) goto done; // as the layers were made and checked
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    if (cw_layers_prism_quality(&work, f, (const double(*)[3])front) >= VALID) continue;
+    ++*bad_count;
+    mark(part, f, bad);
+  }
+  CW_TRY(cw_layers_crossing_make(&work, &crossing));
+  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])front, NULL));
+  for (int32_t i = 0; i < crossing.pair_count; i++) {
+    const CwLayerPair *pair = &crossing.pair[i];
+    if (pair->kind_f == 1 && pair->kind_g == 1) continue; // the wall is as it is
+    ++*bad_count;
+    mark(part, pair->f, bad);
+    if (pair->kind_g < 2) mark(part, pair->g, bad);
+  }
+done:
+  cw_layers_crossing_free(&crossing);
+  free(front);
+  return status;
+}
+
+// Lowers the targets of all orbits with a bad column.
+static void thin(Part *part, const uint8_t *bad) {
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  for (int32_t v = 0; v < part->whole->point_count; v++) {
+    if (!bad[v]) continue;
+    int32_t at = v;
+    do {
+      if (part->local[at] >= 0) part->target[part->local[at]] *= THIN;
+      at = cw_orbit_node(orbits, at, 1);
+    } while (at >= 0 && at != v);
+  }
+}
+
+CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  Part part = {0};
+  CwLayers made = {0};
+  uint8_t *bad = NULL;
+  memset(layers, 0, sizeof *layers);
+  CW_NEW(layers->front, input->point_count);
+  CW_NEW(layers->height, input->point_count);
+  CW_NEW(layers->reason, input->point_count);
+  CW_NEW(bad, input->point_count);
+  CW_TRY(part_make(skeleton, input, &part));
+  int32_t bad_count = 1;
+  for (int round = 0; round < ROUNDS && bad_count; round++) {
+    CW_TRY(cw_layers_make(&part.in, &made));
+    CW_TRY(spread(&part, &made, layers));
+    CW_TRY(check(&part, &made, layers, bad, &bad_count));
+    layers->repair_rounds = made.repair_rounds;
+    layers->thinned_count = made.thinned_count;
+    cw_layers_free(&made);
+    if (!bad_count) break;
+    cw_log_debug("%d prisms and pairs of the front do not fit their turned copies", bad_count);
+    thin(&part, bad);
+  }
+  if (bad_count) status = CW_RETRY;
+done:
+  part_free(&part);
+  cw_layers_free(&made);
+  free(bad);
+  if (status != CW_OK) cw_layers_free(layers);
+  return status;
+}

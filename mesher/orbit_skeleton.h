@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Steps of the skeleton that know its orbits (orbit.h).
+#ifndef CUTWATER_MESHER_ORBIT_SKELETON_H
+#define CUTWATER_MESHER_ORBIT_SKELETON_H
+
+#include "mesher/layers.h"
+#include "mesher/skeleton.h"
+
+// Finds the orbits of the outlines on all planes. CW_RETRY where they are not symmetric.
+CwStatus cw_orbit_outlines(CwSkeleton *skeleton);
+
+// The layers of the whole wall `input` of a skeleton with orbits: grown over the first of each orbit with what stands
+// near them, copied, and checked as copied. Collective. CW_RETRY, on all ranks, where no symmetric front is found.
+CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers);
+
+// Makes the wall triangles that are copies anew, from those that they are copies of.
+void cw_orbit_copy_triangles(CwSkeleton *skeleton);
+
+#endif
