@@ -162,7 +162,7 @@ static void judge(int d, int32_t regions, double greatest, double least, int sha
   make_plan(&domain[d], regions, &plan);
   Figures figures = figures_of(&plan);
   print_message("%s: %d of %d regions, work %.3f to %.3f of the mean, walls at %.0f degrees, %d planes under 40\n",
-                NAMES[d], plan.region_count, regions, figures.least, figures.greatest, figures.angle, figures.sharp);
+                domains.name[d], plan.region_count, regions, figures.least, figures.greatest, figures.angle, figures.sharp);
   check_tree(&plan);
   check_work(&domain[d], &plan);
   assert_true(plan.region_count >= regions - regions / 50);
