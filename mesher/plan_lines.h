@@ -7,7 +7,8 @@
 #include "mesher/plan_model.h"
 
 typedef struct {
-  int impossible;  // a line runs through the layers of a wall, or along that of another plane: the plane will not do
+  int impossible;  // a line runs through the layers of a wall, or along that of another plane, or a parallel plane
+                   // leaves no room between both: the plane will not do
   double cramped;  // sum over the lines: 0 where a line has room, 1 where it has none
   int blocked;     // lines that have none
   double sharp;    // least sine of the angle between the planes along a line in the domain; 1 without lines

@@ -109,6 +109,15 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
   }
 }
 
+// Pipes as zones of their own, from a sequence apart.
+static void draw_zones(uint64_t *state, CwCase *table) {
+  const int suction = chance(state, 0.3), discharge = chance(state, 0.3);
+  if (suction && !(table->impeller.through_shaft_diameter > 0))
+    table->impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
+  if (discharge)
+    table->volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
+}
+
 static int build(const CwCase *table, CwDesign *design) {
   CwPump pump = {0};
   CwPipeStubs stubs;
@@ -122,7 +131,7 @@ static int build(const CwCase *table, CwDesign *design) {
 }
 
 static void random_pumps(void **state_) {
-  uint64_t state = 20240607;
+  uint64_t state = 20240607, zone_state = 20240608;
   int built = 0, unsound = 0, lines = 0;
   double longest = 0, begin = cw_seconds();
   for (int i = 0; i < pump_count; i++) {
@@ -138,6 +147,7 @@ static void random_pumps(void **state_) {
     else
       state = before;
     cw_fail_clear();
+    draw_zones(&zone_state, &table);
     if (only > 0 && i + 1 != only)
       continue;
     const int fine = build(&table, &design);
