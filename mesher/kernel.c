@@ -40,7 +40,7 @@ done:
   return status;
 }
 
-// What the making of the points has freed, to the system: the memory of the tetrahedra does not come from there.
+// What has been freed, to the system: what comes next is of other sizes, and would stand beside it at the peak.
 static void give_back(void) {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -185,6 +185,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
   CW_TRY(keep_inside(input, &facets, &mesh));
   cw_facets_free(&facets);
+  give_back();
   if (splits.count) {
     // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
     CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
