@@ -19,7 +19,7 @@ enum { CW_DELAUNAY_CORNERS = 4 }; // of the enclosing tetrahedron
 typedef struct {
   double centre[3], square; // of the circumscribed sphere, radius^2; square is NaN where it is not known well
                             // enough; of no use once the mesh is made, and free for marks
-  int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place, of which nothing else but corner[1] changes
+  int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
   int32_t neighbour[4]; // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
 } CwDelaunayTet;
 
@@ -42,8 +42,8 @@ typedef struct {
 // Empty sphere of every tetrahedron, exactly; ties are broken by the order of insertion. Deterministic.
 // Memory: 64 bytes a tetrahedron and 36 a point.
 CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh);
-// The same in two steps: after the first the mesh has its own copy of the points, and x may be freed before the
-// tetrahedra take their memory. Each leaves the mesh empty where it fails.
+// The same in two steps: after the first the mesh has its own copy of the points, and x may be freed before
+// the tetrahedra take their memory. Each leaves the mesh empty where it fails.
 CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh);
 CwStatus cw_delaunay_connect(CwDelaunay *mesh);
 void cw_delaunay_free(CwDelaunay *mesh);

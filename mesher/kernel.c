@@ -40,7 +40,8 @@ done:
   return status;
 }
 
-// What has been freed, to the system: what comes next is of other sizes, and would stand beside it at the peak.
+// What has been freed, to the system: what comes next is of other sizes, and would stand beside it at the
+// peak.
 static void give_back(void) {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -51,8 +52,8 @@ enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free a
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
 
-// A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of these
-// hang together.
+// A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of
+// these hang together.
 static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
@@ -68,8 +69,8 @@ static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
   return 0;
 }
 
-// Floods from the outer sides of all facets and frees what it reaches. All that it does not reach lies between
-// inner sides, and is cut off at them. What waits is chained through corner[1], which outside is of no use.
+// Floods from the outer sides of all facets and frees what it reaches. All that it does not reach lies
+// between inner sides, and is cut off at them. What waits is chained through corner[1], of no use outside.
 static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
   uint8_t *place = NULL;
