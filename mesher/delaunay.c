@@ -77,8 +77,9 @@ done:
 
 CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
   CwStatus status = CW_OK;
-  if (mesh->spare_count) {
-    *tet = mesh->spare[--mesh->spare_count];
+  if (mesh->spare) {
+    *tet = mesh->spare - 1;
+    mesh->spare = mesh->tet[*tet].corner[1];
     goto done;
   }
   if (mesh->tet_count == mesh->tet_space)
@@ -89,13 +90,10 @@ done:
   return status;
 }
 
-CwStatus cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
-  CwStatus status = CW_OK;
-  ROOM(mesh->spare, mesh->spare_space, mesh->spare_count + 1);
-  mesh->spare[mesh->spare_count++] = tet;
+void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
   mesh->tet[tet].corner[0] = -1;
-done:
-  return status;
+  mesh->tet[tet].corner[1] = mesh->spare;
+  mesh->spare = tet + 1;
 }
 
 CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point) {
@@ -290,7 +288,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
       CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
   }
   for (int32_t k = work->side_count; k < work->cavity_count; k++)
-    CW_TRY(cw_delaunay_free_tet(mesh, work->cavity[k]));
+    cw_delaunay_free_tet(mesh, work->cavity[k]);
   int tabled = locals <= LOCAL;
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
@@ -342,8 +340,8 @@ done:
   return status;
 }
 
-// A tetrahedron with corners at (1, 1, 1), (1, -1, -1), ... times `reach` round the points; its inscribed
-// sphere has the radius reach / sqrt(3).
+// Points of a tetrahedron with corners at (1, 1, 1), (1, -1, -1), ... times `reach` round the others; its
+// inscribed sphere has the radius reach / sqrt(3).
 static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   CwStatus status = CW_OK;
   static const int sign[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
@@ -362,12 +360,19 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   reach = 4.0 * sqrt(reach) + 1e-3 * size;
   if (!(reach > 0.0))
     reach = 1.0;
-  CwDelaunayTet *tet = &mesh->tet[0];
-  *tet = (CwDelaunayTet){.square = NAN};
-  for (int k = 0; k < 4; k++) {
+  for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
     for (int i = 0; i < 3; i++)
       mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
     mesh->source[k] = -1;
+  }
+done:
+  return status;
+}
+
+static void first_tet(CwDelaunay *mesh) {
+  CwDelaunayTet *tet = &mesh->tet[0];
+  *tet = (CwDelaunayTet){.square = NAN};
+  for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
     tet->neighbour[k] = -1;
     tet->corner[k] = k;
   }
@@ -376,33 +381,46 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
     tet->corner[1] = 0;
   }
   mesh->tet_count = 1;
-  mesh->point_count = CW_DELAUNAY_CORNERS;
-done:
-  return status;
 }
 
-CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
+CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
   CwStatus status = CW_OK;
-  Work *work = NULL;
-  int32_t *order = NULL, last = 0, duplicate_space = 0;
+  int32_t *order = NULL;
   memset(mesh, 0, sizeof *mesh);
   CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed",
              count, INT32_MAX / 32 - 1);
-  CW_NEW(work, 1);
   CW_NEW(order, count);
   CW_TRY(cw_hilbert_order(count, x, order));
   CW_NEW(mesh->point, count + CW_DELAUNAY_CORNERS);
   CW_NEW(mesh->source, count + CW_DELAUNAY_CORNERS);
-  mesh->point_space = count + CW_DELAUNAY_CORNERS;
-  CW_TRY(make_pool(mesh, 9 * (int64_t)count + 256)); // 6.8 as a rule; pages that are not used cost nothing
+  mesh->point_count = mesh->point_space = count + CW_DELAUNAY_CORNERS;
   CW_TRY(enclose(mesh, count, x));
   for (int32_t k = 0; k < count; k++) {
+    memcpy(mesh->point[CW_DELAUNAY_CORNERS + k].x, x[order[k]], sizeof *x);
+    mesh->source[CW_DELAUNAY_CORNERS + k] = order[k];
+  }
+done:
+  free(order);
+  if (status != CW_OK)
+    cw_delaunay_free(mesh);
+  return status;
+}
+
+CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  Work *work = NULL;
+  int32_t last = 0, duplicate_space = 0, end = mesh->point_count;
+  CW_NEW(work, 1);
+  CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256)); // 6.8 as a rule; pages that are not used cost nothing
+  first_tet(mesh);
+  mesh->point_count = CW_DELAUNAY_CORNERS;
+  for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
     int32_t point = mesh->point_count, found = 0;
-    memcpy(mesh->point[point].x, x[order[k]], sizeof *x);
-    mesh->source[point] = order[k];
+    mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
+    mesh->source[point] = mesh->source[k];
     int32_t start = walk(mesh, last, mesh->point[point].x, &found);
     if (start < 0) {
-      CW_TRY(note_duplicate(mesh, order[k], point, &mesh->tet[found], &duplicate_space));
+      CW_TRY(note_duplicate(mesh, mesh->source[k], point, &mesh->tet[found], &duplicate_space));
       continue;
     }
     mesh->point_count++;
@@ -418,9 +436,16 @@ done:
     free(work->arm);
   }
   free(work);
-  free(order);
   if (status != CW_OK)
     cw_delaunay_free(mesh);
+  return status;
+}
+
+CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_delaunay_order(count, x, mesh));
+  CW_TRY(cw_delaunay_connect(mesh));
+done:
   return status;
 }
 
@@ -428,7 +453,6 @@ void cw_delaunay_free(CwDelaunay *mesh) {
   free(mesh->point);
   free(mesh->source);
   free(mesh->tet);
-  free(mesh->spare);
   free(mesh->duplicate);
   memset(mesh, 0, sizeof *mesh);
 }

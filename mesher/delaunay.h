@@ -34,8 +34,7 @@ typedef struct {
   int32_t *source;                  // the given point that each is; -1 for the corners
   int32_t tet_count, tet_space;     // with free places
   CwDelaunayTet *tet;
-  int32_t *spare; // stack of free places
-  int32_t spare_count, spare_space;
+  int32_t spare; // 1 + the free place to use next, 0: none; corner[1] of each leads on likewise
   int32_t duplicate_count;
   int32_t (*duplicate)[2]; // given points that were left out, and the one at the same place
 } CwDelaunay;
@@ -43,11 +42,15 @@ typedef struct {
 // Empty sphere of every tetrahedron, exactly; ties are broken by the order of insertion. Deterministic.
 // Memory: 64 bytes a tetrahedron and 36 a point.
 CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh);
+// The same in two steps: after the first the mesh has its own copy of the points, and x may be freed before
+// the tetrahedra take their memory. Each leaves the mesh empty where it fails.
+CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh);
+CwStatus cw_delaunay_connect(CwDelaunay *mesh);
 void cw_delaunay_free(CwDelaunay *mesh);
 
 // A free place for a tetrahedron; the caller fills it.
 CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet);
-CwStatus cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet);
+void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet);
 // A point that no tetrahedron has yet.
 CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point);
 

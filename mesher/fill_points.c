@@ -15,7 +15,7 @@ static const double open_distance = 0.5; // of h, to open triangles
 static const double sphere_factor = 1.0; // of the radius of a triangle's smallest circumscribed sphere
 static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
 static const double coarse = 2.2;        // cells of lists, over wanted cells
-enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9 };
+enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9, SEEN = 13 };
 
 typedef struct {
   float low[3], high[3]; // box of all places that the triangle can forbid, rounded outward
@@ -53,6 +53,7 @@ typedef struct {
   int64_t list_count, list_space;
   Place *place;
   int64_t place_count, place_space;
+  uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
 } Tree;
 
 #define ROOM(array, space, wanted)                                                                           \
@@ -276,7 +277,10 @@ static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int leve
     int32_t there[3];
     for (int i = 0; i < 3; i++)
       there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
-    tree->place[tree->place_count++] = (Place){key_of(there), cell, level};
+    uint64_t key = key_of(there), *seen = &tree->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
+    if (*seen != key) // of equal places the first one counts
+      tree->place[tree->place_count++] = (Place){key, cell, level};
+    *seen = key;
   }
 done:
   return status;
@@ -445,6 +449,8 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   }
   CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, input->triangle_count, &kept));
   CW_TRY(fit_spacing(tree));
+  CW_NEW(tree->seen, 1 << SEEN);
+  memset(tree->seen, 0xff, sizeof *tree->seen << SEEN);
   CW_TRY(cut_cells(tree, 1));
   CW_TRY(sort_places(tree));
   CW_TRY(collect(tree, count, x));
@@ -454,6 +460,7 @@ done:
   free(tree->cell);
   free(tree->list);
   free(tree->place);
+  free(tree->seen);
   cw_columns_free(&tree->columns);
   return status;
 }

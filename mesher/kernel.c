@@ -3,6 +3,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "mesher/boundary_check.h"
 #include "mesher/delaunay.h"
@@ -16,101 +19,109 @@
 #include "mesher/tet_mesh.h"
 #include "pipeline/log.h"
 
-// Boundary points, then inner candidates.
-static CwStatus all_points(const CwFillInput *input, int32_t *count, double (**x)[3]) {
+// Boundary points, then inner candidates, in the mesh but not yet connected.
+static CwStatus all_points(const CwFillInput *input, int32_t *count, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
-  double(*made)[3] = NULL;
+  double(*made)[3] = NULL, (*x)[3] = NULL;
   const double(*inner)[3] = input->inner;
   int32_t inner_count = input->inner_count;
   if (!inner) {
     CW_TRY(cw_fill_points(input, 1.0, &inner_count, &made));
     inner = (const double(*)[3])made;
   }
-  CW_NEW(*x, input->point_count + inner_count);
-  memcpy(*x, input->x, (size_t)input->point_count * sizeof **x);
-  memcpy(*x + input->point_count, inner, (size_t)inner_count * sizeof **x);
+  CW_NEW(x, input->point_count + inner_count);
+  memcpy(x, input->x, (size_t)input->point_count * sizeof *x);
+  memcpy(x + input->point_count, inner, (size_t)inner_count * sizeof *x);
   *count = input->point_count + inner_count;
+  CW_TRY(cw_delaunay_order(*count, (const double(*)[3])x, mesh));
 done:
   free(made);
+  free(x);
   return status;
+}
+
+// What has been freed, to the system: what comes next is of other sizes, and would stand beside it at the
+// peak.
+static void give_back(void) {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
-enum { AHEAD = 12 }; // places of the queue whose tetrahedra are on their way from memory
-enum { OPEN = 0, INSIDE = 1, OUTSIDE = 2, SIDE = 3 }; // and bit 2 + i: face i is a facet
+enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
 
-// Floods from both sides of all facets; place[t] holds the side and the facets of each tetrahedron.
-static CwStatus classify(const CwFillInput *input, const CwDelaunay *mesh, const CwFacets *facets,
-                         uint8_t *place) {
-  CwStatus status = CW_OK;
-  int32_t *queue = NULL, head = 0, count = 0;
-  CW_NEW(queue, mesh->tet_count);
-  for (int32_t f = 0; f < facets->count; f++) {
-    int32_t face[2] = {facets->inner[f], mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4]};
-    for (int k = 0; k < 2; k++) {
-      uint8_t *here = &place[face[k] / 4], side = k == 0 ? INSIDE : OUTSIDE;
-      const double *x = mesh->point[facets->corner[f][0]].x;
-      CW_REQUIRE(
-          (*here & SIDE) == OPEN || (*here & SIDE) == side, CW_ERR_MESH,
-          "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
-          input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
-      if ((*here & SIDE) == OPEN)
-        queue[count++] = face[k] / 4;
-      *here |= (uint8_t)(side | 4 << face[k] % 4);
-    }
-  }
-  while (head < count) {
-    if (head + AHEAD < count)
-      __builtin_prefetch(&mesh->tet[queue[head + AHEAD]]);
-    int32_t t = queue[head++];
-    const CwDelaunayTet *tet = &mesh->tet[t];
+// A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of
+// these hang together.
+static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *c = mesh->tet[t].corner;
+    int corners = 0;
+    *own = 0;
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0 || place[t] & 4 << i)
-        continue;
-      uint8_t *next = &place[tet->neighbour[i] / 4];
-      if ((*next & SIDE) == OPEN) {
-        *next |= place[t] & SIDE;
-        queue[count++] = tet->neighbour[i] / 4;
-        continue;
-      }
-      const double *x = mesh->point[tet->corner[0]].x;
-      CW_REQUIRE(((*next ^ place[t]) & SIDE) == 0, CW_ERR_MESH,
-                 "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
-                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+      corners += c[i] < CW_DELAUNAY_CORNERS;
+      *own = c[i] < CW_DELAUNAY_CORNERS ? *own : i;
     }
+    if (c[0] >= 0 && corners)
+      return t;
   }
-done:
-  free(queue);
-  return status;
+  return 0;
 }
 
-// Frees all tetrahedra outside and cuts the others off them.
-static CwStatus keep_inside(const CwFillInput *input, CwDelaunay *mesh, const uint8_t *place) {
+// Floods from the outer sides of all facets and frees what it reaches. All that it does not reach lies
+// between inner sides, and is cut off at them. What waits is chained through corner[1], of no use outside.
+static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
-  int32_t count = mesh->tet_count;
-  for (int32_t t = 0; t < count; t++) {
-    CwDelaunayTet *tet = &mesh->tet[t];
-    if (tet->corner[0] < 0)
-      continue;
-    if ((place[t] & SIDE) != INSIDE) {
-      CW_TRY(cw_delaunay_free_tet(mesh, t));
-      continue;
+  uint8_t *place = NULL;
+  int own = 0;
+  int32_t waiting = -1, enclosing = find_enclosing(mesh, &own);
+  const double *x = mesh->point[mesh->tet[enclosing].corner[own]].x;
+  CW_NEW(place, mesh->tet_count);
+  for (int32_t f = 0; f < facets->count; f++) {
+    int32_t inner = facets->inner[f], outer = mesh->tet[inner / 4].neighbour[inner % 4];
+    const double *y = mesh->point[facets->corner[f][0]].x;
+    if (!(place[outer / 4] & OUTSIDE)) {
+      mesh->tet[outer / 4].corner[1] = waiting;
+      waiting = outer / 4;
     }
-    int own = 0;
-    while (own < 3 && tet->corner[own] < CW_DELAUNAY_CORNERS)
-      own++;
-    const double *x = mesh->point[tet->corner[own]].x;
+    place[inner / 4] |= (uint8_t)(INNER | 1 << inner % 4);
+    place[outer / 4] |= (uint8_t)(OUTSIDE | 1 << outer % 4);
+    CW_REQUIRE((place[inner / 4] & OUTSIDE) == 0 && (place[outer / 4] & INNER) == 0, CW_ERR_MESH,
+               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
+               input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+  }
+  while (waiting >= 0) {
+    int32_t t = waiting;
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    waiting = tet->corner[1];
     for (int i = 0; i < 4; i++) {
-      if (place[t] & 4 << i)
-        tet->neighbour[i] = -1;
-      CW_REQUIRE(tet->corner[i] >= CW_DELAUNAY_CORNERS, CW_ERR_MESH,
-                 "%s: the boundary encloses all that lies outside it: its normals point inward near "
-                 "(%.6g, %.6g, %.6g) mm",
-                 input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+      if (tet->neighbour[i] < 0 || place[t] & 1 << i)
+        continue;
+      int32_t next = tet->neighbour[i] / 4;
+      const double *y = mesh->point[tet->corner[0]].x;
+      CW_REQUIRE((place[next] & INNER) == 0, CW_ERR_MESH,
+                 "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
+                 input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+      if (place[next] & OUTSIDE)
+        continue;
+      place[next] |= OUTSIDE;
+      mesh->tet[next].corner[1] = waiting;
+      waiting = next;
     }
   }
+  CW_REQUIRE(place[enclosing] & OUTSIDE, CW_ERR_MESH,
+             "%s: the boundary encloses all that lies outside it: its normals point inward near "
+             "(%.6g, %.6g, %.6g) mm",
+             input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  for (int32_t f = 0; f < facets->count; f++)
+    mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    if (place[t] & OUTSIDE)
+      cw_delaunay_free_tet(mesh, t);
+  }
 done:
+  free(place);
   return status;
 }
 
@@ -164,24 +175,18 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwSplits splits = {0};
   CwTetImproved improved;
   CwFillWay way = {0};
-  double(*x)[3] = NULL;
-  uint8_t *place = NULL;
   int32_t count = 0, raised = 0;
   int good = 1;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
-  CW_TRY(all_points(input, &count, &x));
-  CW_TRY(cw_delaunay_make(count, (const double(*)[3])x, &mesh));
-  free(x);
-  x = NULL;
+  CW_TRY(all_points(input, &count, &mesh));
+  give_back();
+  CW_TRY(cw_delaunay_connect(&mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
-  CW_NEW(place, mesh.tet_count);
-  CW_TRY(classify(input, &mesh, &facets, place));
+  CW_TRY(keep_inside(input, &facets, &mesh));
   cw_facets_free(&facets);
-  CW_TRY(keep_inside(input, &mesh, place));
-  free(place);
-  place = NULL;
+  give_back();
   if (splits.count) {
     // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
     CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
@@ -203,8 +208,6 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
       input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
       improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
 done:
-  free(place);
-  free(x);
   cw_splits_free(&splits);
   cw_facets_free(&facets);
   cw_delaunay_free(&mesh);

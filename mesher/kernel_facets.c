@@ -74,7 +74,7 @@ static CwStatus make_tables(CwFacets *facets, int32_t count) {
   uint32_t size = 16, edge_size = 16;
   while (size < 2 * (uint32_t)count)
     size *= 2;
-  while (edge_size < 3 * (uint32_t)count)
+  while (edge_size < 2 * (uint32_t)count)
     edge_size *= 2; // 1.5 edges a triangle
   free(facets->table);
   free(facets->edge);
@@ -219,7 +219,7 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
     if (tet->corner[0] < 0)
       continue;
     int on_boundary = 0, count = 0;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4 && count + 2 > i; i++) { // most have two corners inside, and are done with
       int32_t given = mesh->source[tet->corner[i]];
       int is = (given >= 0 && given < boundary_points) || given >= facets->divided_from;
       on_boundary |= is << i;

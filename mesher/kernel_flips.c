@@ -158,7 +158,7 @@ CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int
       CW_TRY(cw_delaunay_new_tet(mesh, &slot[k]));
   }
   for (int k = count; k < old_count; k++)
-    CW_TRY(cw_delaunay_free_tet(mesh, old[k]));
+    cw_delaunay_free_tet(mesh, old[k]);
   for (int k = 0; k < count; k++) {
     CwDelaunayTet *tet = &mesh->tet[slot[k]];
     memcpy(tet->corner, corner[k], sizeof tet->corner);

@@ -110,12 +110,18 @@ done:
   return status;
 }
 
+// All below the limit are in the list: only where it is empty must the others be asked.
 static double least_quality(const CwTetWork *w) {
   double least = 1.0;
-  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
+  for (int32_t k = 0; k < w->next_count; k++) {
+    const CwDelaunayTet *tet = &w->mesh->tet[w->next[k]];
+    if (tet->corner[0] >= 0)
+      least = cw_tet_less(least, tet->square);
+  }
+  for (int32_t t = 0; t < w->mesh->tet_count && least >= CW_TET_IMPROVE; t++) {
     const CwDelaunayTet *tet = &w->mesh->tet[t];
-    if (tet->corner[0] >= 0 && tet->square < least)
-      least = tet->square;
+    if (tet->corner[0] >= 0)
+      least = cw_tet_less(least, tet->square);
   }
   return least;
 }

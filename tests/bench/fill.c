@@ -240,7 +240,7 @@ static void make_size(const Mesh *mesh, CwSizeGrid *grid) {
       x[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3.0;
     cw_size_grid_seed(grid, x, length[t]);
   }
-  cw_size_grid_spread(grid, 0.15);
+  check(cw_size_grid_spread(grid, 0.15, NULL));
   free(length);
 }
 
