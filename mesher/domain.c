@@ -7,10 +7,13 @@
 #include <string.h>
 
 #include "mesher/layer_heights.h"
+#include "mesher/layers.h"
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
 
-static const double TALLEST_COLUMN = 2; // of the edge length on the wall
+static const double TALLEST_COLUMN = 4;   // of the edge length on the wall
+static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
+static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
 static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
@@ -29,13 +32,12 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// The tallest column that is fair where the cells have the size `size`: no taller than the triangles under it are wide by
-// a factor, or it crowds its neighbours at noses and roots, and its last layer no taller than the tetrahedron above. Columns
-// give up growth for it, never the first height.
-static double fair_height(double first, int count, double growth, double size) {
-  double last = LAST_LAYER * REGULAR_HEIGHT * size, fair = TALLEST_COLUMN * size;
+// The tallest column that is fair where the cells have the size `size`: no taller than `tallest` such sizes, and its last
+// layer no taller than the tetrahedron above. Columns give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double tallest) {
+  double last = LAST_LAYER * REGULAR_HEIGHT * size;
   if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
-  return fmax(EVEN_LAYERS * count * first, fmin(fair, cw_layer_thickness(first, count, growth)));
+  return fmax(EVEN_LAYERS * count * first, fmin(tallest * size, cw_layer_thickness(first, count, growth)));
 }
 
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
@@ -68,7 +70,8 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *target = &domain->patch_layers[sample->patch];
-    double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size);
+    double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size,
+                              TALLEST_COLUMN);
     layers += sample->density * fmin(target->thickness, fair);
   }
   // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
@@ -194,9 +197,39 @@ done:
   return status;
 }
 
+// Least cosine of the normals of the triangles around each wall vertex to their mean.
+static CwStatus find_bends(const CwSkeleton *skeleton, double **cosine) {
+  CwStatus status = CW_OK;
+  double(*mean)[3] = NULL;
+  CW_NEW(mean, skeleton->wall_count);
+  CW_NEW(*cosine, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) (*cosine)[v] = 1;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+      const int32_t *corner = skeleton->wall_triangle[t];
+      double u[3], v[3], normal[3];
+      cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+      cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+      cw_cross(u, v, normal);
+      cw_unit(normal);
+      for (int k = 0; k < 3; k++) {
+        double *of = mean[corner[k]];
+        for (int c = 0; pass == 0 && c < 3; c++) of[c] += normal[c];
+        if (pass == 1) (*cosine)[corner[k]] = fmin((*cosine)[corner[k]], cw_dot(normal, of));
+      }
+    }
+    for (int32_t v = 0; pass == 0 && v < skeleton->wall_count; v++) cw_unit(mean[v]);
+  }
+done:
+  free(mean);
+  return status;
+}
+
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
+  double *bend = NULL;
+  CW_TRY(find_bends(skeleton, &bend));
   CW_NEW(domain->first_height, skeleton->wall_count);
   CW_NEW(domain->target, skeleton->wall_count);
   CW_NEW(domain->growth, skeleton->wall_count);
@@ -216,10 +249,12 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
-    domain->target[v] = fmin(domain->target[v], fair_height(domain->first_height[v], table->walls.layer_count,
-                                                            domain->growth[v], cw_size_at(domain->size, x)));
+    double fair = fair_height(domain->first_height[v], table->walls.layer_count, domain->growth[v],
+                              cw_size_at(domain->size, x), bend[v] < BEND ? TALLEST_AT_BEND : TALLEST_COLUMN);
+    domain->target[v] = fmin(domain->target[v], fair);
   }
 done:
+  free(bend);
   return status;
 }
 
@@ -242,6 +277,26 @@ CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
                                       .fill = table->mesh.fill,
                                       .first_height = domain->first_height};
   CW_TRY(cw_region_context_make(&domain->context));
+done:
+  return status;
+}
+
+CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  int32_t count = 0;
+  CW_NEW(*wall, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    if (skeleton->wall_region[t] != region) continue;
+    CwRatioWall *made = &(*wall)[count++];
+    *made = (CwRatioWall){.first = INFINITY, .growth = INFINITY};
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      made->first = fmin(made->first, domain->first_height[v]);
+      made->growth = fmin(made->growth, domain->growth[v]);
+      made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    }
+  }
 done:
   return status;
 }

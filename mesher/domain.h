@@ -5,6 +5,7 @@
 
 #include "mesher/background.h"
 #include "mesher/interface_rule.h"
+#include "mesher/layer_ratio.h"
 #include "mesher/region_build.h"
 #include "mesher/size.h"
 #include "mesher/wall_targets.h"
@@ -75,6 +76,9 @@ CwStatus cw_domain_number(CwDomain *domain);
 
 // What the regions share, once their interfaces are final.
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
+
+// What the case allows the layers over each wall triangle of a region, in the order of its file.
+CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall);
 
 void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
 void cw_domain_close(CwDomain *domain);

@@ -73,13 +73,35 @@ static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
                    (json_int_t)rule->left, "final_triangles", (json_int_t)rule->refined);
 }
 
+// The last layer over the tetrahedron on it: all faces; those whose number of layers and growth can make it fair, and how
+// many of these are; and the number of layers with which nine tenths of the faces with room could (0: none up to 40).
+static void add_last_layer(json_t *result, int count, const CwLayerRatio *ratio) {
+  int64_t within = 0, room = 0, reached = 0;
+  int needed = 0;
+  for (int n = 1; n <= CW_RATIO_LAYERS + 1; n++) {
+    room += ratio->layers[n];
+    if (n <= count) within += ratio->layers[n];
+  }
+  for (int n = 1; n <= CW_RATIO_LAYERS && room > 0 && needed == 0; n++) {
+    reached += ratio->layers[n];
+    if (10 * reached >= 9 * room) needed = n;
+  }
+  const int64_t *bin = ratio->bin;
+  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
+  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
+  json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)within));
+  json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio->fair_within));
+  json_object_set_new(result, "last_layer_fair_layer_count", json_integer(needed));
+}
+
 // Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the last
 // layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
 static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   const CwDomain *domain = &run->domain[d];
   const CwSkeleton *skeleton = &domain->skeleton;
   const CwLayerTarget *target = &domain->patch_layers[patch];
-  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0}, ratio[CW_RATIO_BINS] = {0};
+  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0};
+  CwLayerRatio ratio = {0};
   double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
@@ -102,7 +124,10 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
     if (!met) missed[worst]++;
   }
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
-    for (int b = 0; b < CW_RATIO_BINS; b++) ratio[b] += run->summary[d][r].ratio_bin[patch][b];
+    const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
+    for (int b = 0; b < CW_RATIO_BINS; b++) ratio.bin[b] += made->bin[b];
+    for (int n = 0; n < CW_RATIO_LAYERS + 2; n++) ratio.layers[n] += made->layers[n];
+    ratio.fair_within += made->fair_within;
   }
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
@@ -116,8 +141,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   json_object_set_new(result, "first_height_missed_by_gradation_faces",
                       json_integer((json_int_t)missed[CW_LAYER_GRADATION]));
   json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)missed[CW_LAYER_REPAIR]));
-  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(ratio, CW_RATIO_BINS));
-  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(ratio[2] + ratio[3] + ratio[4] + ratio[5])));
+  add_last_layer(result, run->table->walls.layer_count, &ratio);
   return result;
 }
 
