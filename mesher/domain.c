@@ -11,7 +11,7 @@
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
 
-static const double TALLEST_COLUMN = 4;   // of the edge length on the wall
+static const double TALLEST_COLUMN = 3;   // of the edge length on the wall
 static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
 static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
 static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
@@ -39,6 +39,8 @@ static double fair_height(double first, int count, double growth, double size, d
   if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
   return fmax(EVEN_LAYERS * count * first, fmin(tallest * size, cw_layer_thickness(first, count, growth)));
 }
+
+static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
 
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
 static CwStatus integrate(CwDomain *domain) {
@@ -74,6 +76,7 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
                               TALLEST_COLUMN);
     layers += sample->density * fmin(target->thickness, fair);
   }
+  layers *= domain->layer_share;
   // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
   return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
 }
@@ -84,6 +87,7 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   memset(domain, 0, sizeof *domain);
   domain->name = name;
   domain->layer_count = table->walls.layer_count;
+  domain->layer_share = CW_LAYER_SHARE;
   CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
   CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
   CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
@@ -225,6 +229,54 @@ done:
   return status;
 }
 
+// Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge.
+static void grade(const CwSkeleton *skeleton, double slope, double *value) {
+  for (int lowered = 1; lowered;) {
+    lowered = 0;
+    for (int32_t i = 0; i < 2 * skeleton->wall_triangle_count; i++) { // forth and back
+      int32_t t = i < skeleton->wall_triangle_count ? i : 2 * skeleton->wall_triangle_count - 1 - i;
+      for (int k = 0; k < 3; k++) {
+        int32_t a = skeleton->wall_triangle[t][k], b = skeleton->wall_triangle[t][(k + 1) % 3];
+        if (value[a] == value[b]) continue;
+        int32_t low = value[a] < value[b] ? a : b, high = low == a ? b : a;
+        double most = value[low] + slope * cw_distance(skeleton->wall_x[a], skeleton->wall_x[b]);
+        if (value[high] <= most) continue;
+        value[high] = most;
+        lowered = 1;
+      }
+    }
+  }
+}
+
+// The share of the volume predicted for the layers (in cells) that columns take once their heights are graded.
+static CwStatus learn_share(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  double *height = NULL, taken = 0, predicted = 0;
+  CW_NEW(height, skeleton->wall_count);
+  memcpy(height, domain->target, (size_t)skeleton->wall_count * sizeof *height);
+  grade(skeleton, HEIGHT_SLOPE, height);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const int32_t *corner = skeleton->wall_triangle[t];
+    const CwLayerTarget *layers = &domain->patch_layers[cw_cad_face_patch(domain->cad, skeleton->wall_face[t])];
+    double u[3], v[3], normal[3], centre[3];
+    for (int k = 0; k < 3; k++) {
+      u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
+      v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
+      centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
+    }
+    cw_cross(u, v, normal);
+    double h = cw_size_at(domain->size, centre), weight = cw_norm(normal) / (h * h * h);
+    double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, TALLEST_COLUMN);
+    taken += weight * (height[corner[0]] + height[corner[1]] + height[corner[2]]) / 3;
+    predicted += weight * fmin(layers->thickness, fair);
+  }
+  domain->layer_share = predicted > 0 ? taken / predicted : 1;
+done:
+  free(height);
+  return status;
+}
+
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
@@ -244,6 +296,8 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
       domain->growth[v] = fmax(domain->growth[v], layers->growth);
     }
   }
+  // Away from there the first height grows no faster than columns of even layers can.
+  grade(skeleton, HEIGHT_SLOPE / table->walls.layer_count, domain->first_height);
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     const double *x = skeleton->wall_x[v];
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
@@ -253,6 +307,7 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
                               cw_size_at(domain->size, x), bend[v] < BEND ? TALLEST_AT_BEND : TALLEST_COLUMN);
     domain->target[v] = fmin(domain->target[v], fair);
   }
+  CW_TRY(learn_share(domain));
 done:
   free(bend);
   return status;

@@ -10,6 +10,8 @@
 #include "mesher/size.h"
 #include "mesher/wall_targets.h"
 
+#define CW_LAYER_SHARE 0.98 // before the walls are known
+
 // The layers over a piece of wall.
 typedef struct {
   double density;          // area / h^3 at scale 1, m-1
@@ -32,6 +34,7 @@ typedef struct {
   double volume_integral;                     // integral of h^-3 over the domain, at scale 1
   CwLayerSample *layer_sample;                // what the layers take of it: one for each background triangle of a wall
   int32_t layer_sample_count;
+  double layer_share;                         // of that, what graded columns take; known with the walls
   CwPlan plan;
   CwSkeleton skeleton;
   double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
@@ -68,7 +71,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
 // Starts the skeleton anew at the present scale of the size field: curve network and wall curves.
 CwStatus cw_domain_start(CwDomain *domain);
 
-// First heights and targets of all wall vertices, once the walls are merged.
+// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table);
 
 // Region numbers, once the inner surfaces are merged.

@@ -367,6 +367,36 @@ done:
   return status;
 }
 
+// Faces that missed their first height, by reason.
+static void missed_cell(FILE *page, const json_t *patch) {
+  static const char *const key[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
+                                    "first_height_missed_by_repair_faces"};
+  long long count[3], all = 0;
+  for (int k = 0; k < 3; k++)
+    all += count[k] = json_integer_value(json_object_get(patch, key[k]));
+  if (all)
+    fprintf(page, "<td class=\"n\">%lld, %lld, %lld</td>", count[0], count[1], count[2]);
+  else
+    fputs("<td class=\"n\">&ndash;</td>", page);
+}
+
+// How the last layer meets the tetrahedra.
+static void last_layer_cells(FILE *page, const json_t *patch, double faces) {
+  char text[CW_FORMAT_SIZE];
+  double within = cw_json_real(patch, "last_layer_within_reach_faces");
+  fprintf(page, "<td class=\"n\">%s</td>", cw_format_percent(cw_json_real(patch, "last_layer_fair_faces") / faces, text));
+  if (within > 0)
+    fprintf(page, "<td class=\"n\">%s</td>",
+            cw_format_percent(cw_json_real(patch, "last_layer_within_reach_fair_faces") / within, text));
+  else
+    fputs("<td class=\"n\">&ndash;</td>", page);
+  long long count = json_integer_value(json_object_get(patch, "last_layer_fair_layer_count"));
+  if (count > 0)
+    fprintf(page, "<td class=\"n\">%lld</td>", count);
+  else
+    fputs("<td class=\"n\">&ndash;</td>", page);
+}
+
 CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   json_t *domain[2], *list[2];
@@ -393,16 +423,16 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       "<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
       "why the "
       "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
-      "<th class=\"n\">Full<br>thickness</th><th class=\"n\">First height<br>met</th><th class=\"n p\">First "
-      "height,"
-      "<br>target, &micro;m</th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
+      "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">First height,<br>target, &micro;m</th>"
+      "<th class=\"n\"><br>met</th><th class=\"n\"><br>missed by<sup>1</sup></th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
       "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th "
-      "class=\"n\"><br>repair</th></tr>\n",
+      "class=\"n\"><br>repair</th><th class=\"n\">Last layer<br>fair<sup>2</sup></th>"
+      "<th class=\"n\"><br>in reach</th><th class=\"n\">Layers<br>for 90&#8239;%</th></tr>\n",
       page);
   for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
     size_t k;
     json_t *patch;
-    fprintf(page, "<tr class=\"s\"><td colspan=\"10\">%s</td></tr>\n", d ? "Stator" : "Rotor");
+    fprintf(page, "<tr class=\"s\"><td colspan=\"14\">%s</td></tr>\n", d ? "Stator" : "Rotor");
     json_array_foreach(list[d], k, patch) {
       const char *name = json_string_value(json_object_get(patch, "patch"));
       double faces = cw_json_real(patch, "wall_faces");
@@ -412,17 +442,23 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       count_cell(page, json_integer_value(json_object_get(patch, "wall_faces")));
       fprintf(page, "<td class=\"n\">%s</td>",
               cw_format_percent(cw_json_real(patch, coverage_key[0]) / faces, text));
+      number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
       fprintf(page, "<td class=\"n\">%s</td>",
               cw_format_percent(cw_json_real(patch, "first_height_met_faces") / faces, text));
-      number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
+      missed_cell(page, patch);
       number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
       number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
       for (int s = 1; s < 4; s++)
         count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+      last_layer_cells(page, patch, faces);
       fputs("</tr>\n", page);
     }
   }
-  fputs("</table>\n", page);
+  fputs("</table>\n<p class=\"note\"><sup>1</sup> Faces, by gap, gradation and repair. <sup>2</sup> Last layer 0.5 to 1.5 "
+        "times as high as the tetrahedron on it: share of all faces; of those in reach, where the number of layers and "
+        "the growth ratio of the case allow it and no gap forbids it; and the number of layers with which nine tenths of "
+        "the faces outside of gaps would be in reach.</p>\n",
+        page);
 done:
   return status;
 }
