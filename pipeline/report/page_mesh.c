@@ -367,34 +367,54 @@ done:
   return status;
 }
 
-// Faces that missed their first height, by reason.
-static void missed_cell(FILE *page, const json_t *patch) {
-  static const char *const key[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
-                                    "first_height_missed_by_repair_faces"};
-  long long count[3], all = 0;
-  for (int k = 0; k < 3; k++)
-    all += count[k] = json_integer_value(json_object_get(patch, key[k]));
-  if (all)
-    fprintf(page, "<td class=\"n\">%lld, %lld, %lld</td>", count[0], count[1], count[2]);
+static void share_cell(FILE *page, double part, double whole) {
+  char text[CW_FORMAT_SIZE];
+  fprintf(page, "<td class=\"n\">%s</td>", whole > 0 ? cw_format_percent(part / whole, text) : "&ndash;");
+}
+
+// Thickness of the layers on a patch, and why columns are thinner.
+static void thickness_cells(FILE *page, json_t *patch, double faces) {
+  count_cell(page, (long long)faces);
+  share_cell(page, cw_json_real(patch, coverage_key[0]), faces);
+  number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
+  number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
+  for (int s = 1; s < 4; s++)
+    count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+}
+
+// The first layer against its target, the last against the tetrahedra.
+static void height_cells(FILE *page, json_t *patch, double faces) {
+  static const char *const missed[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
+                                       "first_height_missed_by_repair_faces"};
+  double reach = cw_json_real(patch, "last_layer_within_reach_faces");
+  long long count = json_integer_value(json_object_get(patch, "last_layer_fair_layer_count"));
+  number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
+  share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
+  for (int s = 0; s < 3; s++)
+    count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
+  share_cell(page, cw_json_real(patch, "last_layer_fair_faces"), faces);
+  share_cell(page, reach, faces);
+  share_cell(page, cw_json_real(patch, "last_layer_within_reach_fair_faces"), reach);
+  if (count > 0)
+    count_cell(page, count);
   else
     fputs("<td class=\"n\">&ndash;</td>", page);
 }
 
-// How the last layer meets the tetrahedra.
-static void last_layer_cells(FILE *page, const json_t *patch, double faces) {
-  char text[CW_FORMAT_SIZE];
-  double within = cw_json_real(patch, "last_layer_within_reach_faces");
-  fprintf(page, "<td class=\"n\">%s</td>", cw_format_percent(cw_json_real(patch, "last_layer_fair_faces") / faces, text));
-  if (within > 0)
-    fprintf(page, "<td class=\"n\">%s</td>",
-            cw_format_percent(cw_json_real(patch, "last_layer_within_reach_fair_faces") / within, text));
-  else
-    fputs("<td class=\"n\">&ndash;</td>", page);
-  long long count = json_integer_value(json_object_get(patch, "last_layer_fair_layer_count"));
-  if (count > 0)
-    fprintf(page, "<td class=\"n\">%lld</td>", count);
-  else
-    fputs("<td class=\"n\">&ndash;</td>", page);
+static void layer_rows(FILE *page, json_t *const *list, int columns, void (*cells)(FILE *, json_t *, double)) {
+  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
+    size_t k;
+    json_t *patch;
+    fprintf(page, "<tr class=\"s\"><td colspan=\"%d\">%s</td></tr>\n", columns, d ? "Stator" : "Rotor");
+    json_array_foreach(list[d], k, patch) {
+      const char *name = json_string_value(json_object_get(patch, "patch"));
+      fputs("<tr><td>", page);
+      cw_html_label(page, name ? name : "");
+      fputs("</td>", page);
+      cells(page, patch, cw_json_real(patch, "wall_faces"));
+      fputs("</tr>\n", page);
+    }
+  }
 }
 
 CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
@@ -423,42 +443,21 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       "<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
       "why the "
       "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
-      "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">First height,<br>target, &micro;m</th>"
-      "<th class=\"n\"><br>met</th><th class=\"n\"><br>missed by<sup>1</sup></th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
-      "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th "
-      "class=\"n\"><br>repair</th><th class=\"n\">Last layer<br>fair<sup>2</sup></th>"
-      "<th class=\"n\"><br>in reach</th><th class=\"n\">Layers<br>for 90&#8239;%</th></tr>\n",
+      "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
+      "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th>"
+      "<th class=\"n\"><br>repair</th></tr>\n",
       page);
-  for (int d = 0; d < CW_REPORT_DOMAINS; d++) {
-    size_t k;
-    json_t *patch;
-    fprintf(page, "<tr class=\"s\"><td colspan=\"14\">%s</td></tr>\n", d ? "Stator" : "Rotor");
-    json_array_foreach(list[d], k, patch) {
-      const char *name = json_string_value(json_object_get(patch, "patch"));
-      double faces = cw_json_real(patch, "wall_faces");
-      fputs("<tr><td>", page);
-      cw_html_label(page, name ? name : "");
-      fputs("</td>", page);
-      count_cell(page, json_integer_value(json_object_get(patch, "wall_faces")));
-      fprintf(page, "<td class=\"n\">%s</td>",
-              cw_format_percent(cw_json_real(patch, coverage_key[0]) / faces, text));
-      number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
-      fprintf(page, "<td class=\"n\">%s</td>",
-              cw_format_percent(cw_json_real(patch, "first_height_met_faces") / faces, text));
-      missed_cell(page, patch);
-      number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
-      number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
-      for (int s = 1; s < 4; s++)
-        count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
-      last_layer_cells(page, patch, faces);
-      fputs("</tr>\n", page);
-    }
-  }
-  fputs("</table>\n<p class=\"note\"><sup>1</sup> Faces, by gap, gradation and repair. <sup>2</sup> Last layer 0.5 to 1.5 "
-        "times as high as the tetrahedron on it: share of all faces; of those in reach, where the number of layers and "
-        "the growth ratio of the case allow it and no gap forbids it; and the number of layers with which nine tenths of "
-        "the faces outside of gaps would be in reach.</p>\n",
+  layer_rows(page, list, 8, thickness_cells);
+  fputs("</table>\n<p>The last layer is fair where it is 0.5 to 1.5 times as high as the tetrahedron on it. That is in "
+        "reach where the number of layers and the growth ratio of the case suffice and no gap forbids it; the last "
+        "column has the number of layers that would do for nine tenths of the faces outside of gaps.</p>\n"
+        "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
+        "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
+        "<th class=\"n\">Last layer<br>fair</th><th class=\"n\">In<br>reach</th><th class=\"n\">Fair<br>of these</th>"
+        "<th class=\"n\">Layers<br>for 90&#8239;%</th></tr>\n",
         page);
+  layer_rows(page, list, 10, height_cells);
+  fputs("</table>\n", page);
 done:
   return status;
 }
