@@ -11,7 +11,7 @@
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
 
-static const double TALLEST_COLUMN = 3;   // of the edge length on the wall
+static const double TALLEST_COLUMN = 2.5; // of the edge length on the wall
 static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
 static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
 static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most

@@ -42,14 +42,6 @@ static double prism_volume(const CwRegionMesh *mesh, int32_t prism) {
   return cw_cell_volume(6, x);
 }
 
-// Least number of layers that reach half the height `tet` (see CwLayerRatio).
-static int layers_needed(const CwRatioWall *wall, double tet) {
-  if (wall->first > 1.5 * tet) return 0;
-  int count = 1;
-  for (double last = wall->first; last < 0.5 * tet && count <= CW_RATIO_LAYERS; last *= wall->growth) count++;
-  return count;
-}
-
 CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches, CwLayerRatio *ratio) {
   CwStatus status = CW_OK;
   End *end = NULL;
@@ -90,9 +82,10 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall 
       cw_sub(mesh->x[top[1]], mesh->x[top[0]], u);
       cw_sub(mesh->x[top[2]], mesh->x[top[0]], v);
       cw_cross(u, v, normal);
-      int needed = layers_needed(&wall[found->wall], 2 * tet / cw_norm(normal));
-      ratio[patch].layers[needed]++;
-      ratio[patch].fair_within += needed > 0 && needed <= layers && at >= 2 && at <= 5;
+      double first = wall[found->wall].first, height = 2 * tet / cw_norm(normal);
+      if (first > 1.5 * height || first * pow(wall[found->wall].growth, layers - 1) < 0.5 * height) continue;
+      ratio[patch].within++;
+      ratio[patch].fair_within += at >= 2 && at <= 5;
     }
   }
   CW_REQUIRE(met == count, CW_ERR_MESH, "%s region %d: %d of %d columns have no tetrahedron on their ends", mesh->domain,

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-enum { CW_RATIO_BINS = 8, CW_RATIO_LAYERS = 40 };
+enum { CW_RATIO_BINS = 8 };
 // Upper ends of the bins; the last has none. 0.5 to 1.5 is fair: the bins from 2 up to 5.
 extern const double cw_ratio_ends[CW_RATIO_BINS - 1];
 
@@ -23,11 +23,9 @@ typedef struct {
 
 typedef struct {
   int64_t bin[CW_RATIO_BINS];
-  // Of the faces that are not cramped: the least number of layers with which the first height and the growth allowed reach
-  // half the tetrahedron's height. At 0 the first height alone is more than one and a half of it; at CW_RATIO_LAYERS + 1
-  // no number up to that does.
-  int64_t layers[CW_RATIO_LAYERS + 2];
-  int64_t fair_within;  // fair ones among those that the number of layers made suffices for
+  // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half of
+  // the tetrahedron, and the number of layers made reaches half of it with the growth allowed. And fair ones among them.
+  int64_t within, fair_within;
 } CwLayerRatio;
 
 // Counts the wall faces of each patch by the ratio of the heights, normal to the face between them: volume of the last prism

@@ -73,27 +73,6 @@ static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
                    (json_int_t)rule->left, "final_triangles", (json_int_t)rule->refined);
 }
 
-// The last layer over the tetrahedron on it: all faces; those whose number of layers and growth can make it fair, and how
-// many of these are; and the number of layers with which nine tenths of the faces with room could (0: none up to 40).
-static void add_last_layer(json_t *result, int count, const CwLayerRatio *ratio) {
-  int64_t within = 0, room = 0, reached = 0;
-  int needed = 0;
-  for (int n = 1; n <= CW_RATIO_LAYERS + 1; n++) {
-    room += ratio->layers[n];
-    if (n <= count) within += ratio->layers[n];
-  }
-  for (int n = 1; n <= CW_RATIO_LAYERS && room > 0 && needed == 0; n++) {
-    reached += ratio->layers[n];
-    if (10 * reached >= 9 * room) needed = n;
-  }
-  const int64_t *bin = ratio->bin;
-  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
-  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
-  json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)within));
-  json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio->fair_within));
-  json_object_set_new(result, "last_layer_fair_layer_count", json_integer(needed));
-}
-
 // Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the last
 // layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
 static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
@@ -126,7 +105,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
     const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
     for (int b = 0; b < CW_RATIO_BINS; b++) ratio.bin[b] += made->bin[b];
-    for (int n = 0; n < CW_RATIO_LAYERS + 2; n++) ratio.layers[n] += made->layers[n];
+    ratio.within += made->within;
     ratio.fair_within += made->fair_within;
   }
   json_t *result = json_pack(
@@ -141,7 +120,11 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   json_object_set_new(result, "first_height_missed_by_gradation_faces",
                       json_integer((json_int_t)missed[CW_LAYER_GRADATION]));
   json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)missed[CW_LAYER_REPAIR]));
-  add_last_layer(result, run->table->walls.layer_count, &ratio);
+  const int64_t *bin = ratio.bin;
+  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
+  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
+  json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)ratio.within));
+  json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio.fair_within));
   return result;
 }
 

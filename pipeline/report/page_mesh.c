@@ -387,7 +387,6 @@ static void height_cells(FILE *page, json_t *patch, double faces) {
   static const char *const missed[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
                                        "first_height_missed_by_repair_faces"};
   double reach = cw_json_real(patch, "last_layer_within_reach_faces");
-  long long count = json_integer_value(json_object_get(patch, "last_layer_fair_layer_count"));
   number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
   share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
   for (int s = 0; s < 3; s++)
@@ -395,10 +394,6 @@ static void height_cells(FILE *page, json_t *patch, double faces) {
   share_cell(page, cw_json_real(patch, "last_layer_fair_faces"), faces);
   share_cell(page, reach, faces);
   share_cell(page, cw_json_real(patch, "last_layer_within_reach_fair_faces"), reach);
-  if (count > 0)
-    count_cell(page, count);
-  else
-    fputs("<td class=\"n\">&ndash;</td>", page);
 }
 
 static void layer_rows(FILE *page, json_t *const *list, int columns, void (*cells)(FILE *, json_t *, double)) {
@@ -449,14 +444,13 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       page);
   layer_rows(page, list, 8, thickness_cells);
   fputs("</table>\n<p>The last layer is fair where it is 0.5 to 1.5 times as high as the tetrahedron on it. That is in "
-        "reach where the number of layers and the growth ratio of the case suffice and no gap forbids it; the last "
-        "column has the number of layers that would do for nine tenths of the faces outside of gaps.</p>\n"
+        "reach where the first height, number of layers and growth ratio of the case allow it and no gap forbids it.</p>\n"
         "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
         "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
         "<th class=\"n\">Last layer<br>fair</th><th class=\"n\">In<br>reach</th><th class=\"n\">Fair<br>of these</th>"
-        "<th class=\"n\">Layers<br>for 90&#8239;%</th></tr>\n",
+        "</tr>\n",
         page);
-  layer_rows(page, list, 10, height_cells);
+  layer_rows(page, list, 9, height_cells);
   fputs("</table>\n", page);
 done:
   return status;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Measures the layers of a finished run at places that are hard for them. Prints for each: columns over wall triangles with
-// their centre near it, share of them with all layers (%), share with their first height within 10 % (%), least scaled
-// Jacobian of their prisms, least thickness (mm). Writes a section through the cells there to FOLDER/layers_PLACE.svg.
+// Measures the layers of a finished run at places that are hard for them. Prints for each: wall triangles with their
+// centre near it, share of them with all layers (%), share with their first height within 10 % (%), least scaled Jacobian
+// of their prisms, least thickness (mm). Writes a section through the cells there to FOLDER/layers_PLACE.svg.
 // Use: layer_places GEOMETRY_DIR MESH_DIR FOLDER
 #include <jansson.h>
 #include <math.h>
@@ -16,7 +16,7 @@
 
 typedef enum { ACROSS_EDGE, MERIDIAN, NORMAL_TO_AXIS } Section;
 
-// The points that two patches have in common; of one patch alone where the second is the same; its bends where that is "".
+// The points that two patches have in common; all of one patch where both are the same; its bends where the second is "".
 typedef struct {
   const char *name, *domain, *patch, *other;
   double reach, half; // m: of the columns from the points; half the width of the picture
@@ -231,8 +231,8 @@ static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points 
   snprintf(path, sizeof path, "%s/layers_%s.svg", folder, place->name);
   FILE *file = fopen(path, "w");
   CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be written", path);
-  fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" stroke=\"#303840\" stroke-width=\"0.6\">\n"
-                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n", PIXELS, PIXELS);
+  fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" stroke=\"#303840\" "
+                "stroke-width=\"0.6\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n", PIXELS, PIXELS);
   for (int32_t r = 0; r < mesh->region_count; r++) {
     const CwRegionMesh *region = &mesh->region[r];
     for (int32_t c = 0; c < region->tetrahedron_count; c++) {

@@ -40,23 +40,17 @@ static void layers_that_reach_the_tetrahedron(void **state) {
   thick.first = 1.4;
   even.growth = 1;
   assert_int_equal(count(0.9, 1, WALL, ratio), CW_OK); // half of it is 0.45, 0.4 x 1.2 is 0.48
-  assert_int_equal(ratio[1].layers[2], 1);
+  assert_int_equal(ratio[1].within, 1);
   assert_int_equal(ratio[1].fair_within, 1);
-  assert_int_equal(count(1.8, 1, WALL, ratio), CW_OK); // 0.9: 0.4 x 1.2^4 is 0.83, 0.4 x 1.2^5 is 0.995
-  assert_int_equal(ratio[1].layers[6], 1);
-  assert_int_equal(ratio[1].fair_within, 1);           // 1 / 1.8 is fair, but two layers would not do by the case
-  assert_int_equal(count(0.4, 1, WALL, ratio), CW_OK); // one would do; made too tall
-  assert_int_equal(ratio[1].layers[1], 1);
-  assert_int_equal(ratio[1].fair_within, 1);
+  assert_int_equal(count(1.8, 1, WALL, ratio), CW_OK); // 1 / 1.8 is fair, but by the case two layers would not do
+  assert_int_equal(ratio[1].within, 1);
+  assert_int_equal(count(0.4, 1, WALL, ratio), CW_OK); // two would do; made too tall
+  assert_int_equal(ratio[1].within, 2);
   assert_int_equal(count(0.9, 1, thick, ratio), CW_OK); // 1.4 is more than 1.35
-  assert_int_equal(ratio[1].layers[0], 1);
-  assert_int_equal(count(0.9, 1, even, ratio), CW_OK); // 0.4 never comes to 0.45
-  assert_int_equal(ratio[1].layers[CW_RATIO_LAYERS + 1], 1);
+  assert_int_equal(count(0.9, 1, even, ratio), CW_OK);  // 0.4 never comes to 0.45
   assert_int_equal(count(0.9, 1, cramped, ratio), CW_OK);
+  assert_int_equal(ratio[1].within, 2);
   assert_int_equal(ratio[1].fair_within, 1);
-  int64_t all = 0;
-  for (int n = 0; n < CW_RATIO_LAYERS + 2; n++) all += ratio[1].layers[n];
-  assert_int_equal(all, 5);
 }
 
 static void a_bare_end_is_an_error(void **state) {

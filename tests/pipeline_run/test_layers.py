@@ -29,7 +29,7 @@ class Layers(unittest.TestCase):
                 self.assertGreater(float(row["jacobian"]), 0.05)
                 self.assertGreater(float(row["thickness_mm"]), THICKNESS.get(name, 0.4))
                 picture = (RUN / f"layers_{name}.svg").read_text()
-                self.assertGreater(picture.count("<path"), 50)
+                self.assertGreater(picture.count("<path"), 20)
 
     def test_last_layer(self):
         results = json.loads((RUN / "mesh" / "record.json").read_text())["results"]
