@@ -8,10 +8,13 @@
 
 #include "mesher/fan.h"
 #include "mesher/layer_heights.h"
+#include "mesher/layers.h"
 #include "mesher/region_number.h"
 #include "mesher/vec.h"
 
-static const double TALLEST_COLUMN = 2; // of the edge length on the wall
+static const double TALLEST_COLUMN = 2.5; // of the edge length on the wall
+static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
+static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
 static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
@@ -30,14 +33,15 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// The tallest column that is fair where the cells have the size `size`: no taller than the triangles under it are wide by
-// a factor, or it crowds its neighbours at noses and roots, and its last layer no taller than the tetrahedron above. Columns
-// give up growth for it, never the first height.
-static double fair_height(double first, int count, double growth, double size) {
-  double last = LAST_LAYER * REGULAR_HEIGHT * size, fair = TALLEST_COLUMN * size;
+// The tallest column that is fair where the cells have the size `size`: no taller than `tallest` such sizes, and its last
+// layer no taller than the tetrahedron above. Columns give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double tallest) {
+  double last = LAST_LAYER * REGULAR_HEIGHT * size;
   if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
-  return fmax(EVEN_LAYERS * count * first, fmin(fair, cw_layer_thickness(first, count, growth)));
+  return fmax(EVEN_LAYERS * count * first, fmin(tallest * size, cw_layer_thickness(first, count, growth)));
 }
+
+static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
 
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
 static CwStatus integrate(CwDomain *domain) {
@@ -69,9 +73,11 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   for (int32_t i = 0; i < domain->layer_sample_count; i++) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *target = &domain->patch_layers[sample->patch];
-    double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size);
+    double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size,
+                              TALLEST_COLUMN);
     layers += sample->density * fmin(target->thickness, fair);
   }
+  layers *= domain->layer_share;
   // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
   return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
 }
@@ -82,6 +88,7 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
   memset(domain, 0, sizeof *domain);
   domain->name = name;
   domain->layer_count = table->walls.layer_count;
+  domain->layer_share = CW_LAYER_SHARE;
   CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
   CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
   CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
@@ -238,9 +245,87 @@ done:
   return status;
 }
 
+// Least cosine of the normals of the triangles around each wall vertex to their mean.
+static CwStatus find_bends(const CwSkeleton *skeleton, double **cosine) {
+  CwStatus status = CW_OK;
+  double(*mean)[3] = NULL;
+  CW_NEW(mean, skeleton->wall_count);
+  CW_NEW(*cosine, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) (*cosine)[v] = 1;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+      const int32_t *corner = skeleton->wall_triangle[t];
+      double u[3], v[3], normal[3];
+      cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+      cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+      cw_cross(u, v, normal);
+      cw_unit(normal);
+      for (int k = 0; k < 3; k++) {
+        double *of = mean[corner[k]];
+        for (int c = 0; pass == 0 && c < 3; c++) of[c] += normal[c];
+        if (pass == 1) (*cosine)[corner[k]] = fmin((*cosine)[corner[k]], cw_dot(normal, of));
+      }
+    }
+    for (int32_t v = 0; pass == 0 && v < skeleton->wall_count; v++) cw_unit(mean[v]);
+  }
+done:
+  free(mean);
+  return status;
+}
+
+// Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge.
+static void grade(const CwSkeleton *skeleton, double slope, double *value) {
+  for (int lowered = 1; lowered;) {
+    lowered = 0;
+    for (int32_t i = 0; i < 2 * skeleton->wall_triangle_count; i++) { // forth and back
+      int32_t t = i < skeleton->wall_triangle_count ? i : 2 * skeleton->wall_triangle_count - 1 - i;
+      for (int k = 0; k < 3; k++) {
+        int32_t a = skeleton->wall_triangle[t][k], b = skeleton->wall_triangle[t][(k + 1) % 3];
+        if (value[a] == value[b]) continue;
+        int32_t low = value[a] < value[b] ? a : b, high = low == a ? b : a;
+        double most = value[low] + slope * cw_distance(skeleton->wall_x[a], skeleton->wall_x[b]);
+        if (value[high] <= most) continue;
+        value[high] = most;
+        lowered = 1;
+      }
+    }
+  }
+}
+
+// The share of the volume predicted for the layers (in cells) that columns take once their heights are graded.
+static CwStatus learn_share(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  double *height = NULL, taken = 0, predicted = 0;
+  CW_NEW(height, skeleton->wall_count);
+  memcpy(height, domain->target, (size_t)skeleton->wall_count * sizeof *height);
+  grade(skeleton, HEIGHT_SLOPE, height);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const int32_t *corner = skeleton->wall_triangle[t];
+    const CwLayerTarget *layers = &domain->patch_layers[cw_cad_face_patch(domain->cad, skeleton->wall_face[t])];
+    double u[3], v[3], normal[3], centre[3];
+    for (int k = 0; k < 3; k++) {
+      u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
+      v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
+      centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
+    }
+    cw_cross(u, v, normal);
+    double h = cw_size_at(domain->size, centre), weight = cw_norm(normal) / (h * h * h);
+    double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, TALLEST_COLUMN);
+    taken += weight * (height[corner[0]] + height[corner[1]] + height[corner[2]]) / 3;
+    predicted += weight * fmin(layers->thickness, fair);
+  }
+  domain->layer_share = predicted > 0 ? taken / predicted : 1;
+done:
+  free(height);
+  return status;
+}
+
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
+  double *bend = NULL;
+  CW_TRY(find_bends(skeleton, &bend));
   CW_NEW(domain->first_height, skeleton->wall_count);
   CW_NEW(domain->target, skeleton->wall_count);
   CW_NEW(domain->growth, skeleton->wall_count);
@@ -255,21 +340,28 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
       domain->growth[v] = fmax(domain->growth[v], layers->growth);
     }
   }
+  // Away from there the first height grows no faster than columns of even layers can.
+  grade(skeleton, HEIGHT_SLOPE / table->walls.layer_count, domain->first_height);
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     const double *x = skeleton->wall_x[v];
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
-    domain->target[v] = fmin(domain->target[v], fair_height(domain->first_height[v], table->walls.layer_count,
-                                                            domain->growth[v], cw_size_at(domain->size, x)));
+    double fair = fair_height(domain->first_height[v], table->walls.layer_count, domain->growth[v],
+                              cw_size_at(domain->size, x), bend[v] < BEND ? TALLEST_AT_BEND : TALLEST_COLUMN);
+    domain->target[v] = fmin(domain->target[v], fair);
   }
   for (int32_t v = 0; v < skeleton->wall_count; v++) { // the size field is symmetric only to within its grid
     if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
     for (int32_t at = cw_orbit_node(&skeleton->orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(&skeleton->orbits, at, 1)) {
       domain->target[at] = domain->target[v];
+      domain->first_height[at] = domain->first_height[v];
+      domain->growth[at] = domain->growth[v];
     }
   }
+  CW_TRY(learn_share(domain));
 done:
+  free(bend);
   return status;
 }
 
@@ -292,6 +384,26 @@ CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
                                       .fill = table->mesh.fill,
                                       .first_height = domain->first_height};
   CW_TRY(cw_region_context_make(&domain->context));
+done:
+  return status;
+}
+
+CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  int32_t count = 0;
+  CW_NEW(*wall, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    if (skeleton->wall_region[t] != region) continue;
+    CwRatioWall *made = &(*wall)[count++];
+    *made = (CwRatioWall){.first = INFINITY, .growth = INFINITY};
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      made->first = fmin(made->first, domain->first_height[v]);
+      made->growth = fmin(made->growth, domain->growth[v]);
+      made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    }
+  }
 done:
   return status;
 }

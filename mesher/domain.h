@@ -5,10 +5,13 @@
 
 #include "mesher/background.h"
 #include "mesher/interface_rule.h"
+#include "mesher/layer_ratio.h"
 #include "mesher/region_build.h"
 #include "mesher/size.h"
 #include "mesher/symmetry.h"
 #include "mesher/wall_targets.h"
+
+#define CW_LAYER_SHARE 0.98 // before the walls are known
 
 // The layers over a piece of wall.
 typedef struct {
@@ -33,6 +36,7 @@ typedef struct {
   double volume_integral;                     // integral of h^-3 over the domain, at scale 1
   CwLayerSample *layer_sample;                // what the layers take of it: one for each background triangle of a wall
   int32_t layer_sample_count;
+  double layer_share;                         // of that, what graded columns take; known with the walls
   CwPlan plan;
   CwSkeleton skeleton;
   double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
@@ -74,7 +78,7 @@ CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
 // cw_skeleton_wall_curves.
 CwStatus cw_domain_start(CwDomain *domain);
 
-// First heights and targets of all wall vertices, once the walls are merged.
+// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table);
 
 // Region numbers, once the inner surfaces are merged.
@@ -82,6 +86,9 @@ CwStatus cw_domain_number(CwDomain *domain);
 
 // What the regions share, once their interfaces are final.
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
+
+// What the case allows the layers over each wall triangle of a region, in the order of its file.
+CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall);
 
 void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
 void cw_domain_close(CwDomain *domain);

@@ -15,10 +15,24 @@ enum { CW_RATIO_BINS = 8 };
 // Upper ends of the bins; the last has none. 0.5 to 1.5 is fair: the bins from 2 up to 5.
 extern const double cw_ratio_ends[CW_RATIO_BINS - 1];
 
+// What the case allows the column over a wall face.
+typedef struct {
+  double first, growth; // target of the first height, m, and largest ratio of neighbouring layers
+  int cramped;          // a gap or the repair leaves no room for the height asked
+} CwRatioWall;
+
+typedef struct {
+  int64_t bin[CW_RATIO_BINS];
+  // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half of
+  // the tetrahedron, and the number of layers made reaches half of it with the growth allowed. And fair ones among them.
+  int64_t within, fair_within;
+} CwLayerRatio;
+
 // Counts the wall faces of each patch by the ratio of the heights, normal to the face between them: volume of the last prism
-// over that face's area, and three times the volume of the tetrahedron over it. Adds to bin[patch][], which has `patches`
-// rows. Fails with CW_ERR_MESH where a column of `layers` prisms has no tetrahedron on its end.
-CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, int64_t (*bin)[CW_RATIO_BINS]);
+// over that face's area, and three times the volume of the tetrahedron over it. Adds to ratio[patch], which has `patches`
+// rows; wall[i] belongs to the i-th triangle with a prism. Fails with CW_ERR_MESH where a column of `layers` prisms has no
+// tetrahedron on its end.
+CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches, CwLayerRatio *ratio);
 
 #ifdef __cplusplus
 }

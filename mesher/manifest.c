@@ -89,7 +89,8 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   const CwDomain *domain = &run->domain[d];
   const CwSkeleton *skeleton = &domain->skeleton;
   const CwLayerTarget *target = &domain->patch_layers[patch];
-  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0}, ratio[CW_RATIO_BINS] = {0};
+  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0};
+  CwLayerRatio ratio = {0};
   double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
@@ -112,7 +113,10 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
     if (!met) missed[worst]++;
   }
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
-    for (int b = 0; b < CW_RATIO_BINS; b++) ratio[b] += run->summary[d][r].ratio_bin[patch][b];
+    const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
+    for (int b = 0; b < CW_RATIO_BINS; b++) ratio.bin[b] += made->bin[b];
+    ratio.within += made->within;
+    ratio.fair_within += made->fair_within;
   }
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
@@ -126,8 +130,11 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   json_object_set_new(result, "first_height_missed_by_gradation_faces",
                       json_integer((json_int_t)missed[CW_LAYER_GRADATION]));
   json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)missed[CW_LAYER_REPAIR]));
-  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(ratio, CW_RATIO_BINS));
-  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(ratio[2] + ratio[3] + ratio[4] + ratio[5])));
+  const int64_t *bin = ratio.bin;
+  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
+  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
+  json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)ratio.within));
+  json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio.fair_within));
   return result;
 }
 

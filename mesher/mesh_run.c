@@ -18,11 +18,11 @@ static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
-// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 3
-// million cells: 14.4 at scale 1.9, 11.6 at 1.1, 10.7 at 0.7).
+// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 8
+// million cells: 14.3 at scale 1.94, 11.7 at 1.13, 10.7 at 0.71, 10.2 at 0.48).
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
-  return 8.2 + 3.25 * scale;
+  return 8.75 + 2.8 * scale;
 }
 
 typedef struct {
@@ -201,6 +201,8 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     CW_TRY(run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
     for (int d = 0; d < run->domains.count; d++) {
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+      CW_TRY(cw_domain_targets(&run->domain[d], run->table));
+      cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name, run->domain[d].layer_share);
       triangles += run->domain[d].skeleton.wall_triangle_count;
       integral += run->domain[d].prism_integral;
     }
@@ -214,7 +216,6 @@ static CwStatus mesh_walls(CwMeshRun *run) {
   }
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
-    CW_TRY(cw_domain_targets(domain, run->table));
     for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
       domain->target[v] = fmin(domain->target[v], run->most_height[d][v]);
     }
@@ -693,6 +694,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->tet_factor = rounded(run->tet_factor);
     state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole};
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
+    for (int d = 0; d < CW_DOMAINS; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     solve_scale(run);
   }
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));

@@ -18,7 +18,7 @@ enum { CW_PATCH_LIMIT = 32 };
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
-  int64_t ratio_bin[CW_PATCH_LIMIT][CW_RATIO_BINS]; // wall faces by last layer over first tetrahedron
+  CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
   CwFillWay way;
   CwQuality quality;
   CwRegionFailure failure; // else nothing of the above holds

@@ -114,6 +114,18 @@ done:
   return status;
 }
 
+// The last layers of the region, beside what the case allows them.
+static CwStatus measure_layers(const CwMeshRun *run, int d, int32_t region, const CwRegionMesh *mesh,
+                               CwRegionSummary *summary) {
+  CwStatus status = CW_OK;
+  CwRatioWall *wall = NULL;
+  CW_TRY(cw_domain_ratio_walls(&run->domain[d], region, &wall));
+  CW_TRY(cw_layer_ratio(mesh, run->table->walls.layer_count, wall, CW_PATCH_LIMIT, summary->ratio));
+done:
+  free(wall);
+  return status;
+}
+
 // Makes the region, or takes it up from its file where an earlier run left it whole; then its turned copies likewise.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
@@ -138,7 +150,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
     if (!current) CW_TRY(cw_region_write(path, &mesh));
     CW_TRY(write_copies(run, domain, &mesh, &summary->quality));
     summarise(&mesh, summary);
-    CW_TRY(cw_layer_ratio(&mesh, run->table->walls.layer_count, CW_PATCH_LIMIT, summary->ratio_bin));
+    CW_TRY(measure_layers(run, task.domain, task.index, &mesh, summary));
     remove(boundary_path); // of an earlier attempt
   }
   *bytes = summary;

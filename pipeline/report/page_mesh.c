@@ -387,6 +387,54 @@ done:
   return status;
 }
 
+static void share_cell(FILE *page, double part, double whole) {
+  char text[CW_FORMAT_SIZE];
+  fprintf(page, "<td class=\"n\">%s</td>", whole > 0 ? cw_format_percent(part / whole, text) : "&ndash;");
+}
+
+// Thickness of the layers on a patch, and why columns are thinner.
+static void thickness_cells(FILE *page, json_t *patch, double faces) {
+  count_cell(page, (long long)faces);
+  share_cell(page, cw_json_real(patch, coverage_key[0]), faces);
+  number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
+  number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
+  for (int s = 1; s < 4; s++)
+    count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+}
+
+// The first layer against its target, the last against the tetrahedra.
+static void height_cells(FILE *page, json_t *patch, double faces) {
+  static const char *const missed[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
+                                       "first_height_missed_by_repair_faces"};
+  double reach = cw_json_real(patch, "last_layer_within_reach_faces");
+  number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
+  share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
+  for (int s = 0; s < 3; s++)
+    count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
+  share_cell(page, cw_json_real(patch, "last_layer_fair_faces"), faces);
+  share_cell(page, reach, faces);
+  share_cell(page, cw_json_real(patch, "last_layer_within_reach_fair_faces"), reach);
+}
+
+static void layer_rows(FILE *page, const CwReportData *data, json_t *const *list, int columns,
+                       void (*cells)(FILE *, json_t *, double)) {
+  for (int d = 0; d < data->mesh.domain_count; d++) {
+    size_t k;
+    json_t *patch;
+    fprintf(page, "<tr class=\"s\"><td colspan=\"%d\">", columns);
+    write_name(page, data, d);
+    fputs("</td></tr>\n", page);
+    json_array_foreach(list[d], k, patch) {
+      const char *name = json_string_value(json_object_get(patch, "patch"));
+      fputs("<tr><td>", page);
+      cw_html_label(page, name ? name : "");
+      fputs("</td>", page);
+      cells(page, patch, cw_json_real(patch, "wall_faces"));
+      fputs("</tr>\n", page);
+    }
+  }
+}
+
 CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   json_t *domain[DOMAINS_MOST], *list[DOMAINS_MOST];
@@ -413,37 +461,19 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       "<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
       "why the "
       "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
-      "<th class=\"n\">Full<br>thickness</th><th class=\"n\">First height<br>met</th><th class=\"n p\">First "
-      "height,"
-      "<br>target, &micro;m</th><th class=\"n p\">Thickness,<br>mean, mm</th><th class=\"n p\">least, mm</th>"
-      "<th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th><th "
-      "class=\"n\"><br>repair</th></tr>\n",
+      "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
+      "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th>"
+      "<th class=\"n\"><br>repair</th></tr>\n",
       page);
-  for (int d = 0; d < data->mesh.domain_count; d++) {
-    size_t k;
-    json_t *patch;
-    fputs("<tr class=\"s\"><td colspan=\"10\">", page);
-    write_name(page, data, d);
-    fputs("</td></tr>\n", page);
-    json_array_foreach(list[d], k, patch) {
-      const char *name = json_string_value(json_object_get(patch, "patch"));
-      double faces = cw_json_real(patch, "wall_faces");
-      fputs("<tr><td>", page);
-      cw_html_label(page, name ? name : "");
-      fputs("</td>", page);
-      count_cell(page, json_integer_value(json_object_get(patch, "wall_faces")));
-      fprintf(page, "<td class=\"n\">%s</td>",
-              cw_format_percent(cw_json_real(patch, coverage_key[0]) / faces, text));
-      fprintf(page, "<td class=\"n\">%s</td>",
-              cw_format_percent(cw_json_real(patch, "first_height_met_faces") / faces, text));
-      number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
-      number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
-      number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
-      for (int s = 1; s < 4; s++)
-        count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
-      fputs("</tr>\n", page);
-    }
-  }
+  layer_rows(page, data, list, 8, thickness_cells);
+  fputs("</table>\n<p>The last layer is fair where it is 0.5 to 1.5 times as high as the tetrahedron on it. That is in "
+        "reach where the first height, number of layers and growth ratio of the case allow it and no gap forbids it.</p>\n"
+        "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
+        "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
+        "<th class=\"n\">Last layer<br>fair</th><th class=\"n\">In<br>reach</th><th class=\"n\">Fair<br>of these</th>"
+        "</tr>\n",
+        page);
+  layer_rows(page, data, list, 9, height_cells);
   fputs("</table>\n", page);
 done:
   return status;

@@ -212,8 +212,9 @@ static void trailing_edge(void **state) {
                                 {length, half - bevel}, {length - bevel, half}, {bevel, half},      {0, half - bevel}};
   const double lean[3] = {0, tan(30 * M_PI / 180), tan(45 * M_PI / 180)}, h[3] = {0.5 * MM, 0.3 * MM, 0.15 * MM};
   // Layers 4 times as thick as the mesh is wide and more, in a wedge of 45 degrees, are beyond what a front can do in
-  // full with prisms as round as OpenFOAM wants them; the mesher asks for 2 at most.
-  const double least[3][3] = {{1, 1, 0.95}, {1, 0.95, 0.9}, {0.95, 0.84, 0.7}};
+  // full with prisms as round as OpenFOAM wants them; the mesher asks for 3 at most. The mean height is what is held: the
+  // share of columns that are thinner at all hangs on single repairs, which gradation spreads.
+  const double least[3][3] = {{0.99, 0.99, 0.98}, {0.99, 0.98, 0.965}, {0.965, 0.92, 0.87}};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       Case c = {.target = 0.6 * MM};
@@ -233,7 +234,7 @@ static void trailing_edge(void **state) {
       char name[40];
       snprintf(name, sizeof name, "blade, lean %.0f, h %.2f", atan(lean[i]) * 180 / M_PI, h[j] / MM);
       case_run(&c, name);
-      double share = c.share;
+      double mean = c.mean;
       if (j == 1) { // the blunt end between hub and shroud, and the end itself in a section normal to it
         const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
         const double end[3] = {length, 1.3e-6 + 0.5 * b.height * lean[i], 0.5 * b.height + 1.7e-6};
@@ -246,7 +247,7 @@ static void trailing_edge(void **state) {
       free(b.outline);
       free(b.around);
       case_free(&c);
-      assert_true(share >= least[i][j]);
+      assert_true(mean >= least[i][j]);
     }
 }
 

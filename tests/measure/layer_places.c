@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Measures the layers of a finished run at places that are hard for them. Prints for each: wall triangles with their
+// centre near it, share of them with all layers (%), share with their first height within 10 % (%), least scaled Jacobian
+// of their prisms, least thickness (mm). Writes a section through the cells there to FOLDER/layers_PLACE.svg.
+// Use: layer_places GEOMETRY_DIR MESH_DIR FOLDER
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/cad.h"
+#include "mesher/quality.h"
+#include "mesher/vec.h"
+#include "tests/measure/domain_mesh.h"
+
+typedef enum { ACROSS_EDGE, MERIDIAN, NORMAL_TO_AXIS } Section;
+
+// The points that two patches have in common; all of one patch where both are the same; its bends where the second is "".
+typedef struct {
+  const char *name, *domain, *patch, *other;
+  double reach, half; // m: of the columns from the points; half the width of the picture
+  Section section;
+} Place;
+
+static const Place PLACES[] = {
+    {"trailing_edge_hub", "rotor", "blade_trailing_edge", "hub", 1.5e-3, 4e-3, ACROSS_EDGE},
+    {"trailing_edge_shroud", "rotor", "blade_trailing_edge", "shroud", 1.5e-3, 4e-3, ACROSS_EDGE},
+    {"trailing_edge", "rotor", "blade_trailing_edge", "blade_trailing_edge", 1e-4, 4e-3, NORMAL_TO_AXIS},
+    {"neck", "stator", "neck", "neck", 1e-4, 3e-3, MERIDIAN},
+    {"step", "stator", "neck", "step", 2e-3, 4e-3, MERIDIAN},
+    {"tongue", "stator", "tongue", "tongue", 1e-4, 8e-3, NORMAL_TO_AXIS},
+    {"volute_corner", "stator", "volute", "", 2e-3, 6e-3, MERIDIAN},
+};
+enum { PLACE_COUNT = sizeof PLACES / sizeof *PLACES, PIXELS = 900 };
+
+typedef struct {
+  int32_t count, capacity;
+  double (*x)[3];
+} Points;
+
+static CwStatus add_point(Points *points, const double x[3]) {
+  CwStatus status = CW_OK;
+  if (points->count == points->capacity) {
+    points->capacity = points->capacity ? 2 * points->capacity : 256;
+    double(*more)[3] = realloc(points->x, (size_t)points->capacity * sizeof *more);
+    CW_REQUIRE(more, CW_ERR_MEMORY, "out of memory: %d points", points->capacity);
+    points->x = more;
+  }
+  cw_copy(x, points->x[points->count++]);
+done:
+  return status;
+}
+
+static void triangle_normal(const CwRegionMesh *mesh, const int32_t *corner, double normal[3]) {
+  double u[3], v[3];
+  cw_sub(mesh->x[corner[1]], mesh->x[corner[0]], u);
+  cw_sub(mesh->x[corner[2]], mesh->x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+static int is_wall(const CwRegionMesh *mesh, int32_t triangle) {
+  return mesh->triangle_cell[triangle] >= mesh->tetrahedron_count + mesh->pyramid_count;
+}
+
+// Points of one region that make up a place.
+static CwStatus find_points(const CwRegionMesh *mesh, int patch, int other, Points *points) {
+  CwStatus status = CW_OK;
+  uint8_t *on = NULL;
+  double(*normal)[3] = NULL;
+  CW_NEW(on, mesh->point_count);
+  CW_NEW(normal, mesh->point_count);
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    double n[3];
+    triangle_normal(mesh, mesh->triangle[t], n);
+    for (int k = 0; k < 3; k++) {
+      int32_t v = mesh->triangle[t][k];
+      if (mesh->triangle_patch[t] == other) on[v] |= 2;
+      if (mesh->triangle_patch[t] != patch) continue;
+      if (other < 0 && (on[v] & 1) && cw_dot(n, normal[v]) < 0.7) on[v] |= 2; // more than 45 degrees
+      on[v] |= 1;
+      cw_copy(n, normal[v]);
+    }
+  }
+  for (int32_t v = 0; v < mesh->point_count; v++) {
+    if (on[v] == 3) CW_TRY(add_point(points, mesh->x[v]));
+  }
+done:
+  free(on);
+  free(normal);
+  return status;
+}
+
+static double distance_to(const Points *points, const double x[3]) {
+  double least = INFINITY;
+  for (int32_t i = 0; i < points->count && least > 0; i++) least = fmin(least, cw_distance(points->x[i], x));
+  return least;
+}
+
+typedef struct {
+  int64_t columns, covered, met;
+  double jacobian, thickness;
+} Figures;
+
+// The column over a wall triangle: how many prisms stand on one another.
+static int column_height(const CwRegionMesh *mesh, int32_t prism) {
+  int count = 1;
+  for (; prism + 1 < mesh->prism_count; prism++, count++) {
+    if (memcmp(mesh->prism[prism] + 3, mesh->prism[prism + 1], sizeof(int32_t[3])) != 0) break;
+  }
+  return count;
+}
+
+// Least normal distance of the prism's top from the plane of the wall triangle.
+static double height_over(const CwRegionMesh *mesh, int32_t triangle, int32_t prism) {
+  double normal[3], least = INFINITY;
+  triangle_normal(mesh, mesh->triangle[triangle], normal);
+  for (int k = 0; k < 3; k++) {
+    double away[3];
+    cw_sub(mesh->x[mesh->triangle[triangle][0]], mesh->x[mesh->prism[prism][3 + k]], away);
+    least = fmin(least, cw_dot(normal, away));
+  }
+  return least;
+}
+
+static void measure_region(const CwRegionMesh *mesh, const Points *points, double reach, int layers, const double *first,
+                           Figures *figures) {
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    if (!(first[mesh->triangle_patch[t]] > 0)) continue; // no wall
+    double centre[3] = {0};
+    for (int k = 0; k < 9; k++) centre[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3;
+    const double *corner = mesh->x[mesh->triangle[t][0]];
+    if (distance_to(points, centre) > fmax(reach, cw_distance(corner, centre))) continue;
+    figures->columns++;
+    if (!is_wall(mesh, t)) continue;
+    int32_t prism = mesh->triangle_cell[t] - mesh->tetrahedron_count - mesh->pyramid_count;
+    int made = column_height(mesh, prism);
+    figures->covered += made == layers;
+    figures->met += fabs(height_over(mesh, t, prism) / first[mesh->triangle_patch[t]] - 1) <= 0.1;
+    figures->thickness = fmin(figures->thickness, height_over(mesh, t, prism + made - 1));
+    for (int k = 0; k < made; k++) {
+      const double *x[6];
+      for (int c = 0; c < 6; c++) x[c] = mesh->x[mesh->prism[prism + k][c]];
+      figures->jacobian = fmin(figures->jacobian, cw_prism_scaled_jacobian(x));
+    }
+  }
+}
+
+typedef struct {
+  double origin[3], u[3], v[3], normal[3], half;
+} Plane;
+
+// The plane of the picture: through the point nearest to the middle of those about the first.
+static void choose_plane(const Place *place, const Points *points, Plane *plane) {
+  double middle[3] = {0}, along[3] = {0}, axis[3] = {0, 0, 1}, radius[3], nearest = INFINITY;
+  int32_t about = 0, at = 0;
+  for (int32_t i = 0; i < points->count; i++) {
+    if (cw_distance(points->x[i], points->x[0]) > 2 * place->half) continue;
+    about++;
+    for (int k = 0; k < 3; k++) middle[k] += points->x[i][k];
+  }
+  for (int k = 0; k < 3; k++) middle[k] /= about;
+  for (int32_t i = 0; i < points->count; i++) {
+    if (cw_distance(points->x[i], middle) < cw_distance(points->x[at], middle)) at = i;
+  }
+  for (int32_t i = 0; i < points->count; i++) {
+    double far = cw_distance(points->x[i], points->x[at]);
+    if (far <= 1e-5 || far >= nearest) continue;
+    nearest = far;
+    cw_sub(points->x[i], points->x[at], along);
+  }
+  // A little beside the point, or the plane would run through corners.
+  for (int k = 0; k < 3; k++) plane->origin[k] = points->x[at][k] + 0.013 * along[k] + 1.7e-6;
+  for (int k = 0; k < 3; k++) radius[k] = k < 2 ? plane->origin[k] : 0;
+  cw_unit(radius);
+  cw_unit(along);
+  plane->half = place->half;
+  if (place->section == NORMAL_TO_AXIS) cw_copy(axis, plane->normal);
+  if (place->section == MERIDIAN) cw_cross(axis, radius, plane->normal);
+  if (place->section == ACROSS_EDGE) cw_copy(along, plane->normal);
+  double right = cw_dot(radius, plane->normal);
+  for (int k = 0; k < 3; k++) plane->u[k] = radius[k] - right * plane->normal[k];
+  if (!(cw_unit(plane->u) > 0.1)) {
+    cw_cross(axis, plane->normal, plane->u);
+    cw_unit(plane->u);
+  }
+  cw_cross(plane->normal, plane->u, plane->v);
+}
+
+// Draws the section of a cell: the crossings of its edges, in order round their middle.
+static void draw_cell(FILE *file, const CwRegionMesh *mesh, const int32_t *corner, int edges, const int (*edge)[2],
+                      const Plane *plane, const char *colour) {
+  double page[9][2], middle[2] = {0, 0}, turn[9];
+  int count = 0, inside = 0;
+  for (int e = 0; e < edges; e++) {
+    const double *a = mesh->x[corner[edge[e][0]]], *b = mesh->x[corner[edge[e][1]]];
+    double from[3], to[3], at[3];
+    cw_sub(a, plane->origin, from);
+    cw_sub(b, plane->origin, to);
+    double s = cw_dot(from, plane->normal), t = cw_dot(to, plane->normal);
+    if ((s < 0) == (t < 0)) continue;
+    cw_lerp(from, to, s / (s - t), at);
+    page[count][0] = cw_dot(at, plane->u) / plane->half;
+    page[count][1] = cw_dot(at, plane->v) / plane->half;
+    inside |= fabs(page[count][0]) < 1 && fabs(page[count][1]) < 1;
+    count++;
+  }
+  if (count < 3 || !inside) return;
+  for (int i = 0; i < 2 * count; i++) middle[i % 2] += page[i / 2][i % 2] / count;
+  for (int i = 0; i < count; i++) turn[i] = atan2(page[i][1] - middle[1], page[i][0] - middle[0]);
+  fputs("<path d=\"", file);
+  for (int i = 0; i < count; i++) {
+    int next = -1;
+    for (int j = 0; j < count; j++) {
+      if (isfinite(turn[j]) && (next < 0 || turn[j] < turn[next])) next = j;
+    }
+    turn[next] = INFINITY;
+    fprintf(file, "%c%.2f %.2f", i ? 'L' : 'M', PIXELS / 2 * (1 + page[next][0]), PIXELS / 2 * (1 - page[next][1]));
+  }
+  fprintf(file, "z\" fill=\"%s\"/>\n", colour);
+}
+
+static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points *points, int layers, const char *folder) {
+  CwStatus status = CW_OK;
+  static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  static const int prism_edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+  Plane plane;
+  char path[4096];
+  choose_plane(place, points, &plane);
+  snprintf(path, sizeof path, "%s/layers_%s.svg", folder, place->name);
+  FILE *file = fopen(path, "w");
+  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be written", path);
+  fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" stroke=\"#303840\" "
+                "stroke-width=\"0.6\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n", PIXELS, PIXELS);
+  for (int32_t r = 0; r < mesh->region_count; r++) {
+    const CwRegionMesh *region = &mesh->region[r];
+    for (int32_t c = 0; c < region->tetrahedron_count; c++) {
+      if (cw_distance(region->x[region->tetrahedron[c][0]], plane.origin) < 2 * plane.half) {
+        draw_cell(file, region, region->tetrahedron[c], 6, tet_edge, &plane, "#f0ead8");
+      }
+    }
+    for (int32_t c = 0; c < region->prism_count; c++) {
+      if (cw_distance(region->x[region->prism[c][0]], plane.origin) < 2 * plane.half) {
+        draw_cell(file, region, region->prism[c], 9, prism_edge, &plane, c % layers % 2 ? "#c4d8ee" : "#9fbfe2");
+      }
+    }
+  }
+  fputs("</svg>\n", file);
+  int wrong = ferror(file);
+  CW_REQUIRE(fclose(file) == 0 && !wrong, CW_ERR_IO, "%s: cannot be written", path);
+done:
+  return status;
+}
+
+// First heights asked, by patch (0 where the patch is no wall), and the number of layers, from the record of the run.
+static CwStatus read_targets(const char *mesh_dir, const char *domain, const CwCad *cad, double *first, int *layers) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  json_error_t error;
+  size_t i, k;
+  json_t *one, *patch;
+  snprintf(path, sizeof path, "%s/record.json", mesh_dir);
+  json_t *file = json_load_file(path, 0, &error), *record = json_object_get(file, "results");
+  CW_REQUIRE(file, CW_ERR_IO, "%s: %s", path, error.text);
+  *layers = (int)json_integer_value(json_object_get(record, "layers"));
+  json_array_foreach(json_object_get(record, "domains"), i, one) {
+    if (strcmp(json_string_value(json_object_get(one, "name")), domain) != 0) continue;
+    json_array_foreach(json_object_get(one, "layer_coverage"), k, patch) {
+      for (int p = 0; p < cw_cad_patch_count(cad); p++) {
+        if (strcmp(cw_cad_patch_name(cad, p), json_string_value(json_object_get(patch, "patch"))) != 0) continue;
+        first[p] = json_number_value(json_object_get(patch, "first_height_target_m"));
+      }
+    }
+  }
+  CW_REQUIRE(*layers > 0, CW_ERR_INPUT, "%s: no layers", path);
+done:
+  json_decref(file);
+  return status;
+}
+
+static int patch_of(const CwCad *cad, const char *name) {
+  for (int p = 0; p < cw_cad_patch_count(cad); p++) {
+    if (strcmp(cw_cad_patch_name(cad, p), name) == 0) return p;
+  }
+  return -1;
+}
+
+static CwStatus measure(const char *geometry, const char *mesh_dir, const char *folder, const char *domain) {
+  CwStatus status = CW_OK;
+  CwCad *cad = NULL;
+  CwDomainMesh mesh = {0};
+  Points points = {0};
+  double *first = NULL;
+  int layers = 0;
+  CW_TRY(cw_cad_open(geometry, domain, &cad));
+  CW_TRY(cw_domain_mesh_read(mesh_dir, domain, &mesh));
+  CW_NEW(first, cw_cad_patch_count(cad));
+  CW_TRY(read_targets(mesh_dir, domain, cad, first, &layers));
+  for (int i = 0; i < PLACE_COUNT; i++) {
+    const Place *place = &PLACES[i];
+    Figures figures = {.jacobian = INFINITY, .thickness = INFINITY};
+    if (strcmp(place->domain, domain) != 0) continue;
+    points.count = 0;
+    for (int32_t r = 0; r < mesh.region_count; r++) {
+      CW_TRY(find_points(&mesh.region[r], patch_of(cad, place->patch), patch_of(cad, place->other), &points));
+    }
+    CW_REQUIRE(points.count > 1, CW_ERR_INPUT, "%s: no points of %s", place->name, domain);
+    for (int32_t r = 0; r < mesh.region_count; r++) {
+      measure_region(&mesh.region[r], &points, place->reach, layers, first, &figures);
+    }
+    double columns = (double)figures.columns;
+    printf("%-21s %8lld %9.2f %9.2f %9.3f %12.3f\n", place->name, (long long)figures.columns,
+           100 * (double)figures.covered / columns, 100 * (double)figures.met / columns, figures.jacobian,
+           1e3 * figures.thickness);
+    CW_TRY(draw(place, &mesh, &points, layers, folder));
+  }
+done:
+  free(points.x);
+  free(first);
+  cw_domain_mesh_free(&mesh);
+  cw_cad_close(&cad);
+  return status;
+}
+
+int main(int argc, char **argv) {
+  if (argc != 4) {
+    fprintf(stderr, "use: layer_places GEOMETRY_DIR MESH_DIR FOLDER\n");
+    return CW_ERR_USAGE;
+  }
+  printf("%-21s %8s %9s %9s %9s %12s\n", "place", "columns", "covered_%", "first_%", "jacobian", "thickness_mm");
+  CwStatus status = measure(argv[1], argv[2], argv[3], "rotor");
+  if (status == CW_OK) status = measure(argv[1], argv[2], argv[3], "stator");
+  if (status != CW_OK) fprintf(stderr, "%s\n", cw_fail_message());
+  return (int)status;
+}

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""The layers of the shared run at places that are hard for them, and their last layers against the tetrahedra."""
+import json
+import unittest
+
+from cutwater import BIN, RUN, execute
+
+# Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves 1 mm
+# for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
+FIRST = {"trailing_edge": 90, "trailing_edge_hub": 90, "trailing_edge_shroud": 90, "tongue": 90}
+THICKNESS = {"neck": 0.9, "step": 0.9, "tongue": 0.9, "volute_corner": 0.9}  # mm, least; 0.6 is five layers at 0.7
+PLACES = {"trailing_edge", "trailing_edge_hub", "trailing_edge_shroud", "neck", "step", "tongue", "volute_corner"}
+
+
+class Layers(unittest.TestCase):
+    def test_hard_places(self):
+        folder = RUN / "mesh"
+        result = execute([BIN / "layer_places", RUN / "geometry", folder, RUN])
+        self.assertEqual(result.returncode, 0, result.stdout)
+        head, *lines = result.stdout.splitlines()
+        rows = [dict(zip(head.split(), line.split())) for line in lines]
+        self.assertEqual({row["place"] for row in rows}, PLACES)
+        for row in rows:
+            name = row["place"]
+            with self.subTest(name):
+                self.assertGreater(int(row["columns"]), 20)
+                self.assertEqual(float(row["covered_%"]), 100)
+                self.assertGreaterEqual(float(row["first_%"]), FIRST.get(name, 99))
+                self.assertGreater(float(row["jacobian"]), 0.05)
+                self.assertGreater(float(row["thickness_mm"]), THICKNESS.get(name, 0.4))
+                picture = (RUN / f"layers_{name}.svg").read_text()
+                self.assertGreater(picture.count("<path"), 20)
+
+    def test_last_layer(self):
+        results = json.loads((RUN / "mesh" / "record.json").read_text())["results"]
+        patches = [patch for domain in results["domains"] for patch in domain["layer_coverage"]]
+
+        def total(key):
+            return sum(patch[key] for patch in patches)
+
+        faces, within = total("wall_faces"), total("last_layer_within_reach_faces")
+        self.assertEqual(sum(sum(patch["last_layer_over_tetrahedron_bins"]) for patch in patches), faces)
+        self.assertLessEqual(total("last_layer_within_reach_fair_faces"), total("last_layer_fair_faces"))
+        self.assertGreater(within, 0)
+        self.assertGreater(total("last_layer_within_reach_fair_faces"), 0.75 * within)
+        self.assertGreater(total("first_height_met_faces"), 0.995 * faces)
+        for patch in patches:
+            with self.subTest(patch["patch"]):
+                self.assertLessEqual(patch["last_layer_within_reach_faces"], patch["wall_faces"])
+
+
+if __name__ == "__main__":
+    unittest.main()
