@@ -2,7 +2,7 @@
 // Random pumps, from a fixed seed: specific speed ns 35 to 220, 3 to 9 blades, all options. Each ends in
 // valid solids or in one line that says what does not fit; at least 97 % in valid solids.
 //
-//   geometry_test_random_pumps [COUNT]     16 pumps, or COUNT; prints each pump that ends in a line
+//   geometry_test_random_pumps [LAST [FIRST]]     pumps 1 to 16, or FIRST to LAST; prints each that ends in a line
 #include <ctype.h>
 #include <math.h>
 #include <setjmp.h>
@@ -21,7 +21,7 @@
 #include "pipeline/log.h"
 
 static const double degree = M_PI / 180;
-static int pump_count = 16, only = 0;
+static int last_pump = 16, first_pump = 1;
 
 // Splitmix64.
 static double draw(uint64_t *state, double least, double most) {
@@ -123,9 +123,10 @@ static int build(const CwCase *table, CwDesign *design) {
 
 static void random_pumps(void **state_) {
   uint64_t state = 20240607;
+  const int pump_count = last_pump - first_pump + 1;
   int built = 0, unsound = 0, lines = 0;
   double longest = 0, begin = cw_seconds();
-  for (int i = 0; i < pump_count; i++) {
+  for (int i = 0; i < last_pump; i++) {
     CwCase table;
     CwDesign design;
     cw_case_defaults(&table);
@@ -138,7 +139,7 @@ static void random_pumps(void **state_) {
     else
       state = before;
     cw_fail_clear();
-    if (only > 0 && i + 1 != only)
+    if (i + 1 < first_pump)
       continue;
     const int fine = build(&table, &design);
     longest = fmax(longest, cw_seconds() - start);
@@ -166,9 +167,9 @@ static void random_pumps(void **state_) {
 
 int main(int argc, char **argv) {
   if (argc > 1)
-    pump_count = atoi(argv[1]);
+    last_pump = atoi(argv[1]);
   if (argc > 2)
-    only = atoi(argv[2]);
+    first_pump = atoi(argv[2]);
   const struct CMUnitTest tests[] = {cmocka_unit_test(random_pumps)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
