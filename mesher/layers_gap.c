@@ -134,17 +134,17 @@ static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double
 
 void cw_layers_limit_by_hollow(CwLayerWork *work) {
   const CwLayerInput *in = work->in;
-  const double share = 0.6;
+  const double share = 0.4;
   for (int32_t v = 0; v < work->n; v++) {
     work->most[v] = in->target[v];
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
       int32_t w = work->near[k];
-      double e[3], own[3], other[3];
+      double e[3];
       sub3(in->x[w], in->x[v], e);
       if (fan_parts(work, v, w, e)) continue;
-      cw_layers_upright(work, v, own);
-      cw_layers_upright(work, w, other);
-      double closing = dot3(e, own) - dot3(e, other); // of the edge's length squared, by the height
+      // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
+      double closing = dot3(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
+                       dot3(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
       work->most[v] = fmin(work->most[v], share * dot3(e, e) / fmax(closing, 1e-30));
     }
   }

@@ -15,7 +15,9 @@
 
 #include <cmocka.h>
 
+#include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
+#include "geometry/meridian.h"
 #include "geometry/pump.h"
 #include "pipeline/case.h"
 #include "pipeline/log.h"
@@ -75,6 +77,15 @@ static void draw_options(uint64_t *state, CwCase *table) {
   }
 }
 
+// What the blades leave free of hub and shroud, less the quarter of their thickness that fillets must leave.
+static double room_beside(const CwDesign *design) {
+  CwMeridian meridian;
+  double clear = 0;
+  assert_int_equal(cw_meridian_make(design, &meridian), CW_OK);
+  assert_int_equal(cw_blade_clearance(design, &meridian, &clear), CW_OK);
+  return clear - 0.25 * design->blade_thickness;
+}
+
 // Gives some dimensions near those of the computed design, and one of the priorities.
 static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *table) {
   CwImpellerTable *impeller = &table->impeller;
@@ -94,8 +105,8 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
   if (impeller->through_shaft_diameter > 0)
     impeller->hub_diameter = fmax(design->hub_diameter, impeller->through_shaft_diameter);
   if (chance(state, 0.4))
-    impeller->root_fillet_radius =
-        fmin(design->outlet_diameter * draw(state, 0.002, 0.015), 0.25 * design->outlet_width);
+    impeller->root_fillet_radius = fmin(design->outlet_diameter * draw(state, 0.002, 0.015),
+                                        fmin(0.25 * design->outlet_width, 0.3 * room_beside(design)));
   if (choice < 0.35) {
     impeller->priority = CW_PRIORITY_WRAP;
     impeller->wrap_angle = fmax(design->wrap_angle * draw(state, 0.9, 1.1), 21 * degree);
