@@ -242,6 +242,51 @@ done:
   return status;
 }
 
+// Least clear width between the pressure side of a section and the suction side of the next, whose theta is greater by
+// `turn`: at equal q, square to the blade. Negative where they overlap.
+static double clearance(const CwBladeSection *from, const CwBladeSection *next, double turn) {
+  enum { POINTS = 100 };
+  CwBladePoint a[POINTS + 1], b[POINTS + 1];
+  double least = HUGE_VAL;
+  for (int i = 0; i <= POINTS; i++) {
+    const double f = (double)i / POINTS;
+    a[i] = cw_blade_side(from, CW_BLADE_PRESSURE, from->nose + f * (from->end - from->nose));
+    b[i] = cw_blade_side(next, CW_BLADE_SUCTION, next->nose + f * (next->end - next->nose));
+  }
+  for (int i = 0, j = 0; i <= POINTS; i++) {
+    while (j < POINTS - 1 && b[j + 1].q < a[i].q)
+      j++;
+    const double share = (a[i].q - b[j].q) / (b[j + 1].q - b[j].q);
+    if (share < 0 || share > 1)
+      continue;
+    const double theta = b[j].theta + share * (b[j + 1].theta - b[j].theta) + turn;
+    const double p = (a[i].q - from->start) / (1 - from->start), beta = cw_blade_beta(from, fmin(1, fmax(0, p)));
+    double x[2];
+    cw_meridian_blade_point(from->meridian, from->span, a[i].q, x, NULL);
+    least = fmin(least, (theta - a[i].theta) * x[0] * sin(beta));
+  }
+  return least;
+}
+
+CwStatus cw_blade_clearance(const CwDesign *design, const CwMeridian *meridian, double *least) {
+  CwStatus status = CW_OK;
+  const double pitch = 2 * M_PI / design->blade_count;
+  *least = HUGE_VAL;
+  for (int wall = 0; wall < 2; wall++) {
+    CwBladeSection blade;
+    CW_TRY(cw_blade_section(design, meridian, wall, &blade));
+    if (design->splitter_start > 0) {
+      const CwBladeSection splitter = cw_blade_splitter(design, &blade);
+      *least = fmin(*least, clearance(&blade, &splitter, 0));
+      *least = fmin(*least, clearance(&splitter, &blade, pitch));
+    } else {
+      *least = fmin(*least, clearance(&blade, &blade, pitch));
+    }
+  }
+done:
+  return status;
+}
+
 double cw_blade_half_thickness(const CwBladeSection *section, double p) {
   const double top = section->thickest_at;
   if (p < top)

@@ -54,6 +54,10 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
 // The least angle between the blades' mean surface and hub or shroud, rad. Fails as cw_blade_section().
 CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian, double *least);
 
+// The least clear width on hub and shroud between a blade or splitter and the next, without root fillets, m; negative
+// where they overlap. Fails as cw_blade_section().
+CwStatus cw_blade_clearance(const CwDesign *design, const CwMeridian *meridian, double *least);
+
 // Makes the section of the splitter between two blades from the section of the blade.
 CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *blade);
 

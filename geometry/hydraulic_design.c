@@ -460,6 +460,33 @@ static void passage(const CwMeridian *meridian, CwDesign *design) {
   SET(shroud_bend_radius, cw_meridian_bend_radius(&meridian->shroud), "meridian");
 }
 
+// What two root fillets facing one another take of a wall on which the blades stand at an angle.
+static double fillet_width(double radius, double wall_angle) {
+  return 2 * radius / sin(fmax(M_PI / 4, wall_angle));
+}
+
+// Between neighbours a quarter of the blade's thickness must be left of hub and shroud beside the root fillets.
+static CwStatus check_clearance(const CwMeridian *meridian, const CwDesign *design) {
+  CwStatus status = CW_OK;
+  double clear, angle;
+  CW_TRY(cw_blade_clearance(design, meridian, &clear));
+  CW_TRY(cw_blade_wall_angle(design, meridian, &angle));
+  const double least = 0.25 * design->blade_thickness,
+               fillets = fillet_width(design->root_fillet_radius, angle);
+  const char *splitters = design->splitter_start > 0 ? " and as many splitters" : "";
+  CW_REQUIRE(clear > least, CW_ERR_DESIGN,
+             "%d blades%s are %.2f mm apart on hub or shroud; at least %.2f mm are allowed (a quarter of the blade's "
+             "thickness): lower blade_count, blade_thickness_mm or the wrap, or leave splitter_start out",
+             design->blade_count, splitters, clear * 1e3, least * 1e3);
+  CW_REQUIRE(clear > least + fillets, CW_ERR_DESIGN,
+             "%d blades%s are %.2f mm apart on hub or shroud, of which root fillets take %.2f mm; at least %.2f mm "
+             "must be left: lower root_fillet_radius_mm to %.2f, or lower blade_count, or leave splitter_start out",
+             design->blade_count, splitters, clear * 1e3, fillets * 1e3, least * 1e3,
+             floor(1e5 * design->root_fillet_radius * (clear - least) / fillets) / 1e2);
+done:
+  return status;
+}
+
 CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   CwStatus status = CW_OK;
   CwMeridian meridian;
@@ -486,6 +513,7 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
       "change outlet_diameter_mm, outlet_width_mm or the priority",
       design->head, design->predicted_head);
   choose_wrap_spread(&table->impeller, &meridian, design);
+  CW_TRY(check_clearance(&meridian, design));
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,

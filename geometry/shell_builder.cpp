@@ -13,6 +13,8 @@
 #include <TopoDS_Wire.hxx>
 
 static const double least_tolerance = 1e-7; // mm, OpenCASCADE's Precision::Confusion()
+// mm, of edges and vertices: the deviation of curves on surfaces is sampled, and its peaks lie between the samples.
+static const double least_edge_tolerance = 1e-5;
 
 int CwShellBuilder::vertex(const gp_Pnt &point) {
   TopoDS_Vertex vertex;
@@ -94,7 +96,7 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
     if (edge.forward_uses != 1 || edge.reversed_uses != 1)
       throw Standard_Failure(
           ("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
-    const double tolerance = std::max(least_tolerance, 2 * edge.deviation);
+    const double tolerance = std::max(least_edge_tolerance, 2 * edge.deviation);
     builder.UpdateEdge(edge.edge, tolerance);
     builder.SameParameter(edge.edge, Standard_True);
     builder.SameRange(edge.edge, Standard_True);

@@ -16,7 +16,8 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   CW_NEW(layers->reason, work.n);
   CW_TRY(cw_layers_normals(&work));
   CW_TRY(cw_gap_tree_make(&work, &tree));
-  memcpy(work.t, input->target, work.n * sizeof *work.t);
+  cw_layers_limit_by_hollow(&work);
+  memcpy(work.t, work.most, work.n * sizeof *work.t);
   // The fan needs heights and the gap needs directions: twice is enough for both to settle.
   for (int pass = 0; pass < 2; pass++) {
     CW_TRY(cw_layers_fan(&work));

@@ -6,7 +6,8 @@
 //   direction  most normal to the faces around (the least cosine is greatest), inside the guides
 //   length     t / max(cosine, 0.3 on concave edges, 0.55 elsewhere): normal height t on every face around
 //   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal height
-//   height     least of target, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x distance more than any neighbour
+//   height     least of target, 0.4 of where the columns of a hollow meet, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x
+//              distance more than any neighbour
 //   repair     poor prisms are turned, then thinned by 0.8, until nothing is inverted and nothing crosses
 //
 // Best where the surface is not much finer than t beside concave edges. Along straight edges the full height is kept
@@ -24,7 +25,7 @@ extern "C" {
 
 typedef enum {
   CW_LAYER_FULL,       // height as asked
-  CW_LAYER_GAP,        // limited by a narrow gap
+  CW_LAYER_GAP,        // limited by a narrow gap or hollow
   CW_LAYER_GRADATION,  // limited by neighbours
   CW_LAYER_REPAIR      // limited by validity of the prisms or of the front
 } CwLayerReason;

@@ -115,12 +115,39 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CW_NEW(most, work->n);
   CW_TRY(cw_layers_share(work, work->n, sizeof *most, free_height, tree, most));
   for (int32_t v = 0; v < work->n; v++) {
-    work->t[v] = fmin(work->in->target[v], most[v]);
+    work->t[v] = fmin(work->most[v], most[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
   }
 done:
   free(most);
   return status;
+}
+
+// Whether the fan sees to the columns at both ends of this edge: it lies along a crease or runs into one.
+static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
+  int at_v = work->crease[v] == CW_CREASE_CONCAVE, at_w = work->crease[w] == CW_CREASE_CONCAVE;
+  if (!at_v || !at_w) return at_v || at_w;
+  double along_v = dot3(work->along[v], e), along_w = dot3(work->along[w], e), least = 0.7 * length3(e);
+  int corner = length3(work->along[v]) == 0 || length3(work->along[w]) == 0;
+  return corner || fabs(along_v) > least || fabs(along_w) > least;
+}
+
+void cw_layers_limit_by_hollow(CwLayerWork *work) {
+  const CwLayerInput *in = work->in;
+  const double share = 0.4;
+  for (int32_t v = 0; v < work->n; v++) {
+    work->most[v] = in->target[v];
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+      int32_t w = work->near[k];
+      double e[3];
+      sub3(in->x[w], in->x[v], e);
+      if (fan_parts(work, v, w, e)) continue;
+      // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
+      double closing = dot3(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
+                       dot3(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
+      work->most[v] = fmin(work->most[v], share * dot3(e, e) / fmax(closing, 1e-30));
+    }
+  }
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work) {

@@ -35,6 +35,7 @@ typedef struct {
   double (*along)[3];                  // crease: direction of the edge, or zero at a corner
   double (*column)[3];                 // unit-height displacement
   double *t;                           // height, m
+  double *most;                        // the target, or less in a hollow: no height is greater, m
   CwLean *lean;                        // what the last fan made of each vertex in its reach; NULL before the first
   double *lean_t;                      // the heights it was made for; negative out of its reach
   uint8_t *reason;                     // CwLayerReason
@@ -107,8 +108,11 @@ CwStatus cw_layers_fan(CwLayerWork *work);
 
 // layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray.
 CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree);
-// t = min(target, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
+// t = min(most, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
+// Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.4 of the height at which they
+// would meet. Beside a concave crease the fan keeps them apart, and nothing is limited.
+void cw_layers_limit_by_hollow(CwLayerWork *work);
 // Lowers heights until |dt| <= 0.3 length along every edge.
 CwStatus cw_layers_grade(CwLayerWork *work);
 

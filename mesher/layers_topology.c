@@ -143,6 +143,7 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
   CW_NEW(work->along, work->n);
   CW_NEW(work->column, work->n);
   CW_NEW(work->t, work->n);
+  CW_NEW(work->most, work->n);
   CW_NEW(work->reason, work->n);
 done:
   return status;
@@ -165,6 +166,7 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->along);
   free(work->column);
   free(work->t);
+  free(work->most);
   free(work->reason);
   free(work->lean);
   free(work->lean_t);

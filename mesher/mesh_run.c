@@ -694,7 +694,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->tet_factor = rounded(run->tet_factor);
     state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole};
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
-    for (int d = 0; d < CW_DOMAINS; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
+    for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     solve_scale(run);
   }
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));

@@ -98,10 +98,39 @@ static void bevel(void **state) {
   near_to(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
 }
 
+// Of blades without thickness the width is the pitch, r dtheta sin beta, where that is least; a splitter takes its share.
+static void clearance(void **state) {
+  CwDesign thin = design;
+  thin.leading_edge_thickness = thin.blade_thickness = thin.trailing_edge_thickness = 1e-7;
+  double least = INFINITY, behind = INFINITY, found;
+  for (int wall = 0; wall < 2; wall++) {
+    CwBladeSection on;
+    assert_int_equal(cw_blade_section(&thin, &meridian, wall, &on), CW_OK);
+    for (int i = 0; i <= 1000; i++) {
+      double x[2];
+      cw_meridian_blade_point(&meridian, wall, i / 1000.0, x, NULL);
+      const double width = 2 * M_PI / 6 * x[0] * sin(cw_blade_beta(&on, i / 1000.0));
+      least = fmin(least, width);
+      if (i >= 400)
+        behind = fmin(behind, width);
+    }
+  }
+  assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
+  near_to(found, least, 2e-4 * least);
+  thin.splitter_start = 0.4;
+  thin.splitter_position = 0.35;
+  assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
+  near_to(found, 0.35 * behind, 2e-4 * behind);
+  // Thicker than the pitch: they overlap.
+  thin.blade_thickness = 0.06;
+  assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
+  assert_true(found < 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(spiral), cmocka_unit_test(wrap_closes), cmocka_unit_test(thickness),
-      cmocka_unit_test(nose),   cmocka_unit_test(bevel),
+      cmocka_unit_test(nose),   cmocka_unit_test(bevel),   cmocka_unit_test(clearance),
   };
   return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -223,6 +224,26 @@ static void impossible_wrap_is_refused(void **state) {
   cw_fail_clear();
 }
 
+// Nine blades and nine splitters with root fillets: the line names the radius that fits, and it does.
+static void fillets_need_room_between_the_blades(void **state) {
+  CwCase table = paper();
+  CwDesign d;
+  table.impeller.blade_count = 9;
+  table.impeller.splitter_start = 0.4;
+  table.impeller.root_fillet_radius = 10e-3;
+  assert_int_equal(cw_hydraulic_design(&table, &d), CW_ERR_DESIGN);
+  const char *radius = strstr(cw_fail_message(), "lower root_fillet_radius_mm to ");
+  assert_non_null(radius);
+  const double fits = atof(radius + strlen("lower root_fillet_radius_mm to "));
+  assert_true(fits > 0.1 && fits < 10);
+  cw_fail_clear();
+  table.impeller.root_fillet_radius = fits * 1e-3;
+  assert_int_equal(cw_hydraulic_design(&table, &d), CW_OK);
+  table.impeller.root_fillet_radius = (fits + 0.02) * 1e-3;
+  assert_int_equal(cw_hydraulic_design(&table, &d), CW_ERR_DESIGN);
+  cw_fail_clear();
+}
+
 static void rows_are_lines(void **state) {
   const CwCase table = paper();
   const CwDesign design = design_of(&table);
@@ -248,6 +269,7 @@ int main(void) {
       cmocka_unit_test(splitters_raise_the_slip_factor),
       cmocka_unit_test(case_overrides),
       cmocka_unit_test(impossible_wrap_is_refused),
+      cmocka_unit_test(fillets_need_room_between_the_blades),
       cmocka_unit_test(rows_are_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,7 +2,7 @@
 // Random pumps, from a fixed seed: specific speed ns 35 to 220, 3 to 9 blades, all options. Each ends in
 // valid solids or in one line that says what does not fit; at least 97 % in valid solids.
 //
-//   geometry_test_random_pumps [COUNT]     16 pumps, or COUNT; prints each pump that ends in a line
+//   geometry_test_random_pumps [LAST [FIRST]]     pumps 1 to 16, or FIRST to LAST; prints each that ends in a line
 #include <ctype.h>
 #include <math.h>
 #include <setjmp.h>
@@ -15,13 +15,15 @@
 
 #include <cmocka.h>
 
+#include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
+#include "geometry/meridian.h"
 #include "geometry/pump.h"
 #include "pipeline/case.h"
 #include "pipeline/log.h"
 
 static const double degree = M_PI / 180;
-static int pump_count = 16, only = 0;
+static int last_pump = 16, first_pump = 1;
 
 // Splitmix64.
 static double draw(uint64_t *state, double least, double most) {
@@ -75,6 +77,15 @@ static void draw_options(uint64_t *state, CwCase *table) {
   }
 }
 
+// What the blades leave free of hub and shroud, less the quarter of their thickness that fillets must leave.
+static double room_beside(const CwDesign *design) {
+  CwMeridian meridian;
+  double clear = 0;
+  assert_int_equal(cw_meridian_make(design, &meridian), CW_OK);
+  assert_int_equal(cw_blade_clearance(design, &meridian, &clear), CW_OK);
+  return clear - 0.25 * design->blade_thickness;
+}
+
 // Gives some dimensions near those of the computed design, and one of the priorities.
 static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *table) {
   CwImpellerTable *impeller = &table->impeller;
@@ -94,8 +105,8 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
   if (impeller->through_shaft_diameter > 0)
     impeller->hub_diameter = fmax(design->hub_diameter, impeller->through_shaft_diameter);
   if (chance(state, 0.4))
-    impeller->root_fillet_radius =
-        fmin(design->outlet_diameter * draw(state, 0.002, 0.015), 0.25 * design->outlet_width);
+    impeller->root_fillet_radius = fmin(design->outlet_diameter * draw(state, 0.002, 0.015),
+                                        fmin(0.25 * design->outlet_width, 0.3 * room_beside(design)));
   if (choice < 0.35) {
     impeller->priority = CW_PRIORITY_WRAP;
     impeller->wrap_angle = fmax(design->wrap_angle * draw(state, 0.9, 1.1), 21 * degree);
@@ -132,9 +143,10 @@ static int build(const CwCase *table, CwDesign *design) {
 
 static void random_pumps(void **state_) {
   uint64_t state = 20240607, zone_state = 20240608;
+  const int pump_count = last_pump - first_pump + 1;
   int built = 0, unsound = 0, lines = 0;
   double longest = 0, begin = cw_seconds();
-  for (int i = 0; i < pump_count; i++) {
+  for (int i = 0; i < last_pump; i++) {
     CwCase table;
     CwDesign design;
     cw_case_defaults(&table);
@@ -148,7 +160,7 @@ static void random_pumps(void **state_) {
       state = before;
     cw_fail_clear();
     draw_zones(&zone_state, &table);
-    if (only > 0 && i + 1 != only)
+    if (i + 1 < first_pump)
       continue;
     const int fine = build(&table, &design);
     longest = fmax(longest, cw_seconds() - start);
@@ -176,9 +188,9 @@ static void random_pumps(void **state_) {
 
 int main(int argc, char **argv) {
   if (argc > 1)
-    pump_count = atoi(argv[1]);
+    last_pump = atoi(argv[1]);
   if (argc > 2)
-    only = atoi(argv[2]);
+    first_pump = atoi(argv[2]);
   const struct CMUnitTest tests[] = {cmocka_unit_test(random_pumps)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -209,6 +209,20 @@ static void pipe_between_caps(void **state) {
   case_free(&c);
 }
 
+// A pipe narrower than its layers: 0.4 of the way to where the columns meet, its axis.
+static void hollow(void **state) {
+  const double size[2] = {0.001, 0.004};
+  Case c = {.target = 0.6 * MM, .guide = end_planes, .guide_context = &size[1]};
+  surface_grid(&c.wall, cylinder_point, size, 24, 16, 1); // outward
+  end_caps(&c.cap, -0.03, -0.03, 0.03, 0.03, size[1]);
+  case_run(&c, "narrow pipe");
+  for (int32_t v = 0; v < c.wall.point_count; v++) {
+    assert_float_equal(hypot(c.out.front[v][0], c.out.front[v][2]), 0.6 * MM, 1e-10);
+    assert_int_equal(c.out.reason[v], CW_LAYER_GAP);
+  }
+  case_free(&c);
+}
+
 static int oblique_plane(const void *context, const double x[3], double normal[2][3]) {
   double tangent = *(const double *)context, c = 1 / sqrt(1 + tangent * tangent);
   if (fabs(x[0] - tangent * (x[2] - 0.005) - 0.01) > 1e-9) return 0;
@@ -342,7 +356,7 @@ int main(void) {
       cmocka_unit_test(box_in_box),          cmocka_unit_test(l_channel),         cmocka_unit_test(sharp_creases),
       cmocka_unit_test(thin_gap),            cmocka_unit_test(gap_to_cap),        cmocka_unit_test(gradation),
       cmocka_unit_test(pipe_between_caps),   cmocka_unit_test(plane_through_box), cmocka_unit_test(failures),
-      cmocka_unit_test(same_each_time),      cmocka_unit_test(slanted_caps),
+      cmocka_unit_test(same_each_time),      cmocka_unit_test(slanted_caps),      cmocka_unit_test(hollow),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
