@@ -6,7 +6,7 @@
 //   direction  most normal to the faces around (the least cosine is greatest), inside the guides
 //   length     t / max(cosine, 0.3 on concave edges, 0.55 elsewhere): normal height t on every face around
 //   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal height
-//   height     least of target, 0.4 of where the columns of a hollow meet, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x
+//   height     least of target, 0.6 of where the columns of a hollow meet, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x
 //              distance more than any neighbour
 //   repair     poor prisms are turned, then thinned by 0.8, until nothing is inverted and nothing crosses
 //

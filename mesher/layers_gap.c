@@ -134,7 +134,7 @@ static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double
 
 void cw_layers_limit_by_hollow(CwLayerWork *work) {
   const CwLayerInput *in = work->in;
-  const double share = 0.4;
+  const double share = 0.6;
   for (int32_t v = 0; v < work->n; v++) {
     work->most[v] = in->target[v];
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {

@@ -110,7 +110,7 @@ CwStatus cw_layers_fan(CwLayerWork *work);
 CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree);
 // t = min(most, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
-// Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.4 of the height at which they
+// Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which they
 // would meet. Beside a concave crease the fan keeps them apart, and nothing is limited.
 void cw_layers_limit_by_hollow(CwLayerWork *work);
 // Lowers heights until |dt| <= 0.3 length along every edge.
