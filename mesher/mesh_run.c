@@ -394,6 +394,22 @@ done:
   return status;
 }
 
+// Gives all turned copies of a column the least height of them.
+static void thin_alike(const CwSkeleton *skeleton, double *most_height) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  for (int32_t v = 0; orbits->symmetry && v < skeleton->wall_count; v++) {
+    if (cw_orbit_node_turns(orbits, v) > 0) continue;
+    double least = most_height[v];
+    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+      least = fmin(least, most_height[at]);
+    }
+    most_height[v] = least;
+    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+      most_height[at] = least;
+    }
+  }
+}
+
 // Where regions have failed: thinner columns near the places, more of them and thinner ones with each attempt. Out of
 // attempts: fails for the first region.
 static CwStatus thin_columns(CwMeshRun *run, int attempt) {
@@ -422,6 +438,7 @@ static CwStatus thin_columns(CwMeshRun *run, int attempt) {
       }
       cw_region_failure_thin(skeleton, r, failure, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
     }
+    if (run->most_height[d]) thin_alike(skeleton, run->most_height[d]);
   }
   run->retries++;
 done:
@@ -615,14 +632,8 @@ done:
   return status;
 }
 
-static int is_symmetric(const CwMeshRun *run) {
-  int found = 0;
-  for (int d = 0; d < run->domains.count; d++) found |= run->domain[d].symmetry != NULL;
-  return found;
-}
-
-// One pass at the present scale: walls, layers, inner surfaces, regions. Where that fails with equal passages, it is tried
-// without them; then regions that fail are tried again with thinner layers.
+// One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal, the
+// impeller is meshed whole; regions that fail are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
   int32_t failed = 0;
@@ -635,7 +646,7 @@ static CwStatus mesh_pass(CwMeshRun *run) {
       CW_TRY(mesh_regions(run, &failed));
       if (!failed) break;
     }
-    if (is_symmetric(run)) {
+    if (status == CW_RETRY) {
       CW_TRY(plan_all_whole(run));
     } else {
       CW_TRY(thin_columns(run, attempt++));
