@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "mesher/coupled_rim.h"
+#include "mesher/mesh_plan.h"
 #include "mesher/pass_state.h"
-#include "mesher/schedule.h"
+#include "mesher/run_step.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
@@ -23,96 +24,6 @@ static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
   return 8.45 + 3.05 * scale;
-}
-
-typedef struct {
-  CwMeshRun *run;
-  const CwMeshTask *task;
-  CwMeshStep step;
-} StepContext;
-
-static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *size) {
-  StepContext *step = context;
-  return step->step(step->run, step->task[index], bytes, size);
-}
-
-// What a model of more ranks needs (tests/bench/speedup.py).
-static CwStatus record_tasks(CwMeshRun *run, const char *name, double seconds, int32_t count, const double *cost,
-                             const double *time) {
-  CwStatus status = CW_OK;
-  json_t *costs = json_array(), *times = json_array();
-  for (int32_t i = 0; i < count; i++) {
-    json_array_append_new(costs, cw_json_number(cost[i]));
-    json_array_append_new(times, cw_json_number(time[i]));
-  }
-  if (!run->tasks) run->tasks = json_array();
-  CW_REQUIRE(json_array_append_new(run->tasks, json_pack("{s:s, s:o, s:o, s:o}", "step", name, "seconds",
-                                                         cw_json_number(seconds), "task_cost", costs, "task_seconds",
-                                                         times)) == 0,
-             CW_ERR_MEMORY, "out of memory: record of %d tasks", count);
-done:
-  return status;
-}
-
-// Runs a step over tasks of all domains. Results: bytes[d][i] for task index i of domain d (arrays of `limit[d]`
-// pointers); seconds[d][i] likewise where seconds is given.
-static CwStatus run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
-                         const CwMeshTask *task, void ***bytes, double **seconds) {
-  CwStatus status = CW_OK;
-  void **result = NULL;
-  int64_t *size = NULL;
-  double *cost = NULL, *time = NULL, started = cw_seconds(), worked = cw_processor_seconds();
-  StepContext context = {run, task, body};
-  CW_NEW(result, count);
-  CW_NEW(size, count);
-  CW_NEW(cost, count);
-  CW_NEW(time, count);
-  for (int32_t i = 0; i < count; i++) cost[i] = task[i].cost;
-  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .run = run_one, .context = &context,
-                         .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, result, size, time));
-  for (int32_t i = 0; i < count; i++) {
-    bytes[task[i].domain][task[i].index] = result[i];
-    result[i] = NULL;
-    if (seconds) seconds[task[i].domain][task[i].index] = time[i];
-  }
-  if (run->rank == 0) {
-    CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
-    CW_TRY(record_tasks(run, name, cw_processor_seconds() - worked, count, cost, time));
-  }
-done:
-  if (result) {
-    for (int32_t i = 0; i < count; i++) free(result[i]);
-  }
-  free(result);
-  free(size);
-  free(cost);
-  free(time);
-  return status;
-}
-
-// Arrays of results of all domains, freed with their contents.
-typedef struct {
-  int32_t count[CW_DOMAINS_MOST];
-  void **bytes[CW_DOMAINS_MOST];
-} Results;
-
-static CwStatus results_make(Results *results, int domains, const int32_t *count) {
-  CwStatus status = CW_OK;
-  for (int d = 0; d < domains; d++) {
-    results->count[d] = count[d];
-    CW_NEW(results->bytes[d], results->count[d]);
-  }
-done:
-  return status;
-}
-
-static void results_free(Results *results) {
-  for (int d = 0; d < CW_DOMAINS_MOST; d++) {
-    for (int32_t i = 0; results->bytes[d] && i < results->count[d]; i++) free(results->bytes[d][i]);
-    free(results->bytes[d]);
-    results->bytes[d] = NULL;
-  }
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
@@ -131,6 +42,11 @@ static double all_cells_at(const CwMeshRun *run, double scale) {
   return cells;
 }
 
+void cw_mesh_set_scale(CwMeshRun *run, double scale) {
+  run->scale = scale;
+  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
+}
+
 // Sets the scale of the size fields so that the predicted count is the asked one: cells go by about the -2.7th power of it.
 static void solve_scale(CwMeshRun *run) {
   double asked = (double)run->table->mesh.cells, off = INFINITY;
@@ -139,11 +55,7 @@ static void solve_scale(CwMeshRun *run) {
     off = all_cells_at(run, run->scale) / asked;
     run->scale *= pow(off, 1 / 2.7);
   }
-  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, run->scale);
-}
-
-static void face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
-  for (int d = 0; d < run->domains.count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
+  cw_mesh_set_scale(run, run->scale);
 }
 
 // Costs of faces: predicted triangles.
@@ -151,7 +63,7 @@ static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMe
   CwStatus status = CW_OK;
   int32_t faces[CW_DOMAINS_MOST], all = 0;
   *count = 0;
-  face_counts(run, faces);
+  cw_face_counts(run, faces);
   for (int d = 0; d < run->domains.count; d++) all += faces[d];
   CW_NEW(*tasks, all);
   for (int d = 0; d < run->domains.count; d++) {
@@ -187,18 +99,18 @@ done:
 static CwStatus mesh_walls(CwMeshRun *run) {
   CwStatus status = CW_OK;
   int again = 0; // the same walls, for thinner layers
-  Results results = {0};
+  CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t count, faces[CW_DOMAINS_MOST];
   for (int d = 0; d < run->domains.count; d++) again |= run->most_height[d] != NULL;
   CW_TRY(face_tasks(run, 1, &count, &task));
-  face_counts(run, faces);
+  cw_face_counts(run, faces);
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
     double integral = 0;
     CW_TRY(start_walls(run));
-    CW_TRY(results_make(&results, run->domains.count, faces));
-    CW_TRY(run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
+    CW_TRY(cw_results_make(&results, run->domains.count, faces));
+    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
     for (int d = 0; d < run->domains.count; d++) {
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
       CW_TRY(cw_domain_targets(&run->domain[d], run->table));
@@ -206,7 +118,7 @@ static CwStatus mesh_walls(CwMeshRun *run) {
       triangles += run->domain[d].skeleton.wall_triangle_count;
       integral += run->domain[d].prism_integral;
     }
-    results_free(&results);
+    cw_results_free(&results);
     run->prism_factor = (double)triangles * run->table->walls.layer_count * run->scale * run->scale / integral;
     double off = all_cells_at(run, run->scale) / (double)run->table->mesh.cells - 1;
     cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
@@ -221,24 +133,8 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     }
   }
 done:
-  results_free(&results);
+  cw_results_free(&results);
   free(task);
-  return status;
-}
-
-// Runs a step that has one task a domain.
-static CwStatus run_domains(CwMeshRun *run, const char *name, CwMeshStep body, Results *results) {
-  CwStatus status = CW_OK;
-  CwMeshTask task[CW_DOMAINS_MOST];
-  int32_t one[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) one[d] = 1;
-  CW_TRY(results_make(results, run->domains.count, one));
-  for (int d = 0; d < run->domains.count; d++) {
-    double cost = fmax(run->domain[d].skeleton.wall_count, run->domain[d].background.triangle_count);
-    task[d] = (CwMeshTask){d, 0, cost};
-  }
-  CW_TRY(run_step(run, name, "domains", body, run->domains.count, task, results->bytes, NULL));
-done:
   return status;
 }
 
@@ -261,14 +157,14 @@ done:
 
 static CwStatus mesh_inner(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  Results caps = {0}, interfaces = {0};
+  CwResults caps = {0}, interfaces = {0};
   CwMeshTask *task = NULL;
   int32_t count, made = 0, counts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
-  face_counts(run, counts);
-  CW_TRY(results_make(&caps, run->domains.count, counts));
+  cw_face_counts(run, counts);
+  CW_TRY(cw_results_make(&caps, run->domains.count, counts));
   CW_TRY(face_tasks(run, 0, &count, &task));
-  CW_TRY(run_step(run, "caps", "faces", cw_step_cap, count, task, caps.bytes, NULL));
+  CW_TRY(cw_run_step(run, "caps", "faces", cw_step_cap, count, task, caps.bytes, NULL));
   free(task);
   task = NULL;
   count = 0;
@@ -276,7 +172,7 @@ static CwStatus mesh_inner(CwMeshRun *run) {
     counts[d] = run->domain[d].skeleton.outline_count;
     count += counts[d];
   }
-  CW_TRY(results_make(&interfaces, run->domains.count, counts));
+  CW_TRY(cw_results_make(&interfaces, run->domains.count, counts));
   CW_NEW(task, count);
   for (int d = 0; d < run->domains.count; d++) {
     const CwSkeletonOrbits *orbits = &run->domain[d].skeleton.orbits;
@@ -285,14 +181,14 @@ static CwStatus mesh_inner(CwMeshRun *run) {
       task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
     }
   }
-  CW_TRY(run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
+  CW_TRY(cw_run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
-  results_free(&caps);
-  results_free(&interfaces);
+  cw_results_free(&caps);
+  cw_results_free(&interfaces);
   free(task);
   return status;
 }
@@ -301,7 +197,7 @@ done:
 // are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
 static CwStatus refine_interfaces(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  Results results = {0};
+  CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
   for (int d = 0; d < run->domains.count; d++) {
@@ -319,8 +215,8 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
       if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
     }
   }
-  CW_TRY(results_make(&results, run->domains.count, regions));
-  CW_TRY(run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
+  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
@@ -332,7 +228,7 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
            (long long)domain->rule.inserted, (long long)domain->rule.left);
   }
 done:
-  results_free(&results);
+  cw_results_free(&results);
   free(task);
   return status;
 }
@@ -351,7 +247,7 @@ static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegion
 // *failed: how many regions could not be made.
 static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   CwStatus status = CW_OK;
-  Results results = {0};
+  CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
   for (int d = 0; d < run->domains.count; d++) {
@@ -372,8 +268,8 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
       task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
     }
   }
-  CW_TRY(results_make(&results, run->domains.count, regions));
-  CW_TRY(run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
+  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
   run->cells = 0;
   *failed = 0;
   for (int d = 0; d < run->domains.count; d++) {
@@ -389,7 +285,7 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
                run->domain[d].name, run->run_path);
   }
 done:
-  results_free(&results);
+  cw_results_free(&results);
   free(task);
   return status;
 }
@@ -457,171 +353,6 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
-// Background triangulations and exact volumes: each made by one rank.
-static CwStatus measure_domains(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  Results results = {0};
-  CwMeshTask task[CW_DOMAINS_MOST * CW_DOMAIN_PARTS];
-  int32_t parts[CW_DOMAINS_MOST], count = 0;
-  for (int d = 0; d < run->domains.count; d++) parts[d] = CW_DOMAIN_PARTS;
-  CW_TRY(results_make(&results, run->domains.count, parts));
-  for (int d = 0; d < run->domains.count; d++) {
-    for (int part = 0; part < CW_DOMAIN_PARTS; part++) {
-      // Faces are measured in half the time that their triangles take.
-      task[count++] = (CwMeshTask){d, part, cw_cad_face_count(run->domain[d].cad) / (1.0 + part)};
-    }
-  }
-  CW_TRY(run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
-  for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
-    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, cw_cad_face_count(run->domain[d].cad),
-           run->domain[d].background.triangle_count);
-  }
-done:
-  results_free(&results);
-  return status;
-}
-
-// Looks for equal passages, which the rotor alone can have.
-static CwStatus find_symmetry(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  CwDomain *domain = &run->domain[0];
-  if (!run->table->mesh.periodic_impeller) goto done;
-  CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
-  if (domain->symmetry) {
-    cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
-  } else {
-    cw_log("%s: no equal passages; it is meshed whole", domain->name);
-  }
-done:
-  return status;
-}
-
-// The size fields: seeds face by face, then the fields they spread to.
-static CwStatus make_sizes(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  Results seeds = {0}, results = {0};
-  CwMeshTask *task = NULL;
-  int32_t count = 0, all = 0, faces[CW_DOMAINS_MOST];
-  face_counts(run, faces);
-  for (int d = 0; d < run->domains.count; d++) all += faces[d];
-  CW_TRY(results_make(&seeds, run->domains.count, faces));
-  CW_NEW(task, all);
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwBackground *background = &run->domain[d].background;
-    for (int32_t f = 0; f < faces[d]; f++) task[count + f] = (CwMeshTask){d, f, 0};
-    for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
-    count += faces[d];
-    run->seeds[d] = seeds.bytes[d];
-  }
-  CW_TRY(run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
-  CW_TRY(run_domains(run, "size field", cw_step_size, &results));
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
-done:
-  for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
-  results_free(&seeds);
-  results_free(&results);
-  free(task);
-  return status;
-}
-
-static CwStatus open_domains(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  CwFlowScales scales;
-  char path[4096];
-  double started = cw_seconds();
-  snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
-  CW_TRY(cw_flow_scales_read(path, &scales));
-  snprintf(path, sizeof path, "%s/geometry", run->run_path);
-  CW_TRY(cw_domain_table_read(path, &run->domains));
-  for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path, run->table, &scales));
-    CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
-               "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
-               cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
-  }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
-  CW_TRY(measure_domains(run));
-  CW_TRY(find_symmetry(run));
-  CW_TRY(make_sizes(run));
-done:
-  return status;
-}
-
-static void set_scale(CwMeshRun *run, double scale) {
-  run->scale = scale;
-  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
-}
-
-// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
-static CwStatus plan_whole(CwMeshRun *run, int d) {
-  CwStatus status = CW_OK;
-  Results results = {0};
-  double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
-  cw_log("%s: its passages cannot be divided alike; it is meshed whole", run->domain[d].name);
-  cw_domain_clear(&run->domain[d]);
-  cw_symmetry_free(&run->domain[d].symmetry);
-  run->whole = 1;
-  run->prism_factor = run->planned_prism_factor;
-  run->tet_factor = run->planned_tet_factor;
-  set_scale(run, run->planned_scale);
-  int32_t one[CW_DOMAINS_MOST];
-  for (int i = 0; i < run->domains.count; i++) one[i] = 1;
-  CW_TRY(results_make(&results, run->domains.count, one));
-  CwMeshTask task = {d, 0, 1};
-  CW_TRY(run_step(run, "decomposition", "domains", cw_step_plan, 1, &task, results.bytes, NULL));
-  CW_TRY(cw_domain_take_plan(&run->domain[d], results.bytes[d][0]));
-  run->prism_factor = prism_factor;
-  run->tet_factor = tet_factor;
-  set_scale(run, scale);
-done:
-  results_free(&results);
-  return status;
-}
-
-// For all domains that have a symmetry.
-static CwStatus plan_all_whole(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
-    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
-  }
-done:
-  return status;
-}
-
-static void log_plan(const CwMeshRun *run, int d) {
-  const CwDomain *domain = &run->domain[d];
-  double worst = 1;
-  for (int32_t n = 0; n < domain->plan.node_count; n++) {
-    const CwPlane *plane = &domain->plan.node[n].plane;
-    worst = fmin(worst, domain->plan.worst_angle[n]);
-    cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
-                 n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
-                 1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
-  }
-  cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
-         domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
-}
-
-// Regions for each domain by its share of the predicted cells.
-static CwStatus plan_domains(CwMeshRun *run) {
-  CwStatus status = CW_OK;
-  Results results = {0};
-  run->planned_prism_factor = run->prism_factor;
-  run->planned_tet_factor = run->tet_factor;
-  run->planned_scale = run->scale;
-  CW_TRY(run_domains(run, "decomposition", cw_step_plan, &results));
-  for (int d = 0; d < run->domains.count; d++) {
-    status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
-    if (status == CW_RETRY) status = plan_whole(run, d);
-    CW_TRY(status);
-    log_plan(run, d);
-  }
-done:
-  results_free(&results);
-  return status;
-}
-
 // CW_RETRY where a symmetric domain does not come out symmetric.
 static CwStatus mesh_surfaces(CwMeshRun *run) {
   CwStatus status = CW_OK;
@@ -639,18 +370,16 @@ static CwStatus mesh_pass(CwMeshRun *run) {
   int32_t failed = 0;
   for (int attempt = 0;;) {
     status = mesh_surfaces(run);
-    if (status != CW_RETRY) {
-      CW_TRY(status);
-      CW_TRY(refine_interfaces(run));
-      for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
-      CW_TRY(mesh_regions(run, &failed));
-      if (!failed) break;
-    }
     if (status == CW_RETRY) {
-      CW_TRY(plan_all_whole(run));
-    } else {
-      CW_TRY(thin_columns(run, attempt++));
+      CW_TRY(cw_mesh_plan_whole(run));
+      continue;
     }
+    CW_TRY(status);
+    CW_TRY(refine_interfaces(run));
+    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+    CW_TRY(mesh_regions(run, &failed));
+    if (!failed) break;
+    CW_TRY(thin_columns(run, attempt++));
   }
 done:
   for (int d = 0; d < run->domains.count; d++) {
@@ -671,14 +400,14 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   char path[4096], fingerprint[33];
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_make_directory(path));
-  CW_TRY(open_domains(run));
+  CW_TRY(cw_mesh_open(run));
   run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
   double asked = (double)run->table->mesh.cells;
   run->scale = 1;
   run->tet_factor = 0;
   solve_scale(run);
   run->tet_factor = tets_per_volume(run->scale);
-  CW_TRY(plan_domains(run));
+  CW_TRY(cw_mesh_plan(run));
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
   cw_pass_state_read(run->run_path, fingerprint, &state);
@@ -687,7 +416,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->tet_factor = state.tet_factor;
     solve_scale(run);
     cw_log("going on with pass %d of an earlier run", state.pass);
-    if (state.whole) CW_TRY(plan_all_whole(run));
+    if (state.whole) CW_TRY(cw_mesh_plan_whole(run));
   }
   for (run->passes = state.pass;; run->passes++) {
     CW_TRY(mesh_pass(run));

@@ -52,6 +52,9 @@ void cw_mesh_run_free(CwMeshRun *run);
 // Cells of one domain as its integrals and the factors predict them at the present scale.
 double cw_predicted_cells(const CwMeshRun *run, int domain);
 
+// Sets the scale of the size fields of all domains.
+void cw_mesh_set_scale(CwMeshRun *run, double scale);
+
 // A task of one domain.
 typedef struct {
   int32_t domain, index;

@@ -11,6 +11,40 @@ static int by_number(const void *p, const void *q) {
   return (a > b) - (a < b);
 }
 
+CwStatus cw_orbit_copy_curve(CwSkeleton *skeleton, int32_t first, const int32_t *corner_node, double (*const *x)[3],
+                             CwAddCurveNode add) {
+  CwStatus status = CW_OK;
+  CwNetwork *network = &skeleton->network;
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  const CwCurve *curve = &network->curve[first];
+  int32_t copies = cw_orbit_copies(orbits, &orbits->curve, first), previous = first;
+  for (int32_t turns = 1; turns <= copies && copies > 1; turns++) {
+    int32_t index = orbits->curve.next[previous];
+    CwCurve *copy = &network->curve[index];
+    if (turns < copies) {
+      copy->point_count = curve->point_count;
+      CW_NEW(copy->node, curve->point_count);
+      CW_NEW(copy->parameter, curve->point_count);
+      memcpy(copy->parameter, curve->parameter, (size_t)curve->point_count * sizeof *copy->parameter);
+    }
+    for (int32_t k = 0; k < curve->point_count; k++) {
+      if (k == 0 || k == curve->point_count - 1) {
+        copy->node[k] = corner_node[copy->corner[k > 0]];
+        continue;
+      }
+      if (turns < copies) {
+        double turned[3];
+        cw_orbit_point(orbits, turns, (*x)[curve->node[k]], turned);
+        CW_TRY(add(skeleton, copy, turned, &copy->node[k]));
+      }
+      CW_TRY(cw_orbit_link(orbits, network->curve[previous].node[k], copy->node[k], turns % copies));
+    }
+    previous = index;
+  }
+done:
+  return status;
+}
+
 CwStatus cw_orbit_outlines(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   CwSkeletonOrbits *orbits = &skeleton->orbits;

@@ -96,38 +96,8 @@ done:
   return status;
 }
 
-// The turned copies of a free curve that is divided.
-static CwStatus copy_free_curve(CwSkeleton *skeleton, int32_t first) {
-  CwStatus status = CW_OK;
-  CwNetwork *network = &skeleton->network;
-  CwSkeletonOrbits *orbits = &skeleton->orbits;
-  const CwCurve *curve = &network->curve[first];
-  int32_t copies = cw_orbit_copies(orbits, &orbits->curve, first), previous = first;
-  for (int32_t turns = 1; turns <= copies && copies > 1; turns++) {
-    int32_t index = orbits->curve.next[previous];
-    CwCurve *copy = &network->curve[index];
-    if (turns < copies) {
-      copy->point_count = curve->point_count;
-      CW_NEW(copy->node, curve->point_count);
-      CW_NEW(copy->parameter, curve->point_count);
-      memcpy(copy->parameter, curve->parameter, (size_t)curve->point_count * sizeof *copy->parameter);
-    }
-    for (int32_t k = 0; k < curve->point_count; k++) {
-      if (k == 0 || k == curve->point_count - 1) {
-        copy->node[k] = skeleton->corner_node[copy->corner[k > 0]];
-        continue;
-      }
-      if (turns < copies) {
-        double x[3];
-        cw_orbit_point(orbits, turns, skeleton->node_x[curve->node[k]], x);
-        CW_TRY(cw_skeleton_add_node(skeleton, x, curve->kind != CW_CURVE_EDGE, &copy->node[k]));
-      }
-      CW_TRY(cw_orbit_link(orbits, network->curve[previous].node[k], copy->node[k], turns % copies));
-    }
-    previous = index;
-  }
-done:
-  return status;
+static CwStatus add_curve_node(CwSkeleton *skeleton, const CwCurve *curve, const double x[3], int32_t *node) {
+  return cw_skeleton_add_node(skeleton, x, curve->kind != CW_CURVE_EDGE, node);
 }
 
 // All edges of the network on one plane. A wall cut, a cap cut and the line with an ancestor bound the interface; the
@@ -190,7 +160,7 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
     const CwSkeletonOrbits *orbits = &skeleton->orbits;
     if (skeleton->network.curve[i].wall || cw_orbit_turns(orbits, &orbits->curve, i) > 0) continue;
     CW_TRY(divide_free_curve(skeleton, &skeleton->network.curve[i]));
-    CW_TRY(copy_free_curve(skeleton, i));
+    CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->corner_node, &skeleton->node_x, add_curve_node));
   }
   for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node));
   if (skeleton->orbits.symmetry) status = cw_orbit_outlines(skeleton);

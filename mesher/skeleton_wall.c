@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/orbit_skeleton.h"
 #include "mesher/patch_task.h"
 #include "mesher/skeleton_curves.h"
 #include "mesher/vec.h"
@@ -120,39 +121,8 @@ done:
   return status;
 }
 
-// The turned copies of a curve that is divided.
-static CwStatus copy_wall_curve(CwSkeleton *skeleton, int32_t first) {
-  CwStatus status = CW_OK;
-  CwNetwork *network = &skeleton->network;
-  CwSkeletonOrbits *orbits = &skeleton->orbits;
-  const CwCurve *curve = &network->curve[first];
-  int32_t copies = cw_orbit_copies(orbits, &orbits->curve, first), previous = first;
-  for (int32_t turns = 1; turns <= copies && copies > 1; turns++) {
-    int32_t index = orbits->curve.next[previous];
-    CwCurve *copy = &network->curve[index];
-    if (turns < copies) {
-      copy->point_count = curve->point_count;
-      CW_NEW(copy->node, curve->point_count);
-      CW_NEW(copy->parameter, curve->point_count);
-      memcpy(copy->parameter, curve->parameter, (size_t)curve->point_count * sizeof *copy->parameter);
-    }
-    CwGuide guide = curve_guide(skeleton, copy);
-    for (int32_t k = 0; k < curve->point_count; k++) {
-      if (k == 0 || k == curve->point_count - 1) {
-        copy->node[k] = skeleton->corner_vertex[copy->corner[k > 0]];
-        continue;
-      }
-      if (turns < copies) {
-        double x[3];
-        cw_orbit_point(orbits, turns, skeleton->wall_x[curve->node[k]], x);
-        CW_TRY(add_wall_vertex(skeleton, x, guide, &copy->node[k]));
-      }
-      CW_TRY(cw_orbit_link(orbits, network->curve[previous].node[k], copy->node[k], turns % copies));
-    }
-    previous = index;
-  }
-done:
-  return status;
+static CwStatus add_curve_vertex(CwSkeleton *skeleton, const CwCurve *curve, const double x[3], int32_t *vertex) {
+  return add_wall_vertex(skeleton, x, curve_guide(skeleton, curve), vertex);
 }
 
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
@@ -197,7 +167,7 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     }
     free(place);
     place = NULL;
-    CW_TRY(copy_wall_curve(skeleton, i));
+    CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->corner_vertex, &skeleton->wall_x, add_curve_vertex));
   }
 done:
   free(place);

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/mesh_plan.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "mesher/run_step.h"
+#include "pipeline/log.h"
+
+// Background triangulations and exact volumes: each made by one rank.
+static CwStatus measure_domains(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  CwMeshTask task[CW_DOMAINS_MOST * CW_DOMAIN_PARTS];
+  int32_t parts[CW_DOMAINS_MOST], count = 0;
+  for (int d = 0; d < run->domains.count; d++) parts[d] = CW_DOMAIN_PARTS;
+  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int part = 0; part < CW_DOMAIN_PARTS; part++) {
+      // Faces are measured in half the time that their triangles take.
+      task[count++] = (CwMeshTask){d, part, cw_cad_face_count(run->domain[d].cad) / (1.0 + part)};
+    }
+  }
+  CW_TRY(cw_run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
+    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, cw_cad_face_count(run->domain[d].cad),
+           run->domain[d].background.triangle_count);
+  }
+done:
+  cw_results_free(&results);
+  return status;
+}
+
+// Looks for equal passages, which the rotor alone can have.
+static CwStatus find_symmetry(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &run->domain[0];
+  if (!run->table->mesh.periodic_impeller) goto done;
+  CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
+  if (domain->symmetry) {
+    cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
+  } else {
+    cw_log("%s: no equal passages; it is meshed whole", domain->name);
+  }
+done:
+  return status;
+}
+
+// The size fields: seeds face by face, then the fields they spread to.
+static CwStatus make_sizes(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults seeds = {0}, results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count = 0, all = 0, faces[CW_DOMAINS_MOST];
+  cw_face_counts(run, faces);
+  for (int d = 0; d < run->domains.count; d++) all += faces[d];
+  CW_TRY(cw_results_make(&seeds, run->domains.count, faces));
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwBackground *background = &run->domain[d].background;
+    for (int32_t f = 0; f < faces[d]; f++) task[count + f] = (CwMeshTask){d, f, 0};
+    for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
+    count += faces[d];
+    run->seeds[d] = seeds.bytes[d];
+  }
+  CW_TRY(cw_run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
+  CW_TRY(cw_run_domains(run, "size field", cw_step_size, &results));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
+done:
+  for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
+  cw_results_free(&seeds);
+  cw_results_free(&results);
+  free(task);
+  return status;
+}
+
+CwStatus cw_mesh_open(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwFlowScales scales;
+  char path[4096];
+  double started = cw_seconds();
+  snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
+  CW_TRY(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry", run->run_path);
+  CW_TRY(cw_domain_table_read(path, &run->domains));
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path, run->table, &scales));
+    CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
+               "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
+               cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
+  CW_TRY(measure_domains(run));
+  CW_TRY(find_symmetry(run));
+  CW_TRY(make_sizes(run));
+done:
+  return status;
+}
+
+// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
+static CwStatus plan_whole(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
+  cw_log("%s: its passages cannot be divided alike; it is meshed whole", run->domain[d].name);
+  cw_domain_clear(&run->domain[d]);
+  cw_symmetry_free(&run->domain[d].symmetry);
+  run->whole = 1;
+  run->prism_factor = run->planned_prism_factor;
+  run->tet_factor = run->planned_tet_factor;
+  cw_mesh_set_scale(run, run->planned_scale);
+  int32_t one[CW_DOMAINS_MOST];
+  for (int i = 0; i < run->domains.count; i++) one[i] = 1;
+  CW_TRY(cw_results_make(&results, run->domains.count, one));
+  CwMeshTask task = {d, 0, 1};
+  CW_TRY(cw_run_step(run, "decomposition", "domains", cw_step_plan, 1, &task, results.bytes, NULL));
+  CW_TRY(cw_domain_take_plan(&run->domain[d], results.bytes[d][0]));
+  run->prism_factor = prism_factor;
+  run->tet_factor = tet_factor;
+  cw_mesh_set_scale(run, scale);
+done:
+  cw_results_free(&results);
+  return status;
+}
+
+CwStatus cw_mesh_plan_whole(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
+  }
+done:
+  return status;
+}
+
+static void log_plan(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  double worst = 1;
+  for (int32_t n = 0; n < domain->plan.node_count; n++) {
+    const CwPlane *plane = &domain->plan.node[n].plane;
+    worst = fmin(worst, domain->plan.worst_angle[n]);
+    cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+                 n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
+                 1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+  }
+  cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
+         domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+}
+
+CwStatus cw_mesh_plan(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  run->planned_prism_factor = run->prism_factor;
+  run->planned_tet_factor = run->tet_factor;
+  run->planned_scale = run->scale;
+  CW_TRY(cw_run_domains(run, "decomposition", cw_step_plan, &results));
+  for (int d = 0; d < run->domains.count; d++) {
+    status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
+    if (status == CW_RETRY) status = plan_whole(run, d);
+    CW_TRY(status);
+    log_plan(run, d);
+  }
+done:
+  cw_results_free(&results);
+  return status;
+}

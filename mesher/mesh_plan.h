@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What is done once before the passes: geometry, size fields, regions.
+#ifndef CUTWATER_MESHER_MESH_PLAN_H
+#define CUTWATER_MESHER_MESH_PLAN_H
+
+#include "mesher/mesh_run.h"
+
+// All are collective.
+
+// Opens all domains: geometry, background, symmetry, size field.
+CwStatus cw_mesh_open(CwMeshRun *run);
+
+// Regions for each domain by its share of the predicted cells, at the present scale and factors.
+CwStatus cw_mesh_plan(CwMeshRun *run);
+
+// Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole.
+CwStatus cw_mesh_plan_whole(CwMeshRun *run);
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run_step.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "mesher/schedule.h"
+#include "pipeline/log.h"
+
+typedef struct {
+  CwMeshRun *run;
+  const CwMeshTask *task;
+  CwMeshStep step;
+} StepContext;
+
+static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *size) {
+  StepContext *step = context;
+  return step->step(step->run, step->task[index], bytes, size);
+}
+
+// What a model of more ranks needs (tests/bench/speedup.py).
+static CwStatus record_tasks(CwMeshRun *run, const char *name, double seconds, int32_t count, const double *cost,
+                             const double *time) {
+  CwStatus status = CW_OK;
+  json_t *costs = json_array(), *times = json_array();
+  for (int32_t i = 0; i < count; i++) {
+    json_array_append_new(costs, cw_json_number(cost[i]));
+    json_array_append_new(times, cw_json_number(time[i]));
+  }
+  if (!run->tasks) run->tasks = json_array();
+  CW_REQUIRE(json_array_append_new(run->tasks, json_pack("{s:s, s:o, s:o, s:o}", "step", name, "seconds",
+                                                         cw_json_number(seconds), "task_cost", costs, "task_seconds",
+                                                         times)) == 0,
+             CW_ERR_MEMORY, "out of memory: record of %d tasks", count);
+done:
+  return status;
+}
+
+CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
+                         const CwMeshTask *task, void ***bytes, double **seconds) {
+  CwStatus status = CW_OK;
+  void **result = NULL;
+  int64_t *size = NULL;
+  double *cost = NULL, *time = NULL, started = cw_seconds(), worked = cw_processor_seconds();
+  StepContext context = {run, task, body};
+  CW_NEW(result, count);
+  CW_NEW(size, count);
+  CW_NEW(cost, count);
+  CW_NEW(time, count);
+  for (int32_t i = 0; i < count; i++) cost[i] = task[i].cost;
+  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .run = run_one, .context = &context,
+                         .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, result, size, time));
+  for (int32_t i = 0; i < count; i++) {
+    bytes[task[i].domain][task[i].index] = result[i];
+    result[i] = NULL;
+    if (seconds) seconds[task[i].domain][task[i].index] = time[i];
+  }
+  if (run->rank == 0) {
+    CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+    CW_TRY(record_tasks(run, name, cw_processor_seconds() - worked, count, cost, time));
+  }
+done:
+  if (result) {
+    for (int32_t i = 0; i < count; i++) free(result[i]);
+  }
+  free(result);
+  free(size);
+  free(cost);
+  free(time);
+  return status;
+}
+
+// Arrays of results of all domains, freed with their contents.
+typedef struct {
+  int32_t count[CW_DOMAINS_MOST];
+  void **bytes[CW_DOMAINS_MOST];
+} Results;
+
+CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < domains; d++) {
+    results->count[d] = count[d];
+    CW_NEW(results->bytes[d], results->count[d]);
+  }
+done:
+  return status;
+}
+
+void cw_results_free(CwResults *results) {
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) {
+    for (int32_t i = 0; results->bytes[d] && i < results->count[d]; i++) free(results->bytes[d][i]);
+    free(results->bytes[d]);
+    results->bytes[d] = NULL;
+  }
+}
+
+void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
+  for (int d = 0; d < run->domains.count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
+}
+
+CwStatus cw_run_domains(CwMeshRun *run, const char *name, CwMeshStep body, CwResults *results) {
+  CwStatus status = CW_OK;
+  CwMeshTask task[CW_DOMAINS_MOST];
+  int32_t one[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) one[d] = 1;
+  CW_TRY(cw_results_make(results, run->domains.count, one));
+  for (int d = 0; d < run->domains.count; d++) {
+    double cost = fmax(run->domain[d].skeleton.wall_count, run->domain[d].background.triangle_count);
+    task[d] = (CwMeshTask){d, 0, cost};
+  }
+  CW_TRY(cw_run_step(run, name, "domains", body, run->domains.count, task, results->bytes, NULL));
+done:
+  return status;
+}

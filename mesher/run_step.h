@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One step of the mesher over all ranks: its tasks, their results, and what the record keeps of them.
+#ifndef CUTWATER_MESHER_RUN_STEP_H
+#define CUTWATER_MESHER_RUN_STEP_H
+
+#include "mesher/mesh_run.h"
+
+// Arrays of results of all domains, freed with their contents.
+typedef struct {
+  int32_t count[CW_DOMAINS_MOST];
+  void **bytes[CW_DOMAINS_MOST];
+} CwResults;
+
+CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count);
+void cw_results_free(CwResults *results);
+
+// Runs a step over tasks of all domains; collective. Results: bytes[d][i] for task index i of domain d; seconds[d][i]
+// likewise where seconds is given.
+CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
+                     const CwMeshTask *task, void ***bytes, double **seconds);
+
+// Runs a step that has one task a domain; makes `results`.
+CwStatus cw_run_domains(CwMeshRun *run, const char *name, CwMeshStep body, CwResults *results);
+
+// CAD faces of each domain.
+void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]);
+
+#endif
