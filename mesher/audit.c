@@ -108,8 +108,16 @@ static int opposite_turn(int turn) {
   return 4 * (turn % 4) + turn / 4;
 }
 
-// Calls for every face: all sides of cells, then all listed faces. With `side` NULL only counts buckets.
-static void visit_sides(const CwRegionMesh *r, int64_t *start, Side *side) {
+static int all_below(int count, const int32_t *point, int32_t end) {
+  int below = 1;
+  for (int k = 0; k < count; k++)
+    below &= point[k] < end;
+  return below;
+}
+
+// Calls for every face with all its points below `end`: all sides of cells, then all listed faces. With `side`
+// NULL only counts buckets.
+static void visit_sides(const CwRegionMesh *r, int32_t end, int64_t *start, Side *side) {
   int64_t cells = cell_count(r);
   Side one;
   for (int64_t c = 0; c < cells; c++) {
@@ -121,6 +129,8 @@ static void visit_sides(const CwRegionMesh *r, int64_t *start, Side *side) {
       int count = face[f][3] < 0 ? 3 : 4;
       for (int k = 0; k < count; k++)
         point[k] = corner[face[f][k]];
+      if (!all_below(count, point, end))
+        continue;
       int64_t at = start[side_of(count, point, c, &one)]++;
       if (side)
         side[at] = one;
@@ -129,6 +139,8 @@ static void visit_sides(const CwRegionMesh *r, int64_t *start, Side *side) {
   for (int64_t k = 0; k < (int64_t)r->triangle_count + r->quad_count; k++) {
     int quad = k >= r->triangle_count;
     const int32_t *point = quad ? r->quad[k - r->triangle_count] : r->triangle[k];
+    if (!all_below(quad ? 4 : 3, point, end))
+      continue;
     int64_t at = start[side_of(quad ? 4 : 3, point, -1 - k, &one)]++;
     if (side)
       side[at] = one;
@@ -210,32 +222,33 @@ static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, cons
   return status;
 }
 
-static CwStatus check_faces(const CwRegionMesh *r, CwQuality *quality) {
+// All faces with all their points below `end`.
+static CwStatus check_faces(const CwRegionMesh *r, int32_t end, CwQuality *quality) {
   CwStatus status = CW_OK;
   int64_t *start = NULL;
   Side *side = NULL;
-  CW_NEW(start, (int64_t)r->point_count + 1);
-  visit_sides(r, start, NULL);
+  CW_NEW(start, (int64_t)end + 1);
+  visit_sides(r, end, start, NULL);
   int64_t total = 0;
-  for (int32_t p = 0; p <= r->point_count; p++) {
+  for (int32_t p = 0; p <= end; p++) {
     int64_t here = start[p];
     start[p] = total;
     total += here;
   }
   CW_NEW(side, total);
-  visit_sides(r, start, side);
+  visit_sides(r, end, start, side);
   // Filling moved each start to the end of its bucket.
   int64_t from = 0;
-  for (int32_t p = 0; p < r->point_count; p++) {
+  for (int32_t p = 0; p < end; p++) {
     int64_t to = start[p];
     if (to - from > 1)
       qsort(side + from, (size_t)(to - from), sizeof *side, compare_sides);
     while (from < to) {
-      int64_t end = from + 1;
-      while (end < to && compare_rest(&side[from], &side[end]) == 0)
-        end++;
-      CW_TRY(check_face(r, p, (int)(end - from), &side[from], quality));
-      from = end;
+      int64_t next = from + 1;
+      while (next < to && compare_rest(&side[from], &side[next]) == 0)
+        next++;
+      CW_TRY(check_face(r, p, (int)(next - from), &side[from], quality));
+      from = next;
     }
   }
 done:
@@ -300,6 +313,24 @@ static void add_figures(CwTetFigures *sum, const CwTetFigures *more) {
   sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
 }
 
+// Corners and volume of a cell, which must be positive beyond rounding.
+static CwStatus check_volume(const CwRegionMesh *r, int64_t cell, int *corners, const double *x[6],
+                             double *volume) {
+  CwStatus status = CW_OK;
+  const int32_t *corner;
+  *corners = cell_corners(r, cell, &corner);
+  for (int k = 0; k < *corners; k++)
+    x[k] = r->x[corner[k]];
+  *volume = cw_cell_volume(*corners, x);
+  double doubt = *corners == 4 ? cw_tet_volume6_error(x[0], x[1], x[2], x[3]) / 6.0 : 0.0;
+  if (!(*volume > doubt)) {
+    char fault[100];
+    snprintf(fault, sizeof fault, "has no positive volume: %.3g mm3", 1e9 * *volume);
+    status = fail_at_points(r, cell_name(*corners), *corners, corner, cell, fault);
+  }
+  return status;
+}
+
 static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
   CwStatus status = CW_OK;
@@ -307,19 +338,10 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
   quality->cells = cell_count(r);
   quality->prism_count = r->prism_count;
   for (int64_t c = 0; c < quality->cells; c++) {
-    const int32_t *corner;
     const double *x[6];
-    int corners = cell_corners(r, c, &corner);
-    for (int k = 0; k < corners; k++)
-      x[k] = r->x[corner[k]];
-    double volume = cw_cell_volume(corners, x);
-    double doubt = corners == 4 ? cw_tet_volume6_error(x[0], x[1], x[2], x[3]) / 6.0 : 0.0;
-    if (!(volume > doubt)) {
-      char fault[100];
-      snprintf(fault, sizeof fault, "has no positive volume: %.3g mm3", 1e9 * volume);
-      status = fail_at_points(r, cell_name(corners), corners, corner, c, fault);
-      goto done;
-    }
+    double volume;
+    int corners;
+    CW_TRY(check_volume(r, c, &corners, x, &volume));
     quality->volume += volume;
     quality->least_volume = fmin(quality->least_volume, volume);
     if (corners == 4) {
@@ -329,7 +351,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       aspects += aspect;
       int beside = 0;
       for (int k = 0; k < 4; k++)
-        beside |= corner[k] < r->shared_count;
+        beside |= r->tetrahedron[c][k] < r->shared_count;
       add_tet(beside ? &quality->beside : &quality->apart, &shape, aspect);
       quality->aspect_max = fmax(quality->aspect_max, aspect);
       int class = 0;
@@ -356,7 +378,22 @@ CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality) {
   cw_quality_start(quality);
   CW_TRY(check_indices(region));
   CW_TRY(check_cells(region, quality));
-  CW_TRY(check_faces(region, quality));
+  CW_TRY(check_faces(region, region->point_count, quality));
+done:
+  return status;
+}
+
+CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces) {
+  CwStatus status = CW_OK;
+  CwQuality quality;
+  const double *x[6];
+  double volume;
+  int corners;
+  cw_quality_start(&quality);
+  for (int64_t c = 0; c < cell_count(copy); c++)
+    CW_TRY(check_volume(copy, c, &corners, x, &volume));
+  CW_TRY(check_faces(copy, copy->shared_count, &quality));
+  *open_faces = quality.open_faces;
 done:
   return status;
 }

@@ -47,6 +47,9 @@ typedef struct {
 // face has the wrong cell or its normal into the domain, or an open face is neither listed as boundary
 // exactly once nor has all its points shared (on a dividing plane). Where it passes fills *quality.
 CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality);
+// What is left to audit in a turned copy of a region that passed: its points are its own, but its cells and faces
+// are those of the first. Fails like cw_audit_region where a cell has no positive volume; *open_faces as there.
+CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces);
 // Adds figures of one region, which holds `tetrahedra`, to those of others. Starts by cw_quality_start: no
 // cells, volume 0, least volume infinite, dihedral angles 180 and 0 degrees, scaled Jacobian 1.
 void cw_quality_start(CwQuality *sum);

@@ -104,8 +104,12 @@ static CwStatus write_copies(const CwMeshRun *run, const CwDomain *domain, const
     } else {
       CW_TRY(cw_region_copy(&domain->context, first, turns, domain->number[copy], fingerprint, &mesh));
     }
-    CW_TRY(cw_audit_region(&mesh, &own));
-    if (!current) CW_TRY(cw_region_write(path, &mesh));
+    if (current) { // its cells come from a file
+      CW_TRY(cw_audit_region(&mesh, &own));
+    } else {
+      CW_TRY(cw_audit_copy(&mesh, &own.open_faces));
+      CW_TRY(cw_region_write(path, &mesh));
+    }
     quality->open_faces += own.open_faces;
     cw_region_free(&mesh);
   }

@@ -143,6 +143,23 @@ static void open_face_is_allowed_only_on_dividing_planes(void **state) {
   assert_true(q.open_faces == sum);
 }
 
+// A copy has the sum of a whole audit, from the faces on dividing planes alone, and its cells are looked at.
+static void copies_are_audited_by_what_is_their_own(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q;
+  uint64_t sum = 0;
+  int64_t shared_id[6] = {10, 11, 12, 13, 14, 15};
+  r.quad_count = 2, r.shared_count = 6, r.shared_id = shared_id; // quad 2, 0, 3, 5 lies on a plane
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_int_equal(cw_audit_copy(&r, &sum), CW_OK);
+  assert_true(sum != 0 && sum == q.open_faces);
+  x[6][2] = 1.0;
+  cw_fail_clear();
+  assert_int_equal(cw_audit_copy(&r, &sum), CW_ERR_MESH);
+  assert_non_null(strstr(cw_fail_message(), "tetrahedron of cell 0"));
+  assert_non_null(strstr(cw_fail_message(), "no positive volume"));
+}
+
 static void wrong_lists_are_found(void **state) {
   CwRegionMesh r = prism_and_tet();
   memcpy(triangle[4], triangle[1], sizeof triangle[1]);
@@ -203,6 +220,7 @@ int main(void) {
       cmocka_unit_test(face_of_three_cells),
       cmocka_unit_test(two_cells_on_one_side),
       cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
+      cmocka_unit_test(copies_are_audited_by_what_is_their_own),
       cmocka_unit_test(wrong_lists_are_found),
       cmocka_unit_test(points_and_indices_are_checked),
       cmocka_unit_test(sums_of_two_regions),
