@@ -10,6 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "fill_fault.h"
 #include "hard_boundaries.h"
 #include "mesher/boundary_check.h"
 #include "mesher/fill_sure.h"

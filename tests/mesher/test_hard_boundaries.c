@@ -12,7 +12,9 @@
 #include <time.h>
 #include <cmocka.h>
 
+#include "fill_fault.h"
 #include "hard_boundaries.h"
+#include "random_boundary.h"
 #include "mesher/boundary_check.h"
 #include "mesher/fill_sure.h"
 #include "mesher/kernel.h"

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "hard_boundaries.h"
+#include "fill_fault.h"
+#include "surface_shapes.h"
 #include "mesher/kernel.h"
 #include "mesher/quality.h"
 
@@ -97,7 +98,7 @@ static void wrong_diagonals_are_recovered(void **unused) {
   for (uint32_t seed = 1; seed <= 6; seed++) {
     Surface s = {0};
     surface_add_sphere(&s, origin, 0.05, 4, 1);
-    assert_true(turn_diagonals(&s, seed, seed % 2 ? 40 : 12) > 40);
+    assert_true(shape_turn_diagonals(&s, seed, seed % 2 ? 40 : 12) > 40);
     fill_and_check(&s, 0.0036);
     surface_free(&s);
   }
@@ -114,7 +115,7 @@ static void stretched_triangles(void **unused) {
 static void equal_bits_twice(void **unused) {
   Surface s = {0};
   surface_add_sphere(&s, origin, 0.05, 4, 1);
-  turn_diagonals(&s, 5, 12);
+  shape_turn_diagonals(&s, 5, 12);
   double size = 0.0036;
   CwFillInput input = fill_input(&s, &size);
   CwFill one, two;

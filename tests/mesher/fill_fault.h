@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A surface as the input of a fill, and what a fill of it must be.
+#ifndef CUTWATER_TESTS_MESHER_FILL_FAULT_H
+#define CUTWATER_TESTS_MESHER_FILL_FAULT_H
+
+#include "mesher/fill.h"
+#include "closed_surfaces.h"
+
+// Size field of a constant length; both must outlive the input.
+CwFillInput fill_input(const Surface *surface, const double *size);
+
+// NULL, or what is wrong: the points must be kept, all cells positive (exactly), the open faces the given
+// triangles as they are turned, and none more, every point in use, and the volume the enclosed one.
+const char *fill_fault(const Surface *surface, const CwFill *fill);
+
+#endif
