@@ -14,17 +14,17 @@ static const double ROUNDING = 1e-12; // m
 typedef struct {
   CwOpenFace *open;
   int64_t open_count, open_room;
-  CwInterfaceFace *interface[CW_EXPORT_DOMAINS_MOST][2];
-  int64_t interface_count[CW_EXPORT_DOMAINS_MOST][2], interface_room[CW_EXPORT_DOMAINS_MOST][2];
-  double *least[CW_EXPORT_DOMAINS_MOST],
-      *most[CW_EXPORT_DOMAINS_MOST]; // coordinates of each shared point over the regions
+  CwInterfaceFace *interface[CW_DOMAINS_MOST][2];
+  int64_t interface_count[CW_DOMAINS_MOST][2], interface_room[CW_DOMAINS_MOST][2];
+  double *least[CW_DOMAINS_MOST],
+      *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
   double *volume, *least_volume; // by region
   int64_t *open_counts;          // by region
 } Collected;
 
 static void collected_free(Collected *c) {
   free(c->open);
-  for (int d = 0; d < CW_EXPORT_DOMAINS_MOST; ++d) {
+  for (int d = 0; d < CW_DOMAINS_MOST; ++d) {
     free(c->interface[d][0]);
     free(c->interface[d][1]);
     free(c->least[d]);
@@ -40,7 +40,7 @@ void cw_assembly_free(CwAssembly *assembly) {
   free(assembly->parts);
   free(assembly->patches);
   free(assembly->across);
-  for (int d = 0; d < CW_EXPORT_DOMAINS_MOST; ++d) {
+  for (int d = 0; d < CW_DOMAINS_MOST; ++d) {
     free(assembly->shared[d]);
     free(assembly->interface[d][0]);
     free(assembly->interface[d][1]);
@@ -200,7 +200,7 @@ static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Co
   CwStatus status = CW_OK;
   CwRegionData data = {0};
   CwRegionFaces faces = {0};
-  CW_TRY(cw_region_read(mesh, region, &data));
+  CW_TRY(cw_mesh_region_read(mesh, region, CW_REGION_WHOLE, &data));
   CW_TRY(collect_volumes(mesh, region, &data, c));
   CW_TRY(cw_region_faces(mesh, region, &data, &faces));
   CW_TRY(collect_points(mesh, region, &data, c));
@@ -213,7 +213,7 @@ static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Co
   c->open_count += faces.open_count;
 done:
   cw_region_faces_free(&faces);
-  cw_region_free(&data);
+  cw_mesh_region_free(&data);
   return status;
 }
 

@@ -5,7 +5,7 @@
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
-#include "export/mesh_input.h"
+#include "pipeline/mesh/region_read.h"
 #include "export/ranks.h"
 #include "export/region_faces.h"
 
@@ -41,14 +41,14 @@ typedef struct {
 
 typedef struct {
   const CwMesh *mesh;
-  CwDomainTotal totals[CW_EXPORT_DOMAINS_MOST];
+  CwDomainTotal totals[CW_DOMAINS_MOST];
   CwRegionPlace *places; // by region
   CwPatchPart *parts;    // by region, then patch
   CwPatchPart *patches;  // by patch: the sums over the regions
-  double (*shared[CW_EXPORT_DOMAINS_MOST])[3];
+  double (*shared[CW_DOMAINS_MOST])[3];
   int64_t *across; // by open face: number of the cell on its other side, as CwRegionPlace.cell counts
   int64_t open_count;
-  CwInterfaceFace *interface[CW_EXPORT_DOMAINS_MOST][2]; // by interface and side; on rank 0 only, by place
+  CwInterfaceFace *interface[CW_DOMAINS_MOST][2]; // by interface and side; on rank 0 only, by place
 } CwAssembly;
 
 // Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a point is used

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_EXPORT_CELL_H
 #define CUTWATER_EXPORT_CELL_H
 
-#include "export/mesh_input.h"
+#include "pipeline/mesh/region_read.h"
 
 enum { CW_CELL_FACES = 5 }; // the most a cell has
 

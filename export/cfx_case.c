@@ -12,11 +12,11 @@
 typedef int (*Wanted)(const CwMeshPatch *patch);
 
 static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
-  return patch->domain == CW_EXPORT_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
+  return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
 }
 
 static int is_stator_wall(const CwMeshPatch *patch) {
-  return patch->domain == CW_EXPORT_STATOR && patch->kind == CW_KIND_WALL;
+  return patch->domain == CW_MESH_STATOR && patch->kind == CW_KIND_WALL;
 }
 
 // Text that grows, for blocks of which a case has as many as its mesh has domains and interfaces.
@@ -68,7 +68,7 @@ done:
 static int turns(const CwMesh *mesh, int interface) {
   int turning = 0;
   for (int side = 0; side < 2; ++side)
-    turning |= mesh->patches[mesh->interfaces[interface].patch[side]].domain == CW_EXPORT_ROTOR;
+    turning |= mesh->patches[mesh->interfaces[interface].patch[side]].domain == CW_MESH_ROTOR;
   return turning;
 }
 
@@ -123,7 +123,7 @@ static CwStatus set_more_domains(const CwAssembly *a, CwValues *values) {
   Blocks domains = {0}, les = {0};
   CW_TRY(blocks_open(&domains));
   CW_TRY(blocks_open(&les));
-  for (int d = CW_EXPORT_STATOR + 1; d < mesh->domain_count; ++d) {
+  for (int d = CW_MESH_STATOR + 1; d < mesh->domain_count; ++d) {
     Blocks walls = {0};
     CW_TRY(blocks_open(&walls));
     for (int p = 0, first = 1; p < mesh->patch_count; ++p)
@@ -213,8 +213,8 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAsse
   CW_TRY(cw_values_set(&values, "time_step", "%.9g", point->time_step_angle / point->speed));
   CW_TRY(cw_values_set(&values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
   CW_TRY(cw_values_set(&values, "physical_timescale", "%.9g", 1 / point->speed));
-  CW_TRY(set_boundaries(mesh, CW_EXPORT_ROTOR, "rotor_ends", "rotor_sides", &values));
-  CW_TRY(set_boundaries(mesh, CW_EXPORT_STATOR, "stator_ends", "stator_sides", &values));
+  CW_TRY(set_boundaries(mesh, CW_MESH_ROTOR, "rotor_ends", "rotor_sides", &values));
+  CW_TRY(set_boundaries(mesh, CW_MESH_STATOR, "stator_ends", "stator_sides", &values));
   CW_TRY(set_more_domains(a, &values));
   CW_TRY(set_interfaces(mesh, &values));
   CW_TRY(cw_templates_write("cfx/", folder, &values));

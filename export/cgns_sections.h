@@ -15,7 +15,7 @@ enum {
 };
 
 typedef struct {
-  char name[CW_EXPORT_NAME_SIZE];
+  char name[CW_MESH_NAME_SIZE];
   int type, nodes;      // ElementType_t, nodes of an element
   int patch;            // -1 for cells
   int64_t first, count; // 1-based number of the first element

@@ -62,7 +62,7 @@ static CwStatus put_families(hid_t base, const CwMesh *mesh) {
     family = -1;
   }
   for (int d = 0; d < mesh->domain_count; ++d) {
-    char name[CW_EXPORT_NAME_SIZE];
+    char name[CW_MESH_NAME_SIZE];
     snprintf(name, sizeof name, "%.20s_domain", mesh->domains[d].name);
     CW_TRY(cw_cgns_node(base, name, "Family_t", "MT", 0, NULL, NULL, NULL));
   }
@@ -147,7 +147,7 @@ static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const
   int32_t *donors = NULL;
   int64_t count = interface->count[side], donor_first = cw_cgns_patch_first(a, patch[1 - side]);
   int first = (int)cw_cgns_patch_first(a, patch[side]);
-  char name[CW_EXPORT_NAME_SIZE];
+  char name[CW_MESH_NAME_SIZE];
   CW_NEW(donors, count);
   for (int64_t i = 0; i < count; ++i)
     donors[i] = (int32_t)(donor_first + interface->donor[side][i]);
@@ -207,7 +207,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
   CwSection *sections = NULL;
   int section_count = 0;
   const CwDomainTotal *total = &a->totals[domain];
-  char family[CW_EXPORT_NAME_SIZE];
+  char family[CW_MESH_NAME_SIZE];
   int64_t elements = total->cells;
   for (int p = 0; p < a->mesh->patch_count; ++p)
     if (a->mesh->patches[p].domain == domain)
@@ -226,7 +226,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
     CW_TRY(put_section(zone, &sections[s]));
   CW_TRY(put_conditions(zone, a, domain));
   CW_TRY(put_connections(zone, a, interfaces, domain));
-  if (domain == CW_EXPORT_ROTOR)
+  if (domain == CW_MESH_ROTOR)
     CW_TRY(put_rotation(zone, table->operating_point.speed));
 done:
   free(sections);

@@ -43,7 +43,7 @@ done:
 }
 
 static int is_rotor_and_fixed(const CwMeshPatch *patch) {
-  return patch->domain == CW_EXPORT_ROTOR && !cw_patch_rotates(patch);
+  return patch->domain == CW_MESH_ROTOR && !cw_patch_rotates(patch);
 }
 
 typedef enum { FIELD_U, FIELD_P, FIELD_K, FIELD_EPSILON, FIELD_OMEGA, FIELD_NUT } Field;

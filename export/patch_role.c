@@ -4,7 +4,7 @@
 #include <string.h>
 
 int cw_patch_rotates(const CwMeshPatch *patch) {
-  return patch->domain == CW_EXPORT_ROTOR && patch->kind == CW_KIND_WALL &&
+  return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL &&
          strcmp(patch->name, "suction_pipe") != 0;
 }
 
@@ -13,7 +13,7 @@ double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
     return walls->blade.y_plus;
   if (cw_patch_rotates(patch))
     return walls->hub_shroud.y_plus;
-  if (patch->domain == CW_EXPORT_ROTOR || strcmp(patch->name, "discharge") == 0 ||
+  if (patch->domain == CW_MESH_ROTOR || strcmp(patch->name, "discharge") == 0 ||
       strcmp(patch->name, "inlet_pipe") == 0 || strcmp(patch->name, "outlet_pipe") == 0)
     return walls->pipe.y_plus;
   return walls->volute.y_plus;

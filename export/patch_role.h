@@ -3,7 +3,7 @@
 #ifndef CUTWATER_EXPORT_PATCH_ROLE_H
 #define CUTWATER_EXPORT_PATCH_ROLE_H
 
-#include "export/mesh_input.h"
+#include "pipeline/mesh/region_read.h"
 #include "pipeline/case.h"
 
 // y+ from which the first cell counts as in the log layer: where the laws of the viscous sublayer and the log

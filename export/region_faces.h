@@ -4,7 +4,7 @@
 #ifndef CUTWATER_EXPORT_REGION_FACES_H
 #define CUTWATER_EXPORT_REGION_FACES_H
 
-#include "export/mesh_input.h"
+#include "pipeline/mesh/region_read.h"
 
 // What lies across a face of a cell, other than a cell of the same region (0 or above).
 enum { CW_ACROSS_NO_FACE = -1, CW_ACROSS_PATCH = -2, CW_ACROSS_OPEN = -3 };

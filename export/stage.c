@@ -73,13 +73,13 @@ static CwStatus write_region(const CwAssembly *assembly, int region, hid_t cgns,
   CwStatus status = CW_OK;
   CwRegionData data = {0};
   CwRegionFaces faces = {0};
-  CW_TRY(cw_region_read(assembly->mesh, region, &data));
+  CW_TRY(cw_mesh_region_read(assembly->mesh, region, CW_REGION_WHOLE, &data));
   CW_TRY(cw_cgns_write_region(cgns, assembly, region, &data));
   CW_TRY(cw_region_faces(assembly->mesh, region, &data, &faces));
   CW_TRY(cw_foam_mesh_write_region(foam, region, &data, &faces));
 done:
   cw_region_faces_free(&faces);
-  cw_region_free(&data);
+  cw_mesh_region_free(&data);
   return status;
 }
 
@@ -207,7 +207,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   CwDesign design = {0};
   CwCase whole = *table;
   CwAssembly assembly = {0};
-  CwInterface interfaces[CW_EXPORT_DOMAINS_MOST] = {{0}};
+  CwInterface interfaces[CW_DOMAINS_MOST] = {{0}};
   CwFoamMesh foam = {0};
   CwRecord *record = NULL;
   char *path = NULL;
@@ -263,7 +263,7 @@ done:
     rmdir(paths.folder); // only if nothing is in it
   }
   cw_foam_mesh_close(&foam);
-  for (int i = 0; i < CW_EXPORT_DOMAINS_MOST; ++i)
+  for (int i = 0; i < CW_DOMAINS_MOST; ++i)
     cw_interface_free(&interfaces[i]);
   cw_assembly_free(&assembly);
   cw_mesh_free(&mesh);

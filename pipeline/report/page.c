@@ -161,21 +161,17 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   char text[CW_FORMAT_SIZE], more[CW_FORMAT_SIZE], label[200], where[4096];
   int64_t cells = 0, tets = 0, prisms = 0, asked;
-  int regions = 0;
   double seconds = 0, mesh_seconds = cw_json_real(data->record[1], "seconds"), memory = 0;
   json_t *results;
   const CwCase *table = data->table;
   snprintf(where, sizeof where, "%s/mesh/record.json: results", data->run);
   CW_TRY(cw_page_mesh_results(data, &results));
   CW_TRY(cw_json_count(results, where, "asked_cells", &asked));
-  for (int d = 0; d < data->mesh.domain_count; d++) {
-    const CwReportDomain *domain = &data->mesh.domain[d];
-    regions += domain->region_count;
-    for (int r = 0; r < domain->region_count; r++) {
-      tets += domain->region[r].tetrahedra;
-      prisms += domain->region[r].prisms;
-      cells += domain->region[r].tetrahedra + domain->region[r].prisms + domain->region[r].pyramids;
-    }
+  for (int r = 0; r < data->mesh.region_count; r++) {
+    const CwMeshRegion *region = &data->mesh.regions[r];
+    tets += region->tetrahedra;
+    prisms += region->prisms;
+    cells += region->tetrahedra + region->prisms + region->pyramids;
   }
   for (int s = 0; s < CW_STAGES; s++) {
     if (!data->record[s])
@@ -205,9 +201,9 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
   tile(page, cw_format_count(prisms, text), "", label);
   size_t used = 0, named = (size_t)snprintf(label, sizeof label, "regions of ");
   for (int d = 0, last = data->mesh.domain_count - 1; d <= last && used < sizeof text && named < sizeof label; d++) {
-    used += (size_t)snprintf(text + used, sizeof text - used, d ? " + %d" : "%d", data->mesh.domain[d].region_count);
+    used += (size_t)snprintf(text + used, sizeof text - used, d ? " + %d" : "%d", data->mesh.domains[d].region_count);
     named += (size_t)snprintf(label + named, sizeof label - named, "%s%s", d == 0 ? "" : d == last ? " and " : ", ",
-                              data->mesh.domain[d].name);
+                              data->mesh.domains[d].name);
   }
   tile(page, text, "", label);
   snprintf(label, sizeof label, "predicted head; %s&#8239;m asked",

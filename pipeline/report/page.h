@@ -17,7 +17,7 @@ typedef struct {
   char *run;
   json_t *design;            // geometry/design.json
   json_t *record[CW_STAGES]; // geometry, mesh, export; the last may be NULL
-  CwReportMesh mesh;
+  CwMesh mesh;
   CwReportPictures pictures;
 } CwReportData;
 

@@ -48,10 +48,10 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   CW_TRY(cw_json_read(path, &data->design));
   for (int s = 0; s < CW_STAGES; s++)
     CW_TRY(read_record(run, s, &data->record[s]));
-  CW_TRY(cw_report_mesh_read(run, &data->mesh));
+  CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
   CW_REQUIRE(!strcmp(data->mesh.case_name, table->name), CW_ERR_INPUT,
-             "%s/manifest.json: the mesh is of case '%s', the case file is '%s'", data->mesh.folder,
-             data->mesh.case_name, table->name);
+             "%s/mesh/manifest.json: the mesh is of case '%s', the case file is '%s'", run, data->mesh.case_name,
+             table->name);
 done:
   return status;
 }
@@ -61,7 +61,7 @@ void cw_report_data_free(CwReportData *data) {
   json_decref(data->design);
   for (int s = 0; s < CW_STAGES; s++)
     json_decref(data->record[s]);
-  cw_report_mesh_free(&data->mesh);
+  cw_mesh_free(&data->mesh);
   cw_report_pictures_free(&data->pictures);
   *data = (CwReportData){0};
 }
@@ -94,8 +94,8 @@ CwStatus cw_page_mesh_domain(const CwReportData *data, int d, json_t **domain) {
   CW_TRY(cw_json_array(results, where, "domains", &domains));
   *domain = json_array_get(domains, (size_t)d);
   CW_TRY(cw_json_text(*domain, where, "name", &name));
-  CW_REQUIRE(!strcmp(name, data->mesh.domain[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'",
-             where, d + 1, name, data->mesh.domain[d].name);
+  CW_REQUIRE(!strcmp(name, data->mesh.domains[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'",
+             where, d + 1, name, data->mesh.domains[d].name);
 done:
   return status;
 }

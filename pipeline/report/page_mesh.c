@@ -12,7 +12,7 @@
 #include "pipeline/report/plot.h"
 
 enum { ASPECT_CLASSES = 8, DIHEDRAL_BINS = 18, JACOBIAN_BINS = 20 };
-enum { DOMAINS_MOST = CW_REPORT_DOMAINS_MOST };
+enum { DOMAINS_MOST = CW_DOMAINS_MOST };
 static const uint32_t paper_colour = 0x9aa5b1;
 
 static void count_cell(FILE *page, int64_t count) {
@@ -27,7 +27,7 @@ static void number_cell(FILE *page, double value, int significant) {
 
 // A domain's name with a capital.
 static void write_name(FILE *page, const CwReportData *data, int d) {
-  const char *name = data->mesh.domain[d].name;
+  const char *name = data->mesh.domains[d].name;
   fprintf(page, "%c%s", name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + 'A' : name[0], name + 1);
 }
 
@@ -82,11 +82,11 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   static const struct {
     const char *label;
     size_t member;
-  } rows[] = {{"Tetrahedra", offsetof(CwReportRegion, tetrahedra)},
-              {"Prisms", offsetof(CwReportRegion, prisms)},
-              {"Pyramids", offsetof(CwReportRegion, pyramids)},
-              {"Boundary triangles", offsetof(CwReportRegion, triangles)},
-              {"Boundary quadrilaterals", offsetof(CwReportRegion, quads)}};
+  } rows[] = {{"Tetrahedra", offsetof(CwMeshRegion, tetrahedra)},
+              {"Prisms", offsetof(CwMeshRegion, prisms)},
+              {"Pyramids", offsetof(CwMeshRegion, pyramids)},
+              {"Boundary triangles", offsetof(CwMeshRegion, triangles)},
+              {"Boundary quadrilaterals", offsetof(CwMeshRegion, quads)}};
   json_t *domain[DOMAINS_MOST];
   char where[4096];
   int64_t cells[DOMAINS_MOST] = {0}, points[DOMAINS_MOST], regions[DOMAINS_MOST];
@@ -96,23 +96,22 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   fputs("<th class=\"n\">Together</th></tr>\n", page);
   for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
     int64_t sum[DOMAINS_MOST] = {0};
-    for (int d = 0; d < data->mesh.domain_count; d++) {
-      for (int r = 0; r < data->mesh.domain[d].region_count; r++) {
-        int64_t count;
-        memcpy(&count, (const char *)&data->mesh.domain[d].region[r] + rows[k].member, sizeof count);
-        sum[d] += count;
-      }
+    for (int r = 0; r < data->mesh.region_count; r++) {
+      const CwMeshRegion *region = &data->mesh.regions[r];
+      int64_t count;
+      memcpy(&count, (const char *)region + rows[k].member, sizeof count);
+      sum[region->domain] += count;
       if (k < 3)
-        cells[d] += sum[d];
+        cells[region->domain] += count;
     }
     count_row(page, data, "<tr>", rows[k].label, sum);
     if (k == 2)
       count_row(page, data, "<tr class=\"t\">", "Cells", cells);
   }
   for (int d = 0; d < data->mesh.domain_count; d++) {
-    snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domain[d].name);
+    snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);
     CW_TRY(cw_json_count(domain[d], where, "points", &points[d]));
-    regions[d] = data->mesh.domain[d].region_count;
+    regions[d] = data->mesh.domains[d].region_count;
   }
   count_row(page, data, "<tr>", "Points", points);
   count_row(page, data, "<tr>", "Regions", regions);
@@ -132,7 +131,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
     json_array_foreach(patches, k, patch) {
       const char *name = json_string_value(json_object_get(patch, "name"));
       const char *kind = json_string_value(json_object_get(patch, "kind"));
-      fprintf(page, "<tr><td>%s</td><td>", k ? "" : data->mesh.domain[d].name);
+      fprintf(page, "<tr><td>%s</td><td>", k ? "" : data->mesh.domains[d].name);
       cw_html_label(page, name ? name : "");
       fputs("</td><td class=\"q\">", page);
       cw_html_text(page, kind ? kind : "");
@@ -149,7 +148,7 @@ done:
 // One bar a region: tetrahedra and prisms; the mean as a line.
 static CwStatus balance_chart(FILE *page, const CwReportData *data, int d, json_t *domain) {
   CwStatus status = CW_OK;
-  const CwReportDomain *mesh = &data->mesh.domain[d];
+  const CwMeshDomain *mesh = &data->mesh.domains[d];
   int count = mesh->region_count;
   double *tets = NULL, *prisms = NULL, sum = 0;
   char(*label)[32] = NULL, (*note)[CW_FORMAT_SIZE] = NULL, text[CW_FORMAT_SIZE];
@@ -162,7 +161,7 @@ static CwStatus balance_chart(FILE *page, const CwReportData *data, int d, json_
   CW_NEW(labels, count);
   CW_NEW(notes, count);
   for (int r = 0; r < count; r++) {
-    const CwReportRegion *region = &mesh->region[r];
+    const CwMeshRegion *region = &data->mesh.regions[mesh->first_region + r];
     double cells = (double)(region->tetrahedra + region->prisms + region->pyramids);
     tets[r] = (double)(region->tetrahedra + region->pyramids) * 1e-3;
     prisms[r] = (double)region->prisms * 1e-3;
@@ -211,7 +210,7 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
     fputs("<figure>", page);
     CW_TRY(balance_chart(page, data, d, domain[d]));
     fprintf(page, "<figcaption>Cells and meshing time of each region of the %s.</figcaption></figure>\n",
-            data->mesh.domain[d].name);
+            data->mesh.domains[d].name);
   }
   fputs("</div>\n<table><tr><th></th>", page);
   domain_heads(page, data, "n p");
@@ -277,7 +276,7 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   fputs("</table>\n<figure>", page);
   CwPlotSeries series[DOMAINS_MOST + 1];
   for (int d = 0; d < domains; d++)
-    series[d] = (CwPlotSeries){data->mesh.domain[d].name, cw_domain_colour(d, 0), aspect[d]};
+    series[d] = (CwPlotSeries){data->mesh.domains[d].name, cw_domain_colour(d, 0), aspect[d]};
   series[domains] =
       (CwPlotSeries){"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper};
   cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
@@ -442,7 +441,7 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   double all = 0, met = 0;
   CW_TRY(all_domains(data, domain));
   for (int d = 0; d < data->mesh.domain_count; d++) {
-    snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domain[d].name);
+    snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);
     CW_TRY(cw_json_array(domain[d], where, "layer_coverage", &list[d]));
     for (size_t k = 0; k < json_array_size(list[d]); k++) {
       all += fmax(cw_json_real(json_array_get(list[d], k), "wall_faces"), 0);

@@ -13,7 +13,7 @@
 
 static const uint32_t background = 0xffffff, ink = 0x27313c;
 static const uint32_t pyramid_colour = 0xb98fc0;
-enum { PATCHES = CW_REPORT_PATCHES, FIT_MARGIN = 28, METAL = 65000 };
+enum { PATCHES = CW_PATCHES_MOST, FIT_MARGIN = 28, METAL = 65000 };
 
 // A picture while it is drawn.
 typedef struct {
@@ -23,24 +23,24 @@ typedef struct {
   CwCutPlane plane;
   CwCanvas canvas;
   const char *lacking; // what is not there; then nothing is drawn
-  char hidden[CW_REPORT_DOMAINS_MOST][PATCHES];
-  char seen[CW_REPORT_DOMAINS_MOST][PATCHES];
+  char hidden[CW_DOMAINS_MOST][PATCHES];
+  char seen[CW_DOMAINS_MOST][PATCHES];
 } Drawing;
 
 static int sees(const CwPictureSpec *spec, int d) {
   const unsigned of[] = {CW_SEES_ROTOR, CW_SEES_STATOR, CW_SEES_PIPES};
-  return (spec->sees & of[d > CW_REPORT_STATOR ? 2 : d]) != 0;
+  return (spec->sees & of[d > CW_MESH_STATOR ? 2 : d]) != 0;
 }
 
-static void mark_hidden(const CwReportMesh *mesh, Drawing *drawing) {
+static void mark_hidden(const CwMesh *mesh, Drawing *drawing) {
   char name[80];
   if (!drawing->spec->hidden)
     return;
-  for (int d = 0; d < mesh->domain_count; d++) {
-    for (int p = 0; p < mesh->domain[d].patch_count; p++) {
-      snprintf(name, sizeof name, "|%s|", mesh->domain[d].patch[p]);
-      drawing->hidden[d][p] = strstr(drawing->spec->hidden, name) != NULL;
-    }
+  for (int p = 0; p < mesh->patch_count; p++) {
+    const CwMeshPatch *patch = &mesh->patches[p];
+    snprintf(name, sizeof name, "|%s|", patch->name);
+    drawing->hidden[patch->domain][p - mesh->domains[patch->domain].first_patch] =
+        strstr(drawing->spec->hidden, name) != NULL;
   }
 }
 
@@ -118,19 +118,19 @@ typedef struct {
   int count, patch;
 } Face;
 
-static Face face_at(const CwReportCells *cells, int32_t index) {
-  Face face = {.count = index < cells->triangles ? 3 : 4};
-  const int32_t *corner = face.count == 3 ? cells->triangle[index] : cells->quad[index - cells->triangles];
-  face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangles];
+static Face face_at(const CwRegionData *cells, int32_t index) {
+  Face face = {.count = index < cells->triangle_count ? 3 : 4};
+  const int32_t *corner = face.count == 3 ? cells->triangles[index] : cells->quads[index - cells->triangle_count];
+  face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangle_count];
   for (int k = 0; k < face.count; k++)
-    face.x[k] = cells->x[corner[k]];
+    face.x[k] = cells->points[corner[k]];
   return face;
 }
 
 static int face_shown(const Drawing *drawing, int d, const Face *face) {
   if (drawing->hidden[d][face->patch])
     return 0;
-  if (!drawing->spec->upper_half || d == CW_REPORT_ROTOR)
+  if (!drawing->spec->upper_half || d == CW_MESH_ROTOR)
     return 1;
   double z = 0;
   for (int k = 0; k < face->count; k++)
@@ -154,10 +154,10 @@ static int upper_part(const Face *face, double part[5][3]) {
   return count;
 }
 
-static void reach_faces(Drawing *drawing, int d, const CwReportCells *cells) {
+static void reach_faces(Drawing *drawing, int d, const CwRegionData *cells) {
   if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL)
     return;
-  for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
+  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
     Face face = face_at(cells, f);
     if (!face_shown(drawing, d, &face))
       continue;
@@ -197,20 +197,18 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   return 0.5 + 0.56 * fmax(cosine, 0);
 }
 
-static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int region,
-                       const CwReportCells *cells) {
+static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const CwRegionData *cells) {
   const CwPictureSpec *spec = drawing->spec;
-  int region_index = region;
-  for (int before = 0; before < d; before++)
-    region_index += mesh->domain[before].region_count;
-  for (int32_t f = 0; f < cells->triangles + cells->quads; f++) {
+  int d = cells->domain;
+  const CwMeshPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
+  for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
     Face face = face_at(cells, f);
     if (!face_shown(drawing, d, &face))
       continue;
     double p[5][3], part[5][3];
     int corners = face.count, outside;
     double light = light_of(&drawing->camera, &face, &outside);
-    if (spec->upper_half && d == CW_REPORT_STATOR)
+    if (spec->upper_half && d == CW_MESH_STATOR)
       corners = upper_part(&face, part);
     else
       for (int k = 0; k < corners; k++)
@@ -218,10 +216,10 @@ static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int re
     for (int k = 0; k < corners; k++)
       cw_camera_project(&drawing->camera, part[k], p[k]);
     uint32_t colour = spec->colour == CW_COLOUR_REGION
-                          ? cw_region_colour(region_index)
-                          : cw_patch_colour(mesh->domain[d].patch[face.patch], face.patch);
-    int group = 1 + (spec->colour == CW_COLOUR_REGION ? region_index % 60000 : d * PATCHES + face.patch);
-    if (spec->hollow_white && outside && d == CW_REPORT_ROTOR)
+                          ? cw_region_colour(region)
+                          : cw_patch_colour(patch[face.patch].name, face.patch);
+    int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
+    if (spec->hollow_white && outside && d == CW_MESH_ROTOR)
       group = METAL;
     CwPaint paint = {.colour = cw_render_shade(colour, light),
                      .group = (uint16_t)group,
@@ -232,7 +230,7 @@ static void draw_faces(Drawing *drawing, const CwReportMesh *mesh, int d, int re
   }
 }
 
-static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const double *distance, int count,
+static void draw_cut_cell(Drawing *drawing, const CwRegionData *cells, const double *distance, int count,
                           const int32_t *corner, uint32_t colour, int group) {
   const double *x[6];
   double s[6], polygon[CW_CUT_CORNERS][2], p[CW_CUT_CORNERS][3];
@@ -244,7 +242,7 @@ static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const do
   if (above == 0 || above == count)
     return;
   for (int k = 0; k < count; k++)
-    x[k] = cells->x[corner[k]];
+    x[k] = cells->points[corner[k]];
   int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
   const CwCamera *camera = &drawing->camera;
   double centre[2] = {0, 0}, area = 0;
@@ -272,18 +270,18 @@ static void draw_cut_cell(Drawing *drawing, const CwReportCells *cells, const do
   cw_render_polygon(&drawing->canvas, (const double(*)[3])p, corners, &paint);
 }
 
-static CwStatus draw_cut(Drawing *drawing, int d, const CwReportCells *cells) {
+static CwStatus draw_cut(Drawing *drawing, int d, const CwRegionData *cells) {
   CwStatus status = CW_OK;
   double *distance = NULL;
-  CW_NEW(distance, cells->points);
-  for (int32_t i = 0; i < cells->points; i++)
-    distance[i] = cw_cut_distance(&drawing->plane, cells->x[i]);
-  for (int32_t c = 0; c < cells->tetrahedra; c++)
-    draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedron[c], cw_domain_colour(d, 2), d + 1);
-  for (int32_t c = 0; c < cells->pyramids; c++)
-    draw_cut_cell(drawing, cells, distance, 5, cells->pyramid[c], pyramid_colour, d + 1);
-  for (int32_t c = 0; c < cells->prisms; c++)
-    draw_cut_cell(drawing, cells, distance, 6, cells->prism[c], cw_domain_colour(d, 1), d + 1);
+  CW_NEW(distance, cells->point_count);
+  for (int32_t i = 0; i < cells->point_count; i++)
+    distance[i] = cw_cut_distance(&drawing->plane, cells->points[i]);
+  for (int32_t c = 0; c < cells->tetrahedron_count; c++)
+    draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedra[c], cw_domain_colour(d, 2), d + 1);
+  for (int32_t c = 0; c < cells->pyramid_count; c++)
+    draw_cut_cell(drawing, cells, distance, 5, cells->pyramids[c], pyramid_colour, d + 1);
+  for (int32_t c = 0; c < cells->prism_count; c++)
+    draw_cut_cell(drawing, cells, distance, 6, cells->prisms[c], cw_domain_colour(d, 1), d + 1);
 done:
   free(distance);
   return status;
@@ -294,7 +292,7 @@ static void mark_seen(Drawing *drawing) {
   size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
   for (size_t i = 0; i < samples; i++) {
     int group = drawing->canvas.group[i] - 1;
-    if (group >= 0 && group < CW_REPORT_DOMAINS_MOST * PATCHES)
+    if (group >= 0 && group < CW_DOMAINS_MOST * PATCHES)
       drawing->seen[group / PATCHES][group % PATCHES] = 1;
   }
 }
@@ -313,7 +311,7 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
   item->colour = colour;
 }
 
-static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
+static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
   static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
   if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0)
@@ -324,19 +322,19 @@ static void make_legend(const CwReportMesh *mesh, const Drawing *drawing, CwRepo
         continue;
       for (int k = 1; k >= 0; k--) {
         char label[40];
-        snprintf(label, sizeof label, "%.20s %s", mesh->domain[d].name, kind[k]);
+        snprintf(label, sizeof label, "%.20s %s", mesh->domains[d].name, kind[k]);
         add_legend(picture, label, cw_domain_colour(d, k + 1));
       }
-      for (int r = 0; r < mesh->domain[d].region_count; r++)
-        pyramids |= mesh->domain[d].region[r].pyramids > 0;
     }
+    for (int r = 0; r < mesh->region_count; r++)
+      pyramids |= mesh->regions[r].pyramids > 0;
     if (pyramids)
       add_legend(picture, "pyramids", pyramid_colour);
     return;
   }
   for (int d = 0; d < mesh->domain_count; d++) {
-    for (int p = 0; p < mesh->domain[d].patch_count; p++) {
-      const char *name = mesh->domain[d].patch[p];
+    for (int p = 0; p < mesh->domains[d].patch_count; p++) {
+      const char *name = mesh->patches[mesh->domains[d].first_patch + p].name;
       if (drawing->seen[d][p])
         add_legend(picture, name, cw_patch_colour(name, p));
     }
@@ -368,7 +366,7 @@ static void annotate(const Drawing *drawings, int index, CwAnnotation *annotatio
   }
 }
 
-static CwStatus finish(const CwReportMesh *mesh, Drawing *drawings, int index, CwReportPicture *picture) {
+static CwStatus finish(const CwMesh *mesh, Drawing *drawings, int index, CwReportPicture *picture) {
   CwStatus status = CW_OK;
   Drawing *drawing = &drawings[index];
   CwAnnotation annotation = {0};
@@ -388,55 +386,47 @@ done:
   return status;
 }
 
-static CwStatus survey_all(const CwReportMesh *mesh, Drawing *drawings, CwSurvey *survey) {
+static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *survey) {
   CwStatus status = CW_OK;
-  CwReportCells cells = {0};
-  for (int d = 0; d < mesh->domain_count; d++) {
-    for (int r = 0; r < mesh->domain[d].region_count; r++) {
-      CW_TRY(cw_report_cells_read(mesh, d, r, 0, &cells));
-      cw_survey_add(survey, &mesh->domain[d], &cells);
-      for (int k = 0; k < cw_picture_list_count; k++) {
-        if (sees(drawings[k].spec, d))
-          reach_faces(&drawings[k], d, &cells);
-      }
-      cw_report_cells_free(&cells);
+  CwRegionData cells = {0};
+  for (int r = 0; r < mesh->region_count; r++) {
+    CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_SURFACE, &cells));
+    cw_survey_add(survey, mesh, &cells);
+    for (int k = 0; k < cw_picture_list_count; k++) {
+      if (sees(drawings[k].spec, cells.domain))
+        reach_faces(&drawings[k], cells.domain, &cells);
     }
+    cw_mesh_region_free(&cells);
   }
 done:
-  cw_report_cells_free(&cells);
+  cw_mesh_region_free(&cells);
   return status;
 }
 
-static CwStatus draw_all(const CwReportMesh *mesh, Drawing *drawings) {
+static CwStatus draw_all(const CwMesh *mesh, Drawing *drawings) {
   CwStatus status = CW_OK;
-  CwReportCells cells = {0};
-  int64_t drawn = 0;
-  int regions = 0;
-  for (int d = 0; d < mesh->domain_count; d++)
-    regions += mesh->domain[d].region_count;
-  cw_progress_start("pictures", regions, "regions");
-  for (int d = 0; d < mesh->domain_count; d++) {
-    for (int r = 0; r < mesh->domain[d].region_count; r++) {
-      CW_TRY(cw_report_cells_read(mesh, d, r, 1, &cells));
-      for (int k = 0; k < cw_picture_list_count; k++) {
-        if (!sees(drawings[k].spec, d) || drawings[k].lacking)
-          continue;
-        if (drawings[k].spec->plane == CW_PLANE_NONE)
-          draw_faces(&drawings[k], mesh, d, r, &cells);
-        else
-          CW_TRY(draw_cut(&drawings[k], d, &cells));
-      }
-      cw_report_cells_free(&cells);
-      cw_progress(++drawn);
+  CwRegionData cells = {0};
+  cw_progress_start("pictures", mesh->region_count, "regions");
+  for (int r = 0; r < mesh->region_count; r++) {
+    CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &cells));
+    for (int k = 0; k < cw_picture_list_count; k++) {
+      if (!sees(drawings[k].spec, cells.domain) || drawings[k].lacking)
+        continue;
+      if (drawings[k].spec->plane == CW_PLANE_NONE)
+        draw_faces(&drawings[k], mesh, r, &cells);
+      else
+        CW_TRY(draw_cut(&drawings[k], cells.domain, &cells));
     }
+    cw_mesh_region_free(&cells);
+    cw_progress(r + 1);
   }
   cw_progress_end();
 done:
-  cw_report_cells_free(&cells);
+  cw_mesh_region_free(&cells);
   return status;
 }
 
-CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes,
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes,
                                  CwReportPictures *pictures) {
   CwStatus status = CW_OK;
   Drawing *drawings = NULL;

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_PIPELINE_REPORT_PICTURES_H
 #define CUTWATER_PIPELINE_REPORT_PICTURES_H
 
-#include "pipeline/report/mesh_file.h"
+#include "pipeline/mesh/region_read.h"
 #include "pipeline/report/render.h"
 #include "pipeline/report/survey.h"
 
@@ -28,7 +28,7 @@ typedef struct {
   CwPng png;           // no bytes: the mesh lacks what the picture shows
   const char *lacking; // then: what
   int absent;          // shows zones that this pump does not have: left out
-  CwLegendItem legend[2 * CW_REPORT_PATCHES];
+  CwLegendItem legend[2 * CW_PATCHES_MOST];
   int legend_count;
 } CwReportPicture;
 
@@ -38,7 +38,7 @@ typedef struct {
 } CwReportPictures;
 
 // Reads every region twice and draws. Free with cw_report_pictures_free, also after a failure.
-CwStatus cw_report_pictures_draw(const CwReportMesh *mesh, const CwPumpSizes *sizes,
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes,
                                  CwReportPictures *pictures);
 void cw_report_pictures_free(CwReportPictures *pictures);
 

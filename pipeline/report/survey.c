@@ -40,13 +40,15 @@ static double face_area(const double a[3], const double b[3], const double c[3])
                     pow(u[0] * v[1] - u[1] * v[0], 2));
 }
 
-void cw_survey_add(CwSurvey *survey, const CwReportDomain *domain, const CwReportCells *cells) {
-  int patch[CW_PLACE_COUNT], shroud = cw_report_patch(domain, "shroud");
+void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells) {
+  // Patches of a region are counted from the first one of its domain; those of another domain get a number no face has.
+  int first = mesh->domains[cells->domain].first_patch, shroud = cw_mesh_patch_find(mesh, "shroud") - first;
+  int patch[CW_PLACE_COUNT];
   for (int k = 0; k < CW_PLACE_COUNT; k++)
-    patch[k] = cw_report_patch(domain, place_patch[k]);
-  for (int32_t t = 0; t < cells->triangles; t++) {
-    const double *a = cells->x[cells->triangle[t][0]], *b = cells->x[cells->triangle[t][1]],
-                 *c = cells->x[cells->triangle[t][2]];
+    patch[k] = cw_mesh_patch_find(mesh, place_patch[k]) - first;
+  for (int32_t t = 0; t < cells->triangle_count; t++) {
+    const double *a = cells->points[cells->triangles[t][0]], *b = cells->points[cells->triangles[t][1]],
+                 *c = cells->points[cells->triangles[t][2]];
     double middle[3], area = face_area(a, b, c);
     for (int i = 0; i < 3; i++)
       middle[i] = (a[i] + b[i] + c[i]) / 3;
@@ -68,9 +70,9 @@ void cw_survey_add(CwSurvey *survey, const CwReportDomain *domain, const CwRepor
       survey->shroud_sum[bin][1] += area * middle[2];
     }
   }
-  for (int32_t q = 0; q < cells->quads; q++) {
+  for (int32_t q = 0; q < cells->quad_count; q++) {
     for (int k = 0; k < 4; k++)
-      add_point(survey, cells->x[cells->quad[q][k]]);
+      add_point(survey, cells->points[cells->quads[q][k]]);
   }
 }
 

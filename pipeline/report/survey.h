@@ -4,7 +4,7 @@
 #ifndef CUTWATER_PIPELINE_REPORT_SURVEY_H
 #define CUTWATER_PIPELINE_REPORT_SURVEY_H
 
-#include "pipeline/report/mesh_file.h"
+#include "pipeline/mesh/region_read.h"
 
 enum { CW_SURVEY_BINS = 360, CW_SURVEY_RADII = 64 };
 
@@ -28,7 +28,7 @@ typedef struct {
 } CwSurvey;
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes);
-void cw_survey_add(CwSurvey *survey, const CwReportDomain *domain, const CwReportCells *cells);
+void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cells);
 
 // The middle of a place: of the tongue, or of one blade's edge. Returns 0 where the mesh has no such patch.
 int cw_survey_place(const CwSurvey *survey, CwPlace place, double middle[3]);

@@ -185,16 +185,18 @@ static void survey_finds_places(void **state) {
                    {-0.1, -0.003, 0.004}, {-0.1, 0.003, 0.004}, {0, 0.3, 0.02},       {0.001, 0.3, -0.02},
                    {-0.001, 0.29, 0},     {0.05, 0, -0.01},     {0, 0.05, -0.01},     {0.0, -0.05, -0.01}};
   int32_t triangle[][3] = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, patch[] = {0, 0, 1, 2};
-  char *names[] = {"blade_trailing_edge", "outlet", "shroud"};
-  CwReportDomain domain = {.patch = {names[0], names[1], names[2]}, .patch_count = 3};
-  CwReportCells cells = {.points = 12, .triangles = 4, .x = x, .triangle = triangle, .triangle_patch = patch};
+  CwMeshPatch names[] = {
+      {"blade_trailing_edge", CW_KIND_WALL, 0}, {"outlet", CW_KIND_OUTLET, 0}, {"shroud", CW_KIND_WALL, 0}};
+  CwMesh mesh = {.patch_count = 3, .patches = names};
+  CwRegionData cells = {
+      .point_count = 12, .triangle_count = 4, .points = x, .triangles = triangle, .triangle_patch = patch};
   CwPumpSizes sizes = {2, 0.1, 0.101, 0.102};
   CwSurvey *survey = malloc(sizeof *survey);
   double middle[3], radius, z_least, z_most, z;
   cw_survey_start(survey, &sizes);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle), 0);
   assert_int_equal(cw_survey_shroud(survey, 0.02, &z), 0);
-  cw_survey_add(survey, &domain, &cells);
+  cw_survey_add(survey, &mesh, &cells);
   assert_int_equal(cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, middle),
                    1); // one blade, not the mean of both
   assert_near(fabs(middle[0]), 0.1, 1e-9);

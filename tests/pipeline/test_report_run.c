@@ -55,6 +55,13 @@ static int there(const char *name) {
   return access(path, F_OK) == 0;
 }
 
+static void attribute(hid_t file, const char *name, hid_t type, const void *value) {
+  hid_t space = H5Screate(H5S_SCALAR), set = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(H5Awrite(set, type, value) >= 0);
+  H5Aclose(set);
+  H5Sclose(space);
+}
+
 static void dataset(hid_t file, const char *name, hid_t type, int rows, int columns, const void *data) {
   hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
   hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, size, NULL);
@@ -67,8 +74,8 @@ static void dataset(hid_t file, const char *name, hid_t type, int rows, int colu
 }
 
 // A box from (x0, -0.02, -0.004) to (x1, 0.02, 0.004) m of two prisms standing on z; patches by side: 0
-// below, 1 above, 2 around. `corner` is the highest index used.
-static void write_region(const char *name, double x0, double x1, int corner) {
+// below, 1 above, 3 around. `corner` is the highest index used.
+static void write_region(const char *domain, double x0, double x1, int corner) {
   double x[8][3];
   for (int k = 0; k < 8; k++) {
     x[k][0] = k & 1 ? x1 : x0;
@@ -79,11 +86,20 @@ static void write_region(const char *name, double x0, double x1, int corner) {
   const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}},
                 triangle_patch[4] = {0, 0, 1, 1};
   const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}},
-                quad_patch[4] = {2, 2, 2, 2};
-  char path[200];
+                quad_patch[4] = {3, 3, 3, 3};
+  const int32_t triangle_cell[4] = {0, 1, 0, 1}, quad_cell[4] = {0, 1, 1, 0};
+  const int format = 1, region = 1;
+  char name[40], path[200];
+  snprintf(name, sizeof name, "mesh/%s-0001.h5", domain);
   path_in_run(name, path);
   hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   assert_true(file >= 0);
+  hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, strlen(domain) + 1);
+  attribute(file, "format", H5T_NATIVE_INT, &format);
+  attribute(file, "domain", text, domain);
+  attribute(file, "region", H5T_NATIVE_INT, &region);
+  H5Tclose(text);
   dataset(file, "points", H5T_NATIVE_DOUBLE, 8, 3, x);
   dataset(file, "tetrahedra", H5T_NATIVE_INT32, 0, 4, NULL);
   dataset(file, "prisms", H5T_NATIVE_INT32, 2, 6, prism);
@@ -91,19 +107,22 @@ static void write_region(const char *name, double x0, double x1, int corner) {
   dataset(file, "triangle_patch", H5T_NATIVE_INT32, 4, 1, triangle_patch);
   dataset(file, "quads", H5T_NATIVE_INT32, 4, 4, quad);
   dataset(file, "quad_patch", H5T_NATIVE_INT32, 4, 1, quad_patch);
+  dataset(file, "triangle_cell", H5T_NATIVE_INT32, 4, 1, triangle_cell);
+  dataset(file, "quad_cell", H5T_NATIVE_INT32, 4, 1, quad_cell);
   H5Fclose(file);
 }
 
 // clang-format off
 #define REGION(file) "{\"file\":\"" file "\",\"region\":1,\"number\":1,\"points\":8,\"own_points\":8," \
   "\"tetrahedra\":0,\"pyramids\":0,\"prisms\":2,\"triangles\":4,\"quads\":4}"
-#define PATCHES(a, b, c) "[{\"name\":\"" a "\",\"kind\":\"wall\"},{\"name\":\"" b "\",\"kind\":\"wall\"}," \
-  "{\"name\":\"" c "\",\"kind\":\"interface\"}]"
+#define PATCHES(a, b, end, c) "[{\"name\":\"" a "\",\"kind\":\"wall\"},{\"name\":\"" b "\",\"kind\":\"wall\"}," \
+  "{\"name\":\"" end "\",\"kind\":\"" end "\"},{\"name\":\"" c "\",\"kind\":\"interface\"}]"
 #define MESHED(name, patches, file) "{\"name\":\"" name "\",\"shared_points\":0,\"solid_volume_m3\":1," \
   "\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
 #define MANIFEST(name) "{\"format\":1,\"case\":\"" name "\",\"domains\":[" \
-  MESHED("rotor", PATCHES("shroud", "hub", "rotor_interface"), "rotor-0001.h5") "," \
-  MESHED("stator", PATCHES("volute", "tongue", "stator_interface"), "stator-0001.h5") "]}"
+  MESHED("rotor", PATCHES("shroud", "hub", "inlet", "rotor_interface"), "rotor-0001.h5") "," \
+  MESHED("stator", PATCHES("volute", "tongue", "outlet", "stator_interface"), "stator-0001.h5") "]," \
+  "\"interfaces\":[[\"rotor_interface\",\"stator_interface\"]]}"
 #define DOMAIN(name, patch) \
   "{\"name\":\"" name "\",\"points\":8,\"tetrahedra\":0,\"prisms\":2,\"mesh_volume_m3\":1.6e-5," \
   "\"tetrahedron_aspect_class\":[0,0,0,0,0,0,0,0]," \
@@ -138,8 +157,8 @@ static int make_run(void **state) {
              "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":[" DOMAIN(
                  "rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
   write_text("mesh/manifest.json", MANIFEST("paper"));
-  write_region("mesh/rotor-0001.h5", 0.03, 0.101, 7);
-  write_region("mesh/stator-0001.h5", 0.101, 0.14, 7);
+  write_region("rotor", 0.03, 0.101, 7);
+  write_region("stator", 0.101, 0.14, 7);
   return 0;
 }
 
@@ -261,9 +280,9 @@ static void wrong_content_is_named(void **state) {
     const char *file, *text, *message;
   } wrong[] = {
       {"mesh/manifest.json", "{\"format\":1,", "mesh/manifest.json:1:"},
-      {"mesh/manifest.json", "{\"format\":2}", "format 2"},
+      {"mesh/manifest.json", "{\"format\":2}", "'format' must be 1"},
       {"mesh/manifest.json", MANIFEST("other"), "of case 'other'"},
-      {"mesh/manifest.json", "{\"format\":1,\"case\":\"paper\",\"domains\":[]}", "0 domains"},
+      {"mesh/manifest.json", "{\"format\":1,\"case\":\"paper\",\"domains\":[]}", "'domains' must list rotor, stator"},
       {"geometry/design.json", "[]", "object"},
       {"geometry/design.json", "{}", "interface_radius_m"},
       {"geometry/record.json", "{\"stage\":\"mesh\"}", "'stage' is mesh"},
@@ -272,7 +291,6 @@ static void wrong_content_is_named(void **state) {
        "\"results\":{}}",
        "'asked_cells'"},
       {"geometry/velocity_triangles.svg", "<svg>", "not a whole SVG"},
-      {"mesh/rotor-0001.h5", "no HDF5", "not a whole HDF5 file"},
   };
   char path[200], aside[200];
   path_in_run("aside", aside);
@@ -283,8 +301,10 @@ static void wrong_content_is_named(void **state) {
     fails(CW_ERR_INPUT, wrong[k].message);
     assert_int_equal(rename(aside, path), 0);
   }
-  write_region("mesh/rotor-0001.h5", 0.03, 0.101, 8);
-  fails(CW_ERR_INPUT, "'prisms', row 1 holds 8; allowed: 0 to 7");
+  write_text("mesh/rotor-0001.h5", "no HDF5");
+  fails(CW_ERR_IO, "mesh/rotor-0001.h5: is missing, damaged or cut short");
+  write_region("rotor", 0.03, 0.101, 8);
+  fails(CW_ERR_INPUT, "'prisms': entry 10 is 8; allowed 0 to 7");
 }
 
 int main(void) {

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "export/mesh_input.h"
+#include "pipeline/mesh/region_read.h"
 
-void cw_region_free(CwRegionData *data) {
+void cw_mesh_region_free(CwRegionData *data) {
   free(data->points);
   free(data->shared_id);
   free(data->tetrahedra);
@@ -104,7 +104,8 @@ done:
   return status;
 }
 
-static CwStatus check_region(const CwMesh *mesh, const CwMeshRegion *line, const CwRegionData *r) {
+static CwStatus check_region(const CwMesh *mesh, const CwMeshRegion *line, const CwRegionData *r,
+                             CwRegionPart part) {
   CwStatus status = CW_OK;
   const char *path = line->path;
   const CwMeshDomain *domain = &mesh->domains[line->domain];
@@ -112,6 +113,12 @@ static CwStatus check_region(const CwMesh *mesh, const CwMeshRegion *line, const
   for (int32_t i = 0; i < r->point_count; ++i)
     CW_REQUIRE(isfinite(r->points[i][0]) && isfinite(r->points[i][1]) && isfinite(r->points[i][2]),
                CW_ERR_INPUT, "%s: point %d has a coordinate that is not a number", path, i);
+  CW_TRY(check_indices(path, "triangles", *r->triangles, 3 * line->triangles, r->point_count));
+  CW_TRY(check_indices(path, "triangle_patch", r->triangle_patch, line->triangles, domain->patch_count));
+  CW_TRY(check_indices(path, "quads", *r->quads, 4 * line->quads, r->point_count));
+  CW_TRY(check_indices(path, "quad_patch", r->quad_patch, line->quads, domain->patch_count));
+  if (part == CW_REGION_SURFACE)
+    goto done;
   for (int32_t i = 0; i < r->shared_count; ++i)
     CW_REQUIRE(r->shared_id[i] >= 0 && r->shared_id[i] < domain->shared_points, CW_ERR_INPUT,
                "%s: dataset 'shared_id': entry %d is %lld; allowed 0 to %lld", path, i,
@@ -119,17 +126,13 @@ static CwStatus check_region(const CwMesh *mesh, const CwMeshRegion *line, const
   CW_TRY(check_indices(path, "tetrahedra", *r->tetrahedra, 4 * line->tetrahedra, r->point_count));
   CW_TRY(check_indices(path, "pyramids", *r->pyramids, 5 * line->pyramids, r->point_count));
   CW_TRY(check_indices(path, "prisms", *r->prisms, 6 * line->prisms, r->point_count));
-  CW_TRY(check_indices(path, "triangles", *r->triangles, 3 * line->triangles, r->point_count));
-  CW_TRY(check_indices(path, "triangle_patch", r->triangle_patch, line->triangles, domain->patch_count));
   CW_TRY(check_indices(path, "triangle_cell", r->triangle_cell, line->triangles, cells));
-  CW_TRY(check_indices(path, "quads", *r->quads, 4 * line->quads, r->point_count));
-  CW_TRY(check_indices(path, "quad_patch", r->quad_patch, line->quads, domain->patch_count));
   CW_TRY(check_indices(path, "quad_cell", r->quad_cell, line->quads, cells));
 done:
   return status;
 }
 
-CwStatus cw_region_read(const CwMesh *mesh, int region, CwRegionData *r) {
+CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, CwRegionData *r) {
   CwStatus status = CW_OK;
   const CwMeshRegion *line = &mesh->regions[region];
   const char *path = line->path;
@@ -141,45 +144,46 @@ CwStatus cw_region_read(const CwMesh *mesh, int region, CwRegionData *r) {
   r->domain = line->domain;
   r->region = line->region;
   r->point_count = (int32_t)line->points;
-  r->shared_count = (int32_t)(line->points - line->own_points);
-  r->tetrahedron_count = (int32_t)line->tetrahedra;
-  r->pyramid_count = (int32_t)line->pyramids;
-  r->prism_count = (int32_t)line->prisms;
   r->triangle_count = (int32_t)line->triangles;
   r->quad_count = (int32_t)line->quads;
-  CW_NEW(r->points, line->points);
-  CW_NEW(r->shared_id, r->shared_count);
-  CW_NEW(r->tetrahedra, line->tetrahedra);
-  CW_NEW(r->pyramids, line->pyramids);
-  CW_NEW(r->prisms, line->prisms);
-  CW_NEW(r->triangles, line->triangles);
-  CW_NEW(r->triangle_patch, line->triangles);
-  CW_NEW(r->triangle_cell, line->triangles);
-  CW_NEW(r->quads, line->quads);
-  CW_NEW(r->quad_patch, line->quads);
-  CW_NEW(r->quad_cell, line->quads);
+  if (part == CW_REGION_WHOLE) {
+    r->shared_count = (int32_t)(line->points - line->own_points);
+    r->tetrahedron_count = (int32_t)line->tetrahedra;
+    r->pyramid_count = (int32_t)line->pyramids;
+    r->prism_count = (int32_t)line->prisms;
+  }
   struct {
     const char *name;
+    CwRegionPart part; // the least that has it
     hid_t type;
+    size_t size;
     int64_t rows;
     int columns;
-    void *into;
+    void **into;
   } sets[] = {
-      {"points", H5T_NATIVE_DOUBLE, line->points, 3, r->points},
-      {"shared_id", H5T_NATIVE_INT64, r->shared_count, 0, r->shared_id},
-      {"tetrahedra", H5T_NATIVE_INT32, line->tetrahedra, 4, r->tetrahedra},
-      {"pyramids", H5T_NATIVE_INT32, line->pyramids, 5, r->pyramids},
-      {"prisms", H5T_NATIVE_INT32, line->prisms, 6, r->prisms},
-      {"triangles", H5T_NATIVE_INT32, line->triangles, 3, r->triangles},
-      {"triangle_patch", H5T_NATIVE_INT32, line->triangles, 0, r->triangle_patch},
-      {"triangle_cell", H5T_NATIVE_INT32, line->triangles, 0, r->triangle_cell},
-      {"quads", H5T_NATIVE_INT32, line->quads, 4, r->quads},
-      {"quad_patch", H5T_NATIVE_INT32, line->quads, 0, r->quad_patch},
-      {"quad_cell", H5T_NATIVE_INT32, line->quads, 0, r->quad_cell},
+#define SET(name, part, type, rows, columns, member)                                                         \
+  {name, part, type, sizeof *r->member, rows, columns, (void **)&r->member}
+      SET("points", CW_REGION_SURFACE, H5T_NATIVE_DOUBLE, line->points, 3, points),
+      SET("triangles", CW_REGION_SURFACE, H5T_NATIVE_INT32, line->triangles, 3, triangles),
+      SET("triangle_patch", CW_REGION_SURFACE, H5T_NATIVE_INT32, line->triangles, 0, triangle_patch),
+      SET("quads", CW_REGION_SURFACE, H5T_NATIVE_INT32, line->quads, 4, quads),
+      SET("quad_patch", CW_REGION_SURFACE, H5T_NATIVE_INT32, line->quads, 0, quad_patch),
+      SET("shared_id", CW_REGION_WHOLE, H5T_NATIVE_INT64, r->shared_count, 0, shared_id),
+      SET("tetrahedra", CW_REGION_WHOLE, H5T_NATIVE_INT32, line->tetrahedra, 4, tetrahedra),
+      SET("pyramids", CW_REGION_WHOLE, H5T_NATIVE_INT32, line->pyramids, 5, pyramids),
+      SET("prisms", CW_REGION_WHOLE, H5T_NATIVE_INT32, line->prisms, 6, prisms),
+      SET("triangle_cell", CW_REGION_WHOLE, H5T_NATIVE_INT32, line->triangles, 0, triangle_cell),
+      SET("quad_cell", CW_REGION_WHOLE, H5T_NATIVE_INT32, line->quads, 0, quad_cell),
+#undef SET
   };
-  for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i)
-    CW_TRY(read_rows(file, path, sets[i].name, sets[i].type, sets[i].rows, sets[i].columns, sets[i].into));
-  CW_TRY(check_region(mesh, line, r));
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
+    if (part == CW_REGION_SURFACE && sets[i].part == CW_REGION_WHOLE)
+      continue;
+    *sets[i].into = calloc((size_t)sets[i].rows + !sets[i].rows, sets[i].size);
+    CW_REQUIRE(*sets[i].into, CW_ERR_MEMORY, "out of memory: %s of %s", sets[i].name, path);
+    CW_TRY(read_rows(file, path, sets[i].name, sets[i].type, sets[i].rows, sets[i].columns, *sets[i].into));
+  }
+  CW_TRY(check_region(mesh, line, r, part));
 done:
   if (file >= 0)
     H5Fclose(file);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "export/mesh_input.h"
+#include "pipeline/mesh/manifest.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -91,7 +91,7 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
   CwMeshRegion *region = &mesh->regions[mesh->region_count];
   const char *name = json_string_value(json_object_get(item, "file"));
   char where[80];
-  int64_t index = 0;
+  int64_t index = 0, number = 0;
   snprintf(where, sizeof where, "domain %s, region %d", d->name, d->region_count + 1);
   CW_REQUIRE(name && name[0] && !strchr(name, '/'), CW_ERR_INPUT, "%s: %s: 'file' must be a file name", file,
              where);
@@ -101,6 +101,8 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
              (long long)index);
   region->domain = domain;
   region->region = (int)index;
+  CW_TRY(read_count(item, "number", INT32_MAX, file, where, &number));
+  region->number = (int)number;
   CW_TRY(read_count(item, "points", INT32_MAX, file, where, &region->points));
   CW_TRY(read_count(item, "own_points", region->points, file, where, &region->own_points));
   // A cell has at most five faces, and a face of a region is numbered with 31 bits.
@@ -129,16 +131,16 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
   const json_t *regions = json_object_get(item, "regions");
   const json_t *line;
   size_t i;
-  CW_REQUIRE(name && (domain > CW_EXPORT_STATOR || strcmp(name, first_domains[domain]) == 0), CW_ERR_INPUT,
+  CW_REQUIRE(name && (domain > CW_MESH_STATOR || strcmp(name, first_domains[domain]) == 0), CW_ERR_INPUT,
              "%s: domain %d must be '%s', not '%s'", file, domain + 1,
-             domain > CW_EXPORT_STATOR ? "named" : first_domains[domain], name ? name : "");
+             domain > CW_MESH_STATOR ? "named" : first_domains[domain], name ? name : "");
   CW_REQUIRE(name[0] && strlen(name) <= LONGEST_DOMAIN_NAME &&
                  strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") == strlen(name),
-             CW_ERR_INPUT, "%s: domain %d is named '%s'; allowed are 1 to %d small letters, digits and _", file,
-             domain + 1, name, LONGEST_DOMAIN_NAME);
+             CW_ERR_INPUT, "%s: domain %d is named '%s'; allowed are 1 to %d small letters, digits and _",
+             file, domain + 1, name, LONGEST_DOMAIN_NAME);
   for (int other = 0; other < domain; ++other)
-    CW_REQUIRE(strcmp(name, mesh->domains[other].name) != 0, CW_ERR_INPUT, "%s: domain '%s' is named twice", file,
-               name);
+    CW_REQUIRE(strcmp(name, mesh->domains[other].name) != 0, CW_ERR_INPUT, "%s: domain '%s' is named twice",
+               file, name);
   for (size_t k = 0; k <= strlen(name); ++k) {
     d->name[k] = name[k];
     d->zone[k] = (char)toupper((unsigned char)name[k]);
@@ -149,6 +151,9 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
   CW_TRY(read_count(item, "shared_points", INT32_MAX / 3, file, name, &d->shared_points));
   CW_REQUIRE(json_array_size(patches) > 0 && json_array_size(regions) > 0, CW_ERR_INPUT,
              "%s: domain %s: 'patches' and 'regions' must be lists with at least one entry", file, name);
+  CW_REQUIRE(json_array_size(patches) <= CW_PATCHES_MOST, CW_ERR_INPUT,
+             "%s: domain %s: %zu patches; allowed 1 to %d", file, name, json_array_size(patches),
+             CW_PATCHES_MOST);
   d->first_patch = mesh->patch_count;
   json_array_foreach(patches, i, line) {
     CW_TRY(read_patch(mesh, domain, line, file));
@@ -180,8 +185,8 @@ static CwStatus read_interfaces(CwMesh *mesh, const json_t *list, const char *fi
   CwStatus status = CW_OK;
   const json_t *pair;
   size_t i;
-  CW_REQUIRE(json_array_size(list) > 0 && json_array_size(list) <= CW_EXPORT_DOMAINS_MOST, CW_ERR_INPUT,
-             "%s: 'interfaces' must list 1 to %d pairs of patches", file, CW_EXPORT_DOMAINS_MOST);
+  CW_REQUIRE(json_array_size(list) > 0 && json_array_size(list) <= CW_DOMAINS_MOST, CW_ERR_INPUT,
+             "%s: 'interfaces' must list 1 to %d pairs of patches", file, CW_DOMAINS_MOST);
   json_array_foreach(list, i, pair) {
     CwMeshInterface found = {{-1, -1}};
     for (int s = 0; s < 2; ++s) {
@@ -194,16 +199,17 @@ static CwStatus read_interfaces(CwMesh *mesh, const json_t *list, const char *fi
                  "%s: interface %zu: patch '%s' is a side of another one", file, i + 1, name);
     }
     int domain[2] = {mesh->patches[found.patch[0]].domain, mesh->patches[found.patch[1]].domain};
-    CW_REQUIRE(domain[0] != domain[1], CW_ERR_INPUT, "%s: interface %zu has both sides in domain %s", file, i + 1,
-               mesh->domains[domain[0]].name);
-    CW_REQUIRE(i > 0 || (domain[0] == CW_EXPORT_ROTOR && domain[1] == CW_EXPORT_STATOR), CW_ERR_INPUT,
+    CW_REQUIRE(domain[0] != domain[1], CW_ERR_INPUT, "%s: interface %zu has both sides in domain %s", file,
+               i + 1, mesh->domains[domain[0]].name);
+    CW_REQUIRE(i > 0 || (domain[0] == CW_MESH_ROTOR && domain[1] == CW_MESH_STATOR), CW_ERR_INPUT,
                "%s: interface 1 must be between rotor and stator", file);
     mesh->interfaces[mesh->interface_count++] = found;
   }
   for (int p = 0; p < mesh->patch_count; ++p) {
     int side;
-    CW_REQUIRE(mesh->patches[p].kind != CW_KIND_INTERFACE || cw_mesh_interface_of(mesh, p, &side) >= 0, CW_ERR_INPUT,
-               "%s: patch '%s' of kind interface has no other side in 'interfaces'", file, mesh->patches[p].name);
+    CW_REQUIRE(mesh->patches[p].kind != CW_KIND_INTERFACE || cw_mesh_interface_of(mesh, p, &side) >= 0,
+               CW_ERR_INPUT, "%s: patch '%s' of kind interface has no other side in 'interfaces'", file,
+               mesh->patches[p].name);
   }
 done:
   return status;
@@ -225,8 +231,8 @@ CwStatus cw_mesh_manifest_read(const char *run, CwMesh *mesh) {
              "%s: 'case' must be a name of at most %zu characters", file, sizeof mesh->case_name - 1);
   snprintf(mesh->case_name, sizeof mesh->case_name, "%s", name);
   const json_t *domains = json_object_get(root, "domains");
-  CW_REQUIRE(json_array_size(domains) >= 2 && json_array_size(domains) <= CW_EXPORT_DOMAINS_MOST, CW_ERR_INPUT,
-             "%s: 'domains' must list rotor, stator and at most %d more", file, CW_EXPORT_DOMAINS_MOST - 2);
+  CW_REQUIRE(json_array_size(domains) >= 2 && json_array_size(domains) <= CW_DOMAINS_MOST, CW_ERR_INPUT,
+             "%s: 'domains' must list rotor, stator and at most %d more", file, CW_DOMAINS_MOST - 2);
   mesh->domain_count = (int)json_array_size(domains);
   size_t patches = 0, regions = 0;
   for (int d = 0; d < mesh->domain_count; ++d) {
