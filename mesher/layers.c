@@ -4,26 +4,33 @@
 #include <stdlib.h>
 
 #include "mesher/layers_inner.h"
+#include "mesher/ledger.h"
 
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   CwStatus status = CW_OK;
   CwLayerWork work = {0};
   CwBoxTree tree = {0};
   memset(layers, 0, sizeof *layers);
+  cw_ledger_part("layers: neighbours");
   CW_TRY(cw_layers_topology(input, &work));
   CW_NEW(layers->front, work.n);
   CW_NEW(layers->height, work.n);
   CW_NEW(layers->reason, work.n);
+  cw_ledger_part("layers: directions taken");
   CW_TRY(cw_layers_normals(&work));
+  cw_ledger_part("layers: tree");
   CW_TRY(cw_gap_tree_make(&work, &tree));
   cw_layers_limit_by_hollow(&work);
   memcpy(work.t, work.most, work.n * sizeof *work.t);
   // The fan needs heights and the gap needs directions: twice is enough for both to settle.
   for (int pass = 0; pass < 2; pass++) {
+    cw_ledger_part("layers: fans set");
     CW_TRY(cw_layers_fan(&work));
+    cw_ledger_part("layers: grading");
     CW_TRY(cw_layers_limit_by_gap(&work, &tree));
     CW_TRY(cw_layers_grade(&work));
   }
+  cw_ledger_part("layers: repair");
   CW_TRY(cw_layers_repair(&work, layers->front, &layers->repair_rounds));
   for (int32_t v = 0; v < work.n; v++) {
     double d[3];

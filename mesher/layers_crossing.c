@@ -268,7 +268,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
   CW_NEW(bytes, blocks);
   CW_NEW(size, blocks);
-  CwSchedule schedule = {.count = blocks, .run = search_block, .context = crossing, .gather = 1};
+  CwSchedule schedule = {.step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   size_t total = (size_t)crossing->pair_count;
   for (int32_t i = 0; i < blocks; i++) total += (size_t)size[i] / sizeof *crossing->pair;

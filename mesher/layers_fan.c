@@ -496,7 +496,8 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
   CW_NEW(size, fans.component_count);
   CW_NEW(cost, fans.component_count);
   for (int32_t c = 0; c < fans.component_count; c++) cost[c] = fans.start[c + 1] - fans.start[c];
-  CwSchedule schedule = {.count = fans.component_count, .cost = cost, .run = solve_part, .context = &fans, .gather = 1};
+  CwSchedule schedule = {.step = "layers: fans", .count = fans.component_count, .cost = cost, .run = solve_part,
+                         .context = &fans, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   if (!work->lean) {
     CW_NEW(work->lean, work->n);

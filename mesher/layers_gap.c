@@ -113,7 +113,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   double *most = NULL;
   CW_NEW(most, work->n);
-  CW_TRY(cw_layers_share(work, work->n, sizeof *most, free_height, tree, most));
+  CW_TRY(cw_layers_share(work, "layers: gaps", work->n, sizeof *most, free_height, tree, most));
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], most[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;

@@ -75,10 +75,10 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
 void cw_layers_work_free(CwLayerWork *work);
 
 // layers_share.c: calls body for the items 0 .. count-1, in blocks over the ranks; each fills `width` bytes of `out`, which
-// all ranks get. Collective.
+// all ranks get. step: of the ledger. Collective.
 typedef CwStatus (*CwLayerBody)(const CwLayerWork *work, void *context, int32_t item, void *out);
-CwStatus cw_layers_share(const CwLayerWork *work, int32_t count, size_t width, CwLayerBody body, void *context,
-                         void *out);
+CwStatus cw_layers_share(const CwLayerWork *work, const char *step, int32_t count, size_t width, CwLayerBody body,
+                         void *context, void *out);
 
 // layers_normal.c
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the

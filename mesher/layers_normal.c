@@ -185,7 +185,7 @@ CwStatus cw_layers_normals(CwLayerWork *work) {
   CwStatus status = CW_OK;
   Direction *made = NULL;
   CW_NEW(made, work->n);
-  CW_TRY(cw_layers_share(work, work->n, sizeof *made, find_direction, NULL, made));
+  CW_TRY(cw_layers_share(work, "layers: directions", work->n, sizeof *made, find_direction, NULL, made));
   for (int32_t v = 0; v < work->n; v++) {
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].base, sizeof made[v].base);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "mesher/layers_inner.h"
+#include "mesher/ledger.h"
 #include "mesher/orbit_skeleton.h"
 #include "pipeline/log.h"
 
@@ -40,42 +41,35 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
   part->whole->snap(part->whole->snap_context, part->global[vertex], x);
 }
 
-// Buckets of points in space, by cells of the given edge, hashed.
+// A point, and whether one of others was met within reach of it.
 typedef struct {
-  double edge;
-  int32_t size, *first, *next;
-} Buckets;
+  const double (*x)[3], *p;
+  const int32_t *vertex; // of each item of the tree
+  double reach;
+  int met;
+} Near;
 
-static int32_t bucket(const Buckets *buckets, const int64_t cell[3]) {
-  uint64_t key = (uint64_t)cell[0] * 73856093u ^ (uint64_t)cell[1] * 19349663u ^ (uint64_t)cell[2] * 83492791u;
-  return (int32_t)(key % (uint64_t)buckets->size);
+static int meet(void *context, int32_t item) {
+  Near *near = context;
+  near->met = distance3(near->x[near->vertex[item]], near->p) < near->reach;
+  return near->met;
 }
 
-static void cell_of(const Buckets *buckets, const double x[3], int64_t cell[3]) {
-  for (int k = 0; k < 3; k++) cell[k] = (int64_t)floor(x[k] / buckets->edge);
-}
-
-static int is_near(const Buckets *buckets, const double (*x)[3], const double p[3]) {
-  int64_t middle[3], cell[3];
-  cell_of(buckets, p, middle);
-  for (int i = 0; i < 27; i++) {
-    cell[0] = middle[0] + i % 3 - 1;
-    cell[1] = middle[1] + i / 3 % 3 - 1;
-    cell[2] = middle[2] + i / 9 - 1;
-    for (int32_t v = buckets->first[bucket(buckets, cell)]; v >= 0; v = buckets->next[v]) {
-      if (distance3(x[v], p) < buckets->edge) return 1;
-    }
-  }
-  return 0;
+static int is_near(const CwBoxTree *tree, Near *near, const double p[3]) {
+  CwBox box;
+  for (int k = 0; k < 3; k++) box.low[k] = p[k] - near->reach, box.high[k] = p[k] + near->reach;
+  near->p = p;
+  near->met = 0;
+  cw_box_tree_overlaps(tree, &box, meet, near);
+  return near->met;
 }
 
 // Marks the points within reach of the first ones.
 static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
   CwStatus status = CW_OK;
-  Buckets buckets = {.size = whole->point_count + 1};
-  CW_NEW(buckets.first, buckets.size);
-  CW_NEW(buckets.next, whole->point_count);
-  for (int32_t i = 0; i < buckets.size; i++) buckets.first[i] = -1;
+  CwBoxTree tree = {0};
+  CwBox *box = NULL;
+  int32_t *vertex = NULL, firsts = 0;
   double longest = 0, thickest = 0;
   for (int32_t t = 0; t < whole->triangle_count; t++) {
     const int32_t *corner = whole->triangle[t];
@@ -86,21 +80,21 @@ static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole,
       thickest = fmax(thickest, whole->target[corner[k]]);
     }
   }
-  buckets.edge = REACH * thickest + longest;
+  CW_NEW(box, whole->point_count);
+  CW_NEW(vertex, whole->point_count);
   for (int32_t v = 0; v < whole->point_count; v++) {
     if (!is_first[v]) continue;
-    int64_t cell[3];
-    cell_of(&buckets, whole->x[v], cell);
-    int32_t b = bucket(&buckets, cell);
-    buckets.next[v] = buckets.first[b];
-    buckets.first[b] = v;
+    memcpy(box[firsts].low, whole->x[v], sizeof box->low);
+    memcpy(box[firsts].high, whole->x[v], sizeof box->high);
+    vertex[firsts++] = v;
   }
-  for (int32_t v = 0; v < whole->point_count; v++) {
-    near[v] = is_first[v] || is_near(&buckets, whole->x, whole->x[v]);
-  }
+  CW_TRY(cw_box_tree_make(firsts, box, &tree));
+  Near at = {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest};
+  for (int32_t v = 0; v < whole->point_count; v++) near[v] = is_first[v] || is_near(&tree, &at, whole->x[v]);
 done:
-  free(buckets.first);
-  free(buckets.next);
+  cw_box_tree_free(&tree);
+  free(box);
+  free(vertex);
   return status;
 }
 
@@ -245,10 +239,12 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   CW_NEW(layers->height, input->point_count);
   CW_NEW(layers->reason, input->point_count);
   CW_NEW(bad, input->point_count);
+  cw_ledger_part("layers: copies");
   CW_TRY(part_make(skeleton, input, &part));
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
     CW_TRY(cw_layers_make(&part.in, &made));
+    cw_ledger_part("layers: copies");
     CW_TRY(spread(&part, &made, layers));
     CW_TRY(check(&part, &made, layers, bad, &bad_count));
     layers->repair_rounds = made.repair_rounds;

@@ -33,8 +33,8 @@ done:
   return status;
 }
 
-CwStatus cw_layers_share(const CwLayerWork *work, int32_t count, size_t width, CwLayerBody body, void *context,
-                         void *out) {
+CwStatus cw_layers_share(const CwLayerWork *work, const char *step, int32_t count, size_t width, CwLayerBody body,
+                         void *context, void *out) {
   CwStatus status = CW_OK;
   Share share = {work, body, context, count, width};
   int32_t blocks = (count + BLOCK - 1) / BLOCK;
@@ -42,7 +42,7 @@ CwStatus cw_layers_share(const CwLayerWork *work, int32_t count, size_t width, C
   int64_t *size = NULL;
   CW_NEW(bytes, blocks);
   CW_NEW(size, blocks);
-  CwSchedule schedule = {.count = blocks, .run = run_block, .context = &share, .gather = 1};
+  CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t i = 0; i < blocks; i++) memcpy((char *)out + (size_t)i * BLOCK * width, bytes[i], (size_t)size[i]);
 done:

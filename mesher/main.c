@@ -3,6 +3,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 
+#include "mesher/ledger.h"
 #include "mesher/mesh_run.h"
 #include "mesher/schedule.h"
 #include "pipeline/log.h"
@@ -27,6 +28,10 @@ int main(int argc, char **argv) {
   run.run_path = args.run_path;
   CW_TRY(cw_record_start("mesh", &run.record));
   CW_TRY(cw_mesh_run(&run));
+  json_t *parts = NULL, *tasks = NULL;
+  CW_TRY(cw_ledger_json(&parts, &tasks));
+  CW_TRY(cw_record_json(run.record, "every_rank", parts));
+  CW_TRY(cw_record_json(run.record, "tasks", tasks));
   long long mine = cw_peak_memory_bytes(), all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
   if (run.rank == 0) {
@@ -37,6 +42,7 @@ int main(int argc, char **argv) {
 done:
   if (status != CW_OK) return cw_mpi_fail(status);
   cw_mesh_run_free(&run);
+  cw_ledger_free();
   cw_record_free(run.record);
   free(record_path);
   cw_log_close();

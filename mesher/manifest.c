@@ -245,7 +245,6 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   domains = NULL;
   CW_TRY(cw_record_json(run->record, "domains", given));
   CW_TRY(cw_record_number(run->record, "processor_seconds", cw_processor_seconds()));
-  CW_TRY(cw_record_json(run->record, "tasks", json_incref(run->tasks)));
 done:
   json_decref(manifest);
   json_decref(domains);

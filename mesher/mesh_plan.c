@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "mesher/ledger.h"
 #include "mesher/run_step.h"
 #include "pipeline/log.h"
 
@@ -23,6 +24,7 @@ static CwStatus measure_domains(CwMeshRun *run) {
     }
   }
   CW_TRY(cw_run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
+  cw_ledger_part("trees of the background");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
     cw_log("%s: %d faces, %d background triangles", run->domain[d].name, cw_cad_face_count(run->domain[d].cad),
@@ -38,6 +40,7 @@ static CwStatus find_symmetry(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwDomain *domain = &run->domain[0];
   if (!run->table->mesh.periodic_impeller) goto done;
+  cw_ledger_part("symmetry");
   CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
   if (domain->symmetry) {
     cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
@@ -67,6 +70,7 @@ static CwStatus make_sizes(CwMeshRun *run) {
   }
   CW_TRY(cw_run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
   CW_TRY(cw_run_domains(run, "size field", cw_step_size, &results));
+  cw_ledger_part("integrals of the size");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
 done:
   for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
@@ -81,6 +85,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   CwFlowScales scales;
   char path[4096];
   double started = cw_seconds();
+  cw_ledger_part("geometry");
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
   CW_TRY(cw_flow_scales_read(path, &scales));
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
@@ -155,6 +160,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   run->planned_tet_factor = run->tet_factor;
   run->planned_scale = run->scale;
   CW_TRY(cw_run_domains(run, "decomposition", cw_step_plan, &results));
+  cw_ledger_part("plan taken up");
   for (int d = 0; d < run->domains.count; d++) {
     status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
     if (status == CW_RETRY) status = plan_whole(run, d);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "mesher/coupled_rim.h"
+#include "mesher/ledger.h"
 #include "mesher/mesh_plan.h"
 #include "mesher/pass_state.h"
 #include "mesher/run_step.h"
@@ -108,11 +109,14 @@ static CwStatus mesh_walls(CwMeshRun *run) {
   for (int pass = 0;; pass++) {
     int64_t triangles = 0;
     double integral = 0;
+    cw_ledger_part("curves of the walls");
     CW_TRY(start_walls(run));
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
+    cw_ledger_part("walls merged");
     for (int d = 0; d < run->domains.count; d++) {
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+      cw_ledger_part("heights of the layers");
       CW_TRY(cw_domain_targets(&run->domain[d], run->table));
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name, run->domain[d].layer_share);
       triangles += run->domain[d].skeleton.wall_triangle_count;
@@ -160,6 +164,7 @@ static CwStatus mesh_inner(CwMeshRun *run) {
   CwResults caps = {0}, interfaces = {0};
   CwMeshTask *task = NULL;
   int32_t count, made = 0, counts[CW_DOMAINS_MOST];
+  cw_ledger_part("free curves");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
   cw_face_counts(run, counts);
   CW_TRY(cw_results_make(&caps, run->domains.count, counts));
@@ -182,6 +187,7 @@ static CwStatus mesh_inner(CwMeshRun *run) {
     }
   }
   CW_TRY(cw_run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
+  cw_ledger_part("inner surfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
     CW_TRY(cw_domain_number(&run->domain[d]));
@@ -217,6 +223,7 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
   CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
+  cw_ledger_part("interfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
@@ -270,6 +277,7 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
   CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
+  cw_ledger_part("results");
   run->cells = 0;
   *failed = 0;
   for (int d = 0; d < run->domains.count; d++) {
@@ -376,6 +384,7 @@ static CwStatus mesh_pass(CwMeshRun *run) {
     }
     CW_TRY(status);
     CW_TRY(refine_interfaces(run));
+    cw_ledger_part("points that regions share");
     for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
     CW_TRY(mesh_regions(run, &failed));
     if (!failed) break;
@@ -437,6 +446,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     solve_scale(run);
   }
+  cw_ledger_part("manifest");
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
 done:
   return status;
@@ -448,5 +458,4 @@ void cw_mesh_run_free(CwMeshRun *run) {
     free(run->summary[d]);
     free(run->region_seconds[d]);
   }
-  json_decref(run->tasks);
 }

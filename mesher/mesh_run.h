@@ -42,7 +42,6 @@ typedef struct {
   int whole;                       // 1: a symmetry was given up
   int passes, retries;             // retries: of all passes
   int64_t cells;                   // made
-  json_t *tasks;                   // of rank 0: predicted costs and seconds of all tasks, step by step
 } CwMeshRun;
 
 // Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all ranks.

@@ -18,30 +18,12 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
   return step->step(step->run, step->task[index], bytes, size);
 }
 
-// What a model of more ranks needs (tests/bench/speedup.py).
-static CwStatus record_tasks(CwMeshRun *run, const char *name, double seconds, int32_t count, const double *cost,
-                             const double *time) {
-  CwStatus status = CW_OK;
-  json_t *costs = json_array(), *times = json_array();
-  for (int32_t i = 0; i < count; i++) {
-    json_array_append_new(costs, cw_json_number(cost[i]));
-    json_array_append_new(times, cw_json_number(time[i]));
-  }
-  if (!run->tasks) run->tasks = json_array();
-  CW_REQUIRE(json_array_append_new(run->tasks, json_pack("{s:s, s:o, s:o, s:o}", "step", name, "seconds",
-                                                         cw_json_number(seconds), "task_cost", costs, "task_seconds",
-                                                         times)) == 0,
-             CW_ERR_MEMORY, "out of memory: record of %d tasks", count);
-done:
-  return status;
-}
-
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
                          const CwMeshTask *task, void ***bytes, double **seconds) {
   CwStatus status = CW_OK;
   void **result = NULL;
   int64_t *size = NULL;
-  double *cost = NULL, *time = NULL, started = cw_seconds(), worked = cw_processor_seconds();
+  double *cost = NULL, *time = NULL, started = cw_seconds();
   StepContext context = {run, task, body};
   CW_NEW(result, count);
   CW_NEW(size, count);
@@ -56,10 +38,7 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
     result[i] = NULL;
     if (seconds) seconds[task[i].domain][task[i].index] = time[i];
   }
-  if (run->rank == 0) {
-    CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
-    CW_TRY(record_tasks(run, name, cw_processor_seconds() - worked, count, cost, time));
-  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
 done:
   if (result) {
     for (int32_t i = 0; i < count; i++) free(result[i]);
@@ -70,12 +49,6 @@ done:
   free(time);
   return status;
 }
-
-// Arrays of results of all domains, freed with their contents.
-typedef struct {
-  int32_t count[CW_DOMAINS_MOST];
-  void **bytes[CW_DOMAINS_MOST];
-} Results;
 
 CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count) {
   CwStatus status = CW_OK;

@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "mesher/ledger.h"
 #include "pipeline/log.h"
 
 enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
@@ -96,6 +97,10 @@ int cw_mpi_fail(CwStatus status) {
   _exit(code);
 }
 
+void cw_mpi_most(int32_t count, double *value) {
+  if (world.ranks > 1) MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+}
+
 typedef struct {
   double cost;
   int32_t task;
@@ -159,8 +164,9 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   CwStatus status = CW_OK;
   Ordered *order = NULL;
   int32_t *owner = NULL;
-  double *time = NULL;
-  int64_t finished = 0;
+  double *time = NULL, own = 0;
+  int64_t finished = 0, gathered = 0;
+  const char *part = cw_ledger_part("exchange");
   CW_NEW(order, schedule->count);
   CW_NEW(owner, schedule->count);
   CW_NEW(time, schedule->count);
@@ -178,7 +184,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     }
     quiet_barrier(0);
   }
-  if (schedule->step) cw_progress_start(schedule->step, schedule->count, schedule->unit);
+  if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
   for (;;) {
     int64_t place = world.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
     if (place >= schedule->count)
@@ -189,6 +195,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     double start = cw_processor_seconds();
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
     time[task] = cw_processor_seconds() - start;
+    own += time[task];
     owner[task] = world.rank;
     if (bytes)
       bytes[task] = result;
@@ -197,18 +204,21 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     if (size)
       size[task] = result_size;
     finished = world.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
-    if (schedule->step) cw_progress(finished);
+    if (schedule->unit) cw_progress(finished);
   }
   if (world.ranks > 1) {
-    quiet_barrier(world.rank == 0 && schedule->step);
+    quiet_barrier(world.rank == 0 && schedule->unit);
     MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     if (schedule->gather)
       CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }
+  for (int32_t task = 0; schedule->gather && task < schedule->count; task++) gathered += size[task];
+  CW_TRY(cw_ledger_tasks(schedule->step, schedule->count, schedule->cost, time, own, gathered));
   if (seconds)
     memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
-  if (schedule->step) cw_progress_end();
+  if (schedule->unit) cw_progress_end();
+  cw_ledger_part(part);
 done:
   free(time);
   free(owner);

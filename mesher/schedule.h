@@ -18,8 +18,8 @@ extern "C" {
 typedef CwStatus (*CwTask)(void *context, int32_t task, void **bytes, int64_t *size);
 
 typedef struct {
-  const char *step; // for progress: "surface patches"; NULL: a part of a step, without progress of its own
-  const char *unit; // "patches"
+  const char *step; // "surface patches", also in the ledger
+  const char *unit; // "patches"; NULL: a part of a step, without progress of its own
   int32_t count;
   const double *cost; // predicted, any unit; largest is taken first, ties by index
   CwTask run;
@@ -43,6 +43,9 @@ void cw_mpi_end(void);
 // ranks fail, one of them prints. Does not return where there is more than one rank; else returns the exit
 // status for main().
 int cw_mpi_fail(CwStatus status);
+
+// The greatest of all ranks, for each of `count` values. Collective.
+void cw_mpi_most(int32_t count, double *value);
 
 // Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start there is one rank.
 // `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].

@@ -6,6 +6,7 @@
 
 #include "mesher/front_flip.h"
 #include "mesher/layers.h"
+#include "mesher/ledger.h"
 #include "mesher/orbit_skeleton.h"
 #include "mesher/skeleton.h"
 #include "mesher/vec.h"
@@ -188,10 +189,12 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   double(*guide_normal)[2][3] = NULL;
   Snap snapping = {skeleton, NULL};
   CwLayers layers = {0};
+  cw_ledger_part("layers: wall unfolded");
   CW_TRY(unfold_wall(skeleton));
   CW_NEW(guide_count, n);
   CW_NEW(guide_normal, n);
   CW_NEW(snapping.uv, n);
+  cw_ledger_part("layers: guides");
   CW_TRY(make_guides(skeleton, background, guide_count, guide_normal, snapping.uv));
   CW_NEW(cap_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
@@ -216,6 +219,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   skeleton->height = layers.height;
   skeleton->reason = layers.reason;
   layers = (CwLayers){0};
+  cw_ledger_part("layers: front flipped");
   CW_TRY(flip_front(skeleton));
 done:
   cw_layers_free(&layers);

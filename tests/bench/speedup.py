@@ -6,10 +6,13 @@
 
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs on
-the machine does not count) are replayed step by step through the mesher's own rule (largest predicted cost first, each rank takes the next task when it is free; a step starts when the one
-before has ended on all ranks). What no task accounts for (start of the programs, reading the geometry, taking up results,
-numbering) is done by every rank and gains nothing. The model knows no network and no shared memory bus; the row of 2
-ranks, measured and modelled, tells how far it holds here.
+the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost first,
+each rank takes the next task when it is free; a schedule starts when the one before has ended on all ranks). What no task
+accounts for is done by every rank and gains nothing. The model knows no network and no shared memory bus; the row of 2
+ranks, measured and modelled, and --check tell how far it holds here.
+
+--check RANKS runs the mesher on so many ranks, more than there are cores too, and sets the processor seconds of the
+longest rank beside the model, step by step. --cells-per-region takes the place of the case's.
 
 `waiting` is the efficiency if regions waited for the fills of their smaller-numbered neighbours, as section 2.3 reads,
 in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring."""
@@ -19,6 +22,7 @@ import heapq
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -28,7 +32,19 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAPER = {6: 81.13, 12: 75.92, 18: 60.94, 24: 51.04}  # efficiency, %
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-EVERY_RANK = "on every rank"
+TASKS = " (tasks)"
+
+
+def case_with(arguments, folder):
+    """The case with --cells-per-region in a file of its own."""
+    text = arguments.case.read_text()
+    line = f"cells_per_region: {arguments.cells_per_region}"
+    changed, count = re.subn(r"cells_per_region: *\S+", line, text)
+    if count == 0:
+        changed = text.replace("\nmesh:\n", f"\nmesh:\n  {line}\n")
+    path = folder / "case.yaml"
+    path.write_text(changed)
+    return path
 
 
 def mesh(arguments, geometry, ranks):
@@ -73,15 +89,18 @@ def replay_waiting(tasks, before, ranks):
 
 
 def smaller_neighbours(record):
-    """For each task of the step "regions" the tasks of its neighbours of smaller number."""
-    before, start = [], 0
+    """For each task of the step "regions" the tasks of its neighbours of smaller number. Turned copies are no tasks of their
+    own, and where passages are copies of one another none waits."""
+    before = []
     for domain in record["results"]["domains"]:
-        number = {region["region"]: region["number"] for region in domain["region_list"]}
-        pairs = domain["adjacent_regions"]
-        for region in sorted(number):
-            others = [b if a == region else a for a, b in pairs if region in (a, b)]
-            before.append({start + other - 1 for other in others if number[other] < number[region]})
-        start += len(number)
+        firsts = [region for region in domain["region_list"] if region["copy_of"] == region["region"]]
+        start, number = len(before), {region["region"]: region["number"] for region in firsts}
+        before += [set() for _ in firsts]
+        if len(firsts) < len(domain["region_list"]):
+            continue
+        for a, b in domain["adjacent_regions"]:
+            low, high = (a, b) if number[a] < number[b] else (b, a)
+            before[start + high - 1].add(start + low - 1)
     return before
 
 
@@ -98,36 +117,34 @@ def depth(before):
 
 
 class Model:
-    """Steps of the run on one rank: name, seconds without a task, tasks (cost, seconds)."""
+    """The run on one rank: seconds of what every rank does, by part, and the steps' tasks (cost, seconds)."""
 
     def __init__(self, runs):
         records = [record for _, record in runs]
-        seconds = min(record["results"]["processor_seconds"] for record in records)
         self.record = records[0]
-        self.steps = []
+        self.steps, self.parts_of_all = [], {}
         for several in zip(*(record["results"]["tasks"] for record in records)):
             assert len({step["step"] for step in several}) == 1
             times = [min(values) for values in zip(*(step["task_seconds"] for step in several))]
-            rest = min(step["seconds"] - sum(step["task_seconds"]) for step in several)
-            self.steps.append((several[0]["step"], max(rest, 0), list(zip(several[0]["task_cost"], times))))
+            self.steps.append((several[0]["step"], list(zip(several[0]["task_cost"] or [0] * len(times), times))))
+        for several in zip(*(record["results"]["every_rank"] for record in records)):
+            assert len({part["part"] for part in several}) == 1
+            self.parts_of_all[several[0]["part"]] = min(part["seconds"] for part in several)
         self.before = smaller_neighbours(self.record)
-        known = sum(rest + sum(seconds for _, seconds in tasks) for _, rest, tasks in self.steps)
-        self.everywhere = max(seconds - known, 0)
-        self.one = known + self.everywhere
+        self.one = self.total(1)
 
-    def parts(self, ranks, waiting=False):
-        """Seconds by the name of the step."""
-        parts = {EVERY_RANK: self.everywhere}
-        for name, rest, tasks in self.steps:
+    def steps_at(self, ranks, waiting=False):
+        """Seconds of the tasks by the name of the step."""
+        parts = {}
+        for name, tasks in self.steps:
             if waiting and name == "region rule":
                 continue
             seconds = replay_waiting(tasks, self.before, ranks) if waiting and name == "regions" else replay(tasks, ranks)
             parts[name] = parts.get(name, 0) + seconds
-            parts[EVERY_RANK] += rest
         return parts
 
     def total(self, ranks, waiting=False):
-        return sum(self.parts(ranks, waiting).values())
+        return sum(self.steps_at(ranks, waiting).values()) + sum(self.parts_of_all.values())
 
 
 def print_table(model, ranks_asked, measured):
@@ -149,15 +166,33 @@ def print_table(model, ranks_asked, measured):
 
 def print_losses(model, ranks_asked):
     """What stands in the way: seconds of each step beyond its share, in % of the time of all."""
-    one = model.parts(1)
-    print("\nloss of efficiency by step, % (model)")
-    print(f"{'step':16s} {'1 rank, s':>9s} " + " ".join(f"{ranks:6d}" for ranks in ranks_asked))
-    for name in one:
-        losses = []
-        for ranks in ranks_asked:
-            parts = model.parts(ranks)
-            losses.append(100 * (parts[name] - one[name] / ranks) / sum(parts.values()))
-        print(f"{name:16s} {one[name]:9.2f} " + " ".join(f"{loss:6.1f}" for loss in losses))
+    one = {name: (seconds, True) for name, seconds in model.parts_of_all.items() if seconds >= 5e-4 * model.one}
+    one.update({name + TASKS: (seconds, False) for name, seconds in model.steps_at(1).items()})
+    print("\nloss of efficiency, % (model)")
+    print(f"{'':34s} {'1 rank, s':>9s} " + " ".join(f"{ranks:6d}" for ranks in ranks_asked))
+    at = {ranks: model.steps_at(ranks) for ranks in ranks_asked}
+    totals = {ranks: model.total(ranks) for ranks in ranks_asked}
+    for name, (seconds, by_all) in sorted(one.items(), key=lambda item: -item[1][0]):
+        losses = [100 * ((seconds if by_all else at[ranks][name.removesuffix(TASKS)]) - seconds / ranks) / totals[ranks]
+                  for ranks in ranks_asked]
+        print(f"{name:34s} {seconds:9.2f} " + " ".join(f"{loss:6.1f}" for loss in losses))
+
+
+def print_check(model, record):
+    """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by schedule.
+    Such a run may have more ranks than cores: a rank that waits sleeps."""
+    ranks = record["results"]["ranks"]
+    most = {}
+    for step in record["results"]["tasks"]:
+        most[step["step"]] = most.get(step["step"], 0) + step["most"]
+    rows = [(name + TASKS, seconds, most.get(name, 0)) for name, seconds in model.steps_at(ranks).items()]
+    here = {part["part"]: part["most"] for part in record["results"]["every_rank"]}
+    rows += [(name, seconds, here.get(name, 0)) for name, seconds in model.parts_of_all.items()]
+    print(f"\nthe longest rank of {ranks}, processor seconds         model  measured")
+    for name, modelled, found in sorted(rows, key=lambda row: -row[1]):
+        if max(modelled, found) >= 1e-3 * model.one:
+            print(f"{name:50s} {modelled:9.2f} {found:9.2f}")
+    print(f"{'all':50s} {sum(row[1] for row in rows):9.2f} {sum(row[2] for row in rows):9.2f}")
 
 
 def main():
@@ -168,8 +203,10 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=SOURCE / "build/bin")
     parser.add_argument("--ranks", type=int, nargs="*", default=[6, 12, 18, 24, 48, 96, 256, 1024])
     parser.add_argument("--record", type=pathlib.Path)
+    parser.add_argument("--check", type=int)
+    parser.add_argument("--cells-per-region")
     arguments = parser.parse_args()
-    measured = {}
+    measured, check = {}, None
     if arguments.record:
         record = json.loads(arguments.record.read_text())
         if record["results"]["ranks"] != 1:
@@ -178,16 +215,21 @@ def main():
     else:
         ones, twos = [], []
         with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as run:
+            if arguments.cells_per_region:
+                arguments.case = case_with(arguments, pathlib.Path(run))
             subprocess.run([arguments.bin / "cutwater-geometry", "--case", arguments.case, "--run", run], check=True,
                            stderr=subprocess.DEVNULL)
             for _ in range(arguments.repeat):
                 ones.append(mesh(arguments, pathlib.Path(run) / "geometry", 1))
                 twos.append(mesh(arguments, pathlib.Path(run) / "geometry", 2))
-        measured = {1: min(seconds for seconds, _ in ones),
-                    2: min(seconds for seconds, _ in twos)}
+            if arguments.check:
+                check = mesh(arguments, pathlib.Path(run) / "geometry", arguments.check)[1]
+        measured = {1: min(seconds for seconds, _ in ones), 2: min(seconds for seconds, _ in twos)}
         model = Model(ones)
     print_table(model, arguments.ranks, measured)
     print_losses(model, [ranks for ranks in arguments.ranks if ranks <= 96])
+    if check:
+        print_check(model, check)
     return 0
 
 
