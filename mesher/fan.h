@@ -2,10 +2,14 @@
 // The fan: half-planes that hold the z axis divide the flow around it into wedges. The decomposition of a domain with
 // rotational symmetry: one plane across the axis cuts off the side where fluid lies on the axis (pipe and nose of the
 // nut), planes parallel to it divide that side into slices, and a fan with the symmetry of the domain divides the other.
+// The wedges of one pitch are divided by any planes, and those of the other pitches by the same planes, turned.
 //
 //   node 0                the plane across the axis; its negative side is that of the pipe
 //   1 .. fan_first - 1    planes between slices
-//   fan_first ...         the half-planes by ascending angle; wedge j lies between half-plane j and the next
+//   fan_first ...         fan_count half-planes by ascending angle; wedge j lies between half-plane j and the next:
+//                         child[1] of half-plane j (child[0] is that of the one before)
+//   the rest              planes within wedges, pitch by pitch
+//   regions               slices, then from fan_region those of the wedges, pitch by pitch
 #ifndef CUTWATER_MESHER_FAN_H
 #define CUTWATER_MESHER_FAN_H
 
@@ -21,10 +25,9 @@ int cw_fan_holds(const CwPlan *plan, int32_t node);
 // the half-plane.
 CwPlane cw_fan_end(const CwPlan *plan, int32_t node);
 double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]);
-// The region of a point on the fan's side of node 0 (a point on a half-plane belongs to the wedge before it).
-int32_t cw_fan_locate(const CwPlan *plan, const double x[3]);
-// True where x lies in the closed wedge of `region`, which is one of the fan, within `tolerance` (m).
-int cw_fan_in_wedge(const CwPlan *plan, int32_t region, const double x[3], double tolerance);
+// The half-plane that opens the wedge of a point on the fan's side of node 0 (a point on a half-plane belongs to the
+// wedge before it).
+int32_t cw_fan_wedge(const CwPlan *plan, const double x[3]);
 
 // Where `turns` turns of a symmetry of `count` turns take a node or region of the plan.
 int32_t cw_fan_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node);

@@ -13,11 +13,10 @@
 enum {
   AXIS_SAMPLES = 400,
   STATIONS = 80,   // places tried for the plane across the axis
-  ANGLES = 120,    // places tried for half-planes in one pitch
-  WEDGES_MOST = 16 // in one pitch
+  SLICE_PLACES = 1000, // for planes between slices
+  ANGLES = 120         // places tried for half-planes in one pitch
 };
-static const double BAD = 2;       // a plane that costs so much is taken only where all do
-static const double WINDOW = 0.35; // how far a half-plane may stand off its even place, in even wedges
+static const double UNEVEN = 20; // what a slice too much or too little costs
 
 typedef struct {
   const CwPlanModel *model;
@@ -57,7 +56,6 @@ static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double
   int bin = cw_profile_bin(&profile, 0);
   *worst = profile.worst[bin];
   *cost = cw_plan_place_cost(*worst, profile.grazed[bin]);
-  if (*cost >= BAD) goto done; // the lines take most of the time
   CwPlanLines lines = cw_plan_lines(fan->model, plan, plan->fan_first, &half, &plane);
   *cost += cw_plan_line_cost(&lines);
 done:
@@ -114,11 +112,11 @@ static void place_slices(Fan *fan, int32_t slices) {
   for (int32_t i = 1; i < slices; i++) {
     double best = INFINITY, chosen = from;
     plan->node[i].parent = i - 1;
-    for (int s = 1; s < STATIONS; s++) {
-      double place = top + (fan->low - top) * s / STATIONS, worst;
+    for (int s = 1; s < SLICE_PLACES; s++) {
+      double place = top + (fan->low - top) * s / SLICE_PLACES, worst;
       if (place >= from) continue;
       double share = cw_profile_below(&fan->along, place) / all * slices; // in slices; wanted: slices - i
-      double score = 4 * fabs(share - (slices - i));
+      double score = UNEVEN * fabs(share - (slices - i));
       if (score >= best) continue;
       score += judge_across(fan, place, &worst);
       if (score >= best) continue;
@@ -135,101 +133,109 @@ static void place_slices(Fan *fan, int32_t slices) {
     plan->predicted_cells[slices - i] = inner - outer;
     inner = outer;
   }
+  plan->node_count = plan->region_count = slices;
 }
 
-static void add_share(double share[ANGLES + 1], double pitch, const double x[3], double work) {
-  double folded = fmod(atan2(x[1], x[0]) + 2 * M_PI, pitch);
-  int bin = (int)(folded / pitch * ANGLES);
-  share[1 + (bin < ANGLES ? bin : ANGLES - 1)] += work;
-}
-
-// Share of the work of a part below each of ANGLES angles of one pitch, from 0.
-static void share_by_angle(const Fan *fan, const CwPlanPart *part, double share[ANGLES + 1]) {
-  const CwPieces *pieces = &part->pieces;
-  double pitch = 2 * M_PI / fan->count;
-  memset(share, 0, (ANGLES + 1) * sizeof *share);
-  for (int32_t i = 0; i < part->sample_count; i++) {
-    add_share(share, pitch, fan->model->sample_x[part->sample[i]], fan->model->sample_work[part->sample[i]]);
-  }
-  for (int32_t i = 0; i < pieces->count; i++) {
-    double centre[3] = {0, 0, 0};
-    for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
-      for (int k = 0; k < 3; k++) centre[k] += pieces->corner[c][k]; // its length does not matter
-    }
-    add_share(share, pitch, centre, pieces->work[i]);
-  }
-  for (int i = 1; i <= ANGLES; i++) share[i] = share[i - 1] + share[i] / part->work;
-}
-
-// Share from place 0 up to place `at`, which may be in a later pitch.
-static double share_to(const double share[ANGLES + 1], int at) {
-  return at / ANGLES + share[at % ANGLES];
-}
-
-// Best places of `wedges` half-planes in one pitch; returns the sum of costs and unbalance, INFINITY where none fit.
-static double best_places(const double cost[ANGLES], const double share[ANGLES + 1], int wedges, int place[]) {
-  double least = INFINITY;
-  int reach = (int)(WINDOW * ANGLES / wedges), chosen[WEDGES_MOST];
-  for (int start = 0; start < ANGLES; start++) {
-    double sum = cost[start];
-    chosen[0] = start;
-    for (int w = 1; w < wedges && sum < least; w++) {
-      double best = INFINITY;
-      for (int at = start + ANGLES * w / wedges - reach; at <= start + ANGLES * w / wedges + reach; at++) {
-        double wanted = share_to(share, start) + (double)w / wedges;
-        double score = cost[at % ANGLES] + 2 * wedges * fabs(share_to(share, at) - wanted);
-        if (score >= best) continue;
-        best = score;
-        chosen[w] = at;
-      }
-      sum += best;
-    }
-    if (sum >= least) continue;
-    least = sum;
-    memcpy(place, chosen, (size_t)wedges * sizeof *place);
-  }
-  return least;
-}
-
-static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int32_t slices, int wanted) {
+// The half-planes: `wedges` in each pitch, evenly, where they cost least.
+static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
-  double cost[ANGLES], worst[ANGLES], share[ANGLES + 1], pitch = 2 * M_PI / fan->count;
-  int place[WEDGES_MOST], wedges = wanted < WEDGES_MOST ? wanted : WEDGES_MOST;
-  share_by_angle(fan, wheel, share);
+  double cost[ANGLES], worst[ANGLES], pitch = 2 * M_PI / fan->count, best = INFINITY;
+  int apart = ANGLES / wedges, chosen = 0;
+  plan->fan_first = plan->fan_region = plan->node_count;
+  plan->node[0].child[1] = plan->fan_first;
   plan->node[plan->fan_first].parent = 0;
   plan->fan_count = 1; // for the judges
   for (int i = 0; i < ANGLES; i++) {
     CW_TRY(judge_half_plane(fan, wheel, pitch * (i + 0.5) / ANGLES, &cost[i], &worst[i]));
   }
-  int least = fan->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
-  if (wedges < least) wedges = least;
-  double sum = best_places(cost, share, wedges, place);
-  while (wedges > least && sum >= BAD) sum = best_places(cost, share, --wedges, place);
-  if (!(sum < INFINITY)) {
+  for (int start = 0; start < apart; start++) {
+    double sum = 0;
+    for (int w = 0; w < wedges; w++) sum += cost[start + w * apart];
+    if (sum < best) best = sum, chosen = start;
+  }
+  if (!(best < INFINITY)) {
     status = CW_RETRY;
     goto done;
   }
   plan->fan_count = wedges * fan->count;
-  plan->fan_region = slices;
-  plan->node_count = plan->fan_first + plan->fan_count;
-  plan->region_count = slices + plan->fan_count;
-  plan->node[0].child[1] = plan->fan_first;
+  plan->fan_turns = fan->count;
+  plan->node_count += plan->fan_count;
   for (int32_t j = 0; j < plan->fan_count; j++) {
-    int w = (int)(j % wedges), next = w + 1 < wedges ? place[w + 1] : place[0] + ANGLES;
+    int at = chosen + j % wedges * apart;
     CwPlanNode *node = &plan->node[plan->fan_first + j];
-    CwPlane first = half_plane(pitch * (place[w] + 0.5) / ANGLES);
-    node->plane = first;
+    CwPlane first = half_plane(pitch * (at + 0.5) / ANGLES);
+    *node = (CwPlanNode){first, 0, {INT32_MIN, INT32_MIN}}; // children not known yet
     cw_symmetry_turn(fan->count, j / wedges, first.normal, node->plane.normal);
-    node->parent = 0;
-    node->child[0] = -1 - (plan->fan_region + (j + plan->fan_count - 1) % plan->fan_count);
-    node->child[1] = -1 - (plan->fan_region + j);
-    plan->worst_angle[plan->fan_first + j] = worst[place[w] % ANGLES];
-    plan->predicted_cells[plan->fan_region + j] =
-        wheel->work / fan->count * (share_to(share, next) - share_to(share, place[w]));
+    plan->worst_angle[plan->fan_first + j] = worst[at];
   }
 done:
   return status;
+}
+
+// Divides the wedges of the first pitch into regions of about so much work.
+static CwStatus divide_wedges(const Fan *fan, const CwPlanPart *wheel, int wedges, double region) {
+  CwStatus status = CW_OK;
+  CwPlan *plan = fan->plan;
+  CwPlanPart after = {0}, wedge = {0};
+  for (int32_t w = plan->fan_first; w < plan->fan_first + wedges; w++) {
+    int32_t next = plan->fan_first + (w - plan->fan_first + 1) % plan->fan_count;
+    CW_TRY(cw_plan_part_clip(fan->model, wheel, &plan->node[w].plane, 1, &after));
+    CW_TRY(cw_plan_part_clip(fan->model, &after, &plan->node[next].plane, 0, &wedge));
+    cw_plan_part_free(&after);
+    CW_TRY(cw_plan_divide(fan->model, plan, &wedge, (int32_t)fmax(1, floor(wedge.work / region + 0.5)), w, 1));
+  }
+done:
+  cw_plan_part_free(&after);
+  cw_plan_part_free(&wedge);
+  return status;
+}
+
+static int32_t turned_child(int32_t child, int32_t nodes, int32_t regions) {
+  return child >= 0 ? child + nodes : child - regions;
+}
+
+// The wedges of the other pitches, as turned copies.
+static void turn_wedges(const Fan *fan, int wedges) {
+  CwPlan *plan = fan->plan;
+  int32_t first = plan->fan_first + plan->fan_count, nodes = plan->node_count - first;
+  int32_t regions = plan->region_count - plan->fan_region;
+  for (int32_t turns = 1; turns < fan->count; turns++) {
+    for (int32_t i = 0; i < nodes; i++) {
+      const CwPlanNode *source = &plan->node[first + i];
+      CwPlanNode *copy = &plan->node[plan->node_count];
+      int32_t parent = source->parent + turns * (source->parent < first ? wedges : nodes);
+      *copy = (CwPlanNode){.plane.offset = source->plane.offset, .parent = parent};
+      cw_symmetry_turn(fan->count, turns, source->plane.normal, copy->plane.normal);
+      for (int s = 0; s < 2; s++) copy->child[s] = turned_child(source->child[s], turns * nodes, turns * regions);
+      plan->worst_angle[plan->node_count++] = plan->worst_angle[first + i];
+    }
+    for (int w = 0; w < wedges; w++) {
+      int32_t source = plan->fan_first + w;
+      plan->node[source + turns * wedges].child[1] =
+          turned_child(plan->node[source].child[1], turns * nodes, turns * regions);
+    }
+    for (int32_t r = 0; r < regions; r++) {
+      plan->predicted_cells[plan->region_count++] = plan->predicted_cells[plan->fan_region + r];
+    }
+  }
+  for (int32_t j = 0; j < plan->fan_count; j++) {
+    plan->node[plan->fan_first + (j + 1) % plan->fan_count].child[0] = plan->node[plan->fan_first + j].child[1];
+  }
+}
+
+// Numbers of slices and of regions in one pitch that come near the asked number of regions, all about as large.
+static void choose_numbers(double pipe, double pitch, int32_t count, int32_t asked, int32_t *slices, int32_t *regions) {
+  double region = (pipe + count * pitch) / asked, best = INFINITY;
+  for (int32_t n = (int32_t)fmax(1, 0.7 * pitch / region); n <= fmax(1, 1.4 * pitch / region); n++) {
+    int32_t s = (int32_t)fmax(1, floor(pipe / pitch * n + 0.5)), all = s + count * n;
+    double mean = (pipe + count * pitch) / all;
+    double cost = fmax(fabs(pipe / s / mean - 1), fabs(pitch / n / mean - 1)) + 0.3 * fabs(log((double)all / asked));
+    if (cost >= best) continue;
+    best = cost;
+    *slices = s;
+    *regions = n;
+  }
 }
 
 CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
@@ -238,8 +244,10 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CwPlanModel model = {0};
   CwPlanPart whole = {0}, wheel = {0};
   Fan fan = {.model = &model, .plan = plan, .count = count};
+  int wedges = count == 2 ? 2 : 1; // a wedge is narrower than half a turn
+  int32_t slices = 1, regions = 1;
   memset(plan, 0, sizeof *plan);
-  size_t room = (size_t)options->region_count + 1 + (size_t)count * WEDGES_MOST;
+  size_t room = 2 * (size_t)options->region_count + 4 * (size_t)count;
   CW_NEW(plan->node, room);
   CW_NEW(plan->worst_angle, room);
   CW_NEW(plan->predicted_cells, room);
@@ -250,12 +258,12 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   cw_plan_profile(&model, &whole, along.normal, &fan.along);
   CW_TRY(place_root(&fan));
   CW_TRY(cw_plan_part_clip(&model, &whole, &plan->node[0].plane, 1, &wheel));
-  double region = whole.work / options->region_count;
-  int32_t slices = (int32_t)fmax(1, floor((whole.work - wheel.work) / region + 0.5));
-  plan->fan_first = slices;
+  choose_numbers(whole.work - wheel.work, wheel.work / count, count, options->region_count, &slices, &regions);
+  model.mean_work = whole.work / (slices + count * regions);
   place_slices(&fan, slices);
-  int wedges = (int)fmin(WEDGES_MOST, fmax(1, floor(wheel.work / count / region + 0.5)));
-  CW_TRY(place_fan(&fan, &wheel, slices, wedges));
+  CW_TRY(place_fan(&fan, &wheel, wedges));
+  CW_TRY(divide_wedges(&fan, &wheel, wedges, wheel.work / count / regions));
+  turn_wedges(&fan, wedges);
 done:
   cw_plan_part_free(&wheel);
   cw_plan_part_free(&whole);

@@ -8,37 +8,6 @@
 #include "mesher/fan.h"
 #include "mesher/plan_score.h"
 
-// Splits `part` into `regions` leaves under node `parent` (on its side `side`), or leaves it whole where no plane
-// will do. `next_region` counts leaves.
-static CwStatus split(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
-                      int side, int32_t *next_region) {
-  CwStatus status = CW_OK;
-  CwPlanPart half[2] = {0};
-  int32_t first = 0, node = plan->node_count;
-  if (regions > 1) {
-    plan->node[node].parent = parent;
-    CW_TRY(cw_plan_best_plane(model, plan, node, part, regions, &plan->node[node].plane, &first,
-                              &plan->worst_angle[node]));
-  }
-  if (first == 0) {
-    int32_t region = (*next_region)++;
-    if (parent >= 0) plan->node[parent].child[side] = -1 - region;
-    plan->predicted_cells[region] = part->work;
-    goto done;
-  }
-  plan->node_count++;
-  if (parent >= 0) plan->node[parent].child[side] = node;
-  plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
-  for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half[s]));
-  cw_plan_part_free(part); // no more needed below
-  CW_TRY(split(model, plan, &half[0], first, node, 0, next_region));
-  CW_TRY(split(model, plan, &half[1], regions - first, node, 1, next_region));
-done:
-  cw_plan_part_free(&half[0]);
-  cw_plan_part_free(&half[1]);
-  return status;
-}
-
 CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
                       const CwPlanOptions *options, CwPlan *plan) {
   CwStatus status = CW_OK;
@@ -52,7 +21,7 @@ CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const Cw
   CW_TRY(cw_plan_part_whole(&model, &whole));
   model.mean_work = whole.work / options->region_count;
   plan->region_count = 0;
-  CW_TRY(split(&model, plan, &whole, options->region_count, -1, 0, &plan->region_count));
+  CW_TRY(cw_plan_divide(&model, plan, &whole, options->region_count, -1, 0));
 done:
   cw_plan_part_free(&whole);
   cw_plan_model_free(&model);
@@ -63,7 +32,8 @@ done:
 CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
-  const int32_t count[5] = {plan->node_count, plan->region_count, plan->fan_first, plan->fan_count, plan->fan_region};
+  const int32_t count[6] = {plan->node_count, plan->region_count, plan->fan_first,
+                            plan->fan_count, plan->fan_region, plan->fan_turns};
   char *block;
   CW_NEW(block, sizeof count + nodes + 2 * numbers);
   memcpy(block, count, sizeof count);
@@ -78,7 +48,7 @@ done:
 
 CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
   CwStatus status = CW_OK;
-  int32_t count[5];
+  int32_t count[6];
   const char *at = (const char *)bytes + sizeof count;
   memcpy(count, bytes, sizeof count);
   memset(plan, 0, sizeof *plan);
@@ -87,6 +57,7 @@ CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
   plan->fan_first = count[2];
   plan->fan_count = count[3];
   plan->fan_region = count[4];
+  plan->fan_turns = count[5];
   size_t n = (size_t)plan->region_count;
   CW_NEW(plan->node, n);
   CW_NEW(plan->predicted_cells, n);
@@ -109,50 +80,62 @@ void cw_plan_free(CwPlan *plan) {
 int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {
   if (plan->node_count == 0) return 0;
   int32_t node = 0;
-  for (;;) {
+  while (node >= 0) {
     int32_t child = plan->node[node].child[cw_plane_distance(&plan->node[node].plane, x) > 0];
-    if (child < 0) return -1 - child;
-    if (cw_fan_holds(plan, child)) return cw_fan_locate(plan, x);
-    node = child;
+    node = child >= 0 && cw_fan_holds(plan, child) ? plan->node[cw_fan_wedge(plan, x)].child[1] : child;
   }
+  return -1 - node;
 }
 
-int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
-                    int skip_count) {
-  int32_t start = node;
-  if (cw_fan_holds(plan, node)) {
-    if (cw_fan_reach(plan, node, x) < -tolerance) return 0;
-    start = plan->fan_first; // the child of the plane above
+CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node) {
+  int32_t above = plan->node[node].parent;
+  if (above < 0) return (CwPlanBound){-1, 0};
+  // Of the half-planes the one above knows the first alone.
+  return (CwPlanBound){above, plan->node[above].child[1] == (cw_fan_holds(plan, node) ? plan->fan_first : node)};
+}
+
+CwPlanBound cw_plan_region_bound(const CwPlan *plan, int32_t region) {
+  for (int32_t node = 0; node < plan->node_count; node++) {
+    if (plan->node[node].child[1] == -1 - region) return (CwPlanBound){node, 1};
+    // A wedge is found by the half-plane that opens it.
+    if (plan->node[node].child[0] == -1 - region && !cw_fan_holds(plan, node)) return (CwPlanBound){node, 0};
   }
-  for (int32_t below = start, above = plan->node[node].parent; above >= 0; below = above, above = plan->node[above].parent) {
+  return (CwPlanBound){-1, 0}; // the only region
+}
+
+CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound) {
+  if (!cw_fan_holds(plan, bound.node) || !bound.positive) return cw_plan_bound(plan, bound.node);
+  return (CwPlanBound){plan->fan_first + (bound.node - plan->fan_first + 1) % plan->fan_count, 0};
+}
+
+// True where x is within `tolerance` of the half-spaces of the bound and of all further ones.
+static int within(const CwPlan *plan, CwPlanBound bound, const double x[3], double tolerance, const int32_t *skip,
+                  int skip_count) {
+  for (; bound.node >= 0; bound = cw_plan_next_bound(plan, bound)) {
     int skipped = 0;
-    for (int k = 0; k < skip_count; k++) skipped |= skip[k] == above;
+    for (int k = 0; k < skip_count; k++) skipped |= skip[k] == bound.node;
     if (skipped) continue;
-    double distance = cw_plane_distance(&plan->node[above].plane, x);
-    if (plan->node[above].child[1] == below ? distance < -tolerance : distance > tolerance) return 0;
+    double distance = cw_plane_distance(&plan->node[bound.node].plane, x);
+    if (bound.positive ? distance < -tolerance : distance > tolerance) return 0;
   }
   return 1;
 }
 
+int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
+                    int skip_count) {
+  if (cw_fan_holds(plan, node) && cw_fan_reach(plan, node, x) < -tolerance) return 0;
+  return within(plan, cw_plan_bound(plan, node), x, tolerance, skip, skip_count);
+}
+
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
   if (cw_plan_locate(plan, x) == region) return 1; // as a rule
-  if (plan->fan_count && region >= plan->fan_region) return cw_fan_in_wedge(plan, region, x, tolerance);
-  for (int32_t node = 0; node < plan->node_count; node++) {
-    for (int side = 0; side < 2; side++) {
-      if (plan->node[node].child[side] != -1 - region) continue;
-      double distance = cw_plane_distance(&plan->node[node].plane, x);
-      if (side ? distance < -tolerance : distance > tolerance) return 0;
-      return cw_plan_in_cell(plan, node, x, tolerance, NULL, 0);
-    }
-  }
-  return 1; // the only region
+  return within(plan, cw_plan_region_bound(plan, region), x, tolerance, NULL, 0);
 }
 
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node) {
-  while ((node = plan->node[node].parent) >= 0) {
-    if (node == ancestor) return 1;
-  }
-  return 0;
+  CwPlanBound bound = cw_plan_bound(plan, node);
+  while (bound.node >= 0 && bound.node != ancestor) bound = cw_plan_next_bound(plan, bound);
+  return bound.node >= 0;
 }
 
 int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]) {

@@ -31,8 +31,21 @@ typedef struct {
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
   double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers (1: normal to all)
-  int32_t fan_first, fan_count, fan_region; // half-planes and the first wedge (fan.h); fan_count 0: none
+  int32_t fan_first, fan_count, fan_region; // half-planes and the first region of a wedge (fan.h); fan_count 0: none
+  int32_t fan_turns;       // that bring the plan's wedges to themselves
 } CwPlan;
+
+// A plane that bounds a cell, and the side on which the cell lies.
+typedef struct {
+  int32_t node; // -1: no more
+  int positive;
+} CwPlanBound;
+
+// The planes that bound the cell which the plane of `node` divides, or that of a region, from the innermost to the root:
+// the ancestors, and for cells within a wedge the half-plane that ends it too.
+CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node);
+CwPlanBound cw_plan_region_bound(const CwPlan *plan, int32_t region);
+CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound);
 
 typedef struct {
   int32_t region_count;     // at least 1; the plan has fewer where no plane divides a part of the domain any more
@@ -46,7 +59,7 @@ typedef struct {
 // True where x lies in the closed cell of `region`, within `tolerance` (m).
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance);
 
-// True where `ancestor` lies on the way from `node` to the root (a node is not its own ancestor).
+// True where the plane of `ancestor` bounds the cell of `node` or a cell around it (a node is not its own ancestor).
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
 
 // The part of the line plane(a) . x, plane(b) . x as point and unit direction; 0 where the planes are nearly parallel.
@@ -63,7 +76,7 @@ CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan);
 // Region of a point (a point on a plane belongs to the negative side).
 int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
 
-// True where x lies in the closed cell of `node`: within `tolerance` (m) of the half-spaces of all its ancestors but
+// True where x lies in the closed cell of `node`: within `tolerance` (m) of the half-spaces of all its bounds but
 // those in `skip[0..skip_count)` (nodes).
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "mesher/fan.h"
+#include "mesher/symmetry.h"
 #include "mesher/vec.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64 };
@@ -14,14 +15,20 @@ static const double ROOM = 1.5;       // thicknesses of the layers: lines of two
 static const double SAME_LINE = 1, APART = 3;
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 
-// A line of the new plane and one above, as far as it lies in the cell.
+// A plane that comes near a line, as so many turns make it: within the wedges of a fan planes have turned copies.
+typedef struct {
+  CwPlane plane;
+  int32_t node, turns;
+} Neighbour;
+
+// A line of the new plane and one that bounds its cell, as far as it lies in the cell.
 typedef struct {
   const CwPlanModel *model;
   const CwPlan *plan;
   int32_t above;
   double point[3], direction[3], from, to;
   int neighbour_count;
-  int32_t neighbour[NEIGHBOURS]; // planes that come near the line
+  Neighbour neighbour[NEIGHBOURS];
 } Line;
 
 static void at(const Line *line, double s, double x[3]) {
@@ -56,23 +63,28 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
     CwPlane end = cw_fan_end(plan, node);
     cut(line, &end, 1);
   }
-  for (int32_t below = node, a = plan->node[node].parent; a >= 0; below = a, a = plan->node[a].parent) {
-    if (a != line->above) cut(line, &plan->node[a].plane, plan->node[a].child[1] == below);
+  for (CwPlanBound b = cw_plan_bound(plan, node); b.node >= 0; b = cw_plan_next_bound(plan, b)) {
+    if (b.node != line->above) cut(line, &plan->node[b.node].plane, b.positive);
   }
 }
 
-// Collects the planes, not those of the line, that come within `room` of it.
-static void find_neighbours(Line *line, int32_t node, double room) {
+// Collects the planes, not those of the line, that come within `room` of it; of the new plane its turned copies.
+static void find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
+  const CwPlan *plan = line->plan;
   double ends[2][3];
   at(line, line->from, ends[0]);
   at(line, line->to, ends[1]);
   line->neighbour_count = 0;
-  for (int32_t c = 0; c < node && line->neighbour_count < NEIGHBOURS; c++) {
-    if (c == line->above) continue;
-    double a = cw_plane_distance(&line->plan->node[c].plane, ends[0]);
-    double b = cw_plane_distance(&line->plan->node[c].plane, ends[1]);
-    if ((a > room && b > room) || (a < -room && b < -room)) continue;
-    line->neighbour[line->neighbour_count++] = c;
+  for (int32_t c = 0; c <= node; c++) {
+    int in_wedge = plan->fan_turns && c >= plan->fan_first + plan->fan_count;
+    for (int32_t turns = c == node; turns < (in_wedge ? plan->fan_turns : 1); turns++) {
+      Neighbour made = {c == node ? *plane : plan->node[c].plane, c, turns};
+      if (c == line->above || line->neighbour_count == NEIGHBOURS) continue;
+      if (turns) cw_symmetry_turn(plan->fan_turns, turns, made.plane.normal, made.plane.normal);
+      double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
+      if ((a > room && b > room) || (a < -room && b < -room)) continue;
+      line->neighbour[line->neighbour_count++] = made;
+    }
   }
 }
 
@@ -80,9 +92,12 @@ static void find_neighbours(Line *line, int32_t node, double room) {
 static double plane_near(const Line *line, const double x[3], double room) {
   double best = room;
   for (int i = 0; i < line->neighbour_count; i++) {
-    int32_t c = line->neighbour[i];
-    double distance = fabs(cw_plane_distance(&line->plan->node[c].plane, x));
-    if (distance < best && cw_plan_in_cell(line->plan, c, x, room, NULL, 0)) best = distance;
+    const Neighbour *near = &line->neighbour[i];
+    double distance = fabs(cw_plane_distance(&near->plane, x)), back[3];
+    if (distance >= best) continue;
+    cw_copy(x, back);
+    if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
+    if (cw_plan_in_cell(line->plan, near->node, back, room, NULL, 0)) best = distance;
   }
   return best;
 }
@@ -140,14 +155,15 @@ static void judge_run(const Line *line, const CwPlanPart *part, double from, dou
   lines->blocked += cramped >= 1;
 }
 
-static void judge_line(Line *line, int32_t node, const CwPlanPart *part, double sine, CwPlanLines *lines) {
+static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
+                       CwPlanLines *lines) {
   cut_to_cell(line, node, part);
   if (!(line->to > line->from)) return;
   double length = line->to - line->from;
   int samples = (int)fmin(fmax(ceil(length / LINE_STEP), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
   double step = length / samples, begun = 0;
   int inside_before = 0;
-  find_neighbours(line, node, 10e-3);
+  find_neighbours(line, node, plane, 10e-3);
   for (int i = 0; i <= samples; i++) {
     double x[3], s = line->from + step * (i + 0.5);
     at(line, s, x);
@@ -171,15 +187,17 @@ static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlan
 CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                           const CwPlane *plane) {
   CwPlanLines lines = {.sharp = 1};
-  for (int32_t a = plan->node[node].parent; a >= 0 && !lines.impossible; a = plan->node[a].parent) {
-    Line line = {.model = model, .plan = plan, .above = a};
+  CwPlanBound bound = cw_plan_bound(plan, node);
+  for (; bound.node >= 0 && !lines.impossible; bound = cw_plan_next_bound(plan, bound)) {
+    const CwPlane *other = &plan->node[bound.node].plane;
+    Line line = {.model = model, .plan = plan, .above = bound.node};
     double across[3];
-    if (!cw_plane_line(&plan->node[a].plane, plane, line.point, line.direction)) {
-      lines.impossible = !room_between(model, &plan->node[a].plane, plane);
+    if (!cw_plane_line(other, plane, line.point, line.direction)) {
+      lines.impossible = !room_between(model, other, plane);
       continue;
     }
-    cw_cross(plan->node[a].plane.normal, plane->normal, across);
-    judge_line(&line, node, part, cw_norm(across), &lines);
+    cw_cross(other->normal, plane->normal, across);
+    judge_line(&line, node, part, plane, cw_norm(across), &lines);
   }
   return lines;
 }

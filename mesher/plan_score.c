@@ -173,3 +173,33 @@ done:
   free(candidate);
   return status;
 }
+
+CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
+                        int side) {
+  CwStatus status = CW_OK;
+  CwPlanPart half[2] = {0};
+  int32_t first = 0, node = plan->node_count;
+  if (regions > 1) {
+    plan->node[node].parent = parent;
+    if (parent >= 0) plan->node[parent].child[side] = node; // it tells on which side the node's cell lies
+    CW_TRY(cw_plan_best_plane(model, plan, node, part, regions, &plan->node[node].plane, &first,
+                              &plan->worst_angle[node]));
+  }
+  if (first == 0) {
+    int32_t region = plan->region_count++;
+    if (parent >= 0) plan->node[parent].child[side] = -1 - region;
+    plan->predicted_cells[region] = part->work;
+    goto done;
+  }
+  plan->node_count++;
+  plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
+  for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half[s]));
+  cw_plan_part_free(part); // no more needed below
+  CW_TRY(cw_plan_divide(model, plan, &half[0], first, node, 0));
+  CW_TRY(cw_plan_divide(model, plan, &half[1], regions - first, node, 1));
+done:
+  cw_plan_part_free(&half[0]);
+  cw_plan_part_free(&half[1]);
+  cw_plan_part_free(part);
+  return status;
+}

@@ -17,4 +17,9 @@ double cw_plan_line_cost(const CwPlanLines *lines);
 CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
                             int32_t regions, CwPlane *plane, int32_t *first, double *worst_angle);
 
+// Divides `part`, which is freed, into at most `regions` leaves on side `side` of node `parent` (-1: the whole domain);
+// what no plane will do for stays whole. Nodes and regions are appended to the plan, which has room for them.
+CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
+                        int side);
+
 #endif

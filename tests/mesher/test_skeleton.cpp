@@ -56,7 +56,7 @@ struct Box {
     node[2] = {{{0, 0, 1}, 0.009}, 0, {-1, -4}};
     if (nodes >= 2) node[0].child[1] = 1;
     if (nodes >= 3) node[0].child[0] = 2;
-    plan = {nodes, nodes + 1, node, none, none, 0, 0, 0};
+    plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
     assert_int_equal(cw_inside_make(background.point_count, background.x, background.triangle_count,
                                     background.triangle, &inside),

@@ -111,7 +111,7 @@ struct Tank {
       node.push_back({{{-std::sin(angle), std::cos(angle), 0}, 0}, 0, {-2 - (j + count - 1) % count, -2 - j}});
     }
     none.assign(node.size(), 0);
-    plan = {count + 1, count + 1, node.data(), none.data(), none.data(), 1, count, 1};
+    plan = {count + 1, count + 1, node.data(), none.data(), none.data(), 1, count, 1, n};
     skeleton.cad = cad;
     skeleton.plan = &plan;
     skeleton.size_at = even_size;
