@@ -99,19 +99,25 @@ struct Tank {
   CwPlan plan;
   CwSkeleton skeleton = {};
 
-  // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch.
-  Tank(int turns, int wedges) : n(turns), cad(open_tank(turns)) {
+  // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24 mm
+  // from the axis, whose lines on the half-planes before and after differ.
+  Tank(int turns, int wedges, bool divided = false) : n(turns), cad(open_tank(turns)) {
     check(cw_background_make(cad, 1e-4, 0.2, &background));
     check(cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
     check(cw_symmetry_find(cad, &background, &symmetry));
-    const int count = n * wedges;
+    const int count = n * wedges, first = 1 + count, each = divided ? 2 : 1;
+    const auto wedge = [=](int j) { return divided ? first + j : -2 - j; };
     node.push_back({{{0, 0, -1}, -0.008}, -1, {-1, 1}});
     for (int j = 0; j < count; j++) {
       const double angle = 0.3 * 2 * M_PI / n + j * 2 * M_PI / count;
-      node.push_back({{{-std::sin(angle), std::cos(angle), 0}, 0}, 0, {-2 - (j + count - 1) % count, -2 - j}});
+      node.push_back({{{-std::sin(angle), std::cos(angle), 0}, 0}, 0, {wedge((j + count - 1) % count), wedge(j)}});
+    }
+    for (int j = 0; divided && j < count; j++) {
+      const double angle = 0.3 * 2 * M_PI / n + (j + 0.5) * 2 * M_PI / count + 0.05;
+      node.push_back({{{std::cos(angle), std::sin(angle), 0}, 0.024}, 1 + j, {-2 - 2 * j, -3 - 2 * j}});
     }
     none.assign(node.size(), 0);
-    plan = {count + 1, count + 1, node.data(), none.data(), none.data(), 1, count, 1, n};
+    plan = {(int)node.size(), 1 + each * count, node.data(), none.data(), none.data(), 1, count, 1, n};
     skeleton.cad = cad;
     skeleton.plan = &plan;
     skeleton.size_at = even_size;
@@ -191,7 +197,7 @@ static void orbits_of_odd_lengths_are_refused(void **) {
 // Points by angle and height, against the fan's own answer.
 static void fan_divides_by_angle(void **) {
   for (int n : {3, 5, 6}) {
-    Tank tank(n, 2);
+    Tank tank(n, 2), divided(n, 2, true);
     const double first = 0.3 * 2 * M_PI / n, width = M_PI / n;
     for (int i = 0; i < 1000; i++) {
       const double angle = first + 2 * M_PI * (i + 0.5) / 1000, r = 0.02 + 1e-5 * i, z = i % 2 ? 0.005 : 0.02;
@@ -205,12 +211,35 @@ static void fan_divides_by_angle(void **) {
       cw_symmetry_turn(n, 1, x, turned);
       assert_int_equal(cw_plan_locate(&tank.plan, turned), cw_fan_turned_region(&tank.plan, n, 1, region));
       assert_int_equal(cw_fan_first_region(&tank.plan, n, region), region == 0 ? 0 : 1 + wedge % 2);
+      const int beyond = region > 0 && cw_plane_distance(&divided.node[1 + 2 * n + wedge].plane, x) > 0;
+      const int half = region == 0 ? 0 : 1 + 2 * wedge + beyond;
+      assert_int_equal(cw_plan_locate(&divided.plan, x), half);
+      for (int other = 0; other < divided.plan.region_count; other++) {
+        assert_int_equal(cw_plan_in_region(&divided.plan, other, x, 0), other == half);
+      }
+      assert_int_equal(cw_plan_locate(&divided.plan, turned), cw_fan_turned_region(&divided.plan, n, 1, half));
+      assert_int_equal(cw_fan_first_region(&divided.plan, n, half), half == 0 ? 0 : 1 + (half - 1) % 4);
     }
   }
 }
 
+// Both half-planes beside a wedge bound what lies in it; no plane of another wedge does.
+static void wedges_have_two_half_planes(void **) {
+  Tank tank(5, 1, true);
+  for (int j = 0; j < 5; j++) {
+    int bounds = 0, node = 6 + j;
+    for (CwPlanBound b = cw_plan_bound(&tank.plan, node); b.node >= 0; b = cw_plan_next_bound(&tank.plan, b)) bounds++;
+    assert_int_equal(bounds, 3);
+    for (int other = 0; other <= 10; other++) {
+      const bool bounding = other == 0 || other == 1 + j || other == 1 + (j + 1) % 5;
+      assert_int_equal(cw_plan_is_ancestor(&tank.plan, other, node), bounding);
+    }
+    assert_int_equal(cw_fan_turned_node(&tank.plan, 5, 1, node), 6 + (j + 1) % 5);
+  }
+}
+
 static void network_is_its_own_copy(void **) {
-  Tank tank(5, 2);
+  Tank tank(5, 2, true);
   CwSkeleton &skeleton = tank.skeleton;
   check(cw_orbit_network(&skeleton.network, &skeleton.orbits));
   const CwOrbits &orbits = skeleton.orbits.curve;
@@ -243,8 +272,8 @@ static void uneven_plans_are_told(void **) {
 }
 
 // All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last bit.
-static void copies_fill_the_tank(void **) {
-  Tank tank(5, 1);
+static void fill_the_tank(bool divided) {
+  Tank tank(5, 1, divided);
   CwSkeleton &skeleton = tank.skeleton;
   const CwSkeletonOrbits &orbits = skeleton.orbits;
   const int faces = cw_cad_face_count(tank.cad);
@@ -265,7 +294,7 @@ static void copies_fill_the_tank(void **) {
     if (!cw_orbit_face_is_first(&orbits, f)) continue;
     if (!cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }
-  assert_int_equal(skeleton.outline_count, 10);
+  assert_int_equal(skeleton.outline_count, divided ? 30 : 10);
   interfaces.resize(skeleton.outline_count, nullptr);
   for (int i = 0; i < skeleton.outline_count; i++) {
     if (orbits.outline.first[i] == i) check(cw_skeleton_mesh_interface(&skeleton, i, &interfaces[i], &size));
@@ -285,7 +314,7 @@ static void copies_fill_the_tank(void **) {
   std::vector<int> number(regions);
   int32_t(*pair)[2];
   check(cw_skeleton_adjacency(&skeleton, &pair_count, &pair));
-  assert_int_equal(pair_count, 10);
+  assert_int_equal(pair_count, divided ? 30 : 10);
   check(cw_region_numbers(regions, pair_count, pair, number.data(), nullptr, &colours));
   CwRegionContext context = {};
   context.skeleton = &skeleton;
@@ -297,18 +326,20 @@ static void copies_fill_the_tank(void **) {
   double volume = 0;
   std::map<int64_t, std::vector<double>> shared;
   std::map<int64_t, int> held;
-  CwRegionMesh wedge, mesh;
-  check(cw_region_build(&context, 1, number[1], &wedge));
+  CwRegionMesh first_mesh[2], mesh;
+  const int each = (regions - 1) / 5; // regions of a wedge
+  for (int r = 0; r < each; r++) check(cw_region_build(&context, 1 + r, number[1 + r], &first_mesh[r]));
   for (int r = 0; r < regions; r++) {
     CwQuality quality;
-    if (r <= 1) {
+    if (r <= each) {
       check(cw_region_build(&context, r, number[r], &mesh));
     } else {
       char fingerprint[33];
-      cw_region_copy_fingerprint(&context, &wedge, r - 1, fingerprint);
-      check(cw_region_copy(&context, &wedge, r - 1, number[r], fingerprint, &mesh));
+      const CwRegionMesh &source = first_mesh[(r - 1) % each];
+      cw_region_copy_fingerprint(&context, &source, (r - 1) / each, fingerprint);
+      check(cw_region_copy(&context, &source, (r - 1) / each, number[r], fingerprint, &mesh));
       assert_string_equal(mesh.fingerprint, fingerprint);
-      assert_string_not_equal(mesh.fingerprint, wedge.fingerprint);
+      assert_string_not_equal(mesh.fingerprint, source.fingerprint);
     }
     assert_int_equal(mesh.region, r + 1);
     check(cw_audit_region(&mesh, &quality));
@@ -324,7 +355,7 @@ static void copies_fill_the_tank(void **) {
     }
     cw_region_free(&mesh);
   }
-  cw_region_free(&wedge);
+  for (int r = 0; r < each; r++) cw_region_free(&first_mesh[r]);
   assert_near(volume / cw_cad_volume(tank.cad), 1, 1e-12);
   assert_int_equal(shared.size(), context.shared_count);
   assert_int_equal(shared.rbegin()->first, context.shared_count - 1);
@@ -337,10 +368,16 @@ static void copies_fill_the_tank(void **) {
   for (void *bytes : interfaces) free(bytes);
 }
 
+static void copies_fill_the_tank(void **) {
+  fill_the_tank(false);
+  fill_the_tank(true);
+}
+
 int main() {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(turns_are_counted),       cmocka_unit_test(faces_form_orbits),
       cmocka_unit_test(orbits_of_odd_lengths_are_refused), cmocka_unit_test(fan_divides_by_angle),
+      cmocka_unit_test(wedges_have_two_half_planes),
       cmocka_unit_test(network_is_its_own_copy), cmocka_unit_test(uneven_plans_are_told),
       cmocka_unit_test(copies_fill_the_tank),
   };
