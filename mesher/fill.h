@@ -22,7 +22,7 @@ typedef struct {
   CwSizeAt size;
   const void *size_context;
   const char *name; // for messages: "rotor region 3"
-  // The last `open_count` triangles keep points out to half the wanted length, not by their spheres:
+  // The last `open_count` triangles keep points out by the distance alone, not by their spheres:
   // the caller sees to these. `inner` where given: the inner points, which are else those of cw_fill_points.
   int32_t open_count, inner_count;
   const double (*inner)[3];

@@ -10,8 +10,7 @@
 
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
-static const double distance_factor = 0.58;               // of h, least distance to the boundary
-static const double open_distance = 0.5; // of h, to open triangles
+static const double distance_factor = 0.5; // of h, or of a triangle's edges if shorter: least distance to it
 static const double sphere_factor = 1.0; // of the radius of a triangle's smallest circumscribed sphere
 static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
 static const double coarse = 2.2;        // cells of lists, over wanted cells
@@ -23,6 +22,7 @@ typedef struct {
 
 typedef struct {
   double centre[3], square; // equatorial sphere
+  double edge;              // of the triangle, root of the mean square
 } Ball;
 
 // A cell of the octree that is not cut for the sake of the boundary any more.
@@ -106,10 +106,11 @@ static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
     ball->centre[i] = a[i] + d;
     square += d * d;
   }
+  ball->edge = sqrt(2.0 * (uu + vv - uv) / 3.0);
   // The sphere of a needle would reach far: it is no use to keep points out of all of it.
   square = fmin(square, fmax(fmax(uu, vv), uu + vv - 2.0 * uv));
   double factor = tree->clearance * sphere_factor, radius = factor * sqrt(square);
-  double margin = 1.3 * tree->clearance * distance_factor * fmax(h, size_at(input, a));
+  double margin = tree->clearance * distance_factor * fmin(1.3 * fmax(h, size_at(input, a)), ball->edge);
   ball->square = factor * factor * square;
   for (int i = 0; i < 3; i++) {
     double low = fmin(ball->centre[i] - radius, fmin(fmin(a[i], b[i]), c[i]) - margin);
@@ -166,9 +167,10 @@ static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3]) {
         (p[2] < box->low[2]) | (p[2] > box->high[2]))
       continue;
     int open = t >= input->triangle_count - input->open_count;
-    double d[3], nearest = (open ? open_distance : distance_factor) * h;
-    cw_sub(x, tree->ball[t].centre, d);
-    if (!open && cw_dot(d, d) < tree->ball[t].square)
+    const Ball *ball = &tree->ball[t];
+    double d[3], edge = tree->clearance * ball->edge, nearest = distance_factor * (edge < h ? edge : h);
+    cw_sub(x, ball->centre, d);
+    if (!open && cw_dot(d, d) < ball->square)
       return 1;
     const int32_t *q = input->triangle[t];
     if (distance_square(x, input->x[q[0]], input->x[q[1]], input->x[q[2]]) < nearest * nearest)

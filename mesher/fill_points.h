@@ -16,7 +16,8 @@
 extern "C" {
 #endif
 
-// Points inside the closed boundary that keep a distance from it: none nearer than about 0.6 h, none in the
+// Points inside the closed boundary that keep a distance from it: none nearer than half of h, or of the edges of the
+// triangle there where these are shorter (fronts have finer triangles than the field asks for), none in the
 // smallest sphere through the corners of a boundary triangle, so that the Delaunay tetrahedra of all points
 // hold the boundary. The octree's spacing is fitted so that there are as many points as the size field asks
 // for, whatever powers of two are near it. `clearance` (1 as a rule) multiplies the distances. Deterministic.

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "mesher/fill_points.h"
+#include "mesher/vec.h"
 #include "closed_surfaces.h"
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
@@ -77,7 +78,7 @@ static void two_shapes_of_one_size_field_agree_in_density(void **state) {
   const Field field = {0.001, 0.04, 1}; // 1 mm to 2.6 mm along 40 mm
   int32_t count =
       points_in((double[3]){0, 0, 0}, (double[3]){0.04, 0.02, 0.02}, (int[3]){40, 20, 20}, &field, &x, &s);
-  double wanted = 0.0; // integral of sqrt(2) / h^3 less the shell of 0.6 h
+  double wanted = 0.0; // integral of sqrt(2) / h^3 less the shell of 0.62 h
   for (int k = 0; k < 1000; k++) {
     double at = 0.04 * (k + 0.5) / 1000.0, h = field.size + field.growth * at, side = 0.02 - 1.24 * h;
     wanted += sqrt(2.0) * side * side * 0.04 / 1000.0 / (h * h * h);
@@ -98,7 +99,8 @@ static void nothing_fits_into_a_gap_below_the_size(void **state) {
   surface_free(&s);
 }
 
-// Two points a cell of the lattice, 0.58 h off the sphere (whose triangles cut a little more).
+// Two points a cell of the lattice, half of h off the outer sphere, half of an edge off the void, whose triangles are
+// finer than h.
 static void uniform_ball_with_a_void(void **unused) {
   Surface s = {0};
   double(*x)[3], h = 0.0036, a = 1.122462048309373 * h;
@@ -106,11 +108,21 @@ static void uniform_ball_with_a_void(void **unused) {
   surface_add_sphere(&s, origin, 0.02, 3, 0);
   Field field = {h, 0, 0};
   int32_t count = make(&s, &field, &x);
-  for (int32_t p = 0; p < count; p++) {
-    double r = sqrt(x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2]);
-    assert_true(r < 0.05 - 0.6 * h && r > 0.02 + 0.55 * h);
+  double nearest = INFINITY, edge = 0.0;
+  for (int k = 0; k < 3; k++) { // of a triangle of the void, which was added last
+    const int32_t *t = s.triangle[s.triangle_count - 1];
+    double d[3];
+    cw_sub(s.x[t[k]], s.x[t[(k + 1) % 3]], d);
+    edge = fmax(edge, cw_norm(d));
   }
-  double low = 0.02 + 0.62 * h, high = 0.05 - 0.66 * h;
+  assert_true(edge < 0.85 * h);
+  for (int32_t p = 0; p < count; p++) {
+    double r = cw_norm(x[p]);
+    assert_true(r < 0.05 - 0.5 * h && r > 0.02 + 0.4 * edge);
+    nearest = fmin(nearest, r - 0.02);
+  }
+  assert_true(nearest < 0.48 * h);
+  double low = 0.02 + 0.5 * h, high = 0.05 - 0.62 * h;
   double wanted = 4.0 / 3.0 * 3.141592653589793 * (pow(high, 3) - pow(low, 3)) * 2.0 / (a * a * a);
   assert_true(count > 0.9 * wanted && count < 1.05 * wanted);
   free(x);
@@ -171,7 +183,7 @@ static void wrong_size_field_is_an_error(void **unused) {
   surface_free(&s);
 }
 
-// Twice the distances: fewer points, none nearer than twice 0.58 h.
+// Twice the distances: fewer points, none nearer than h.
 static void clearance_keeps_points_away(void **unused) {
   Surface s = {0};
   double(*x)[3], h = 0.0036;
@@ -182,7 +194,7 @@ static void clearance_keeps_points_away(void **unused) {
   assert_int_equal(cw_fill_points(&input, 2.0, &count, &x), CW_OK);
   assert_true(count > 1000);
   for (int32_t p = 0; p < count; p++)
-    assert_true(sqrt(x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2]) < 0.05 - 1.14 * h);
+    assert_true(sqrt(x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2]) < 0.05 - 0.95 * h);
   free(x);
   surface_free(&s);
 }
