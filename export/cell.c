@@ -11,28 +11,14 @@ static const signed char pyramid_faces[5][4] = {
 static const signed char prism_faces[5][4] = {
     {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}, {0, 2, 1, -1}, {3, 4, 5, -1}};
 
-const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t cell, int *count) {
-  *count = 4;
-  if (cell < region->tetrahedron_count)
-    return region->tetrahedra[cell];
-  cell -= region->tetrahedron_count;
-  *count = 5;
-  if (cell < region->pyramid_count)
-    return region->pyramids[cell];
-  *count = 6;
-  return region->prisms[cell - region->pyramid_count];
-}
-
-int cw_cell_face_count(int node_count) {
-  return node_count == 4 ? 4 : 5;
+const signed char (*cw_cell_face_table(int node_count))[4] {
+  return node_count == 4 ? tetrahedron_faces : node_count == 5 ? pyramid_faces : prism_faces;
 }
 
 int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nodes[4]) {
   int count;
   const int32_t *n = cw_cell_nodes(region, cell, &count);
-  const signed char *f = count == 4   ? tetrahedron_faces[face]
-                         : count == 5 ? pyramid_faces[face]
-                                      : prism_faces[face];
+  const signed char *f = cw_cell_face_table(count)[face];
   int i = 0;
   for (; i < 4 && f[i] >= 0; ++i)
     nodes[i] = n[f[i]];
@@ -77,14 +63,22 @@ void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]) 
   face_mean((const double(*)[3])region->points, nodes, count, centre);
 }
 
+static double tetrahedron_volume(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  double area[3] = {0};
+  add_triangle(a, b, c, area);
+  return (area[0] * (d[0] - a[0]) + area[1] * (d[1] - a[1]) + area[2] * (d[2] - a[2])) / 3;
+}
+
 double cw_cell_volume(const CwRegionData *region, int32_t cell) {
   const double(*points)[3] = (const double(*)[3])region->points;
   int count;
   double centre[3], volume = 0;
-  cw_cell_nodes(region, cell, &count);
+  const int32_t *corner = cw_cell_nodes(region, cell, &count);
+  if (count == 4)
+    return tetrahedron_volume(points[corner[0]], points[corner[1]], points[corner[2]], points[corner[3]]);
   cw_cell_centre(region, cell, centre);
   for (int f = 0; f < cw_cell_face_count(count); ++f) {
-    int32_t nodes[4];
+    int32_t nodes[4] = {0};
     int n = cw_cell_face(region, cell, f, nodes);
     double mean[3];
     face_mean(points, nodes, n, mean);

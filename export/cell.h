@@ -9,10 +9,25 @@ enum { CW_CELL_FACES = 5 }; // the most a cell has
 
 // The nodes of cell `cell` (tetrahedra first, then pyramids, then prisms); their number in `count`: 4, 5
 // or 6.
-const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t cell, int *count);
+static inline const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t cell, int *count) {
+  *count = 4;
+  if (cell < region->tetrahedron_count)
+    return region->tetrahedra[cell];
+  cell -= region->tetrahedron_count;
+  *count = 5;
+  if (cell < region->pyramid_count)
+    return region->pyramids[cell];
+  *count = 6;
+  return region->prisms[cell - region->pyramid_count];
+}
 
 // Faces of a cell with so many nodes: 4, 5, 5.
-int cw_cell_face_count(int node_count);
+static inline int cw_cell_face_count(int node_count) {
+  return node_count == 4 ? 4 : 5;
+}
+
+// The corners of each face, as cw_cell_face() has them; -1 at the end of a triangle.
+const signed char (*cw_cell_face_table(int node_count))[4];
 
 // The nodes of one face, normal out of the cell (face numbering of the CGNS standard). Returns 3 or 4.
 int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nodes[4]);

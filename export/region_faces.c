@@ -7,11 +7,12 @@
 #include "export/cell.h"
 
 // One side of a face: seen from a cell (ref = CW_CELL_FACES * cell + face) or from a boundary face (ref below
-// zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `rest`
-// is the loop after it.
+// zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `key`
+// holds its two neighbours, the smaller one first, and in the lowest bit whether the side runs to the larger
+// one first; `opposite` is the fourth node, -1 in a triangle.
 typedef struct {
-  int32_t rest[3];
-  int32_t ref;
+  uint64_t key;
+  int32_t opposite, ref;
 } Side;
 
 int cw_face_loop(const int64_t *nodes, int count, int64_t loop[4]) {
@@ -47,21 +48,34 @@ static int side_nodes(const CwRegionData *data, int32_t ref, int32_t nodes[4]) {
   return count;
 }
 
-static int side_loop(const CwRegionData *data, int32_t ref, int64_t loop[4]) {
-  int32_t nodes[4];
-  int64_t wide[4];
-  int count = side_nodes(data, ref, nodes);
-  for (int i = 0; i < count; ++i)
-    wide[i] = nodes[i];
-  return cw_face_loop(wide, count, loop);
+// The smallest node of a side; what else is to be known of it in `side`.
+static inline int32_t side_make(const int32_t *nodes, int count, int32_t ref, Side *side) {
+  int first = nodes[1] < nodes[0];
+  if (nodes[2] < nodes[first])
+    first = 2;
+  if (count == 4 && nodes[3] < nodes[first])
+    first = 3;
+  uint32_t next = (uint32_t)nodes[first + 1 == count ? 0 : first + 1];
+  uint32_t last = (uint32_t)nodes[first == 0 ? count - 1 : first - 1];
+  int reversed = last < next;
+  side->key = ((uint64_t)(reversed ? last : next) << 31 | (reversed ? next : last)) << 1 | (unsigned)reversed;
+  side->opposite = count == 4 ? nodes[first ^ 2] : -1;
+  side->ref = ref;
+  return nodes[first];
+}
+
+static inline int same_face(const Side *a, const Side *b) {
+  return a->key >> 1 == b->key >> 1 && a->opposite == b->opposite;
+}
+
+static inline int side_before(const Side *a, const Side *b) {
+  if (a->key >> 1 != b->key >> 1)
+    return a->key < b->key;
+  return a->opposite != b->opposite ? a->opposite < b->opposite : a->ref < b->ref;
 }
 
 static int compare_sides(const void *left, const void *right) {
-  const Side *a = left, *b = right;
-  for (int i = 0; i < 3; ++i)
-    if (a->rest[i] != b->rest[i])
-      return a->rest[i] < b->rest[i] ? -1 : 1;
-  return (a->ref > b->ref) - (a->ref < b->ref);
+  return side_before(left, right) ? -1 : side_before(right, left);
 }
 
 // Buckets hold a few dozen sides: insertion beats qsort there.
@@ -73,7 +87,7 @@ static void sort_sides(Side *sides, int64_t count) {
   for (int64_t i = 1; i < count; ++i) {
     Side side = sides[i];
     int64_t j = i;
-    for (; j > 0 && compare_sides(&side, &sides[j - 1]) < 0; --j)
+    for (; j > 0 && side_before(&side, &sides[j - 1]); --j)
       sides[j] = sides[j - 1];
     sides[j] = side;
   }
@@ -91,35 +105,45 @@ static CwStatus fail_at_face(const CwMesh *mesh, int region, const CwRegionData 
                  centre[1], centre[2], what);
 }
 
-// Calls for every side of the region: counts it (sides NULL) or puts it into its bucket.
+// Counts a side (sides NULL) or puts it into its bucket.
+static inline void add_side(const int32_t *nodes, int count, int32_t ref, int64_t *start, Side *sides) {
+  Side side;
+  int32_t least = side_make(nodes, count, ref, &side);
+  if (sides)
+    sides[start[least]++] = side;
+  else
+    ++start[least + 1];
+}
+
+// Every side of the region, in the order of their refs but for the boundary faces.
 static void for_all_sides(const CwRegionData *data, int64_t *start, Side *sides) {
-  int32_t cells = cw_region_cell_count(data), bounds = data->triangle_count + data->quad_count;
-  for (int64_t i = -(int64_t)bounds; i < (int64_t)CW_CELL_FACES * cells; ++i) {
-    int count;
-    if (i >= 0) {
-      cw_cell_nodes(data, (int32_t)(i / CW_CELL_FACES), &count);
-      if (i % CW_CELL_FACES >= cw_cell_face_count(count))
-        continue;
+  int32_t cells = cw_region_cell_count(data);
+  for (int32_t i = 0; i < data->triangle_count; ++i)
+    add_side(data->triangles[i], 3, -1 - i, start, sides);
+  for (int32_t i = 0; i < data->quad_count; ++i)
+    add_side(data->quads[i], 4, -1 - data->triangle_count - i, start, sides);
+  for (int32_t cell = 0; cell < cells; ++cell) {
+    int corners;
+    const int32_t *of_cell = cw_cell_nodes(data, cell, &corners);
+    const signed char(*face)[4] = cw_cell_face_table(corners);
+    for (int f = 0; f < cw_cell_face_count(corners); ++f) {
+      int count = face[f][3] < 0 ? 3 : 4;
+      const int32_t nodes[4] = {of_cell[face[f][0]], of_cell[face[f][1]], of_cell[face[f][2]],
+                                of_cell[face[f][count - 1]]};
+      add_side(nodes, count, CW_CELL_FACES * cell + f, start, sides);
     }
-    int64_t loop[4];
-    side_loop(data, (int32_t)i, loop);
-    if (sides)
-      sides[start[loop[0]]++] = (Side){{(int32_t)loop[1], (int32_t)loop[2], (int32_t)loop[3]}, (int32_t)i};
-    else
-      ++start[loop[0] + 1];
   }
 }
 
-static CwStatus take_boundary_face(const CwMesh *mesh, int region, const CwRegionData *data, int32_t bound,
-                                   int32_t cell_face, CwRegionFaces *faces) {
+static CwStatus take_boundary_face(const CwMesh *mesh, int region, const CwRegionData *data,
+                                   const Side side[2], CwRegionFaces *faces) {
   CwStatus status = CW_OK;
-  int64_t loop[4];
-  int32_t place = -1 - bound;
+  int32_t bound = side[0].ref, cell_face = side[1].ref, place = -1 - bound;
   int is_quad = place >= data->triangle_count;
   if (is_quad)
     place -= data->triangle_count;
   int32_t said = is_quad ? data->quad_cell[place] : data->triangle_cell[place];
-  if (side_loop(data, bound, loop) != side_loop(data, cell_face, loop))
+  if (side[0].key != side[1].key)
     CW_TRY(fail_at_face(mesh, region, data, bound, "on a patch has its normal into the domain"));
   if (said != cell_face / CW_CELL_FACES)
     CW_TRY(fail_at_face(mesh, region, data, bound, "on a patch names a cell it does not belong to"));
@@ -133,7 +157,6 @@ done:
 static CwStatus take_face(const CwMesh *mesh, int region, const CwRegionData *data, const Side *side,
                           int64_t count, CwRegionFaces *faces) {
   CwStatus status = CW_OK;
-  int64_t loop[4];
   if (count > 2)
     CW_TRY(
         fail_at_face(mesh, region, data, side[0].ref, "is shared by more than two cells or boundary faces"));
@@ -142,13 +165,13 @@ static CwStatus take_face(const CwMesh *mesh, int region, const CwRegionData *da
   if (count == 1 && side[0].ref < 0)
     CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "on a patch is not the face of any cell"));
   if (count == 2 && side[0].ref < 0) {
-    CW_TRY(take_boundary_face(mesh, region, data, side[0].ref, side[1].ref, faces));
+    CW_TRY(take_boundary_face(mesh, region, data, side, faces));
   } else if (count == 2) {
-    if (side_loop(data, side[0].ref, loop) == side_loop(data, side[1].ref, loop))
+    if (side[0].key == side[1].key)
       CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "has both of its cells on the same side"));
     faces->across[side[0].ref] = side[1].ref / CW_CELL_FACES;
     faces->across[side[1].ref] = side[0].ref / CW_CELL_FACES;
-    ++*(side[0].rest[2] < 0 ? &faces->inner_triangles : &faces->inner_quads);
+    ++*(side[0].opposite < 0 ? &faces->inner_triangles : &faces->inner_quads);
   } else {
     int32_t nodes[4];
     int n = side_nodes(data, side[0].ref, nodes);
@@ -209,7 +232,7 @@ CwStatus cw_region_faces(const CwMesh *mesh, int region, const CwRegionData *dat
   for (int64_t first = 0, p = 0; p < data->point_count; first = start[p++]) {
     sort_sides(sides + first, start[p] - first);
     for (int64_t i = first, j; i < start[p]; i = j) {
-      for (j = i + 1; j < start[p] && memcmp(sides[i].rest, sides[j].rest, sizeof sides[i].rest) == 0;)
+      for (j = i + 1; j < start[p] && same_face(&sides[i], &sides[j]);)
         ++j;
       CW_TRY(take_face(mesh, region, data, sides + i, j - i, faces));
     }
