@@ -7,17 +7,32 @@
 
 #include "mesher/hilbert.h"
 
-enum { LEAF = 4, BITS = 18, DEPTH = 64 };
+enum { LEAF = 4, BITS = 18, DEPTH = 64, DIGIT_BITS = 9, DIGIT = (1 << DIGIT_BITS) - 1 };
 
 typedef struct {
   uint64_t key;
   int32_t item;
 } Place;
 
-static int compare_places(const void *p, const void *q) {
-  const Place *a = p, *b = q;
-  if (a->key != b->key) return a->key < b->key ? -1 : 1;
-  return (a->item > b->item) - (a->item < b->item);
+// Sorts by key, digit by digit from the least; equal keys keep their order.
+static CwStatus sort_places(int32_t count, Place *place) {
+  CwStatus status = CW_OK;
+  Place *other = NULL;
+  CW_NEW(other, count);
+  for (int shift = 0; shift < 3 * BITS; shift += DIGIT_BITS) {
+    int32_t start[1 << DIGIT_BITS] = {0}, sum = 0;
+    for (int32_t i = 0; i < count; i++) start[place[i].key >> shift & DIGIT]++;
+    for (int32_t d = 0; d <= DIGIT; d++) {
+      int32_t found = start[d];
+      start[d] = sum;
+      sum += found;
+    }
+    for (int32_t i = 0; i < count; i++) other[start[place[i].key >> shift & DIGIT]++] = place[i];
+    memcpy(place, other, (size_t)count * sizeof *place);
+  }
+done:
+  free(other);
+  return status;
 }
 
 static const CwBox NOTHING = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -50,7 +65,7 @@ CwStatus cw_box_tree_make(int32_t count, const CwBox *box, CwBoxTree *tree) {
       cell[k] = (uint32_t)(cells * (0.5 * (box[i].low[k] + box[i].high[k]) - all.low[k]));
     place[i] = (Place){cw_hilbert_place(cell, BITS), i};
   }
-  qsort(place, (size_t)count, sizeof *place, compare_places);
+  CW_TRY(sort_places(count, place));
   for (int32_t i = 0; i < count; i++) tree->item[i] = place[i].item;
   cw_box_tree_fit(tree, box);
 done:

@@ -10,12 +10,14 @@
 #include "mesher/layer_heights.h"
 #include "mesher/layers.h"
 #include "mesher/region_number.h"
+#include "mesher/share.h"
 #include "mesher/vec.h"
 
 static const double TALLEST_COLUMN = 2.5; // of the edge length on the wall
 static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
 static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
 static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
+static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
@@ -273,58 +275,107 @@ done:
   return status;
 }
 
-// Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge.
-static void grade(const CwSkeleton *skeleton, double slope, double *value) {
-  for (int lowered = 1; lowered;) {
+// Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge: over all
+// triangles, forth and back by turns; after the first time over those alone where something has changed since.
+static CwStatus grade(const CwSkeleton *skeleton, double slope, double *value) {
+  CwStatus status = CW_OK;
+  int32_t *changed = NULL; // the sweep in which each vertex was lowered last
+  CW_NEW(changed, skeleton->wall_count);
+  for (int32_t sweep = 1, lowered = 1; lowered; sweep++) {
     lowered = 0;
-    for (int32_t i = 0; i < 2 * skeleton->wall_triangle_count; i++) { // forth and back
-      int32_t t = i < skeleton->wall_triangle_count ? i : 2 * skeleton->wall_triangle_count - 1 - i;
+    for (int32_t i = 0; i < skeleton->wall_triangle_count; i++) {
+      const int32_t *corner = skeleton->wall_triangle[sweep % 2 ? i : skeleton->wall_triangle_count - 1 - i];
+      int32_t last = changed[corner[0]] > changed[corner[1]] ? changed[corner[0]] : changed[corner[1]];
+      if (changed[corner[2]] > last) last = changed[corner[2]];
+      if (sweep > 1 && last < sweep - 1) continue;
       for (int k = 0; k < 3; k++) {
-        int32_t a = skeleton->wall_triangle[t][k], b = skeleton->wall_triangle[t][(k + 1) % 3];
+        int32_t a = corner[k], b = corner[(k + 1) % 3];
         if (value[a] == value[b]) continue;
         int32_t low = value[a] < value[b] ? a : b, high = low == a ? b : a;
         double most = value[low] + slope * cw_distance(skeleton->wall_x[a], skeleton->wall_x[b]);
         if (value[high] <= most) continue;
         value[high] = most;
+        changed[high] = sweep;
         lowered = 1;
       }
     }
   }
+done:
+  free(changed);
+  return status;
+}
+
+// What a wall triangle takes of the volume, and what was predicted for it, in cells; with its turned copies.
+typedef struct {
+  double taken, predicted;
+} Taken;
+
+typedef struct {
+  CwDomain *domain;
+  const double *height, *bend;
+} Columns;
+
+static CwStatus find_taken(void *context, int32_t t, void *out) {
+  const Columns *columns = context;
+  const CwDomain *domain = columns->domain;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  const int32_t *corner = skeleton->wall_triangle[t], face = skeleton->wall_face[t];
+  const CwLayerTarget *layers = &domain->patch_layers[cw_cad_face_patch(domain->cad, face)];
+  double u[3], v[3], normal[3], centre[3], mean = 0;
+  if (skeleton->wall_source[t] != t) return CW_OK;
+  for (int k = 0; k < 3; k++) {
+    u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
+    v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
+    centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
+    mean += columns->height[corner[k]] / 3;
+  }
+  cw_cross(u, v, normal);
+  double h = cw_size_at(domain->size, centre);
+  double weight = cw_norm(normal) / (h * h * h) * cw_orbit_face_copies(&skeleton->orbits, face);
+  double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, TALLEST_COLUMN);
+  *(Taken *)out = (Taken){weight * mean, weight * fmin(layers->thickness, fair)};
+  return CW_OK;
 }
 
 // The share of the volume predicted for the layers (in cells) that columns take once their heights are graded.
 static CwStatus learn_share(CwDomain *domain) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
-  double *height = NULL, taken = 0, predicted = 0;
+  double *height = NULL;
+  Taken *of = NULL, sum = {0};
   CW_NEW(height, skeleton->wall_count);
+  CW_NEW(of, skeleton->wall_triangle_count);
   memcpy(height, domain->target, (size_t)skeleton->wall_count * sizeof *height);
-  grade(skeleton, HEIGHT_SLOPE, height);
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE, height));
+  Columns columns = {.domain = domain, .height = height};
+  CW_TRY(cw_share("heights: volume", skeleton->wall_triangle_count, sizeof *of, find_taken, &columns, of));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    const int32_t *corner = skeleton->wall_triangle[t];
-    const CwLayerTarget *layers = &domain->patch_layers[cw_cad_face_patch(domain->cad, skeleton->wall_face[t])];
-    double u[3], v[3], normal[3], centre[3];
-    for (int k = 0; k < 3; k++) {
-      u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
-      v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
-      centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
-    }
-    cw_cross(u, v, normal);
-    double h = cw_size_at(domain->size, centre), weight = cw_norm(normal) / (h * h * h);
-    double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, TALLEST_COLUMN);
-    taken += weight * (height[corner[0]] + height[corner[1]] + height[corner[2]]) / 3;
-    predicted += weight * fmin(layers->thickness, fair);
+    sum.taken += of[t].taken;
+    sum.predicted += of[t].predicted;
   }
-  domain->layer_share = predicted > 0 ? taken / predicted : 1;
+  domain->layer_share = sum.predicted > 0 ? sum.taken / sum.predicted : 1;
 done:
   free(height);
+  free(of);
   return status;
+}
+
+// The height of a column that is fair by the cells around it. Turned copies get that of their first: the size field is
+// symmetric only to within its grid.
+static CwStatus find_fair(void *context, int32_t v, void *out) {
+  const Columns *columns = context;
+  const CwDomain *domain = columns->domain;
+  if (cw_orbit_node_turns(&domain->skeleton.orbits, v) > 0) return CW_OK;
+  *(double *)out = fair_height(domain->first_height[v], domain->layer_count, domain->growth[v],
+                               cw_size_at(domain->size, domain->skeleton.wall_x[v]),
+                               columns->bend[v] < BEND ? TALLEST_AT_BEND : TALLEST_COLUMN);
+  return CW_OK;
 }
 
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
-  double *bend = NULL;
+  double *bend = NULL, *fair = NULL;
   CW_TRY(find_bends(skeleton, &bend));
   CW_NEW(domain->first_height, skeleton->wall_count);
   CW_NEW(domain->target, skeleton->wall_count);
@@ -341,17 +392,20 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
     }
   }
   // Away from there the first height grows no faster than columns of even layers can.
-  grade(skeleton, HEIGHT_SLOPE / table->walls.layer_count, domain->first_height);
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE / table->walls.layer_count, domain->first_height));
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     const double *x = skeleton->wall_x[v];
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
                "%s: wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle", domain->name, 1e3 * x[0],
                1e3 * x[1], 1e3 * x[2]);
-    double fair = fair_height(domain->first_height[v], table->walls.layer_count, domain->growth[v],
-                              cw_size_at(domain->size, x), bend[v] < BEND ? TALLEST_AT_BEND : TALLEST_COLUMN);
-    domain->target[v] = fmin(domain->target[v], fair);
   }
-  for (int32_t v = 0; v < skeleton->wall_count; v++) { // the size field is symmetric only to within its grid
+  Columns columns = {.domain = domain, .bend = bend};
+  CW_NEW(fair, skeleton->wall_count);
+  CW_TRY(cw_share("heights: fair ones", skeleton->wall_count, sizeof *fair, find_fair, &columns, fair));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    if (cw_orbit_node_turns(&skeleton->orbits, v) == 0) domain->target[v] = fmin(domain->target[v], fair[v]);
+  }
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
     if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
     for (int32_t at = cw_orbit_node(&skeleton->orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(&skeleton->orbits, at, 1)) {
       domain->target[at] = domain->target[v];
@@ -362,6 +416,7 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   CW_TRY(learn_share(domain));
 done:
   free(bend);
+  free(fair);
   return status;
 }
 
@@ -386,6 +441,32 @@ CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
   CW_TRY(cw_region_context_make(&domain->context));
 done:
   return status;
+}
+
+void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
+  const CwSkeleton *skeleton = &domain->skeleton;
+  double fraction[CW_LAYERS_MOST + 1];
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    int patch = cw_cad_face_patch(domain->cad, skeleton->wall_face[t]);
+    if (skeleton->wall_region[t] != region || patch >= patches) continue;
+    CwLayerCoverage *of = &coverage[patch];
+    int full = 1, met = 1, worst = 0;
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      double height = skeleton->height[v];
+      double first = cw_layer_fractions(height, domain->first_height[v], domain->layer_count, domain->growth[v], fraction);
+      full &= height >= 0.99 * domain->target[v];
+      met &= fabs(first / domain->first_height[v] - 1) <= FIRST_HEIGHT_TOLERANCE;
+      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
+      of->thickness += height / 3;
+      of->least = of->faces == 0 && k == 0 ? height : fmin(of->least, height);
+    }
+    of->faces++;
+    of->full += full;
+    of->first_met += met;
+    of->reason[full ? 0 : worst]++;
+    if (!met) of->missed[worst]++;
+  }
 }
 
 CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall) {

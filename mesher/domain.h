@@ -78,7 +78,7 @@ CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
 // cw_skeleton_wall_curves.
 CwStatus cw_domain_start(CwDomain *domain);
 
-// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
+// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume. Collective.
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table);
 
 // Region numbers, once the inner surfaces are merged.
@@ -86,6 +86,17 @@ CwStatus cw_domain_number(CwDomain *domain);
 
 // What the regions share, once their interfaces are final.
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
+
+// How the layers of a patch cover it, as far as it bounds one region.
+enum { CW_LAYER_REASONS = 4 };
+typedef struct {
+  int64_t faces, full, first_met;       // wall faces; with the full thickness; with the first height
+  int64_t reason[CW_LAYER_REASONS];     // by CwLayerReason: why not the full thickness; [0]: it is
+  int64_t missed[CW_LAYER_REASONS];     // why not the first height
+  double thickness, least;              // sum over the faces, least of all, m
+} CwLayerCoverage;
+// Of the patches up to `patches`, zeroed before.
+void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
 
 // What the case allows the layers over each wall triangle of a region, in the order of its file.
 CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall);

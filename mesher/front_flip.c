@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "mesher/flip_mesh.h"
+#include "mesher/share.h"
 #include "mesher/vec.h"
 
 enum { SWEEPS = 12 };
@@ -84,19 +85,57 @@ static int flip_helps(const double (*wall)[3], const double (*front)[3], double 
   return 1;
 }
 
+typedef struct {
+  const double (*wall)[3], (*front)[3];
+  const CwFlipMesh *mesh;
+  const int64_t *group;
+} Front;
+
+// A triangle as it was given.
+typedef struct {
+  double angle;   // least of the front
+  int32_t fresh;  // whether a flip of one of its sides helps
+} Judged;
+
+// The corner of the triangle across side k of t; -1 where the side may not be flipped.
+static int32_t across(const CwFlipMesh *mesh, const int64_t *group, int32_t t, int k) {
+  int32_t u = mesh->near[t][k];
+  if (u < 0 || group[t] != group[u]) return -1;
+  return mesh->triangle[u][(cw_flip_corner(mesh, u, mesh->triangle[t][(k + 1) % 3]) + 2) % 3];
+}
+
+static CwStatus judge_triangle(void *context, int32_t t, void *out) {
+  const Front *front = context;
+  const int32_t *corner = front->mesh->triangle[t];
+  Judged *judged = out;
+  judged->angle = least_angle(front->front, corner[0], corner[1], corner[2]);
+  for (int k = 0; k < 3 && !judged->fresh; k++) {
+    int32_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3], d = across(front->mesh, front->group, t, k);
+    if (d < 0 || c == d) continue;
+    const int32_t *other = front->mesh->triangle[front->mesh->near[t][k]];
+    double before = fmin(judged->angle, least_angle(front->front, other[0], other[1], other[2]));
+    judged->fresh = flip_helps(front->wall, front->front, before, a, b, c, d);
+  }
+  return CW_OK;
+}
+
 CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const double (*front)[3], int32_t triangle_count,
                        int32_t (*triangle)[3], const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
   CwFlipMesh mesh = {.triangle = triangle};
+  Judged *judged = NULL;
   double *angle = NULL; // least of each front triangle
   uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
   CW_NEW(angle, triangle_count);
   CW_NEW(fresh, triangle_count);
   CW_TRY(cw_flip_neighbours(point_count, triangle_count, &mesh));
+  CW_NEW(judged, triangle_count);
+  Front given = {wall, front, &mesh, group};
+  CW_TRY(cw_share("layers: flips", triangle_count, sizeof *judged, judge_triangle, &given, judged));
   for (int32_t t = 0; t < triangle_count; t++) {
-    angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
-    fresh[t] = 1;
+    angle[t] = judged[t].angle;
+    fresh[t] = (uint8_t)judged[t].fresh;
   }
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
@@ -104,10 +143,9 @@ CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const doubl
       if (!fresh[t]) continue;
       int turned = 0;
       for (int k = 0; k < 3 && !turned; k++) {
-        int32_t u = mesh.near[t][k];
-        if (u < 0 || group[t] != group[u]) continue;
+        int32_t u = mesh.near[t][k], d = across(&mesh, group, t, k);
+        if (d < 0) continue;
         int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3], c = triangle[t][(k + 2) % 3];
-        int32_t d = triangle[u][(cw_flip_corner(&mesh, u, b) + 2) % 3];
         double before = fmin(angle[t], angle[u]);
         if (c == d || !flip_helps(wall, front, before, a, b, c, d) || cw_flip_joined(&mesh, t, c, d)) continue;
         cw_flip(&mesh, t, k, u);
@@ -129,6 +167,7 @@ CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const doubl
 done:
   free(mesh.near);
   free(angle);
+  free(judged);
   free(fresh);
   return status;
 }

@@ -96,15 +96,22 @@ static int meet(void *context, int32_t f) {
   return 0;
 }
 
+typedef struct {
+  const CwLayerWork *work;
+  const CwBoxTree *tree;
+} Gaps;
+
 // Largest height that the gap along the column of v allows; INFINITY where nothing stands within reach.
-static CwStatus free_height(const CwLayerWork *work, void *tree, int32_t v, void *out) {
+static CwStatus free_height(void *context, int32_t v, void *out) {
+  const Gaps *gaps = context;
+  const CwLayerWork *work = gaps->work;
   const CwLayerInput *in = work->in;
   Ray ray = {.work = work, .v = v, .guided = in->guide_count && in->guide_count[v] > 0, .best = INFINITY};
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = unit3(ray.g);
   ray.offset = 1e-3 * work->edge_min[v];
   ray.far = in->target[v] * ray.stretch / 0.35;
-  cw_box_tree_ray(tree, in->x[v], ray.g, &ray.far, meet, &ray);
+  cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
   *(double *)out = ray.best;
   return CW_OK;
 }
@@ -112,8 +119,9 @@ static CwStatus free_height(const CwLayerWork *work, void *tree, int32_t v, void
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   double *most = NULL;
+  Gaps gaps = {work, tree};
   CW_NEW(most, work->n);
-  CW_TRY(cw_layers_share(work, "layers: gaps", work->n, sizeof *most, free_height, tree, most));
+  CW_TRY(cw_share("layers: gaps", work->n, sizeof *most, free_height, &gaps, most));
   for (int32_t v = 0; v < work->n; v++) {
     work->t[v] = fmin(work->most[v], most[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;

@@ -9,6 +9,7 @@
 
 #include "mesher/box_tree.h"
 #include "mesher/layers.h"
+#include "mesher/share.h"
 
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
 
@@ -73,12 +74,6 @@ static inline void flatten3(double a[3], const double n[3]) {
 // layers_topology.c: neighbourhoods, weights, face normals. `work` is zeroed before; freed with the other.
 CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
 void cw_layers_work_free(CwLayerWork *work);
-
-// layers_share.c: calls body for the items 0 .. count-1, in blocks over the ranks; each fills `width` bytes of `out`, which
-// all ranks get. step: of the ledger. Collective.
-typedef CwStatus (*CwLayerBody)(const CwLayerWork *work, void *context, int32_t item, void *out);
-CwStatus cw_layers_share(const CwLayerWork *work, const char *step, int32_t count, size_t width, CwLayerBody body,
-                         void *context, void *out);
 
 // layers_normal.c
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the

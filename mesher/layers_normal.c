@@ -145,7 +145,8 @@ typedef struct {
   int32_t crease;
 } Direction;
 
-static CwStatus find_direction(const CwLayerWork *work, void *context, int32_t v, void *out) {
+static CwStatus find_direction(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   const double none[2][3] = {{0}}, *x = in->x[v];
@@ -185,7 +186,7 @@ CwStatus cw_layers_normals(CwLayerWork *work) {
   CwStatus status = CW_OK;
   Direction *made = NULL;
   CW_NEW(made, work->n);
-  CW_TRY(cw_layers_share(work, "layers: directions", work->n, sizeof *made, find_direction, NULL, made));
+  CW_TRY(cw_share("layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].base, sizeof made[v].base);

@@ -110,8 +110,9 @@ typedef struct {
   CwLayerCrossing crossing;
 } Repair;
 
-static CwStatus judge_prism(const CwLayerWork *work, void *front, int32_t f, void *out) {
-  *(double *)out = cw_layers_prism_quality(work, f, (const double (*)[3])front);
+static CwStatus judge_prism(void *context, int32_t f, void *out) {
+  const Repair *repair = context;
+  *(double *)out = cw_layers_prism_quality(repair->work, f, (const double (*)[3])repair->front);
   return CW_OK;
 }
 
@@ -232,8 +233,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
   CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
   place_changed(&repair); // no height is 0: all of them
   memset(repair.moved, 0, work->n);
-  CW_TRY(cw_layers_share(work, "layers: prisms", in->triangle_count, sizeof *repair.quality, judge_prism, front,
-                         repair.quality));
+  CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_prism, &repair, repair.quality));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
     repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;

@@ -3,9 +3,13 @@
 
 #include "mesher/layers_inner.h"
 
-static int by_number(const void *a, const void *b) {
-  int32_t i = *(const int32_t *)a, j = *(const int32_t *)b;
-  return (i > j) - (i < j);
+// Some ten numbers: by insertion.
+static void sort_few(int32_t count, int32_t *number) {
+  for (int32_t i = 1; i < count; i++) {
+    int32_t moved = number[i], at = i;
+    for (; at > 0 && number[at - 1] > moved; at--) number[at] = number[at - 1];
+    number[at] = moved;
+  }
 }
 
 static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
@@ -80,7 +84,7 @@ static CwStatus lists(CwLayerWork *work) {
     for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
       for (int i = 0; i < 3; i++)
         if (in->triangle[work->face[k]][i] != v) work->near[count++] = in->triangle[work->face[k]][i];
-    qsort(work->near + start, count - start, sizeof *work->near, by_number);
+    sort_few(count - start, work->near + start);
     int32_t kept = start;
     for (int32_t k = start; k < count; k++)
       if (k == start || work->near[k] != work->near[kept - 1]) work->near[kept++] = work->near[k];

@@ -11,9 +11,7 @@
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
-enum { LAYERS_MAX = 200 };
 static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
-static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 
 static json_t *patches_json(const CwDomain *domain) {
   json_t *patches = json_array();
@@ -87,30 +85,21 @@ static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
 // layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
 static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   const CwDomain *domain = &run->domain[d];
-  const CwSkeleton *skeleton = &domain->skeleton;
   const CwLayerTarget *target = &domain->patch_layers[patch];
-  int64_t faces = 0, full = 0, first_met = 0, reason[4] = {0}, missed[4] = {0};
+  CwLayerCoverage sum = {.least = INFINITY};
   CwLayerRatio ratio = {0};
-  double thickness = 0, least = INFINITY, fraction[LAYERS_MAX + 1];
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (cw_cad_face_patch(domain->cad, skeleton->wall_face[t]) != patch) continue;
-    int is_full = 1, met = 1, worst = 0;
-    for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      double height = skeleton->height[v];
-      double first = cw_layer_fractions(height, domain->first_height[v], run->table->walls.layer_count,
-                                        domain->growth[v], fraction);
-      is_full &= height >= 0.99 * domain->target[v];
-      met &= fabs(first / domain->first_height[v] - 1) <= FIRST_HEIGHT_TOLERANCE;
-      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
-      thickness += height / 3;
-      least = fmin(least, height);
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
+    const CwLayerCoverage *made = &run->summary[d][r].coverage[patch];
+    if (made->faces == 0) continue;
+    sum.faces += made->faces;
+    sum.full += made->full;
+    sum.first_met += made->first_met;
+    sum.thickness += made->thickness;
+    sum.least = fmin(sum.least, made->least);
+    for (int i = 0; i < CW_LAYER_REASONS; i++) {
+      sum.reason[i] += made->reason[i];
+      sum.missed[i] += made->missed[i];
     }
-    faces++;
-    full += is_full;
-    first_met += met;
-    reason[is_full ? 0 : worst]++;
-    if (!met) missed[worst]++;
   }
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
     const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
@@ -120,16 +109,18 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   }
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
-      (json_int_t)faces, "full_thickness_faces", (json_int_t)full, "first_height_met_faces", (json_int_t)first_met,
+      (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
+      (json_int_t)sum.first_met,
       "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
-      cw_json_number(faces ? thickness / (double)faces : 0), "least_thickness_m", cw_json_number(faces ? least : 0),
-      "thinned_by_gap_faces", (json_int_t)reason[CW_LAYER_GAP], "thinned_by_gradation_faces",
-      (json_int_t)reason[CW_LAYER_GRADATION], "thinned_by_repair_faces", (json_int_t)reason[CW_LAYER_REPAIR]);
+      cw_json_number(sum.faces ? sum.thickness / (double)sum.faces : 0), "least_thickness_m",
+      cw_json_number(sum.faces ? sum.least : 0),
+      "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP], "thinned_by_gradation_faces",
+      (json_int_t)sum.reason[CW_LAYER_GRADATION], "thinned_by_repair_faces", (json_int_t)sum.reason[CW_LAYER_REPAIR]);
   json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
-  json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)missed[CW_LAYER_GAP]));
+  json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)sum.missed[CW_LAYER_GAP]));
   json_object_set_new(result, "first_height_missed_by_gradation_faces",
-                      json_integer((json_int_t)missed[CW_LAYER_GRADATION]));
-  json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)missed[CW_LAYER_REPAIR]));
+                      json_integer((json_int_t)sum.missed[CW_LAYER_GRADATION]));
+  json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
   const int64_t *bin = ratio.bin;
   json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
   json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));

@@ -19,6 +19,7 @@ typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
   double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
   CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
+  CwLayerCoverage coverage[CW_PATCH_LIMIT];
   CwFillWay way;
   CwQuality quality;
   CwRegionFailure failure; // else nothing of the above holds

@@ -12,8 +12,6 @@
 #include "mesher/region_boundary.h"
 #include "mesher/vec.h"
 
-enum { LAYERS_MAX = 200 };
-
 static int compare_rims(const void *p, const void *q) {
   const int32_t *a = p, *b = q;
   for (int k = 0; k < 2; k++) {
@@ -58,8 +56,8 @@ done:
 CwStatus cw_region_context_make(CwRegionContext *context) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = context->skeleton;
-  CW_REQUIRE(context->layer_count <= LAYERS_MAX, CW_ERR_INPUT, "%d layers; at most %d can be made",
-             context->layer_count, LAYERS_MAX);
+  CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
+             context->layer_count, CW_LAYERS_MOST);
   CW_NEW(context->shared_base, skeleton->node_count);
   CW_NEW(context->shared_node, skeleton->node_count);
   for (int32_t i = 0; i < skeleton->node_count; i++) {
@@ -139,7 +137,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   const CwRegionContext *context = build->context;
   const CwSkeleton *skeleton = context->skeleton;
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
-  double fraction[LAYERS_MAX + 1];
+  double fraction[CW_LAYERS_MOST + 1];
   for (int32_t i = 0; i < build->boundary.node_count; i++) {
     int on_front = build->boundary.node[i] < skeleton->wall_count, is_shared = context->shared_base[build->boundary.node[i]] >= 0;
     if (on_front) total += levels;

@@ -9,7 +9,6 @@
 #include "mesher/layer_heights.h"
 #include "mesher/vec.h"
 
-enum { LAYERS_MAX = 200 };
 static const double SAME_POINT = 1e-9; // m
 
 static int32_t copied_region(const CwRegionContext *context, int32_t first, int32_t turns) {
@@ -50,7 +49,7 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
              1e3 * skeleton->node_x[from][0], 1e3 * skeleton->node_x[from][1], 1e3 * skeleton->node_x[from][2]);
   *turned = context->shared_base[node] + level;
   if (node < skeleton->wall_count && level < context->layer_count) {
-    double fraction[LAYERS_MAX + 1];
+    double fraction[CW_LAYERS_MOST + 1];
     cw_layer_fractions(skeleton->height[node], context->first_height[node], context->layer_count, context->growth[node],
                        fraction);
     cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[level], x);

@@ -87,7 +87,7 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton);
 
 // Meshes the wall face `face` (any rank); the result is a byte buffer for cw_skeleton_merge_walls.
 CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size);
-// Joins the meshes of all wall faces (bytes[face]; NULL for caps).
+// Joins the meshes of all wall faces (bytes[face]; NULL for caps). Collective.
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
 // Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front. Collective: all ranks work on

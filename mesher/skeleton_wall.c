@@ -7,6 +7,7 @@
 
 #include "mesher/orbit_skeleton.h"
 #include "mesher/patch_task.h"
+#include "mesher/share.h"
 #include "mesher/skeleton_curves.h"
 #include "mesher/vec.h"
 
@@ -240,19 +241,30 @@ done:
   return status;
 }
 
-// No triangle may reach over a dividing plane: then a cut curve is missing.
-static CwStatus check_regions(const CwSkeleton *skeleton) {
+// No triangle may reach over a dividing plane: then a cut curve is missing. Turned copies are as their first.
+static CwStatus check_triangle(void *context, int32_t t, void *out) {
   CwStatus status = CW_OK;
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    for (int k = 0; k < 3; k++) {
-      const double *x = skeleton->wall_x[skeleton->wall_triangle[t][k]];
-      CW_REQUIRE(cw_plan_in_region(skeleton->plan, skeleton->wall_region[t], x, ON_PLANE), CW_ERR_MESH,
-                 "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
-                 cw_cad_face_name(skeleton->cad, skeleton->wall_face[t]), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
-                 skeleton->wall_region[t] + 1);
-    }
+  const CwSkeleton *skeleton = context;
+  if (skeleton->wall_source[t] != t) goto done;
+  for (int k = 0; k < 3; k++) {
+    const double *x = skeleton->wall_x[skeleton->wall_triangle[t][k]];
+    CW_REQUIRE(cw_plan_in_region(skeleton->plan, skeleton->wall_region[t], x, ON_PLANE), CW_ERR_MESH,
+               "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
+               cw_cad_face_name(skeleton->cad, skeleton->wall_face[t]), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
+               skeleton->wall_region[t] + 1);
   }
+  *(uint8_t *)out = 1;
 done:
+  return status;
+}
+
+static CwStatus check_regions(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  uint8_t *checked = NULL;
+  CW_NEW(checked, skeleton->wall_triangle_count);
+  CW_TRY(cw_share("walls checked", skeleton->wall_triangle_count, 1, check_triangle, skeleton, checked));
+done:
+  free(checked);
   return status;
 }
 

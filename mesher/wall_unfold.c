@@ -17,6 +17,8 @@ typedef struct {
   const double (*x)[3];
   CwFlipMesh mesh;
   int32_t *around; // a triangle at each vertex
+  double *open;    // cosine of each vertex, where it is not stale
+  uint8_t *stale;
 } Wall;
 
 // Least cosine of the most normal direction at v; 2 where more faces meet than are worth a look.
@@ -41,6 +43,11 @@ static double openness(const Wall *wall, int32_t v) {
     if (t >= 0) break;
   }
   return cw_layers_most_normal(count, (const double (*)[3])normal, 0, NULL, g);
+}
+
+static CwStatus judge_vertex(void *wall, int32_t v, void *out) {
+  *(double *)out = openness(wall, v);
+  return CW_OK;
 }
 
 static double least_openness(const Wall *wall, const int32_t corner[4]) {
@@ -103,7 +110,10 @@ static int try_side(Wall *wall, const int64_t *group, int32_t t, int k) {
     around[i] = wall->around[corner[i]];
   }
   turn_side(wall, t, k, u);
-  if (least_openness(wall, corner) > before + GAIN) return 1;
+  if (least_openness(wall, corner) > before + GAIN) {
+    for (int i = 0; i < 4; i++) wall->stale[corner[i]] = 1;
+    return 1;
+  }
   for (int i = 0; i < 4; i++) {
     put_back(mesh, &kept[i]);
     wall->around[corner[i]] = around[i];
@@ -117,14 +127,19 @@ CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t trian
   Wall wall = {.x = x, .mesh = {.triangle = triangle}};
   *flips = *folded = 0;
   CW_NEW(wall.around, point_count);
+  CW_NEW(wall.open, point_count);
+  CW_NEW(wall.stale, point_count);
   CW_TRY(cw_flip_neighbours(point_count, triangle_count, &wall.mesh));
   for (int32_t t = 0; t < triangle_count; t++)
     for (int k = 0; k < 3; k++) wall.around[triangle[t][k]] = t;
+  CW_TRY(cw_share("layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     *folded = 0;
     for (int32_t v = 0; v < point_count; v++) {
-      if (openness(&wall, v) >= OPEN) continue;
+      if (wall.stale[v]) wall.open[v] = openness(&wall, v);
+      wall.stale[v] = 0;
+      if (wall.open[v] >= OPEN) continue;
       ++*folded;
       int turned = 0;
       for (int way = 0; way < 2 && !turned; way++) {
@@ -144,6 +159,8 @@ CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t trian
   }
 done:
   free(wall.around);
+  free(wall.open);
+  free(wall.stale);
   free(wall.mesh.near);
   return status;
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Work on vertices and triangles in blocks over the ranks. The blocks follow from the count alone and each item from
-// itself alone, so that the bits are the same for any number of ranks.
-#include <stdlib.h>
+#include "mesher/share.h"
 
-#include "mesher/layers_inner.h"
+#include <stdlib.h>
+#include <string.h>
+
 #include "mesher/schedule.h"
 
 enum { BLOCK = 4096 };
 
 typedef struct {
-  const CwLayerWork *work;
-  CwLayerBody body;
+  CwShareBody body;
   void *context;
   int32_t count;
   size_t width;
@@ -24,7 +23,7 @@ static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *s
   char *result = NULL;
   CW_NEW(result, length);
   for (int32_t i = first; i < last; i++)
-    CW_TRY(share->body(share->work, share->context, i, result + (size_t)(i - first) * share->width));
+    CW_TRY(share->body(share->context, i, result + (size_t)(i - first) * share->width));
   *bytes = result;
   *size = (int64_t)length;
   result = NULL;
@@ -33,10 +32,9 @@ done:
   return status;
 }
 
-CwStatus cw_layers_share(const CwLayerWork *work, const char *step, int32_t count, size_t width, CwLayerBody body,
-                         void *context, void *out) {
+CwStatus cw_share(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out) {
   CwStatus status = CW_OK;
-  Share share = {work, body, context, count, width};
+  Share share = {body, context, count, width};
   int32_t blocks = (count + BLOCK - 1) / BLOCK;
   void **bytes = NULL;
   int64_t *size = NULL;
