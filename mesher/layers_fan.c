@@ -13,7 +13,7 @@
 #include "mesher/layers_inner.h"
 #include "mesher/schedule.h"
 
-enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6 };
+enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, BLOCK = 8192, HALO = 6 };
 static const double REACH = 6;         // the fan ends at this many heights from its crease
 static const double FADE = 6;          // the opening of the crease is forgotten at this many
 static const double LEAST_COSINE = 0.3;
@@ -137,21 +137,24 @@ static double range(const CwLayerWork *work, int32_t v, const Fan *fan) {
   return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade);
 }
 
-// What all components share.
+// What all blocks share. The vertices in reach are divided into blocks along the curve of the domain's tree. A block is
+// solved together with the vertices up to HALO edges around it, whose displacement counts in their own block alone: the
+// solution forgets within a few edges what it was held to beyond them, and the next fan goes on from what all have found.
 typedef struct {
   const CwLayerWork *work;
   Fan *fan;
-  int32_t *local;               // scratch of a component: local number + 1 of every vertex of the domain, else 0
-  int32_t component_count;
-  int32_t *start, *member;      // vertices of each component, in order of distance from its sources
+  int32_t *local;               // scratch of a block: local number + 1 of every vertex of the domain, else 0
+  int32_t count, *order;        // vertices in reach, in order of distance from their sources
+  int32_t *place;               // of each vertex in `order`; -1: out of reach
+  int32_t *member, *block;      // the same vertices, block by block; of each vertex, -1: out of reach
 } Fans;
 
-// One component on its own: a set of vertices that lean with one another. Local numbers: members first, then the
-// vertices around them, whose displacement stays.
+// One block: local numbers are those of its members and the halo, in order of distance, then of the vertices around
+// them, whose displacement stays.
 typedef struct {
   const CwLayerWork *work;
   int32_t count, all;
-  const int32_t *member;
+  int32_t *member;
   int32_t *outer;               // vertices around: all - count
   int32_t *near_start, *near;   // local numbers of the neighbours of members
   uint8_t *across;              // neighbour is a convex edge that leans along itself only
@@ -172,6 +175,7 @@ static int32_t vertex_of(const Part *part, int32_t i) {
 
 static void part_free(Part *part) {
   for (int32_t i = 0; part->local && i < part->all; i++) part->local[vertex_of(part, i)] = 0;
+  free(part->member);
   free(part->outer);
   free(part->near_start);
   free(part->near);
@@ -189,11 +193,61 @@ static void part_free(Part *part) {
   free(part->triangle);
 }
 
-static CwStatus part_make(const Fans *fans, int32_t component, int32_t *local, Part *part) {
+static int by_number(const void *p, const void *q) {
+  int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
+  return (a > b) - (a < b);
+}
+
+static int32_t block_size(const Fans *fans, int32_t block) {
+  int32_t left = fans->count - block * BLOCK;
+  return left < BLOCK ? left : BLOCK;
+}
+
+// The members of a block and its halo, in order of distance.
+static CwStatus gather_members(const Fans *fans, int32_t block, Part *part) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = fans->work;
-  int32_t first = fans->start[component], count = fans->start[component + 1] - first, links = 0, faces = 0;
-  *part = (Part){.work = work, .count = count, .all = count, .member = fans->member + first, .local = local};
+  int32_t capacity = 2 * block_size(fans, block), ring = 0;
+  CW_NEW(part->member, capacity);
+  for (int32_t i = 0; i < block_size(fans, block); i++) {
+    int32_t v = fans->member[block * BLOCK + i];
+    part->local[v] = 1;
+    part->member[part->count++] = v;
+  }
+  part->all = part->count;
+  for (int hop = 0; hop < HALO; hop++) {
+    int32_t end = part->count;
+    for (; ring < end; ring++) {
+      int32_t v = part->member[ring];
+      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+        int32_t w = work->near[k];
+        if (fans->place[w] < 0 || part->local[w]) continue;
+        if (part->count == capacity) {
+          int32_t *grown = realloc(part->member, 2 * (size_t)capacity * sizeof *grown);
+          CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d vertices of a fan", 2 * capacity);
+          part->member = grown;
+          capacity *= 2;
+        }
+        part->local[w] = 1;
+        part->member[part->count++] = w;
+        part->all++;
+      }
+    }
+  }
+  for (int32_t i = 0; i < part->count; i++) part->member[i] = fans->place[part->member[i]];
+  qsort(part->member, (size_t)part->count, sizeof *part->member, by_number);
+  for (int32_t i = 0; i < part->count; i++) part->member[i] = fans->order[part->member[i]];
+done:
+  return status;
+}
+
+static CwStatus part_make(const Fans *fans, int32_t block, int32_t *local, Part *part) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = fans->work;
+  int32_t links = 0, faces = 0;
+  *part = (Part){.work = work, .local = local};
+  CW_TRY(gather_members(fans, block, part));
+  int32_t count = part->count;
   for (int32_t i = 0; i < count; i++) {
     int32_t v = part->member[i];
     local[v] = i + 1;
@@ -208,7 +262,6 @@ static CwStatus part_make(const Fans *fans, int32_t component, int32_t *local, P
   CW_NEW(part->weights, count);
   CW_NEW(part->triangle, faces);
   CW_NEW(part->quality, faces);
-  CW_NEW(part->reach, count);
   CW_NEW(part->stirred, count);
   CW_NEW(part->changed, count);
   CW_NEW(part->touched, count);
@@ -236,12 +289,15 @@ static CwStatus part_make(const Fans *fans, int32_t component, int32_t *local, P
       if (is_first) part->triangle[part->triangle_count++] = work->face[k];
     }
   }
+  CW_NEW(part->reach, part->all);
   CW_NEW(part->fan, part->all);
   CW_NEW(part->column, part->all);
   CW_NEW(part->front, part->all);
   for (int32_t i = 0; i < part->all; i++) part->fan[i] = fans->fan[vertex_of(part, i)];
   for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
-  for (int32_t i = 0; i < count; i++) part->reach[i] = range(work, part->member[i], &part->fan[i]);
+  for (int32_t i = 0; i < part->all; i++) {
+    if (part->fan[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->fan[i]);
+  }
 done:
   return status;
 }
@@ -312,11 +368,11 @@ static void set_end(Part *part, int32_t i) {
   for (int k = 0; k < 3; k++) part->front[i][k] = work->in->x[v][k] + work->t[v] * part->column[i][k];
 }
 
-// Leans the column of member i as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal height.
+// Leans the column of i as the fan asks, but no further than LEAST_COSINE allows, and keeps its normal height.
 static void lean(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   const Fan *fan = &part->fan[i];
-  int32_t v = part->member[i];
+  int32_t v = vertex_of(part, i);
   double least = fmin(LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1, upright[3];
   cw_layers_upright(work, v, upright);
   memcpy(part->column[i], upright, sizeof upright);
@@ -382,40 +438,53 @@ static int is_settled(const CwLayerWork *work, int32_t v) {
   return 1;
 }
 
-// Where the solution at member i starts: what the last fan found, or what falls off from the nearest source.
-static void start_member(const Fans *fans, Part *part, int32_t i) {
+// Whether v has a neighbour in another block.
+static int is_between(const Fans *fans, int32_t v) {
+  for (int32_t k = fans->work->near_start[v]; k < fans->work->near_start[v + 1]; k++) {
+    int32_t other = fans->block[fans->work->near[k]];
+    if (other >= 0 && other != fans->block[v]) return 1;
+  }
+  return 0;
+}
+
+// Where the solution at i starts: what the last fan found, or what falls off from the nearest source. Around the members
+// it stays so.
+static void start(const Fans *fans, Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
-  int32_t v = part->member[i];
+  int32_t v = vertex_of(part, i);
   Fan *at = &part->fan[i];
+  if (fans->block[v] < 0) { // out of reach, or wholly given
+    cw_layers_upright(work, v, part->column[i]);
+    set_end(part, i);
+    return;
+  }
   if (work->lean && work->lean_t[v] > 0) {
     const CwLean *last = &work->lean[v];
     at->widen = last->widen;
     for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / work->lean_t[v];
     if (is_settled(work, v)) {
       memcpy(part->column[i], last->column, sizeof last->column);
-      part->stirred[i] = part->changed[i] = 0;
+      if (i < part->count) part->changed[i] = 0, part->stirred[i] = (uint8_t)is_between(fans, v);
       set_end(part, i);
+      return;
     }
   } else if (at->source != v) {
     double fall = exp(-at->distance / part->reach[i]);
     for (int k = 0; k < 3; k++) at->u[k] = fall * fans->fan[at->source].u[k];
     allow(work, v, at->u);
   }
+  if (i >= part->count) lean(part, i);
 }
 
-// Solves one component; gives the columns of its members.
-static CwStatus solve_part(void *context, int32_t component, void **bytes, int64_t *size) {
+// Solves one block; gives the columns of its members.
+static CwStatus solve_part(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   Fans *fans = context;
-  const CwLayerWork *work = fans->work;
   Part part = {0};
   CwLean *lean_of = NULL;
-  CW_TRY(part_make(fans, component, fans->local, &part));
-  for (int32_t i = 0; i < part.count; i++) start_member(fans, &part, i);
-  for (int32_t i = part.count; i < part.all; i++) {
-    cw_layers_upright(work, vertex_of(&part, i), part.column[i]);
-    set_end(&part, i);
-  }
+  int32_t count = block_size(fans, block);
+  CW_TRY(part_make(fans, block, fans->local, &part));
+  for (int32_t i = 0; i < part.all; i++) start(fans, &part, i);
   for (int round = 0; round <= WIDENINGS; round++) {
     solve(&part, round > 0, round ? MORE_SWEEPS : SWEEPS);
     for (int32_t i = 0; i < part.count; i++) {
@@ -425,14 +494,15 @@ static CwStatus solve_part(void *context, int32_t component, void **bytes, int64
     }
     if (round == WIDENINGS || widen(&part) == 0) break;
   }
-  CW_NEW(lean_of, part.count);
-  for (int32_t i = 0; i < part.count; i++) {
-    memcpy(lean_of[i].column, part.column[i], sizeof part.column[i]);
-    memcpy(lean_of[i].u, part.fan[i].u, sizeof part.fan[i].u);
-    lean_of[i].widen = part.fan[i].widen;
-    lean_of[i].changed = part.touched[i];
+  CW_NEW(lean_of, count);
+  for (int32_t k = 0; k < count; k++) {
+    int32_t i = part.local[fans->member[block * BLOCK + k]] - 1;
+    memcpy(lean_of[k].column, part.column[i], sizeof part.column[i]);
+    memcpy(lean_of[k].u, part.fan[i].u, sizeof part.fan[i].u);
+    lean_of[k].widen = part.fan[i].widen;
+    lean_of[k].changed = part.touched[i];
   }
-  *size = (int64_t)part.count * (int64_t)sizeof *lean_of;
+  *size = (int64_t)count * (int64_t)sizeof *lean_of;
   *bytes = lean_of;
   lean_of = NULL;
 done:
@@ -441,63 +511,31 @@ done:
   return status;
 }
 
-// Divides the vertices in `order` into components: those that are neighbours of one another.
-static CwStatus find_components(Fans *fans, const int32_t *order, int32_t count) {
-  CwStatus status = CW_OK;
-  const CwLayerWork *work = fans->work;
-  int32_t *component = NULL, *stack = NULL, *fill = NULL;
-  CW_NEW(component, work->n);
-  CW_NEW(stack, work->n);
-  CW_NEW(fans->member, count);
-  for (int32_t i = 0; i < count; i++) component[order[i]] = -1;
-  for (int32_t i = 0; i < count; i++) {
-    int32_t depth = 0;
-    if (component[order[i]] >= 0) continue;
-    component[order[i]] = ++fans->component_count;
-    stack[depth++] = order[i];
-    while (depth) {
-      int32_t v = stack[--depth];
-      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-        int32_t w = work->near[k];
-        if (component[w] >= 0) continue;
-        component[w] = component[v];
-        stack[depth++] = w;
-      }
-    }
-  }
-  CW_NEW(fans->start, fans->component_count + 1);
-  CW_NEW(fill, fans->component_count);
-  for (int32_t i = 0; i < count; i++) fans->start[component[order[i]]]++;
-  for (int32_t c = 0; c < fans->component_count; c++) {
-    fill[c] = fans->start[c];
-    fans->start[c + 1] += fans->start[c];
-  }
-  for (int32_t i = 0; i < count; i++) fans->member[fill[component[order[i]] - 1]++] = order[i];
-done:
-  free(component);
-  free(stack);
-  free(fill);
-  return status;
-}
-
 CwStatus cw_layers_fan(CwLayerWork *work) {
   CwStatus status = CW_OK;
   Fans fans = {.work = work};
-  int32_t *order = NULL, count = 0;
+  int32_t blocks = 0, made = 0;
   int64_t *size = NULL;
   void **bytes = NULL;
-  double *cost = NULL;
   CW_NEW(fans.fan, work->n);
   CW_NEW(fans.local, work->n);
-  CW_NEW(order, work->n);
-  CW_TRY(spread(work, fans.fan, order, &count));
-  CW_TRY(find_components(&fans, order, count));
-  CW_NEW(bytes, fans.component_count);
-  CW_NEW(size, fans.component_count);
-  CW_NEW(cost, fans.component_count);
-  for (int32_t c = 0; c < fans.component_count; c++) cost[c] = fans.start[c + 1] - fans.start[c];
-  CwSchedule schedule = {.step = "layers: fans", .count = fans.component_count, .cost = cost, .run = solve_part,
-                         .context = &fans, .gather = 1};
+  CW_NEW(fans.order, work->n);
+  CW_NEW(fans.place, work->n);
+  CW_NEW(fans.member, work->n);
+  CW_NEW(fans.block, work->n);
+  CW_TRY(spread(work, fans.fan, fans.order, &fans.count));
+  for (int32_t v = 0; v < work->n; v++) fans.place[v] = fans.block[v] = -1;
+  for (int32_t i = 0; i < fans.count; i++) fans.place[fans.order[i]] = i;
+  for (int32_t i = 0; i < work->n; i++) {
+    int32_t v = work->curve[i];
+    if (fans.place[v] < 0) continue;
+    fans.block[v] = made / BLOCK;
+    fans.member[made++] = v;
+  }
+  blocks = (fans.count + BLOCK - 1) / BLOCK;
+  CW_NEW(bytes, blocks);
+  CW_NEW(size, blocks);
+  CwSchedule schedule = {.step = "layers: fans", .count = blocks, .run = solve_part, .context = &fans, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   if (!work->lean) {
     CW_NEW(work->lean, work->n);
@@ -508,23 +546,23 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
     work->lean_t[v] = fans.fan[v].source >= 0 ? work->t[v] : -1;
     if (was_held && work->lean_t[v] < 0) cw_layers_upright(work, v, work->column[v]);
   }
-  for (int32_t c = 0; c < fans.component_count; c++) {
-    const CwLean *lean_of = bytes[c];
-    for (int32_t i = fans.start[c]; i < fans.start[c + 1]; i++) {
-      int32_t v = fans.member[i];
-      work->lean[v] = lean_of[i - fans.start[c]];
+  for (int32_t b = 0; b < blocks; b++) {
+    const CwLean *lean_of = bytes[b];
+    for (int32_t k = 0; k < block_size(&fans, b); k++) {
+      int32_t v = fans.member[b * BLOCK + k];
+      work->lean[v] = lean_of[k];
       if (work->lean[v].changed) memcpy(work->column[v], work->lean[v].column, sizeof work->column[v]);
     }
   }
 done:
-  for (int32_t c = 0; bytes && c < fans.component_count; c++) free(bytes[c]);
+  for (int32_t b = 0; bytes && b < blocks; b++) free(bytes[b]);
   free(bytes);
   free(size);
-  free(cost);
-  free(order);
   free(fans.fan);
   free(fans.local);
-  free(fans.start);
+  free(fans.order);
+  free(fans.place);
   free(fans.member);
+  free(fans.block);
   return status;
 }

@@ -11,12 +11,15 @@ static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) 
                                        : in->obstacle_x[in->obstacle_triangle[f - in->triangle_count][i]];
 }
 
-CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree) {
+CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   int32_t total = in->triangle_count + in->obstacle_triangle_count;
   CwBox *box = NULL;
+  uint8_t *listed = NULL;
   CW_NEW(box, total);
+  CW_NEW(listed, work->n);
+  CW_NEW(work->curve, work->n);
   for (int32_t f = 0; f < total; f++) {
     const double *corner[3];
     corners(in, f, corner);
@@ -26,8 +29,17 @@ CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree) {
     }
   }
   CW_TRY(cw_box_tree_make(total, box, tree));
+  int32_t count = 0;
+  for (int32_t i = 0; i < total; i++) {
+    for (int k = 0; tree->item[i] < in->triangle_count && k < 3; k++) {
+      int32_t v = in->triangle[tree->item[i]][k];
+      if (!listed[v]) work->curve[count++] = v;
+      listed[v] = 1;
+    }
+  }
 done:
   free(box);
+  free(listed);
   return status;
 }
 

@@ -37,6 +37,7 @@ typedef struct {
   double (*column)[3];                 // unit-height displacement
   double *t;                           // height, m
   double *most;                        // the target, or less in a hollow: no height is greater, m
+  int32_t *curve;                      // all vertices along a curve through space: near in the list, near in space
   CwLean *lean;                        // what the last fan made of each vertex in its reach; NULL before the first
   double *lean_t;                      // the heights it was made for; negative out of its reach
   uint8_t *reason;                     // CwLayerReason
@@ -101,8 +102,8 @@ void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 // column, later those that the change of heights concerns. Collective.
 CwStatus cw_layers_fan(CwLayerWork *work);
 
-// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray.
-CwStatus cw_gap_tree_make(const CwLayerWork *work, CwBoxTree *tree);
+// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`.
+CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
 // t = min(most, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which they

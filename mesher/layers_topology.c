@@ -172,6 +172,7 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->t);
   free(work->most);
   free(work->reason);
+  free(work->curve);
   free(work->lean);
   free(work->lean_t);
   memset(work, 0, sizeof *work);
