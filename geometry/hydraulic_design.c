@@ -7,6 +7,8 @@
 #include "geometry/blade.h"
 #include "geometry/correlations.h"
 #include "geometry/meridian.h"
+#include "geometry/meridian_passage.h"
+#include "geometry/meridian_shape.h"
 #include "geometry/velocity_triangles.h"
 #include "geometry/volute_section.h"
 
@@ -58,14 +60,6 @@ static void specific_speeds(const CwCase *table, CwDesign *design) {
   SET(shaft_diameter, value, source);
 }
 
-// Radius of the leading edge over that of the eye, hub and shroud: outside the eye at low specific speed, and
-// drawn into it above nq = 25, where the wheel turns mixed-flow and the blades would else become too short.
-static void leading_edge_shares(double nq, double share[2]) {
-  const double f = fmin(1, fmax(0, (nq - 25) / 35));
-  share[0] = 0.568 - 0.248 * f;
-  share[1] = 0.635 - 0.105 * f;
-}
-
 static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesign *design) {
   const CwImpellerTable *given = &table->impeller;
   const char *source;
@@ -88,7 +82,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2),
        value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
-  SET(axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
+  TAKE(axial_length, given->axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
   // A shaft as thick as the hub leaves no nut.
   const double shaft = given->through_shaft_diameter;
   SET(through_shaft_diameter, fmin(shaft, design->hub_diameter), shaft > 0 ? "case" : "none");
@@ -102,13 +96,6 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
          "0.145 hub diameter");
   }
   SET(root_fillet_radius, given->root_fillet_radius, "case or its default");
-  double share[2];
-  leading_edge_shares(nq, share);
-  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
-       fmax(share[0] * d1, 0.56 * design->hub_diameter),
-       nq > 25 ? "0.568 D1 to 0.32 D1 at nq 60" : "0.568 D1");
-  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share[1] * d1,
-       nq > 25 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
   value = CORRELATED(CW_CORRELATED_BLADE_COUNT);
   design->blade_count = given->blade_count ? given->blade_count : (int)value;
   design->blade_count_source = given->blade_count ? "case" : source;
@@ -135,6 +122,29 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(wrap_angle, given->wrap_angle, 1.2 * 2 * M_PI / design->blade_count, "overlap 1.2");
   SET(wrap_spread, 0, "none");
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
+}
+
+// The leading edge: on the shroud outside the eye at low specific speed, and drawn into it above nq = 25, where the wheel
+// turns mixed-flow and the blades would else become too short; on the hub where a line square to the flow leads to, but not
+// so near to the axis that the blade would stand too steep there.
+static void leading_edge(const CwImpellerTable *given, CwDesign *design) {
+  enum { STATIONS = 201 };
+  CwMeridianCurve hub, shroud;
+  CwPassageStation station[STATIONS];
+  const double share = 0.635 - 0.105 * fmin(1, fmax(0, (design->specific_speed_nq - 25) / 35));
+  int i = 0;
+  TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share * design->inlet_diameter,
+       share < 0.635 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
+  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub, &shroud);
+  cw_meridian_passage(&hub, &shroud, design->outlet_diameter / 2, STATIONS, station);
+  while (i < STATIONS - 2 && station[i + 1].shroud[0] < design->leading_edge_radius_shroud)
+    i++;
+  const double part = (design->leading_edge_radius_shroud - station[i].shroud[0]) /
+                      (station[i + 1].shroud[0] - station[i].shroud[0]);
+  TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
+       fmax(station[i].hub[0] + part * (station[i + 1].hub[0] - station[i].hub[0]),
+            fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
+       "square to the flow from the shroud's, at least 0.56 hub diameters and 0.55 of the shroud's");
 }
 
 // The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan
@@ -239,8 +249,9 @@ done:
   return status;
 }
 
-// Everything up to the predicted head, with the given outlet diameter and outlet blade angle or NAN for each.
-static CwStatus impeller(const CwCase *table, double outlet_diameter, double fixed, CwMeridian *meridian,
+// Everything up to the predicted head, with the given outlet diameter and outlet blade angle or NAN for each. The walls of
+// the meridian are shaped anew where `shape` is set, and else keep their shares.
+static CwStatus impeller(const CwCase *table, double outlet_diameter, double fixed, int shape, CwMeridian *meridian,
                          CwDesign *design) {
   CwStatus status = CW_OK;
   main_dimensions(table, outlet_diameter, design);
@@ -249,6 +260,9 @@ static CwStatus impeller(const CwCase *table, double outlet_diameter, double fix
              CW_ERR_DESIGN,
              "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
              design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
+  if (shape)
+    cw_meridian_shape(&table->impeller, design);
+  leading_edge(&table->impeller, design);
   CW_TRY(cw_meridian_make(design, meridian));
   inlet_triangle(table, meridian, design);
   CW_TRY(outlet_angle(table, meridian, fixed, design));
@@ -261,18 +275,23 @@ done:
 static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian, CwDesign *design) {
   CwStatus status = CW_OK;
   double fixed = NAN;
-  CW_TRY(impeller(table, NAN, NAN, meridian, design));
+  CW_TRY(impeller(table, NAN, NAN, 1, meridian, design));
   if (design->priority == CW_PRIORITY_HEAD) {
     if (fabs(design->head_residual) < 1e-6 * design->head && design->outlet_blade_angle >= usual_beta[0] &&
         design->outlet_blade_angle <= usual_beta[1])
       goto done;
     fixed = fmin(usual_beta[1], fmax(usual_beta[0], design->outlet_blade_angle));
   }
-  double low = 0.7 * design->outlet_diameter, high = 1.5 * design->outlet_diameter;
-  for (int i = 0; i < 50; i++) {
-    const double middle = 0.5 * (low + high);
-    CW_TRY(impeller(table, middle, fixed, meridian, design));
-    *(design->predicted_head < design->head ? &low : &high) = middle;
+  // Twice, since the walls are shaped for a diameter that then changes.
+  const double correlated = design->outlet_diameter;
+  for (int pass = 0; pass < 2; pass++) {
+    double low = 0.7 * correlated, high = 1.5 * correlated;
+    CW_TRY(impeller(table, design->outlet_diameter, fixed, 1, meridian, design));
+    for (int i = 0; i < 50; i++) {
+      const double middle = 0.5 * (low + high);
+      CW_TRY(impeller(table, middle, fixed, 0, meridian, design));
+      *(design->predicted_head < design->head ? &low : &high) = middle;
+    }
   }
   CW_REQUIRE(fabs(design->head_residual) < 1e-6 * design->head, CW_ERR_DESIGN,
              "no outlet diameter from 0.7 to 1.5 times the correlation's meets the head of %.3f m with beta2 "
@@ -437,26 +456,22 @@ static CwPriority resolved_priority(const CwImpellerTable *given) {
 }
 
 static void passage(const CwMeridian *meridian, CwDesign *design) {
-  double a[2], b[2], dx[2], length = 0, least = HUGE_VAL, fall = 0;
-  // From the eye on: its area comes first.
-  double largest = M_PI / 4 * (pow(design->inlet_diameter, 2) - pow(design->hub_diameter, 2));
   enum { STEPS = 100 };
+  double a[2], b[2], dx[2], length = 0;
+  CwPassageStation station[STEPS + 1];
+  cw_meridian_passage(&meridian->hub, &meridian->shroud, design->outlet_diameter / 2, STEPS + 1, station);
   for (int i = 0; i <= STEPS; i++) {
     cw_meridian_blade_point(meridian, 0.5, (double)i / STEPS, a, dx);
     length += hypot(dx[0], dx[1]) * (i == 0 || i == STEPS ? 0.5 : 1) / STEPS;
-    const double area = cw_meridian_area(meridian, (double)i / STEPS);
-    least = fmin(least, area);
-    largest = fmax(largest, area);
-    fall = fmax(fall, 1 - area / largest);
   }
   cw_meridian_blade_point(meridian, 0, 0, a, NULL);
   cw_meridian_blade_point(meridian, 1, 0, b, NULL);
   SET(meridional_length, length, "meridian");
   SET(inlet_passage_width, hypot(a[0] - b[0], a[1] - b[1]), "meridian");
+  SET(passage_area_eye, station[0].area, "meridian");
   SET(passage_area_inlet, cw_meridian_area(meridian, 0), "meridian");
-  SET(passage_area_least, least, "meridian");
   SET(passage_area_outlet, cw_meridian_area(meridian, 1), "meridian");
-  SET(passage_area_fall, fall, "below the largest area before, that of the eye among them");
+  SET(passage_area_reversal, cw_passage_reversal(station, STEPS + 1), "against its trend from the eye to D2");
   SET(shroud_bend_radius, cw_meridian_bend_radius(&meridian->shroud), "meridian");
 }
 
@@ -503,7 +518,7 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(angular_speed, table->operating_point.speed, "case");
   specific_speeds(table, design);
   if (cw_case_given(table->impeller.outlet_diameter))
-    CW_TRY(impeller(table, NAN, NAN, &meridian, design));
+    CW_TRY(impeller(table, NAN, NAN, 1, &meridian, design));
   else
     CW_TRY(solve_outlet_diameter(table, &meridian, design));
   CW_REQUIRE(

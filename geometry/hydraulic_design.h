@@ -40,15 +40,18 @@ extern "C" {
   X(nut_length, LENGTH, "hub nut, length")                                                                   \
   X(through_shaft_diameter, LENGTH, "shaft through the inlet (0: none)")                                     \
   X(axial_length, LENGTH, "shroud, axial length from eye to outlet")                                         \
+  X(hub_pole_radial, NUMBER, "hub, radial share of its third Bezier pole")                                   \
+  X(shroud_pole_axial, NUMBER, "shroud, axial share of its second Bezier pole")                              \
+  X(shroud_pole_radial, NUMBER, "shroud, radial share of its third Bezier pole")                             \
   X(leading_edge_radius_hub, LENGTH, "leading edge at the hub, radius")                                      \
   X(leading_edge_radius_shroud, LENGTH, "leading edge at the shroud, radius")                                \
   X(meridional_length, LENGTH, "blade length in the meridian, mid-span")                                     \
   X(inlet_passage_width, LENGTH, "passage width b1 at the leading edge")                                     \
   X(shroud_bend_radius, LENGTH, "shroud, least bend radius in the meridian")                                 \
-  X(passage_area_inlet, AREA, "passage area at the leading edge, no blades")                                 \
-  X(passage_area_least, AREA, "passage area, least")                                                         \
+  X(passage_area_eye, AREA, "passage area in the eye, no blades")                                            \
+  X(passage_area_inlet, AREA, "passage area at the leading edge")                                            \
   X(passage_area_outlet, AREA, "passage area at the trailing edge")                                          \
-  X(passage_area_fall, NUMBER, "passage area, largest fall along the flow, share")                           \
+  X(passage_area_reversal, NUMBER, "passage area, largest step back on its way, share")                      \
   X(inlet_blade_angle, ANGLE, "blade angle beta1 at mid-span")                                               \
   X(outlet_blade_angle, ANGLE, "blade angle beta2")                                                          \
   X(wrap_angle, ANGLE, "wrap angle at mid-span")                                                             \

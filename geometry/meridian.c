@@ -2,6 +2,7 @@
 #include "geometry/meridian.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double gauss_x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
                                   0.9061798459386640};
@@ -83,30 +84,30 @@ done:
   return status;
 }
 
+void cw_meridian_walls(const CwDesign *design, double hub_radial, double shroud_axial, double shroud_radial,
+                       CwMeridianCurve *hub, CwMeridianCurve *shroud) {
+  const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2, ri = design->interface_radius;
+  const double rn = design->hub_diameter / 2, half = design->outlet_width / 2, axial = design->axial_length;
+  const double pole[2][4][2] = {
+      {{rn, half - CW_MERIDIAN_HUB_START * axial}, {rn, half}, {rn + hub_radial * (r1 - rn), half}, {ri, half}},
+      {{r1, -half - axial},
+       {r1, -half - shroud_axial * axial},
+       {r1 + shroud_radial * (r2 - r1), -half},
+       {ri, -half}}};
+  memcpy(hub->pole, pole[0], sizeof hub->pole);
+  memcpy(shroud->pole, pole[1], sizeof shroud->pole);
+}
+
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   CwStatus status = CW_OK;
   const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2,
                ri = design->interface_radius;
-  const double rn = design->hub_diameter / 2, half = design->outlet_width / 2, axial = design->axial_length;
-  // One set of shares for all pumps, found by a search over those of ns 40 to 200: the passage then grows all
-  // the way from the eye to the outlet (it falls by 0.6 % at most), blades meet both walls steeply, and both
-  // bend with large radii.
-  const double hub[4][2] = {{rn, half - CW_MERIDIAN_HUB_START * axial},
-                            {rn, half},
-                            {rn + 1.471 * (r1 - rn), half},
-                            {ri, half}};
-  const double shroud[4][2] = {{r1, -half - axial},
-                               {r1, -half - 0.431 * axial},
-                               {r1 + 0.022 * (r2 - r1), -half},
-                               {ri, -half}};
+  const double rn = design->hub_diameter / 2;
   CW_REQUIRE(rn < r1 && r1 < r2 && r2 < ri, CW_ERR_DESIGN,
              "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order",
              rn * 1e3, r1 * 1e3, r2 * 1e3, ri * 1e3);
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 2; j++) {
-      meridian->hub.pole[i][j] = hub[i][j];
-      meridian->shroud.pole[i][j] = shroud[i][j];
-    }
+  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial,
+                    &meridian->hub, &meridian->shroud);
   curve_measure(&meridian->hub);
   curve_measure(&meridian->shroud);
   CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub, "leading edge at the hub",
@@ -117,8 +118,8 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   CW_TRY(curve_at_radius(&meridian->shroud, r2, "trailing edge at the shroud", &meridian->shroud_trailing));
   meridian->shaft_radius = design->through_shaft_diameter / 2;
   meridian->nut_disk_radius = design->nut_disk_radius;
-  meridian->nut_end_z = hub[0][1] - design->nut_length;
-  meridian->inlet_z = shroud[0][1] - design->suction_pipe_length;
+  meridian->nut_end_z = meridian->hub.pole[0][1] - design->nut_length;
+  meridian->inlet_z = meridian->shroud.pole[0][1] - design->suction_pipe_length;
   CW_REQUIRE(meridian->inlet_z < meridian->nut_end_z, CW_ERR_DESIGN,
              "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: a longer suction pipe "
              "is needed",
@@ -145,26 +146,29 @@ void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, dou
 }
 
 double cw_meridian_area(const CwMeridian *meridian, double q) {
-  double h[2], c[2];
+  double h[2], c[2], x[2], flow[2];
   cw_meridian_blade_point(meridian, 0, q, h, NULL);
   cw_meridian_blade_point(meridian, 1, q, c, NULL);
-  return M_PI * (h[0] + c[0]) * hypot(h[0] - c[0], h[1] - c[1]);
+  cw_meridian_blade_point(meridian, 0.5, q, x, flow);
+  // Of the line between hub and shroud the flow sees what lies square to it.
+  return M_PI * (h[0] + c[0]) * fabs((h[0] - c[0]) * flow[1] - (h[1] - c[1]) * flow[0]) / hypot(flow[0], flow[1]);
+}
+
+double cw_meridian_curvature(const CwMeridianCurve *curve, double t) {
+  double x[2], dx[2], ddx[2];
+  cw_meridian_point(curve, t, x, dx);
+  for (int k = 0; k < 2; k++)
+    ddx[k] = 6 * ((1 - t) * (curve->pole[2][k] - 2 * curve->pole[1][k] + curve->pole[0][k]) +
+                  t * (curve->pole[3][k] - 2 * curve->pole[2][k] + curve->pole[1][k]));
+  const double speed = hypot(dx[0], dx[1]);
+  return fabs(dx[0] * ddx[1] - dx[1] * ddx[0]) / (speed * speed * speed);
 }
 
 double cw_meridian_bend_radius(const CwMeridianCurve *curve) {
-  double least = HUGE_VAL;
-  for (int i = 1; i < CW_MERIDIAN_STEPS; i++) {
-    const double t = (double)i / CW_MERIDIAN_STEPS, u = 1 - t;
-    double x[2], dx[2], ddx[2];
-    cw_meridian_point(curve, t, x, dx);
-    for (int k = 0; k < 2; k++)
-      ddx[k] = 6 * (u * (curve->pole[2][k] - 2 * curve->pole[1][k] + curve->pole[0][k]) +
-                    t * (curve->pole[3][k] - 2 * curve->pole[2][k] + curve->pole[1][k]));
-    const double turn = fabs(dx[0] * ddx[1] - dx[1] * ddx[0]);
-    if (turn > 0)
-      least = fmin(least, pow(hypot(dx[0], dx[1]), 3) / turn);
-  }
-  return least;
+  double largest = 0;
+  for (int i = 1; i < CW_MERIDIAN_STEPS; i++)
+    largest = fmax(largest, cw_meridian_curvature(curve, (double)i / CW_MERIDIAN_STEPS));
+  return 1 / largest;
 }
 
 // Integral of pi r^2 dz along a curve from t = 0 to t = 1 (exact: a polynomial of degree 8).

@@ -49,8 +49,14 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length);
 // The arc length at t.
 double cw_meridian_length(const CwMeridianCurve *curve, double t);
 
-// Makes the section of a design. Reads D1, D2, b2, the hub, the shaft, the axial length, the leading edge
-// radii, the interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its
+// The poles of hub and shroud, without their lengths, for the shares of cw_meridian_shape(): of the eye's height at which the
+// hub's third pole lies, of the axial length at which the shroud's second lies before its end, of r2 - r1 at which its third
+// lies outside the eye.
+void cw_meridian_walls(const CwDesign *design, double hub_radial, double shroud_axial, double shroud_radial,
+                       CwMeridianCurve *hub, CwMeridianCurve *shroud);
+
+// Makes the section of a design. Reads D1, D2, b2, the hub, the shaft, the axial length, the poles' shares, the leading
+// edge radii, the interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its
 // curve.
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian);
 
@@ -58,8 +64,12 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian);
 // trailing edge (q = 1); dx = d/dq, NULL: not wanted.
 void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, double x[2], double dx[2]);
 
-// Flow area of the passage at fraction q from the leading edge to the trailing edge, without blades, m2.
+// Flow area of the passage at fraction q from the leading edge to the trailing edge, square to the direction of the
+// flow at mid-span, without blades, m2.
 double cw_meridian_area(const CwMeridian *meridian, double q);
+
+// Curvature at t, 1/m.
+double cw_meridian_curvature(const CwMeridianCurve *curve, double t);
 
 // The least bend radius of a curve between its ends, m.
 double cw_meridian_bend_radius(const CwMeridianCurve *curve);

@@ -65,6 +65,8 @@ typedef struct {
   double wrap_angle;         // rad
   double wrap_spread;        // rad, wrap at the shroud minus wrap at the hub
   double hub_diameter;       // m, at the nut
+  double axial_length;       // m, of the shroud
+  double hub_pole_radial, shroud_pole_axial, shroud_pole_radial; // shares, inner Bezier poles of the meridian
   double leading_edge_radius_hub;    // m
   double leading_edge_radius_shroud; // m
   double incidence;          // rad, of the computed inlet blade angle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The passage between hub and shroud in the meridian, cut by lines square to the flow: each line meets hub and shroud
+// at the same angle, as the chord between the points where a circle touches both.
+#ifndef CUTWATER_GEOMETRY_MERIDIAN_PASSAGE_H
+#define CUTWATER_GEOMETRY_MERIDIAN_PASSAGE_H
+
+#include "geometry/meridian.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  double hub[2], shroud[2]; // (r, z) of the line's ends, m
+  double length;            // along the middles of the lines from the first, m
+  double area;              // of the cone that the line sweeps about the axis, without blades, m2
+} CwPassageStation;
+
+// `count` stations, at least 2, at equal steps of the shroud's parameter from the eye to its radius `outlet_radius`, m.
+void cw_meridian_passage(const CwMeridianCurve *hub, const CwMeridianCurve *shroud, double outlet_radius, int count,
+                         CwPassageStation *station);
+
+// The largest step back of the area against its trend from the first to the last station, over the largest (where it
+// should grow) or least (where it should fall) area before it; 0: monotone.
+double cw_passage_reversal(const CwPassageStation *station, int count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/meridian_shape.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "geometry/meridian.h"
+#include "geometry/meridian_passage.h"
+
+enum { SHARES = 3, STATIONS = 49, ROUNDS = 120 };
+
+static const double least_share[SHARES] = {0.2, 0.02, 0}, largest_share[SHARES] = {3, 0.95, 0.8};
+
+typedef struct {
+  const CwDesign *design;
+  const double *given; // of every share, NAN where it is free
+} Problem;
+
+// Integral of the squared curvature along a wall, 1/m; `sharpest`: its largest curvature.
+static double bending(const CwMeridianCurve *curve, double *sharpest) {
+  enum { POINTS = 48 };
+  double sum = 0;
+  *sharpest = 0;
+  for (int i = 0; i < POINTS; i++) {
+    const double t = (i + 0.5) / POINTS;
+    double x[2], dx[2];
+    cw_meridian_point(curve, t, x, dx);
+    const double curvature = cw_meridian_curvature(curve, t);
+    *sharpest = fmax(*sharpest, curvature);
+    sum += curvature * curvature * hypot(dx[0], dx[1]) / POINTS;
+  }
+  return sum;
+}
+
+// The walls' bending, and penalties where the area steps back or grows (falls) by less than a tenth of its mean pace, and
+// where a wall bends with a radius of less than 0.6 of the eye's height.
+static double cost(const Problem *problem, const double at[SHARES]) {
+  const CwDesign *design = problem->design;
+  CwMeridianCurve hub, shroud;
+  CwPassageStation station[STATIONS];
+  double share[SHARES], outside = 0, penalty = 0;
+  for (int i = 0; i < SHARES; i++) {
+    share[i] = cw_case_given(problem->given[i]) ? problem->given[i] : fmin(largest_share[i], fmax(least_share[i], at[i]));
+    outside += pow(at[i] - share[i], 2);
+  }
+  cw_meridian_walls(design, share[0], share[1], share[2], &hub, &shroud);
+  cw_meridian_passage(&hub, &shroud, design->outlet_diameter / 2, STATIONS, station);
+  const double first = station[0].area, change = station[STATIONS - 1].area - first, trend = change < 0 ? -1 : 1;
+  for (int i = 1; i < STATIONS; i++) {
+    const double step = trend * (station[i].area - station[i - 1].area);
+    const double lacking = fmax(0, 0.1 * fabs(change) / (STATIONS - 1) - step) / first;
+    penalty += 1e4 * (STATIONS - 1) * lacking * lacking;
+  }
+  const double width = 0.5 * (design->inlet_diameter - design->hub_diameter);
+  double sharp[2];
+  const double bent = width * (bending(&hub, &sharp[0]) + bending(&shroud, &sharp[1]));
+  const double tight = fmax(0, 0.6 * width * fmax(sharp[0], sharp[1]) - 1);
+  return bent + penalty + 100 * (outside + tight * tight);
+}
+
+// Nelder and Mead, A simplex method for function minimization, Computer Journal 7 (1965), from `best` on.
+static double descend(const Problem *problem, double best[SHARES]) {
+  static const double step[SHARES] = {0.3, 0.1, 0.1};
+  double corner[SHARES + 1][SHARES], value[SHARES + 1];
+  for (int i = 0; i <= SHARES; i++) {
+    memcpy(corner[i], best, sizeof corner[i]);
+    if (i > 0)
+      corner[i][i - 1] += step[i - 1];
+    value[i] = cost(problem, corner[i]);
+  }
+  for (int round = 0; round < ROUNDS; round++) {
+    for (int i = 1; i <= SHARES; i++) // sorted, the best first
+      for (int j = i; j > 0 && value[j] < value[j - 1]; j--)
+        for (int k = -1; k < SHARES; k++) {
+          double *a = k < 0 ? &value[j] : &corner[j][k], *b = k < 0 ? &value[j - 1] : &corner[j - 1][k];
+          const double kept = *a;
+          *a = *b;
+          *b = kept;
+        }
+    double size = 0, centre[SHARES] = {0}, mirrored[SHARES], further[SHARES];
+    for (int i = 0; i < SHARES; i++)
+      for (int k = 0; k < SHARES; k++) {
+        centre[k] += corner[i][k] / SHARES;
+        size = fmax(size, fabs(corner[i + 1][k] - corner[0][k]));
+      }
+    if (size < 2e-4)
+      break;
+    double *worst = corner[SHARES];
+    for (int k = 0; k < SHARES; k++)
+      mirrored[k] = 2 * centre[k] - worst[k];
+    const double mirrored_value = cost(problem, mirrored);
+    // Further out where the mirrored corner is the best, else back towards the centre where it is no better than others.
+    const double reach = mirrored_value < value[0] ? 2 : mirrored_value < value[SHARES] ? 0.5 : -0.5;
+    double further_value = HUGE_VAL;
+    if (mirrored_value < value[0] || mirrored_value >= value[SHARES - 1]) {
+      for (int k = 0; k < SHARES; k++)
+        further[k] = centre[k] + reach * (centre[k] - worst[k]);
+      further_value = cost(problem, further);
+    }
+    if (further_value < fmin(mirrored_value, value[SHARES])) {
+      memcpy(worst, further, sizeof further);
+      value[SHARES] = further_value;
+    } else if (mirrored_value < value[SHARES]) {
+      memcpy(worst, mirrored, sizeof mirrored);
+      value[SHARES] = mirrored_value;
+    } else {
+      for (int i = 1; i <= SHARES; i++) {
+        for (int k = 0; k < SHARES; k++)
+          corner[i][k] = 0.5 * (corner[i][k] + corner[0][k]);
+        value[i] = cost(problem, corner[i]);
+      }
+    }
+  }
+  int least = 0;
+  for (int i = 1; i <= SHARES; i++)
+    if (value[i] < value[least])
+      least = i;
+  memcpy(best, corner[least], sizeof corner[least]);
+  return value[least];
+}
+
+void cw_meridian_shape(const CwImpellerTable *table, CwDesign *design) {
+  // A shroud that begins to turn late, and one that turns early: between them the penalty may have a ridge.
+  static const double start[3][SHARES] = {{1.8, 0.7, 0.05}, {1.8, 0.2, 0.5}, {2.2, 0.1, 0.7}};
+  const double given[SHARES] = {table->hub_pole_radial, table->shroud_pole_axial, table->shroud_pole_radial};
+  const Problem problem = {design, given};
+  double best[SHARES] = {0}, least = HUGE_VAL;
+  for (int i = 0; i < 3; i++) {
+    double found[SHARES];
+    for (int k = 0; k < SHARES; k++)
+      found[k] = cw_case_given(given[k]) ? given[k] : start[i][k];
+    descend(&problem, found);
+    const double value = descend(&problem, found); // a simplex that has become flat begins anew
+    if (value < least)
+      memcpy(best, found, sizeof best);
+    least = fmin(least, value);
+  }
+  static const int quantity[SHARES] = {CW_DESIGN_hub_pole_radial, CW_DESIGN_shroud_pole_axial,
+                                       CW_DESIGN_shroud_pole_radial};
+  double *share[SHARES] = {&design->hub_pole_radial, &design->shroud_pole_axial, &design->shroud_pole_radial};
+  for (int i = 0; i < SHARES; i++) {
+    const int open = !cw_case_given(given[i]);
+    *share[i] = open ? round(1e3 * fmin(largest_share[i], fmax(least_share[i], best[i]))) / 1e3 : given[i];
+    design->source[quantity[i]] = open ? "monotone passage area with the least bending" : "case";
+  }
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Where the inner poles of hub and shroud lie: the walls with the least bending among those between which the passage's
+// area is monotone from the eye to D2.
+#ifndef CUTWATER_GEOMETRY_MERIDIAN_SHAPE_H
+#define CUTWATER_GEOMETRY_MERIDIAN_SHAPE_H
+
+#include "geometry/hydraulic_design.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Sets hub_pole_radial, shroud_pole_axial and shroud_pole_radial of a design whose main dimensions are known: those given
+// (not NAN) as they are, the others solved for to 0.001. Same dimensions, same shares.
+void cw_meridian_shape(const CwImpellerTable *given, CwDesign *design);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
