@@ -144,7 +144,7 @@ void Maker::fill(CwBladePatch &patch) {
 // Bevel and cut, both from the suction to the pressure side.
 void Maker::trailing_points(double p_bevel) {
   const bool round = design->trailing_edge == CW_EDGE_ROUNDED;
-  const int points = round || design->trailing_edge == CW_EDGE_SHARP ? 33 : 5;
+  const int points = round || design->trailing_edge == CW_EDGE_SHARP ? 33 : 9;
   const CwBladeSection &middle = shape.section[CW_SPAN_POINTS / 2];
   const double theta_bevel = cw_blade_bevel_theta(&middle, p_bevel);
   for (int i = 0; i < points; i++) {
@@ -169,7 +169,7 @@ void Maker::trailing_points(double p_bevel) {
 
 void Maker::points() {
   const bool fillets = design->root_fillet_radius > 0;
-  const int side_points = 121, nose_points = 49;
+  const int side_points = 181, nose_points = 49;
   const CwTrailingEdge edge = design->trailing_edge;
   const CwBladeSection &middle = shape.section[CW_SPAN_POINTS / 2];
   shape.has_bevel = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;

@@ -48,7 +48,7 @@ static double bending_of(const CwDesign *design, const double share[3]) {
 // From low to high specific speed, of both families, the area grows all the way from the eye to D2, and the shroud bends
 // gently.
 static void area_is_monotone(void **state) {
-  static const double duty[][2] = {{20, 20}, {18, 16}, {25, 10}, {60, 12}, {200, 15}, {300, 10}}; // m3/h, m at 1450 rpm
+  static const double duty[][2] = {{30, 20}, {40, 20}, {25, 10}, {60, 12}, {200, 15}, {300, 10}}; // m3/h, m at 1450 rpm
   assert_true(reversal_of(&paper_design) == 0 && paper_design.passage_area_reversal == 0);
   for (int i = 0; i < 12; i++) {
     CwCase table;
@@ -108,11 +108,11 @@ static void given_poles_are_kept(void **state) {
   table.impeller.shroud_pole_radial = 0.022;
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_true(design.hub_pole_radial == 1.471 && design.shroud_pole_axial == 0.431 && design.shroud_pole_radial == 0.022);
-  assert_true(design.passage_area_reversal > 0.03);
+  assert_true(design.passage_area_reversal > 0.04);
   table.impeller.shroud_pole_axial = table.impeller.shroud_pole_radial = NAN;
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_true(design.hub_pole_radial == 1.471);
-  assert_true(design.passage_area_reversal < 0.02);
+  assert_true(design.passage_area_reversal < 0.03);
 }
 
 int main(void) {
