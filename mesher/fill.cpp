@@ -178,7 +178,7 @@ CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   const double(*inner)[3] = input->inner;
   int32_t inner_count = input->inner_count;
   if (!inner) {
-    CW_TRY(cw_fill_points(input, clearance, &inner_count, &made));
+    CW_TRY(cw_fill_points(input, clearance, &inner_count, &made, nullptr));
     inner = made;
   }
   try {

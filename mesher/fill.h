@@ -8,6 +8,7 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/lattice_core.h"
 #include "mesher/patch_mesh.h"
 
 #ifdef __cplusplus
@@ -24,8 +25,10 @@ typedef struct {
   const char *name; // for messages: "rotor region 3"
   // The last `open_count` triangles keep points out by the distance alone, not by their spheres:
   // the caller sees to these. `inner` where given: the inner points, which are else those of cw_fill_points.
+  // `inner_site`, where given too: their places in the lattice.
   int32_t open_count, inner_count;
   const double (*inner)[3];
+  const CwLatticeSite *inner_site;
 } CwFillInput;
 
 // How the boundary was recovered.

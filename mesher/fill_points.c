@@ -30,11 +30,12 @@ typedef struct {
   int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
   int32_t list_count;   // triangles that reach it, from list; 0: all of it is inside
   int64_t list;
+  int clear;  // no triangle is in it
   int counts; // its centre is inside: its leaves count for the fit of the spacing
 } Cell;
 
 typedef struct {
-  uint64_t key; // half units: y, x, z from the high end
+  uint64_t key; // as in CwLatticeSite
   int32_t cell, level;
 } Place;
 
@@ -202,6 +203,28 @@ static void child_of(const int32_t at[3], int level, int child, int32_t corner[3
     corner[i] = at[i] + ((child >> i & 1) << (level - 1));
 }
 
+// Whether no triangle reaches into the box of a cell, as far as their own boxes tell. They keep no distance here, as
+// those in the tree do.
+static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
+  const CwFillInput *input = tree->input;
+  double low[3], high[3];
+  for (int i = 0; i < 3; i++) {
+    low[i] = tree->origin[i] + tree->unit * at[i];
+    high[i] = tree->origin[i] + tree->unit * (at[i] + (1 << level));
+  }
+  for (int32_t k = 0; k < list_count; k++) {
+    const int32_t *q = input->triangle[tree->list[list + k]];
+    const double *a = input->x[q[0]], *b = input->x[q[1]], *c = input->x[q[2]];
+    int apart = 0;
+    for (int i = 0; i < 3; i++)
+      apart |= ((a[i] < low[i]) & (b[i] < low[i]) & (c[i] < low[i])) |
+               ((a[i] > high[i]) & (b[i] > high[i]) & (c[i] > high[i]));
+    if (!apart)
+      return 0;
+  }
+  return 1;
+}
+
 // Cuts down to coarse cells; the list of the cell's triangles stands at the end of tree->list. *kept: it is
 // in use there.
 static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
@@ -213,11 +236,12 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
   centre_of(tree, at, level, centre);
   CW_TRY(wanted_size(tree->input, centre, &size));
   if (list_count == 0 || level == 0 || edge <= coarse * lattice_constant * size) {
+    int clear = is_clear(tree, at, level, list, list_count);
     CW_TRY(test_inside(tree, centre, &inside));
     if (list_count == 0 && !inside)
       goto done;
     ROOM(tree->cell, tree->cell_space, tree->cell_count + 1);
-    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, inside};
+    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, clear, inside};
     *kept = 1;
     goto done;
   }
@@ -249,11 +273,6 @@ done:
   return status;
 }
 
-// 21 bits an axis.
-static uint64_t key_of(const int32_t at[3]) {
-  return (uint64_t)at[1] << 42 | (uint64_t)at[0] << 21 | (uint64_t)at[2];
-}
-
 // Cuts down to the wanted spacing; counts, or stores the corners and centres of the leaves.
 static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int level, int store) {
   CwStatus status = CW_OK;
@@ -279,7 +298,7 @@ static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int leve
     int32_t there[3];
     for (int i = 0; i < 3; i++)
       there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
-    uint64_t key = key_of(there), *seen = &tree->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
+    uint64_t key = cw_lattice_key(there), *seen = &tree->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
     if (*seen != key) // of equal places the first one counts
       tree->place[tree->place_count++] = (Place){key, cell, level};
     *seen = key;
@@ -370,9 +389,10 @@ static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alon
 
 // Of all places, each once, those that are inside and not forbidden. A line along z is cut once for all its
 // places: near the boundary, where the jitter would make a difference, they are forbidden.
-static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3]) {
+static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   double(*points)[3] = NULL;
+  CwLatticeSite *sites = NULL;
   const double *z = NULL;
   int64_t unique = 0;
   int32_t kept = 0, crossings = 0;
@@ -382,14 +402,16 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3]) {
   CW_REQUIRE(unique < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
   CW_NEW(points, unique);
+  if (site)
+    CW_NEW(sites, unique);
   for (int64_t k = 0; k < tree->place_count; k++) {
     const Place *place = &tree->place[k];
     if (k && place->key == place[-1].key)
       continue;
     const Cell *cell = &tree->cell[place->cell];
-    const int32_t half[3] = {(int32_t)(place->key >> 21 & 0x1fffff), (int32_t)(place->key >> 42),
-                             (int32_t)(place->key & 0x1fffff)};
+    int32_t half[3];
     double p[3], fixed[3];
+    cw_lattice_at(place->key, half);
     for (int i = 0; i < 3; i++) {
       fixed[i] = tree->origin[i] + tree->unit * 0.5 * half[i];
       p[i] = fixed[i] + tree->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
@@ -405,17 +427,24 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3]) {
       if (!inside || is_forbidden(tree, cell, p))
         continue;
     }
+    if (site)
+      sites[kept] = (CwLatticeSite){place->key, place->level, cell->clear};
     memcpy(points[kept++], p, sizeof p);
   }
   *count = kept;
   *x = points;
   points = NULL;
+  if (site)
+    *site = sites;
+  sites = NULL;
 done:
   free(points);
+  free(sites);
   return status;
 }
 
-CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3]) {
+CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3],
+                        CwLatticeSite **site) {
   CwStatus status = CW_OK;
   Tree whole = {.input = input, .fit = 1.0, .clearance = clearance}, *tree = &whole;
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -423,6 +452,8 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   int above = 0, kept;
   *count = 0;
   *x = NULL;
+  if (site)
+    *site = NULL;
   CW_TRY(cw_columns_make(input, &tree->columns));
   CW_NEW(tree->box, input->triangle_count);
   CW_NEW(tree->ball, input->triangle_count);
@@ -455,7 +486,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   memset(tree->seen, 0xff, sizeof *tree->seen << SEEN);
   CW_TRY(cut_cells(tree, 1));
   CW_TRY(sort_places(tree));
-  CW_TRY(collect(tree, count, x));
+  CW_TRY(collect(tree, count, x, site));
 done:
   free(tree->box);
   free(tree->ball);

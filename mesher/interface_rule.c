@@ -24,13 +24,13 @@ int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, in
 
 // Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of front and caps.
 static CwStatus candidates(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
-                           double (**x)[3]) {
+                           double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   CwRegionBoundary boundary = {0};
   CW_TRY(cw_region_boundary_make(skeleton, region, 1, &boundary));
   CwFillInput input = cw_region_fill_input(skeleton, &boundary, name);
   input.open_count = boundary.interface_count;
-  CW_TRY(cw_fill_points(&input, 1.0, count, x));
+  CW_TRY(cw_fill_points(&input, 1.0, count, x, site));
 done:
   cw_region_boundary_free(&boundary);
   return status;
@@ -137,7 +137,7 @@ CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, in
   *size = 0;
   CW_NEW(made, sizeof owned);
   *size = sizeof owned;
-  CW_TRY(candidates(skeleton, region, name, &count, &candidate));
+  CW_TRY(candidates(skeleton, region, name, &count, &candidate, NULL));
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
     if (cw_interface_owner(skeleton, number, i) != region) continue;
     CW_TRY(refine(skeleton, i, count, (const double(*)[3])candidate, &made, size));
@@ -210,12 +210,12 @@ done:
 }
 
 CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
-                                  double (**x)[3]) {
+                                  double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   CwBeside beside = {0};
   uint8_t *dropped = NULL;
   int32_t kept = 0;
-  CW_TRY(candidates(skeleton, region, name, count, x));
+  CW_TRY(candidates(skeleton, region, name, count, x, site));
   CW_NEW(dropped, *count);
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
     const CwInterfaceOutline *interface = &skeleton->outline[i];
@@ -234,7 +234,9 @@ CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, co
     cw_beside_free(&beside);
   }
   for (int32_t i = 0; i < *count; i++) {
-    if (!dropped[i]) memmove((*x)[kept++], (*x)[i], sizeof **x);
+    if (dropped[i]) continue;
+    (*site)[kept] = (*site)[i];
+    memmove((*x)[kept++], (*x)[i], sizeof **x);
   }
   *count = kept;
 done:
@@ -242,7 +244,9 @@ done:
   free(dropped);
   if (status != CW_OK) {
     free(*x);
+    free(*site);
     *x = NULL;
+    *site = NULL;
   }
   return status;
 }

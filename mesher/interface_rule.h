@@ -9,6 +9,7 @@
 #ifndef CUTWATER_MESHER_INTERFACE_RULE_H
 #define CUTWATER_MESHER_INTERFACE_RULE_H
 
+#include "mesher/lattice_core.h"
 #include "mesher/skeleton.h"
 
 // Region (0-based) of the smaller number beside interface `outline`.
@@ -29,8 +30,9 @@ typedef struct {
 // Takes up the results of all regions (NULL: owns nothing): new nodes, new interface triangles.
 CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInterfaceRuleCounts *counts);
 
-// The inner points of a region: its candidates outside of all spheres of its interfaces. Caller frees *x.
+// The inner points of a region: its candidates outside of all spheres of its interfaces, and their places in the
+// lattice. Caller frees *x and *site.
 CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
-                                  double (**x)[3]);
+                                  double (**x)[3], CwLatticeSite **site);
 
 #endif

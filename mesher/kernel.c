@@ -11,6 +11,7 @@
 #include "mesher/delaunay.h"
 #include "mesher/fill_points.h"
 #include "mesher/fill_shape.h"
+#include "mesher/kernel_core.h"
 #include "mesher/kernel_facets.h"
 #include "mesher/kernel_flat.h"
 #include "mesher/kernel_recover.h"
@@ -19,23 +20,25 @@
 #include "mesher/tet_mesh.h"
 #include "pipeline/log.h"
 
-// Boundary points, then inner candidates, in the mesh but not yet connected.
-static CwStatus all_points(const CwFillInput *input, int32_t *count, CwDelaunay *mesh) {
+// Boundary points, then inner candidates, in the mesh but not yet connected; the deep ones of the lattice in the
+// core.
+static CwStatus all_points(const CwFillInput *input, CwKernelCore *core, int32_t *count, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
   double(*made)[3] = NULL, (*x)[3] = NULL;
+  CwLatticeSite *made_site = NULL;
   const double(*inner)[3] = input->inner;
+  const CwLatticeSite *site = input->inner_site;
   int32_t inner_count = input->inner_count;
   if (!inner) {
-    CW_TRY(cw_fill_points(input, 1.0, &inner_count, &made));
+    CW_TRY(cw_fill_points(input, 1.0, &inner_count, &made, &made_site));
     inner = (const double(*)[3])made;
+    site = made_site;
   }
-  CW_NEW(x, input->point_count + inner_count);
-  memcpy(x, input->x, (size_t)input->point_count * sizeof *x);
-  memcpy(x + input->point_count, inner, (size_t)inner_count * sizeof *x);
-  *count = input->point_count + inner_count;
+  CW_TRY(cw_kernel_core_make(input, inner_count, inner, site, core, count, &x));
   CW_TRY(cw_delaunay_order(*count, (const double(*)[3])x, mesh));
 done:
   free(made);
+  free(made_site);
   free(x);
   return status;
 }
@@ -171,6 +174,7 @@ done:
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwDelaunay mesh = {0};
+  CwKernelCore core = {0};
   CwFacets facets = {0};
   CwSplits splits = {0};
   CwTetImproved improved;
@@ -179,9 +183,10 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   int good = 1;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
-  CW_TRY(all_points(input, &count, &mesh));
+  CW_TRY(all_points(input, &core, &count, &mesh));
   give_back();
   CW_TRY(cw_delaunay_connect(&mesh));
+  CW_TRY(cw_kernel_core_carve(&core, input->name, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
   CW_TRY(keep_inside(input, &facets, &mesh));
@@ -198,18 +203,20 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
     status = CW_RETRY;
     goto done;
   }
-  CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
+  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
   CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
   if (raised)
-    CW_TRY(cw_tet_improve_mesh(&mesh, input->point_count, &count, &improved));
-  CW_TRY(cw_tet_mesh_take(&mesh, input->point_count, count, fill));
+    CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
+  CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
+  CW_TRY(cw_kernel_core_append(&core, fill));
   cw_log_debug(
-      "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
-      input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
+      "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+      input->name, fill->tetrahedron_count, core.tet_count, improved.edges_removed, improved.faces_removed,
       improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
 done:
   cw_splits_free(&splits);
   cw_facets_free(&facets);
+  cw_kernel_core_free(&core);
   cw_delaunay_free(&mesh);
   if (status != CW_OK)
     cw_fill_free(fill);

@@ -297,6 +297,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CwStatus status = CW_OK;
   Build build = {.context = context, .region = region};
   double(*inner)[3] = NULL;
+  CwLatticeSite *site = NULL;
   char name[64];
   memset(mesh, 0, sizeof *mesh);
   snprintf(name, sizeof name, "%s region %d", context->domain, region + 1);
@@ -307,8 +308,9 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   CW_TRY(cw_region_boundary_make(context->skeleton, region, 0, &build.boundary));
   CwFillInput input = cw_region_fill_input(context->skeleton, &build.boundary, name);
   if (context->skeleton->planned_triangle) {
-    CW_TRY(cw_interface_rule_points(context->skeleton, region, name, &input.inner_count, &inner));
+    CW_TRY(cw_interface_rule_points(context->skeleton, region, name, &input.inner_count, &inner, &site));
     input.inner = (const double(*)[3])inner;
+    input.inner_site = site;
   }
   CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
   mesh->way = build.fill.way;
@@ -328,6 +330,7 @@ done:
   cw_fill_free(&build.fill);
   cw_region_boundary_free(&build.boundary);
   free(inner);
+  free(site);
   free(build.place);
   free(build.column);
   return status;

@@ -4,7 +4,7 @@
 // angle in degrees, mean ratio.
 // Use: fill ring EDGE_LENGTH SURFACE       writes a ring-shaped surface with six blade-shaped voids
 //      fill region REGION.h5 SURFACE       writes the inner boundary of a region of the mesher
-//      fill kernel|tetgen SURFACE          fills it
+//      fill kernel|tetgen SURFACE GROWTH   fills it; sizes are those of the surface and grow from it so
 //      fill quality MESH                   of a mesh of somebody else
 //      fill shape FILE ...                 shapes of the tetrahedra of regions or meshes together, see print_shapes
 // Surfaces and meshes are MSH 2.2 files (text).
@@ -217,8 +217,8 @@ static double size_at(const void *context, const double x[3]) {
   return cw_size_grid_at(context, x);
 }
 
-// Sizes as the surface has them, growing by 0.15 a length into the inside.
-static void make_size(const Mesh *mesh, CwSizeGrid *grid) {
+// Sizes as the surface has them, growing by `growth` a length into the inside.
+static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
   double low[3], high[3], mean = 0.0;
   for (int i = 0; i < 3; i++) {
     low[i] = high[i] = mesh->x[0][i];
@@ -240,7 +240,7 @@ static void make_size(const Mesh *mesh, CwSizeGrid *grid) {
       x[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3.0;
     cw_size_grid_seed(grid, x, length[t]);
   }
-  check(cw_size_grid_spread(grid, 0.15, NULL));
+  check(cw_size_grid_spread(grid, growth, NULL));
   free(length);
 }
 
@@ -385,12 +385,12 @@ int main(int argc, char **argv) {
     read_mesh(argv[2], &mesh);
     printf("%d %d ", mesh.triangle_count, mesh.tetrahedron_count);
     print_quality(mesh.tetrahedron_count, (const int32_t(*)[4])mesh.tetrahedron, (const double(*)[3])mesh.x);
-  } else if (argc == 3 && (!strcmp(argv[1], "kernel") || !strcmp(argv[1], "tetgen"))) {
+  } else if (argc == 4 && (!strcmp(argv[1], "kernel") || !strcmp(argv[1], "tetgen"))) {
     CwSizeGrid grid;
     CwFill fill;
     check(cw_log_open("bench", NULL, 1, getenv("CUTWATER_VERBOSE") != NULL));
     read_mesh(argv[2], &mesh);
-    make_size(&mesh, &grid);
+    make_size(&mesh, atof(argv[3]), &grid);
     CwFillInput input = {.point_count = mesh.point_count,
                          .x = (const double(*)[3])mesh.x,
                          .triangle_count = mesh.triangle_count,
@@ -409,7 +409,7 @@ int main(int argc, char **argv) {
   } else {
     fprintf(
         stderr,
-        "use: fill ring EDGE_LENGTH SURFACE | region REGION.h5 SURFACE | kernel SURFACE | tetgen SURFACE | "
+        "use: fill ring EDGE_LENGTH SURFACE | region REGION.h5 SURFACE | kernel|tetgen SURFACE GROWTH | "
         "quality MESH | shape FILE ...\n");
     return 2;
   }

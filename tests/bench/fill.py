@@ -5,9 +5,10 @@
 
 Use, from the top of the source:
   tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...]
-    [--repeat N] [--cores N ...] [--delaunay]
+    [--growth G] [--repeat N] [--cores N ...] [--delaunay]
 Surfaces are a ring (0.26 m across) with six blade-shaped voids, for each edge length in m, and the inner
-boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Seconds are user time of one core, the
+boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Sizes grow from the surface by G a
+length, 0.15 by default; gmsh follows its own rule. Seconds are user time of one core, the
 least of N runs in turn; memory is the peak less what stood before. Each way runs alone (cores 1) and as two
 processes at once (cores 2, the mean of both), which share the memory. gmsh chooses its own number of
 tetrahedra. The last column is our rate over that of the way.
@@ -39,9 +40,9 @@ def compile_program(build, folder):
     return program
 
 
-def run_ours(program, way, surface):
+def run_ours(program, way, surface, growth):
     """triangles, tets, seconds, bytes a tet, aspect mean, aspect max, least dihedral, mean ratio"""
-    done = subprocess.run([str(program), way, str(surface)], capture_output=True, text=True)
+    done = subprocess.run([str(program), way, str(surface), str(growth)], capture_output=True, text=True)
     if done.returncode:
         return done.stderr.strip().split("\n")[-1]
     words = done.stdout.split()
@@ -93,8 +94,8 @@ def at_once(way, cores):
 
 
 def compare(program, title, surface, shells, words, delaunay):
-    ways = [("kernel", lambda: run_ours(program, "kernel", surface)),
-            ("tetgen", lambda: run_ours(program, "tetgen", surface))]
+    ways = [("kernel", lambda: run_ours(program, "kernel", surface, words.growth)),
+            ("tetgen", lambda: run_ours(program, "tetgen", surface, words.growth))]
     if shutil.which("gmsh"):
         ways.append(("hxt", lambda: fill_by_gmsh(program, surface, shells, "hxt")))
         if delaunay:
@@ -129,6 +130,7 @@ def main():
     parser.add_argument("--ring", type=float, nargs="*", default=[0.004, 0.0025, 0.0016])
     parser.add_argument("--run", type=Path, nargs="*", default=[])
     parser.add_argument("--regions", nargs="*", help="names such as rotor-0001; all by default")
+    parser.add_argument("--growth", type=float, default=0.15)
     parser.add_argument("--repeat", type=int, default=1)
     parser.add_argument("--cores", type=int, nargs="*", default=[1, 2])
     parser.add_argument("--delaunay", action="store_true", help="gmsh's Delaunay mesher on the first surface")

@@ -39,7 +39,7 @@ static const double origin[3] = {0, 0, 0};
 static int32_t make(const Surface *s, const Field *field, double (**x)[3]) {
   CwFillInput input = input_of(s, field);
   int32_t count;
-  if (cw_fill_points(&input, 1.0, &count, x) != CW_OK)
+  if (cw_fill_points(&input, 1.0, &count, x, NULL) != CW_OK)
     fail_msg("%s", cw_fail_message());
   return count;
 }
@@ -175,10 +175,10 @@ static void wrong_size_field_is_an_error(void **unused) {
   surface_add_sphere(&s, origin, 0.05, 1, 1);
   Field field = {0, 0, 0};
   CwFillInput input = input_of(&s, &field);
-  assert_int_equal(cw_fill_points(&input, 1.0, &count, &x), CW_ERR_MESH);
+  assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, NULL), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "size field"));
   field.size = 1e-9;
-  assert_int_equal(cw_fill_points(&input, 1.0, &count, &x), CW_ERR_MESH);
+  assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, NULL), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "1e-5 of the region"));
   surface_free(&s);
 }
@@ -191,7 +191,7 @@ static void clearance_keeps_points_away(void **unused) {
   Field field = {h, 0, 0};
   CwFillInput input = input_of(&s, &field);
   int32_t count;
-  assert_int_equal(cw_fill_points(&input, 2.0, &count, &x), CW_OK);
+  assert_int_equal(cw_fill_points(&input, 2.0, &count, &x, NULL), CW_OK);
   assert_true(count > 1000);
   for (int32_t p = 0; p < count; p++)
     assert_true(sqrt(x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2]) < 0.05 - 0.95 * h);

@@ -159,7 +159,8 @@ static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
   for (int r = 0; r < 4; r++) {
     int32_t count;
     double(*x)[3];
-    Box::check(cw_interface_rule_points(&skeleton, r, "box", &count, &x));
+    CwLatticeSite *site;
+    Box::check(cw_interface_rule_points(&skeleton, r, "box", &count, &x, &site));
     assert_true(count > 100);
     for (int t = 0; t < skeleton.interface_triangle_count; t++) {
       if (skeleton.interface_region[t][0] != r && skeleton.interface_region[t][1] != r) continue;
@@ -184,6 +185,7 @@ static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
       }
     }
     free(x);
+    free(site);
   }
   for (void *bytes : refined) free(bytes);
 }
