@@ -15,11 +15,17 @@
 
 static const double TALLEST_COLUMN = 2.5; // of the edge length on the wall
 static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
+static const double TALLER = 1.3;         // than these, so that the last layer is no lower than LOW_LAST
 static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
-static const double LAST_LAYER = 1.0;     // its height over that of the tetrahedron above, at most
+static const double HOLLOW = 0.25;        // least rise of an edge over its length at a bend that is concave
+static const double LAST_LAYER = 1.0;     // its height over that of a regular tetrahedron above, at most
+static const double LOW_LAST = 0.75;      // the same where columns are at their tallest
+static const double LAST_IN_HOLLOW = 0.65; // the same at concave bends, times their cosine: tetrahedra there have two faces on
+                                           // the front, and are the flatter the sharper the bend is
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
+static const double LITTLE_GROWTH = 1.1;
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -35,12 +41,20 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// The tallest column that is fair where the cells have the size `size`: no taller than `tallest` such sizes, and its last
-// layer no taller than the tetrahedron above. Columns give up growth for it, never the first height.
-static double fair_height(double first, int count, double growth, double size, double tallest) {
-  double last = LAST_LAYER * REGULAR_HEIGHT * size;
+// Of a column from `first` up to a last layer of `last`, m; no layer grows by more than `growth`.
+static double column_height(double first, int count, double growth, double last) {
   if (count > 1) growth = fmin(growth, pow(fmax(last / first, 1), 1.0 / (count - 1)));
-  return fmax(EVEN_LAYERS * count * first, fmin(tallest * size, cw_layer_thickness(first, count, growth)));
+  return cw_layer_thickness(first, count, growth);
+}
+
+// The tallest column that is fair below cells of the size `size`: its last layer no taller than `last` of a regular
+// tetrahedron, itself no taller than `tallest` such sizes, or somewhat more where the last layer would be low. Columns give up
+// growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double last, double tallest) {
+  double full = column_height(first, count, growth, last * REGULAR_HEIGHT * size);
+  double low = column_height(first, count, growth, fmin(last, LOW_LAST) * REGULAR_HEIGHT * size);
+  double most = fmax(tallest * size, fmin(low, TALLER * tallest * size));
+  return fmax(EVEN_LAYERS * count * first, fmin(most, full));
 }
 
 static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
@@ -76,7 +90,7 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *target = &domain->patch_layers[sample->patch];
     double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size,
-                              TALLEST_COLUMN);
+                              LAST_LAYER, TALLEST_COLUMN);
     layers += sample->density * fmin(target->thickness, fair);
   }
   layers *= domain->layer_share;
@@ -247,13 +261,17 @@ done:
   return status;
 }
 
-// Least cosine of the normals of the triangles around each wall vertex to their mean.
-static CwStatus find_bends(const CwSkeleton *skeleton, double **cosine) {
+// How the wall lies about a vertex.
+typedef struct {
+  double normal[3]; // mean of the triangles, out of the domain
+  double cosine;    // least, of their normals to it
+  double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
+} Bend;
+
+static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   CwStatus status = CW_OK;
-  double(*mean)[3] = NULL;
-  CW_NEW(mean, skeleton->wall_count);
-  CW_NEW(*cosine, skeleton->wall_count);
-  for (int32_t v = 0; v < skeleton->wall_count; v++) (*cosine)[v] = 1;
+  CW_NEW(*bend, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) (*bend)[v].cosine = 1, (*bend)[v].rise = -1;
   for (int pass = 0; pass < 2; pass++) {
     for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
       const int32_t *corner = skeleton->wall_triangle[t];
@@ -263,16 +281,39 @@ static CwStatus find_bends(const CwSkeleton *skeleton, double **cosine) {
       cw_cross(u, v, normal);
       cw_unit(normal);
       for (int k = 0; k < 3; k++) {
-        double *of = mean[corner[k]];
-        for (int c = 0; pass == 0 && c < 3; c++) of[c] += normal[c];
-        if (pass == 1) (*cosine)[corner[k]] = fmin((*cosine)[corner[k]], cw_dot(normal, of));
+        Bend *at = &(*bend)[corner[k]];
+        for (int c = 0; pass == 0 && c < 3; c++) at->normal[c] += normal[c];
+        if (pass == 0) continue;
+        at->cosine = fmin(at->cosine, cw_dot(normal, at->normal));
+        for (int other = 1; other < 3; other++) {
+          double edge[3];
+          cw_sub(skeleton->wall_x[corner[k]], skeleton->wall_x[corner[(k + other) % 3]], edge);
+          cw_unit(edge);
+          at->rise = fmax(at->rise, cw_dot(edge, at->normal));
+        }
       }
     }
-    for (int32_t v = 0; pass == 0 && v < skeleton->wall_count; v++) cw_unit(mean[v]);
+    for (int32_t v = 0; pass == 0 && v < skeleton->wall_count; v++) cw_unit((*bend)[v].normal);
   }
 done:
-  free(mean);
   return status;
+}
+
+// The height of a column that is fair by the cells around it. The tetrahedron on it stands at the end of the column, where the size is
+// another than at the wall: the height is reckoned twice. Nowhere grow sizes faster than heights.
+static double fair_target(const CwDomain *domain, int32_t v, const Bend *bend) {
+  const double *x = domain->skeleton.wall_x[v];
+  int bent = bend->cosine < BEND, count = domain->layer_count;
+  double last = bent && bend->rise > HOLLOW ? LAST_IN_HOLLOW * bend->cosine : LAST_LAYER;
+  double size = cw_size_at(domain->size, x), height = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    double end[3];
+    for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend->normal[k];
+    double above = fmin(fmax(size, cw_size_at(domain->size, end)), size + HEIGHT_SLOPE * height);
+    height = fair_height(domain->first_height[v], count, domain->growth[v], above, last,
+                         bent ? TALLEST_AT_BEND : TALLEST_COLUMN);
+  }
+  return height;
 }
 
 // Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge: over all
@@ -312,7 +353,8 @@ typedef struct {
 
 typedef struct {
   CwDomain *domain;
-  const double *height, *bend;
+  const double *height;
+  const Bend *bend;
 } Columns;
 
 static CwStatus find_taken(void *context, int32_t t, void *out) {
@@ -332,7 +374,8 @@ static CwStatus find_taken(void *context, int32_t t, void *out) {
   cw_cross(u, v, normal);
   double h = cw_size_at(domain->size, centre);
   double weight = cw_norm(normal) / (h * h * h) * cw_orbit_face_copies(&skeleton->orbits, face);
-  double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, TALLEST_COLUMN);
+  double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, LAST_LAYER,
+                            TALLEST_COLUMN);
   *(Taken *)out = (Taken){weight * mean, weight * fmin(layers->thickness, fair)};
   return CW_OK;
 }
@@ -360,22 +403,21 @@ done:
   return status;
 }
 
-// The height of a column that is fair by the cells around it. Turned copies get that of their first: the size field is
+// Turned copies get that of their first: the size field is
 // symmetric only to within its grid.
 static CwStatus find_fair(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   const CwDomain *domain = columns->domain;
   if (cw_orbit_node_turns(&domain->skeleton.orbits, v) > 0) return CW_OK;
-  *(double *)out = fair_height(domain->first_height[v], domain->layer_count, domain->growth[v],
-                               cw_size_at(domain->size, domain->skeleton.wall_x[v]),
-                               columns->bend[v] < BEND ? TALLEST_AT_BEND : TALLEST_COLUMN);
+  *(double *)out = fair_target(domain, v, &columns->bend[v]);
   return CW_OK;
 }
 
 CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
-  double *bend = NULL, *fair = NULL;
+  Bend *bend = NULL;
+  double *fair = NULL;
   CW_TRY(find_bends(skeleton, &bend));
   CW_NEW(domain->first_height, skeleton->wall_count);
   CW_NEW(domain->target, skeleton->wall_count);
@@ -391,8 +433,9 @@ CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table) {
       domain->growth[v] = fmax(domain->growth[v], layers->growth);
     }
   }
-  // Away from there the first height grows no faster than columns of even layers can.
-  CW_TRY(grade(skeleton, HEIGHT_SLOPE / table->walls.layer_count, domain->first_height));
+  // Away from there the first height grows no faster than columns whose layers grow a little can.
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE / cw_layer_thickness(1, table->walls.layer_count, LITTLE_GROWTH),
+               domain->first_height));
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     const double *x = skeleton->wall_x[v];
     CW_REQUIRE(isfinite(domain->target[v]), CW_ERR_MESH,
@@ -430,8 +473,24 @@ done:
   return status;
 }
 
+// How tall columns could be by the case, gaps and repair where heights rise by the slope that holds for them.
+static CwStatus find_room(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  CW_NEW(domain->room, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    int thinned = skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    domain->room[v] = thinned ? skeleton->height[v]
+                              : cw_layer_thickness(domain->first_height[v], domain->layer_count, domain->growth[v]);
+  }
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE, domain->room));
+done:
+  return status;
+}
+
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
+  CW_TRY(find_room(domain));
   domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
                                       .domain = domain->name,
                                       .layer_count = table->walls.layer_count,
@@ -472,16 +531,18 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
 CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &domain->skeleton;
-  int32_t count = 0;
+  int32_t count = 0, layers = domain->layer_count;
+  double fraction[CW_LAYERS_MOST + 1];
   CW_NEW(*wall, skeleton->wall_triangle_count);
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     if (skeleton->wall_region[t] != region) continue;
     CwRatioWall *made = &(*wall)[count++];
-    *made = (CwRatioWall){.first = INFINITY, .growth = INFINITY};
+    made->first = INFINITY;
     for (int k = 0; k < 3; k++) {
       int32_t v = skeleton->wall_triangle[t][k];
+      cw_layer_fractions(domain->room[v], domain->first_height[v], layers, domain->growth[v], fraction);
       made->first = fmin(made->first, domain->first_height[v]);
-      made->growth = fmin(made->growth, domain->growth[v]);
+      made->last += domain->room[v] * (1 - fraction[layers - 1]) / 3;
       made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
     }
   }
@@ -494,10 +555,12 @@ void cw_domain_clear(CwDomain *domain) {
   cw_skeleton_free(&domain->skeleton);
   free(domain->first_height);
   free(domain->target);
+  free(domain->room);
   free(domain->growth);
   free(domain->number);
   free(domain->pair);
   domain->first_height = domain->target = domain->growth = NULL;
+  domain->room = NULL;
   domain->number = NULL;
   domain->pair = NULL;
 }

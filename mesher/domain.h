@@ -40,6 +40,7 @@ typedef struct {
   CwPlan plan;
   CwSkeleton skeleton;
   double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
+  double *room;                               // m, how tall the columns could be, once the layers are grown
   CwRegionContext context;
   int32_t *number, colours;                   // region numbers
   int32_t pair_count, (*pair)[2];             // adjacent regions

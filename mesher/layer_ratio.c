@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/layer_ratio.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "mesher/quality.h"
@@ -82,8 +81,8 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall 
       cw_sub(mesh->x[top[1]], mesh->x[top[0]], u);
       cw_sub(mesh->x[top[2]], mesh->x[top[0]], v);
       cw_cross(u, v, normal);
-      double first = wall[found->wall].first, height = 2 * tet / cw_norm(normal);
-      if (first > 1.5 * height || first * pow(wall[found->wall].growth, layers - 1) < 0.5 * height) continue;
+      double height = 2 * tet / cw_norm(normal);
+      if (wall[found->wall].first > 1.5 * height || wall[found->wall].last < 0.5 * height) continue;
       ratio[patch].within++;
       ratio[patch].fair_within += at >= 2 && at <= 5;
     }

@@ -17,14 +17,16 @@ extern const double cw_ratio_ends[CW_RATIO_BINS - 1];
 
 // What the case allows the column over a wall face.
 typedef struct {
-  double first, growth; // target of the first height, m, and largest ratio of neighbouring layers
-  int cramped;          // a gap or the repair leaves no room for the height asked
+  double first; // target of the first height, m
+  double last;  // of the tallest column that number and growth of the layers, gaps and the slope of heights allow: its last
+                // layer, m
+  int cramped;  // a gap or the repair leaves no room for the height asked
 } CwRatioWall;
 
 typedef struct {
   int64_t bin[CW_RATIO_BINS];
   // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half of
-  // the tetrahedron, and the number of layers made reaches half of it with the growth allowed. And fair ones among them.
+  // the tetrahedron, and the last could reach half of it. And fair ones among them.
   int64_t within, fair_within;
 } CwLayerRatio;
 

@@ -20,7 +20,7 @@ static CwStatus count(double height, int with_tet, CwRatioWall wall, CwLayerRati
   return cw_layer_ratio(&mesh, 2, &wall, 2, ratio);
 }
 
-static const CwRatioWall WALL = {.first = 0.4, .growth = 1.2};
+static const CwRatioWall WALL = {.first = 0.4, .last = 0.48};
 
 static void last_layer_over_the_tetrahedron(void **state) {
   CwLayerRatio ratio[2] = {0};
@@ -38,8 +38,8 @@ static void layers_that_reach_the_tetrahedron(void **state) {
   CwRatioWall cramped = WALL, thick = WALL, even = WALL;
   cramped.cramped = 1;
   thick.first = 1.4;
-  even.growth = 1;
-  assert_int_equal(count(0.9, 1, WALL, ratio), CW_OK); // half of it is 0.45, 0.4 x 1.2 is 0.48
+  even.last = 0.4;
+  assert_int_equal(count(0.9, 1, WALL, ratio), CW_OK); // half of it is 0.45, below 0.48
   assert_int_equal(ratio[1].within, 1);
   assert_int_equal(ratio[1].fair_within, 1);
   assert_int_equal(count(1.8, 1, WALL, ratio), CW_OK); // 1 / 1.8 is fair, but by the case two layers would not do
