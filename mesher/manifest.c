@@ -8,6 +8,7 @@
 #include "mesher/layer_heights.h"
 #include "mesher/layers.h"
 #include "mesher/mesh_run.h"
+#include "mesher/tet_bound.h"
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
@@ -134,7 +135,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   CwQuality quality;
   int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
   double area[CW_PATCH_LIMIT] = {0}, most = 0, least = INFINITY, sum = 0, error = 0, predicted_sum = 0,
-         predicted_most = 0, predicted_least = INFINITY;
+         predicted_most = 0, predicted_least = INFINITY, allowed = CW_TET_BOUND_MOST;
   int32_t regions = domain->plan.region_count, tetgen = 0;
   cw_quality_start(&quality);
   json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
@@ -157,14 +158,17 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
     int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r);
     json_array_append_new(region_list,
-                          json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o}", "region", r + 1,
+                          json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1,
                                      "copy_of", first + 1, "number",
                                     domain->number[r],
                                     "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
                                     "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
                                     "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided,
                                     "tetgen", made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
-                                    "seconds", cw_json_number(run->region_seconds[d][r])));
+                                    "seconds", cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
+                                    cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
+                                    cw_json_number(made->dihedral_allowed)));
+    allowed = fmin(allowed, made->dihedral_allowed);
   }
   for (int32_t r = 0; r < regions; r++) {
     const CwRegionSummary *made = &run->summary[d][r];
@@ -199,6 +203,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));
   json_object_set_new(result, "tetrahedron_aspect_class", counts_json(quality.aspect_class, 8));
   json_object_set_new(result, "least_dihedral_deg", cw_json_number(quality.dihedral_least));
+  json_object_set_new(result, "least_dihedral_allowed_deg", cw_json_number(allowed));
   json_object_set_new(result, "greatest_dihedral_deg", cw_json_number(quality.dihedral_greatest));
   json_object_set_new(result, "least_dihedral_bins", counts_json(quality.dihedral_bin, 18));
   json_object_set_new(result, "prism_least_scaled_jacobian", cw_json_number(quality.prism_least_scaled_jacobian));

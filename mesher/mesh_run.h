@@ -22,6 +22,7 @@ typedef struct {
   CwLayerCoverage coverage[CW_PATCH_LIMIT];
   CwFillWay way;
   CwQuality quality;
+  double dihedral_allowed; // degrees: no filling of the region's boundary has a least angle above, see cw_tet_bound
   CwRegionFailure failure; // else nothing of the above holds
 } CwRegionSummary;
 

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "mesher/mesh_run.h"
+#include "mesher/region_boundary.h"
 #include "mesher/region_copy.h"
+#include "mesher/tet_bound.h"
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
@@ -131,6 +133,19 @@ done:
   return status;
 }
 
+// What the region's boundary allows the tetrahedra.
+static CwStatus bound_angles(const CwDomain *domain, int32_t region, double *allowed) {
+  CwStatus status = CW_OK;
+  CwRegionBoundary boundary = {0};
+  int32_t worst;
+  CW_TRY(cw_region_boundary_make(&domain->skeleton, region, 0, &boundary));
+  CwFillInput input = cw_region_fill_input(&domain->skeleton, &boundary, domain->name);
+  CW_TRY(cw_tet_bound(&input, allowed, &worst));
+done:
+  cw_region_boundary_free(&boundary);
+  return status;
+}
+
 // Makes the region, or takes it up from its file where an earlier run left it whole; then its turned copies likewise.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
@@ -155,6 +170,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
     if (!current) CW_TRY(cw_region_write(path, &mesh));
     CW_TRY(write_copies(run, domain, &mesh, &summary->quality));
     summarise(&mesh, summary);
+    CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
     CW_TRY(measure_layers(run, task.domain, task.index, &mesh, summary));
     remove(boundary_path); // of an earlier attempt
   }

@@ -54,42 +54,40 @@ static void normal_of(const CwFillInput *boundary, int32_t t, double n[3]) {
   cw_cross(u, v, n);
 }
 
-// Inner angle at an edge between two triangles, degrees from 0 to 360.
-static double inner_angle(const CwFillInput *boundary, int32_t t, int edge, int32_t other) {
-  double m[3], n[3], turn[3], along[3];
-  cw_sub(boundary->x[boundary->triangle[t][(edge + 1) % 3]], boundary->x[boundary->triangle[t][edge]], along);
-  normal_of(boundary, t, m);
-  normal_of(boundary, other, n);
-  cw_cross(m, n, turn); // along the edge where the boundary bends away from its normals
-  return 180.0 - atan2(cw_dot(turn, along) / cw_norm(along), cw_dot(m, n)) / degree;
+// Inner angle at an edge between two triangles with these normals, degrees; 90 where it is more.
+static double inner_angle(const double from[3], const double to[3], const double m[3], const double n[3]) {
+  double turn[3], along[3], cosine = cw_dot(m, n);
+  if (cosine >= 0.0) return 90.0;
+  cw_sub(to, from, along);
+  cw_cross(m, n, turn);
+  double sine = cw_dot(turn, along) / cw_norm(along); // above 0 where the boundary bends away from its normals
+  return sine > 0.0 ? 180.0 - atan2(sine, cosine) / degree : 90.0;
 }
 
-// Bound of the tetrahedron on a triangle.
-static double bound_of(const CwFillInput *boundary, int32_t t, const int32_t neighbour[3]) {
+// Bound of the tetrahedron on a triangle; anything not below `least` where it is none of the worst.
+static double bound_of(const CwFillInput *boundary, const double (*normal)[3], int32_t t, const int32_t neighbour[3],
+                       double least) {
   const int32_t *corner = boundary->triangle[t];
-  double angle[3], single[3], best = INFINITY;
-  int32_t apex[3];
+  const double(*at)[3] = boundary->x;
+  double angle[3], best = CW_TET_BOUND_MOST;
   for (int e = 0; e < 3; e++) {
-    int32_t other = neighbour[e];
-    apex[e] = -1;
-    angle[e] = 360.0;
-    if (other >= 0) {
-      apex[e] = boundary->triangle[other / 3][(other % 3 + 2) % 3];
-      angle[e] = inner_angle(boundary, t, e, other / 3);
-    }
+    const double *from = at[corner[e]], *to = at[corner[(e + 1) % 3]];
+    angle[e] = neighbour[e] >= 0 ? inner_angle(from, to, normal[t], normal[neighbour[e] / 3]) : 90.0;
     best = fmin(best, 0.5 * angle[e]);
   }
-  for (int e = 0; e < 3; e++) {
-    if (apex[e] < 0) continue;
+  for (int e = 0; e < 3 && best < least; e++) {
+    if (neighbour[e] < 0) continue;
+    int32_t apex = boundary->triangle[neighbour[e] / 3][(neighbour[e] + 2) % 3];
     // The normal points outward: (c - a) x (b - a) towards the fourth corner.
-    const double *x[4] = {boundary->x[corner[0]], boundary->x[corner[2]], boundary->x[corner[1]], boundary->x[apex[e]]};
+    const double *x[4] = {at[corner[0]], at[corner[2]], at[corner[1]], at[apex]};
     CwTetShape shape;
     cw_tet_shape(x, &shape);
-    single[e] = shape.dihedral_least;
-    for (int other = 0; other < 3; other++) {
-      if (apex[other] != apex[e]) single[e] = fmin(single[e], 0.5 * angle[other]);
+    double single = shape.dihedral_least;
+    for (int k = 0; k < 3; k++) {
+      int shared = neighbour[k] >= 0 && boundary->triangle[neighbour[k] / 3][(neighbour[k] + 2) % 3] == apex;
+      if (!shared) single = fmin(single, 0.5 * angle[k]);
     }
-    best = fmax(best, single[e]);
+    best = fmax(best, single);
   }
   return best;
 }
@@ -97,15 +95,19 @@ static double bound_of(const CwFillInput *boundary, int32_t t, const int32_t nei
 CwStatus cw_tet_bound(const CwFillInput *boundary, double *degrees, int32_t *worst) {
   CwStatus status = CW_OK;
   int32_t(*neighbour)[3] = NULL;
-  *degrees = INFINITY;
+  double(*normal)[3] = NULL;
+  *degrees = CW_TET_BOUND_MOST;
   *worst = -1;
   CW_NEW(neighbour, boundary->triangle_count);
+  CW_NEW(normal, boundary->triangle_count);
   CW_TRY(find_neighbours(boundary, neighbour));
+  for (int32_t t = 0; t < boundary->triangle_count; t++) normal_of(boundary, t, normal[t]);
   for (int32_t t = 0; t < boundary->triangle_count; t++) {
-    double bound = bound_of(boundary, t, neighbour[t]);
+    double bound = bound_of(boundary, (const double(*)[3])normal, t, neighbour[t], *degrees);
     if (bound < *degrees) *degrees = bound, *worst = t;
   }
 done:
+  free(normal);
   free(neighbour);
   return status;
 }

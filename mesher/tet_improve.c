@@ -35,7 +35,7 @@ CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
   tet->square = quality;
   for (int i = 0; i < 4; i++)
     w->mesh->point[tet->corner[i]].mark = w->pass;
-  return quality < CW_TET_IMPROVE ? cw_tet_push(w, t) : CW_OK;
+  return quality < w->limit ? cw_tet_push(w, t) : CW_OK;
 }
 
 CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count,
@@ -95,7 +95,7 @@ static CwStatus improve_list(CwTetWork *w, int passes, int move) {
     for (int32_t k = 0; k < w->bad_count; k++) {
       int32_t t = w->bad[k];
       int done_it = 0;
-      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= CW_TET_IMPROVE)
+      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= w->limit)
         continue;
       if (pass <= 1 || has_changed(w, t))
         CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
@@ -129,12 +129,18 @@ static double least_quality(const CwTetWork *w) {
 CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count,
                              CwTetImproved *improved) {
   CwStatus status = CW_OK;
-  CwTetWork w = {
-      .flips = {.mesh = mesh}, .mesh = mesh, .fixed_count = fixed_count, .source_count = *source_count};
+  CwTetWork w = {.flips = {.mesh = mesh},
+                 .mesh = mesh,
+                 .fixed_count = fixed_count,
+                 .source_count = *source_count,
+                 .limit = CW_TET_IMPROVE};
   CW_TRY(cw_tet_scan(&w));
   w.count.least_before = least_quality(&w);
   CW_TRY(improve_list(&w, 1, 0));
+  w.limit = CW_TET_TURN;
   CW_TRY(cw_tet_relax(&w));
+  CW_TRY(improve_list(&w, 1, 0));
+  w.limit = CW_TET_IMPROVE;
   CW_TRY(improve_list(&w, PASSES, 1));
   w.count.least_after = least_quality(&w);
   *source_count = w.source_count;

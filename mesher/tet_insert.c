@@ -4,8 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double worth = 0.02; // least gain: a point more must pay
-enum { CAVITY = 64, SIDES = CW_FLIP, PLACES = 4 * 3 + 1 + 6 };
+static const double worth = 0.02;   // least gain: a point more must pay
+static const double bad = 0.38;     // quality below which places round about are tried too
+static const double SPACING = 0.2;  // of these, over the mean edge
+enum { CAVITY = 64, SIDES = CW_FLIP, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
 
 // Tetrahedra to be taken away, and the faces of their hull, as 4 * tetrahedron + face.
 typedef struct {
@@ -81,7 +83,8 @@ static int is_filled(const CwTetWork *w, const Cavity *cavity, const double p[3]
   return fabs(made - old) <= 1e-9 * old;
 }
 
-// Places to try: over each boundary face, the middles of the tetrahedron, of its faces and of its edges.
+// Places to try: over each boundary face, the middles of the tetrahedron, of its faces and of its edges. Round a bad one
+// those in 14 directions too, on shells to the length of its mean edge.
 static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   const CwDelaunayTet *tet = &w->mesh->tet[t];
   const double *x[4];
@@ -111,42 +114,66 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
     for (int i = 0; i < 3; i++)
       place[count][i] = 0.5 * (x[cw_tet_edge[e][0]][i] + x[cw_tet_edge[e][1]][i]);
   }
+  if (tet->square >= bad)
+    return count;
+  CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
+  double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
+  for (int k = 0; k < 14 * SHELLS; k++, count++) {
+    const double *way = cw_tet_way[k % 14];
+    double radius = SPACING * edge * (double)(k / 14 + 1);
+    for (int i = 0; i < 3; i++)
+      place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * way[i];
+  }
   return count;
+}
+
+// The star from p to the hull of a cavity.
+static void make_hollow(const CwTetWork *w, const Cavity *cavity, CwHollow *hollow) {
+  hollow->count = cavity->side_count;
+  for (int s = 0; s < cavity->side_count; s++) {
+    const int32_t *c = w->mesh->tet[cavity->side[s] / 4].corner;
+    const int8_t *face = cw_tet_face[cavity->side[s] % 4];
+    hollow->face[s][0] = cw_tet_at(w, c[face[0]]);
+    hollow->face[s][1] = cw_tet_at(w, c[face[2]]);
+    hollow->face[s][2] = cw_tet_at(w, c[face[1]]);
+  }
+}
+
+// Grows the cavity for a point at p and moves the point to its best place there, in turn, while this gains. Returns the
+// best quality, of the cavity and place in *chosen and p; `best`, and leaves these alone, where there is no better one.
+static double best_from(CwTetWork *w, int32_t t, const double place[3], double aim, double best, Cavity *chosen,
+                        double p[3]) {
+  Cavity cavity;
+  CwHollow hollow;
+  double there[3];
+  memcpy(there, place, sizeof there);
+  for (int again = 0; again < AGAIN; again++) {
+    if (!grow(w, t, there, fmax(aim, best), &cavity) || !is_filled(w, &cavity, there))
+      break;
+    make_hollow(w, &cavity, &hollow);
+    double got = cw_hollow_best(&hollow, there, cw_hollow_quality(&hollow, there, -2.0));
+    if (got <= best)
+      break;
+    best = got;
+    *chosen = cavity;
+    memcpy(p, there, sizeof there);
+  }
+  return best;
 }
 
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
-  static const double aim[3] = {0.4, 0.25, 0.0};
-  double place[PLACES][3], best = w->mesh->tet[t].square + worth, p[3], quality[SIDES];
+  static const double aim[4] = {0.4, 0.32, 0.25, 0.0};
+  double place[PLACES][3], least = w->mesh->tet[t].square + worth, best = least, p[3], quality[SIDES];
   int32_t corner[SIDES][4], point;
-  int tries = candidates(w, t, place), found = 0;
-  Cavity cavity, chosen = {0};
-  CwHollow hollow;
+  int tries = candidates(w, t, place);
+  Cavity chosen = {0};
   *done_it = 0;
-  for (int a = 0; a < 3; a++) {
-    for (int k = 0; k < tries; k++) {
-      double there[3];
-      if (!grow(w, t, place[k], fmax(aim[a], best), &cavity) || !is_filled(w, &cavity, place[k]))
-        continue;
-      hollow.count = cavity.side_count;
-      for (int s = 0; s < cavity.side_count; s++) {
-        const int32_t *c = w->mesh->tet[cavity.side[s] / 4].corner;
-        const int8_t *face = cw_tet_face[cavity.side[s] % 4];
-        hollow.face[s][0] = cw_tet_at(w, c[face[0]]);
-        hollow.face[s][1] = cw_tet_at(w, c[face[2]]);
-        hollow.face[s][2] = cw_tet_at(w, c[face[1]]);
-      }
-      memcpy(there, place[k], sizeof there);
-      double got = cw_hollow_best(&hollow, there, cw_hollow_quality(&hollow, there, -2.0));
-      if (got <= best)
-        continue;
-      best = got;
-      found = 1;
-      chosen = cavity;
-      memcpy(p, there, sizeof p);
-    }
+  for (int a = 0; a < 4; a++) {
+    for (int k = 0; k < tries; k++)
+      best = best_from(w, t, place[k], aim[a], best, &chosen, p);
   }
-  if (!found)
+  if (best <= least)
     goto done;
   CW_TRY(cw_delaunay_add_point(w->mesh, p, w->source_count++, &point));
   for (int s = 0; s < chosen.side_count; s++) {

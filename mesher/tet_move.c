@@ -6,6 +6,12 @@
 
 static const double step_gain = 2e-3; // least gain of a move: smaller ones cost much and give little
 
+#define D 0.57735026918962573
+const double cw_tet_way[14][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},  {0, -1, 0}, {0, 0, 1},
+                                  {0, 0, -1}, {D, D, D},  {-D, D, D}, {D, -D, D}, {-D, -D, D},
+                                  {D, D, -D}, {-D, D, -D}, {D, -D, -D}, {-D, -D, -D}};
+#undef D
+
 // Least quality of the hollow's tetrahedra for the point at p; stops at `enough` and moves that face forward,
 // so that the next trial finds it first.
 double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough) {
@@ -32,9 +38,6 @@ double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough) {
 
 // Pattern search for the point of best least quality from p, which it moves; returns that quality.
 double cw_hollow_best(CwHollow *hollow, double p[3], double start) {
-  static const double way[14][3] = {{1, 0, 0},  {-1, 0, 0},  {0, 1, 0},   {0, -1, 0},  {0, 0, 1},
-                                    {0, 0, -1}, {1, 1, 1},   {-1, 1, 1},  {1, -1, 1},  {-1, -1, 1},
-                                    {1, 1, -1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, -1}};
   double best = start, mean[3] = {0, 0, 0}, square = 0.0;
   for (int k = 0; k < hollow->count; k++) {
     for (int c = 0; c < 3; c++) {
@@ -52,9 +55,9 @@ double cw_hollow_best(CwHollow *hollow, double p[3], double start) {
   int last = 0;
   for (double step = 0.2 * sqrt(square), end = 0.2 * step; step > end; step *= 0.5) {
     for (int tries = 0, k = last; tries < 14; tries++, k = (k + 1) % 14) {
-      double scale = k < 6 ? step : step * 0.57735026918962573, there[3];
+      double there[3];
       for (int i = 0; i < 3; i++)
-        there[i] = p[i] + scale * way[k][i];
+        there[i] = p[i] + step * cw_tet_way[k][i];
       q = cw_hollow_quality(hollow, there, best + step_gain);
       if (q <= best + step_gain)
         continue;

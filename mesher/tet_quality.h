@@ -57,8 +57,14 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 // Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.
 #define CW_TET_FLAT 1e-16
 
-// Least sine of the dihedral angles, and not above 2 shortest / longest edge: 0.943 for the regular
-// tetrahedron, -1 where it is flat or not positive. The sine at an edge is 6 V times the edge over the
+// What an aspect of 4 counts, as a square: the sine of 25 degrees; see below.
+#define CW_TET_SLENDER 0.1786
+// 16 times that: shortest over longest edge, squared, times this is the square of what the aspect counts.
+#define CW_TET_ASPECT (16.0 * CW_TET_SLENDER)
+
+// Least sine of the dihedral angles, and not above 1.69 shortest / longest edge: 0.943 for the regular tetrahedron, -1
+// where it is flat or not positive. Above an aspect of 4 the edges count by their root, so that a slender triangle of the
+// boundary, which nothing can help, does not hide flat angles. The sine at an edge is 6 V times the edge over the
 // (doubled) areas of its two faces. Where it is above `enough` only 1 is known, without division.
 static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3],
                                        const double d[3], double enough) {
@@ -72,9 +78,12 @@ static inline double cw_tet_quality_to(const double a[3], const double b[3], con
                              cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
   least = s.six * s.six * cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   double areas = n[0] * n[1] * n[2] * n[3];
-  if (least > squared * areas && 4.0 * shortest > squared * longest)
+  if (least > squared * areas && CW_TET_ASPECT * shortest > squared * longest)
     return 1.0;
-  return sqrt(cw_tet_less(least / areas, 4.0 * shortest / longest));
+  double aspect = CW_TET_ASPECT * shortest / longest;
+  if (aspect < CW_TET_SLENDER)
+    aspect = sqrt(CW_TET_SLENDER * aspect);
+  return sqrt(cw_tet_less(least / areas, aspect));
 }
 
 static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],

@@ -15,7 +15,7 @@ static CwStatus judge(CwTetWork *w, int32_t t) {
   const int32_t *c = tet->corner;
   tet->square = cw_tet_quality_to(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]),
                                   cw_tet_at(w, c[3]), regular);
-  return tet->square < CW_TET_IMPROVE ? cw_tet_push(w, t) : CW_OK;
+  return tet->square < w->limit ? cw_tet_push(w, t) : CW_OK;
 }
 
 CwStatus cw_tet_scan(CwTetWork *w) {

@@ -19,6 +19,8 @@ extern "C" {
 // Quality below which tetrahedra are improved: the sine of 25 (or 155) degrees. More costs time and gives no
 // better worst ones.
 #define CW_TET_IMPROVE 0.4226
+// The same for flips after points have moved: these are cheap.
+#define CW_TET_TURN 0.48
 // Least improvement, so that no two changes undo one another for ever.
 #define CW_TET_GAIN 1e-6
 
@@ -32,6 +34,7 @@ typedef struct {
   CwDelaunay *mesh;
   int32_t fixed_count, source_count;
   double stamp;
+  double limit; // quality below which tetrahedra are in the list
   uint64_t pass;
   int32_t *bad, bad_count, bad_space; // to look at in this pass
   int32_t *next, next_count, next_space;
@@ -46,6 +49,7 @@ typedef struct {
 
 extern const int8_t cw_tet_face[4][3]; // opposite each corner, outward
 extern const int8_t cw_tet_edge[6][2];
+extern const double cw_tet_way[14][3]; // unit vectors to the faces and corners of a cube
 
 static inline const double *cw_tet_at(const CwTetWork *w, int32_t p) {
   return w->mesh->point[p].x;

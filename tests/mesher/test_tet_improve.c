@@ -48,8 +48,11 @@ static void quality_by_hand(void **state) {
   NEAR(cw_tet_quality(a, b, c, d), sqrt(8.0) / 3.0, 1e-14);       // sine of arccos(1/3)
   NEAR(cw_tet_quality(a, b, corner, up), sqrt(2.0 / 3.0), 1e-14); // sine of arctan(sqrt 2)
   assert_true(cw_tet_quality(b, a, c, d) <= 0.0);
-  const double far_up[3] = {0.5, h / 3.0, 9.0}; // edges 9.02 over 1: 2 / 9.02
-  NEAR(cw_tet_quality(a, b, c, far_up), 2.0 / sqrt(81.0 + 1.0 / 3.0), 1e-14);
+  const double sine = sqrt(0.1786);              // what an aspect of 4 counts
+  const double tall[3] = {0.5, h / 3.0, 3.0};    // longest edge over shortest sqrt(28 / 3), below 4
+  const double far_up[3] = {0.5, h / 3.0, 12.0}; // sqrt(433 / 3), above 4: by the root
+  NEAR(cw_tet_quality(a, b, c, tall), 4.0 * sine / sqrt(28.0 / 3.0), 1e-14);
+  NEAR(cw_tet_quality(a, b, c, far_up), sine * sqrt(4.0 / sqrt(433.0 / 3.0)), 1e-14);
 }
 
 // An octahedron can be cut along each of its three diagonals; the boundary is the same. Started from the

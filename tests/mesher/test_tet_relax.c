@@ -67,7 +67,11 @@ static void shaken_points_become_even(void **state) {
   int32_t outside, count = lattice(8, 0.2, &outside, &x), moved = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh}, .mesh = &mesh, .fixed_count = outside, .source_count = count};
+  CwTetWork w = {.flips = {.mesh = &mesh},
+                 .mesh = &mesh,
+                 .limit = CW_TET_IMPROVE,
+                 .fixed_count = outside,
+                 .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   double six = shape_of(&w, &before);
   assert_int_equal(cw_tet_relax(&w), CW_OK);
@@ -104,7 +108,11 @@ static void lattice_stays(void **state) {
   int32_t outside, count = lattice(8, 1e-3, &outside, &x), deep = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh}, .mesh = &mesh, .fixed_count = outside, .source_count = count};
+  CwTetWork w = {.flips = {.mesh = &mesh},
+                 .mesh = &mesh,
+                 .limit = CW_TET_IMPROVE,
+                 .fixed_count = outside,
+                 .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   assert_int_equal(cw_tet_relax(&w), CW_OK);
   for (int32_t p = 0; p < mesh.point_count; p++) {

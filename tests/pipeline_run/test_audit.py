@@ -67,8 +67,12 @@ class Audit(unittest.TestCase):
 
     def test_tetrahedra_are_well_shaped(self):
         for domain in self.mesh["domains"]:
-            self.assertGreater(domain["least_dihedral_deg"], 2, domain["name"])
-            self.assertLess(domain["tetrahedron_aspect_max"], 20, domain["name"])
+            for region in domain["region_list"]:
+                name = f"{domain['name']} region {region['region']}"
+                allowed = region["least_dihedral_allowed_deg"]
+                self.assertGreater(region["least_dihedral_deg"], min(10, 0.5 * allowed), name)
+                self.assertLessEqual(region["least_dihedral_deg"], allowed + 1e-9, name)
+            self.assertLess(domain["tetrahedron_aspect_max"], 12, domain["name"])
             self.assertGreater(domain["prism_least_scaled_jacobian"], 0, domain["name"])
 
 
