@@ -186,7 +186,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(all_points(input, &core, &count, &mesh));
   give_back();
   CW_TRY(cw_delaunay_connect(&mesh));
-  CW_TRY(cw_kernel_core_carve(&core, input->name, &mesh));
+  CW_TRY(cw_kernel_core_carve(&core, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
   CW_TRY(keep_inside(input, &facets, &mesh));

@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/kernel_facets.h"
 #include "mesher/lattice_core.h"
+
+// Corners of the face opposite corner i, outward.
+static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // Numbers inner points: the skin after the boundary; deep points after the skin; others, which the core does
 // not name, after the skin in *x.
@@ -81,30 +83,101 @@ static void take_out(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
   *waiting = t;
 }
 
-CwStatus cw_kernel_core_carve(const CwKernelCore *core, const char *name, CwDelaunay *mesh) {
+// The skin's faces by their least point in the mesh, which has its neighbours near it in memory.
+typedef struct {
+  int32_t *start;     // of each point's; one more at the end
+  int32_t (*rest)[2]; // the other two points, as the face turns
+} Skin;
+
+// The face with its least point first.
+static void turned(const int32_t corner[3], int32_t face[3]) {
+  int least = corner[0] < corner[1] ? (corner[0] < corner[2] ? 0 : 2) : corner[1] < corner[2] ? 1 : 2;
+  for (int i = 0; i < 3; i++)
+    face[i] = corner[(least + i) % 3];
+}
+
+static CwStatus sort_skin(const CwKernelCore *core, const CwDelaunay *mesh, Skin *skin) {
   CwStatus status = CW_OK;
-  CwFacets facets = {0};
-  CwFillInput surface = {.name = name,
-                         .point_count = core->fixed_count,
-                         .triangle_count = core->face_count,
-                         .triangle = (const int32_t(*)[3])core->face};
+  int32_t *number = NULL, first = core->fixed_count - core->skin_count, corner[3], face[3];
+  CW_NEW(number, core->skin_count);
+  CW_NEW(skin->start, mesh->point_count + 1);
+  CW_NEW(skin->rest, core->face_count);
+  for (int32_t p = 0; p < mesh->point_count; p++) {
+    if (mesh->source[p] >= first && mesh->source[p] < core->fixed_count)
+      number[mesh->source[p] - first] = p;
+  }
+  for (int store = 0; store < 2; store++) { // counts, then fills from behind
+    for (int32_t f = 0; f < core->face_count; f++) {
+      for (int i = 0; i < 3; i++)
+        corner[i] = number[core->face[f][i] - first];
+      turned(corner, face);
+      if (store)
+        memcpy(skin->rest[--skin->start[face[0]]], face + 1, sizeof *skin->rest);
+      else
+        skin->start[face[0]]++;
+    }
+    for (int32_t p = 0; p < mesh->point_count && !store; p++)
+      skin->start[p + 1] += skin->start[p];
+  }
+done:
+  free(number);
+  return status;
+}
+
+static int is_of_skin(const Skin *skin, const int32_t corner[3]) {
+  int32_t face[3];
+  turned(corner, face);
+  for (int32_t k = skin->start[face[0]]; k < skin->start[face[0] + 1]; k++) {
+    if (skin->rest[k][0] == face[1] && skin->rest[k][1] == face[2])
+      return 1;
+  }
+  return 0;
+}
+
+// Parts the mesh along the skin, and takes out the tetrahedra inside it, which see its faces as the core does.
+static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh, int32_t *waiting) {
+  int32_t found = 0, first = core->fixed_count - core->skin_count;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    CwDelaunayTet *tet = &mesh->tet[t];
+    int on_skin = 0, count = 0, inside = 0;
+    if (tet->corner[0] < 0)
+      continue;
+    for (int i = 0; i < 4 && count + 2 > i; i++) {
+      int32_t given = mesh->source[tet->corner[i]];
+      int is = given >= first && given < core->fixed_count;
+      on_skin |= is << i;
+      count += is;
+    }
+    for (int i = 0; i < 4 && count >= 3; i++) {
+      int32_t beyond = tet->neighbour[i], corner[3];
+      if (beyond < 0 || (on_skin | 1 << i) != 15)
+        continue;
+      for (int k = 0; k < 3; k++)
+        corner[k] = tet->corner[tet_face[i][k]];
+      if (!is_of_skin(skin, corner))
+        continue;
+      mesh->tet[beyond / 4].neighbour[beyond % 4] = -1;
+      tet->neighbour[i] = -1;
+      inside = 1;
+      found++;
+    }
+    if (inside)
+      take_out(mesh, t, waiting);
+  }
+  return found;
+}
+
+CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  Skin skin = {0};
   int32_t waiting = -1;
   if (!core->face_count)
     goto done;
-  CW_TRY(cw_facets_make(&surface, mesh, &facets));
-  facets.corners_from = core->fixed_count - core->skin_count;
-  cw_facets_locate(mesh, core->fixed_count, &facets);
-  if (facets.missing_count) {
+  CW_TRY(sort_skin(core, mesh, &skin));
+  if (part(core, &skin, mesh, &waiting) != core->face_count) {
     status = CW_RETRY;
     goto done;
   }
-  for (int32_t f = 0; f < facets.count; f++) {
-    int32_t inner = facets.inner[f], *beyond = &mesh->tet[inner / 4].neighbour[inner % 4];
-    mesh->tet[*beyond / 4].neighbour[*beyond % 4] = -1;
-    *beyond = -1;
-  }
-  for (int32_t f = 0; f < facets.count; f++)
-    take_out(mesh, facets.inner[f] / 4, &waiting);
   while (waiting >= 0) {
     const CwDelaunayTet *tet = &mesh->tet[waiting];
     waiting = tet->corner[2];
@@ -114,7 +187,8 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, const char *name, CwDela
     }
   }
 done:
-  cw_facets_free(&facets);
+  free(skin.start);
+  free(skin.rest);
   return status;
 }
 

@@ -221,7 +221,7 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
     int on_boundary = 0, count = 0;
     for (int i = 0; i < 4 && count + 2 > i; i++) { // most have two corners inside, and are done with
       int32_t given = mesh->source[tet->corner[i]];
-      int is = (given >= facets->corners_from && given < boundary_points) || given >= facets->divided_from;
+      int is = (given >= 0 && given < boundary_points) || given >= facets->divided_from;
       on_boundary |= is << i;
       count += is;
     }

@@ -26,7 +26,6 @@ typedef struct {
   int32_t space;         // of corner and inner
   int32_t used;          // places of the table that are not empty
   int32_t edge_used;
-  int32_t corners_from;  // points with lesser sources are no corners
   int32_t divided_from;  // points with sources from here on may be corners too
 } CwFacets;
 

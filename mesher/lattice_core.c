@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { END = 1 << 21, EDGES = 4, AROUND = 24 };
+enum { END = 1 << 21, EDGES = 4, AROUND = 24, LEVELS = 22 };
 
 // Of a centre's site: its cell is calm: see is_calm_round.
 enum { CALM = 128 };
@@ -12,9 +12,9 @@ enum { CALM = 128 };
 typedef struct {
   int32_t count;
   const CwLatticeSite *site;
-  int32_t *table; // hash table of the sites by key; -1: empty
-  int shift;      // of a scattered key, to its place in the table
-  int32_t last;
+  // Where the last search from a site of a level in a direction ended: sites are looked at in ascending order, so the
+  // next one ends near it.
+  int32_t cursor[LEVELS][2][27];
   uint8_t *calm; // of each site: CALM of a centre, the number of calm cells round a corner
 } Lattice;
 
@@ -22,40 +22,31 @@ static const int8_t beside_face[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 
 static const int8_t beside_edge[12][3] = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {-1, 0, -1}, {1, 0, -1},
                                           {-1, 0, 1},  {1, 0, 1},  {0, -1, -1}, {0, 1, -1}, {0, -1, 1}, {0, 1, 1}};
 
-// Fibonacci hashing (D. E. Knuth, The Art of Computer Programming, vol. 3): the high bits depend on all others.
-static int32_t place_of(const Lattice *lattice, uint64_t key) {
-  return (int32_t)(key * 0x9e3779b97f4a7c15ull >> lattice->shift);
-}
-
-// The site at a place, or -1.
-static int32_t find(const Lattice *lattice, const int32_t at[3]) {
-  if ((uint32_t)at[0] >= END || (uint32_t)at[1] >= END || (uint32_t)at[2] >= END)
-    return -1;
-  uint64_t key = cw_lattice_key(at);
-  for (int32_t k = place_of(lattice, key);; k = (k + 1) & lattice->last) {
-    int32_t s = lattice->table[k];
-    if (s < 0 || lattice->site[s].key == key)
-      return s;
+// The site with a key, or -1: by doubled steps from where the cursor stands, which takes the place that the key has
+// or would have.
+static int32_t search(const Lattice *lattice, uint64_t key, int32_t *cursor) {
+  const CwLatticeSite *site = lattice->site;
+  int32_t low = *cursor, high = low, step = 1; // site[low].key <= key < site[high].key, as far as there are such
+  if (site[low].key <= key) {
+    for (; high < lattice->count && site[high].key <= key; step *= 2) {
+      low = high;
+      high = step < lattice->count - high ? high + step : lattice->count;
+    }
+  } else {
+    for (; low >= 0 && site[low].key > key; step *= 2) {
+      high = low;
+      low = low >= step ? low - step : -1;
+    }
   }
-}
-
-static CwStatus make_table(Lattice *lattice) {
-  CwStatus status = CW_OK;
-  int bits = 4;
-  while (1 << bits < 2 * lattice->count)
-    bits++;
-  lattice->shift = 64 - bits;
-  lattice->last = (1 << bits) - 1;
-  CW_NEW(lattice->table, 1 << bits);
-  memset(lattice->table, -1, sizeof *lattice->table << bits);
-  for (int32_t s = 0; s < lattice->count; s++) {
-    int32_t k = place_of(lattice, lattice->site[s].key);
-    while (lattice->table[k] >= 0)
-      k = (k + 1) & lattice->last;
-    lattice->table[k] = s;
+  while (high - low > 1) {
+    int32_t middle = low + (high - low) / 2;
+    if (site[middle].key <= key)
+      low = middle;
+    else
+      high = middle;
   }
-done:
-  return status;
+  *cursor = low < 0 ? 0 : low;
+  return low >= 0 && site[low].key == key ? low : -1;
 }
 
 // Corners lie at even multiples of half an edge, centres at odd ones.
@@ -63,25 +54,33 @@ static int is_centre(const CwLatticeSite *site) {
   return (site->key >> site->level & 1) == 1;
 }
 
-static int32_t find_from(const Lattice *lattice, const int32_t at[3], int32_t length, const int8_t o[3]) {
-  return find(lattice, (int32_t[3]){at[0] + length * o[0], at[1] + length * o[1], at[2] + length * o[2]});
+// The site `length` half edges of a cell of this level, 1 or 2, towards o from a place, or -1.
+static int32_t find_from(Lattice *lattice, const int32_t at[3], int level, int length, const int8_t o[3]) {
+  int32_t there[3];
+  for (int i = 0; i < 3; i++) {
+    there[i] = at[i] + (length << level) * o[i];
+    if ((uint32_t)there[i] >= END)
+      return -1;
+  }
+  int towards = 9 * (o[2] + 1) + 3 * (o[1] + 1) + o[0] + 1;
+  return search(lattice, cw_lattice_key(there), &lattice->cursor[level][length - 1][towards]);
 }
 
 // A corner of the cell with its centre at `at`, by bits of k: x, y, z.
-static int32_t find_corner(const Lattice *lattice, const int32_t at[3], int level, int k) {
-  return find_from(lattice, at, 1 << level,
+static int32_t find_corner(Lattice *lattice, const int32_t at[3], int level, int k) {
+  return find_from(lattice, at, level, 1,
                    (int8_t[3]){(int8_t)(k & 1 ? 1 : -1), (int8_t)(k & 2 ? 1 : -1), (int8_t)(k & 4 ? 1 : -1)});
 }
 
 // The centre of the clear cell of this level beside the one at `at`, or -1.
-static int32_t find_beside(const Lattice *lattice, const int32_t at[3], int level, const int8_t o[3]) {
-  int32_t s = find_from(lattice, at, 2 << level, o);
+static int32_t find_beside(Lattice *lattice, const int32_t at[3], int level, const int8_t o[3]) {
+  int32_t s = find_from(lattice, at, level, 2, o);
   return s >= 0 && lattice->site[s].level == level && lattice->site[s].clear ? s : -1;
 }
 
 // Whether the place of the cell beside lies in a clear cell of twice the size, which has no points but those that
 // the smaller lattice would have there, too.
-static int lies_in_larger(const Lattice *lattice, const int32_t at[3], int level, const int8_t o[3]) {
+static int lies_in_larger(Lattice *lattice, const int32_t at[3], int level, const int8_t o[3]) {
   int32_t centre[3], edge = 2 << level;
   for (int i = 0; i < 3; i++) {
     int32_t low = at[i] + edge * o[i] - edge / 2;
@@ -94,7 +93,7 @@ static int lies_in_larger(const Lattice *lattice, const int32_t at[3], int level
 
 // Whether no cell beside a face or an edge of the clear cell with its centre at `at` is cut finer or met by the
 // boundary.
-static int is_calm_round(const Lattice *lattice, const int32_t at[3], int level) {
+static int is_calm_round(Lattice *lattice, const int32_t at[3], int level) {
   for (int k = 0; k < 18; k++) {
     const int8_t *o = k < 6 ? beside_face[k] : beside_edge[k - 6];
     if (find_beside(lattice, at, level, o) < 0 && !lies_in_larger(lattice, at, level, o))
@@ -126,7 +125,7 @@ static void find_calm(Lattice *lattice) {
 // which is calm. Their spheres have their centres a quarter edge from the middle of the face, in the face, and
 // the radius sqrt(5)/4 edges. Such a sphere lies in the two cells and the eight others that have an edge of the
 // face, and none of the ten is cut finer: the next points that it could hold are 0.9 edges from its centre.
-static void find_deep(const Lattice *lattice, CwLatticeCore *core) {
+static void find_deep(Lattice *lattice, CwLatticeCore *core) {
   for (int32_t s = 0; s < lattice->count; s++) {
     const CwLatticeSite *site = &lattice->site[s];
     int32_t at[3];
@@ -140,7 +139,7 @@ static void find_deep(const Lattice *lattice, CwLatticeCore *core) {
 
 // Leaves those that are innermost, all of whose 14 neighbours were deep, and the neighbours of these: thin cores
 // are not worth their skin, nor is their skin, which stays as it is, good for what lies beyond.
-static CwStatus leave_thick(const Lattice *lattice, CwLatticeCore *core) {
+static CwStatus leave_thick(Lattice *lattice, CwLatticeCore *core) {
   CwStatus status = CW_OK;
   uint8_t *thick = NULL;
   CW_NEW(thick, lattice->count);
@@ -149,7 +148,7 @@ static CwStatus leave_thick(const Lattice *lattice, CwLatticeCore *core) {
     int innermost = core->role[s] == CW_LATTICE_DEEP;
     cw_lattice_at(lattice->site[s].key, at);
     for (int k = 0; k < 14 && innermost; k++) {
-      near[k] = k < 8 ? find_corner(lattice, at, level, k) : find_from(lattice, at, 2 << level, beside_face[k - 8]);
+      near[k] = k < 8 ? find_corner(lattice, at, level, k) : find_from(lattice, at, level, 2, beside_face[k - 8]);
       innermost = core->role[near[k]] == CW_LATTICE_DEEP;
     }
     thick[s] |= (uint8_t)innermost;
@@ -175,7 +174,7 @@ static void add_face(CwLatticeCore *core, int32_t a, int32_t b, int32_t c) {
 
 // The tetrahedra at the face of calm cell s towards d that have a deep corner; and those of their faces beyond
 // which there is none: a tetrahedron beside one of the core is of the core where its apex over the face is deep.
-static void add_tets(const Lattice *lattice, CwLatticeCore *core, int32_t s, int32_t other, int d,
+static void add_tets(Lattice *lattice, CwLatticeCore *core, int32_t s, int32_t other, int d,
                      const int32_t corner[8]) {
   static const int8_t turn[EDGES][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}; // counter-clockwise from outside
   static const int8_t out[EDGES][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}}; // beyond the edge to the next corner
@@ -214,7 +213,7 @@ static void add_tets(const Lattice *lattice, CwLatticeCore *core, int32_t s, int
 }
 
 // Each face between two calm cells is looked at from one of them.
-static void add_all(const Lattice *lattice, CwLatticeCore *core) {
+static void add_all(Lattice *lattice, CwLatticeCore *core) {
   for (int32_t s = 0; s < lattice->count; s++) {
     int32_t at[3], corner[8], level = lattice->site[s].level;
     if (lattice->calm[s] != CALM)
@@ -252,7 +251,6 @@ CwStatus cw_lattice_core_make(int32_t count, const CwLatticeSite *site, CwLattic
   memset(core, 0, sizeof *core);
   CW_NEW(core->role, count);
   CW_NEW(lattice.calm, count);
-  CW_TRY(make_table(&lattice));
   find_calm(&lattice);
   find_deep(&lattice, core);
   CW_TRY(leave_thick(&lattice, core));
@@ -263,7 +261,6 @@ CwStatus cw_lattice_core_make(int32_t count, const CwLatticeSite *site, CwLattic
   core->face = shrunk(core->face, (size_t)core->face_count * sizeof *core->face);
   name_skin(core);
 done:
-  free(lattice.table);
   free(lattice.calm);
   if (status != CW_OK)
     cw_lattice_core_free(core);

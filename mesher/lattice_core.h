@@ -43,7 +43,7 @@ typedef struct {
   int32_t (*face)[3]; // between the core and the rest, normal out of the core
 } CwLatticeCore;
 
-// The core of the lattice that has these points, no two at one place, in any order. Every tetrahedron of the core,
+// The core of the lattice that has these points, which ascend by their keys. Every tetrahedron of the core,
 // and of the lattice round each point of its skin, has an empty sphere among all points and those of the boundary,
 // with room: it is in each Delaunay mesh of them. The faces of the core's surface are therefore in each Delaunay
 // mesh of all points but the deep ones. Holds where points are moved by less than a hundredth of their cell, too.

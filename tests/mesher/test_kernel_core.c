@@ -59,7 +59,7 @@ static void carved_mesh_and_core_fit(void **unused) {
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++)
     whole += mesh.tet[t].corner[0] < 0 ? 0.0 : volume6(&mesh, mesh.tet[t].corner);
-  assert_int_equal(cw_kernel_core_carve(&core, "ball", &mesh), CW_OK);
+  assert_int_equal(cw_kernel_core_carve(&core, &mesh), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     const CwDelaunayTet *tet = &mesh.tet[t];
     if (tet->corner[0] < 0)

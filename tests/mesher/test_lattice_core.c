@@ -15,6 +15,11 @@
 
 enum { LEVEL = 3, EDGE = 2 << LEVEL };
 
+static int compare_sites(const void *left, const void *right) {
+  const CwLatticeSite *a = left, *b = right;
+  return a->key < b->key ? -1 : a->key > b->key;
+}
+
 // Sites of n x n x n cells: corners and centres.
 static int32_t block(int n, CwLatticeSite **site) {
   int32_t count = 0;
@@ -31,7 +36,14 @@ static int32_t block(int n, CwLatticeSite **site) {
       }
     }
   }
+  qsort(*site, (size_t)count, sizeof **site, compare_sites);
   return count;
+}
+
+static int32_t find_site(int32_t count, const CwLatticeSite *site, const int32_t at[3]) {
+  CwLatticeSite wanted = {.key = cw_lattice_key(at)};
+  const CwLatticeSite *found = bsearch(&wanted, site, (size_t)count, sizeof *site, compare_sites);
+  return found ? (int32_t)(found - site) : -1;
 }
 
 static CwLatticeCore make(int32_t count, const CwLatticeSite *site) {
@@ -69,17 +81,15 @@ static double volume_of(const CwLatticeCore *core, const double (*x)[3]) {
 }
 
 // Role of a point of a block: of a corner (half 0) or a centre (half 1).
-static int role_in(const CwLatticeCore *core, int n, int half, const int at[3]) {
-  int side = n + 1 - half, first = half * (n + 1) * (n + 1) * (n + 1);
-  for (int i = 0; i < 3; i++) {
-    if (at[i] < 0 || at[i] >= side)
-      return CW_LATTICE_SHELL;
-  }
-  return core->role[first + (at[0] * side + at[1]) * side + at[2]];
+static int role_in(const CwLatticeCore *core, int32_t count, const CwLatticeSite *site, int half, const int at[3]) {
+  int32_t there[3];
+  for (int i = 0; i < 3; i++)
+    there[i] = EDGE * (at[i] + 4) + half * EDGE / 2;
+  return core->role[find_site(count, site, there)];
 }
 
 // Tetrahedra with a deep corner: two centres beside a face, and an edge of it.
-static int32_t count_tets(const CwLatticeCore *core, int n) {
+static int32_t count_tets(const CwLatticeCore *core, int32_t sites, const CwLatticeSite *site, int n) {
   int32_t count = 0;
   for (int32_t f = 0; f < 3 * n * n * n; f++) {
     int axis = f % 3, cell[3] = {f / 3 / n / n, f / 3 / n % n, f / 3 % n}, other[3];
@@ -87,14 +97,15 @@ static int32_t count_tets(const CwLatticeCore *core, int n) {
     other[axis]++;
     if (other[axis] == n)
       continue;
-    int centres = role_in(core, n, 1, cell) == CW_LATTICE_DEEP || role_in(core, n, 1, other) == CW_LATTICE_DEEP;
+    int centres = role_in(core, sites, site, 1, cell) == CW_LATTICE_DEEP ||
+                  role_in(core, sites, site, 1, other) == CW_LATTICE_DEEP;
     int deep[4];
     for (int k = 0; k < 4; k++) { // in turn round the face
       int at[3] = {cell[0], cell[1], cell[2]};
       at[axis]++;
       at[(axis + 1) % 3] += k == 1 || k == 2;
       at[(axis + 2) % 3] += k >= 2;
-      deep[k] = role_in(core, n, 0, at) == CW_LATTICE_DEEP;
+      deep[k] = role_in(core, sites, site, 0, at) == CW_LATTICE_DEEP;
     }
     for (int k = 0; k < 4; k++)
       count += centres || deep[k] || deep[(k + 1) % 4];
@@ -113,7 +124,7 @@ static void block_of_cells(void **unused) {
     places(count, site, x);
     int32_t deep = n == 4 ? 0 : (m - 2) * (m - 2) * (m - 2) + 6 * (m - 2) * (m - 2) + (m - 1) * (m - 1) * (m - 1);
     assert_int_equal(core.deep_count, deep);
-    assert_int_equal(core.tet_count, count_tets(&core, n));
+    assert_int_equal(core.tet_count, count_tets(&core, count, site, n));
     double volume = volume_of(&core, (const double(*)[3])x); // each is a twelfth of a cell
     assert_true(fabs(volume - cell * core.tet_count / 12.0) <= 1e-12 * volume);
     cw_lattice_core_free(&core);
@@ -125,11 +136,10 @@ static void block_of_cells(void **unused) {
 // A missing point, a cell that the boundary meets, or points of smaller cells leave no core round them.
 static void what_is_in_the_way(void **unused) {
   CwLatticeSite *site;
-  int32_t count = block(7, &site), middle = 0;
+  int32_t count = block(7, &site);
   CwLatticeCore core;
   const int32_t at[3] = {EDGE * 7 + EDGE / 2, EDGE * 7 + EDGE / 2, EDGE * 7 + EDGE / 2};
-  while (site[middle].key != cw_lattice_key(at))
-    middle++;
+  int32_t middle = find_site(count, site, at);
   core = make(count, site);
   assert_int_equal(core.role[middle], CW_LATTICE_DEEP);
   cw_lattice_core_free(&core);
@@ -141,7 +151,7 @@ static void what_is_in_the_way(void **unused) {
   core = make(count, site);
   assert_int_equal(core.tet_count, 0);
   cw_lattice_core_free(&core);
-  site[middle] = site[count - 1];
+  memmove(site + middle, site + middle + 1, (size_t)(count - 1 - middle) * sizeof *site);
   core = make(count - 1, site);
   assert_int_equal(core.tet_count, 0);
   cw_lattice_core_free(&core);
