@@ -7,7 +7,7 @@
 
 #include "mesher/hilbert.h"
 
-enum { LEAF = 4, BITS = 18, DEPTH = 64, DIGIT_BITS = 9, DIGIT = (1 << DIGIT_BITS) - 1 };
+enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGIT_BITS = 13, DIGIT = (1 << DIGIT_BITS) - 1 };
 
 typedef struct {
   uint64_t key;

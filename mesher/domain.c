@@ -270,32 +270,39 @@ typedef struct {
 
 static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   CwStatus status = CW_OK;
+  double(*normal)[3] = NULL;
   CW_NEW(*bend, skeleton->wall_count);
-  for (int32_t v = 0; v < skeleton->wall_count; v++) (*bend)[v].cosine = 1, (*bend)[v].rise = -1;
-  for (int pass = 0; pass < 2; pass++) {
-    for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-      const int32_t *corner = skeleton->wall_triangle[t];
-      double u[3], v[3], normal[3];
-      cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
-      cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
-      cw_cross(u, v, normal);
-      cw_unit(normal);
-      for (int k = 0; k < 3; k++) {
-        Bend *at = &(*bend)[corner[k]];
-        for (int c = 0; pass == 0 && c < 3; c++) at->normal[c] += normal[c];
-        if (pass == 0) continue;
-        at->cosine = fmin(at->cosine, cw_dot(normal, at->normal));
-        for (int other = 1; other < 3; other++) {
-          double edge[3];
-          cw_sub(skeleton->wall_x[corner[k]], skeleton->wall_x[corner[(k + other) % 3]], edge);
-          cw_unit(edge);
-          at->rise = fmax(at->rise, cw_dot(edge, at->normal));
-        }
-      }
+  CW_NEW(normal, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const int32_t *corner = skeleton->wall_triangle[t];
+    double u[3], v[3];
+    cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+    cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+    cw_cross(u, v, normal[t]);
+    cw_unit(normal[t]);
+    for (int k = 0; k < 3; k++) {
+      for (int c = 0; c < 3; c++) (*bend)[corner[k]].normal[c] += normal[t][c];
     }
-    for (int32_t v = 0; pass == 0 && v < skeleton->wall_count; v++) cw_unit((*bend)[v].normal);
+  }
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    (*bend)[v].cosine = 1, (*bend)[v].rise = -1;
+    cw_unit((*bend)[v].normal);
+  }
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const int32_t *corner = skeleton->wall_triangle[t];
+    for (int k = 0; k < 3; k++) {
+      Bend *at = &(*bend)[corner[k]], *next = &(*bend)[corner[(k + 1) % 3]];
+      double edge[3], cosine = cw_dot(normal[t], at->normal);
+      if (cosine < at->cosine) at->cosine = cosine;
+      cw_sub(skeleton->wall_x[corner[k]], skeleton->wall_x[corner[(k + 1) % 3]], edge);
+      cw_unit(edge);
+      double rise = cw_dot(edge, at->normal), other = -cw_dot(edge, next->normal);
+      if (rise > at->rise) at->rise = rise;
+      if (other > next->rise) next->rise = other;
+    }
   }
 done:
+  free(normal);
   return status;
 }
 

@@ -10,25 +10,35 @@ int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
   return -1;
 }
 
+// A side of a triangle by the vertex it starts from.
+typedef struct {
+  int32_t end, side; // vertex; 3 * triangle + side
+} Side;
+
 CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
-  int32_t *start = NULL, *side = NULL;
+  int32_t *start = NULL;
+  Side *side = NULL;
   CW_NEW(mesh->near, triangle_count);
   CW_NEW(start, (size_t)point_count + 2);
   CW_NEW(side, 3 * (size_t)triangle_count);
-  for (int32_t s = 0; s < 3 * triangle_count; s++) start[mesh->triangle[s / 3][s % 3] + 2]++;
+  for (int32_t t = 0; t < triangle_count; t++) {
+    for (int k = 0; k < 3; k++) start[mesh->triangle[t][k] + 2]++;
+  }
   for (int32_t v = 0; v < point_count; v++) start[v + 2] += start[v + 1];
-  for (int32_t s = 0; s < 3 * triangle_count; s++) side[start[mesh->triangle[s / 3][s % 3] + 1]++] = s;
-  for (int32_t s = 0; s < 3 * triangle_count; s++) { // sides that start at v now stand from start[v] to start[v + 1]
-    int32_t a = mesh->triangle[s / 3][s % 3], b = mesh->triangle[s / 3][(s % 3 + 1) % 3];
-    int32_t found = -1, others = 0;
-    for (int32_t i = start[b]; i < start[b + 1]; i++) {
-      if (mesh->triangle[side[i] / 3][(side[i] % 3 + 1) % 3] == a) found = side[i] / 3, others++;
+  for (int32_t t = 0; t < triangle_count; t++) {
+    const int32_t *corner = mesh->triangle[t];
+    for (int k = 0; k < 3; k++) side[start[corner[k] + 1]++] = (Side){corner[(k + 1) % 3], 3 * t + k};
+  }
+  for (int32_t a = 0; a < point_count; a++) { // sides that start at a now stand from start[a] to start[a + 1]
+    for (int32_t s = start[a]; s < start[a + 1]; s++) {
+      int32_t b = side[s].end, found = -1, others = 0;
+      for (int32_t i = start[b]; i < start[b + 1]; i++) {
+        if (side[i].end == a) found = side[i].side / 3, others++;
+      }
+      for (int32_t i = start[a]; i < start[a + 1]; i++) others += i != s && side[i].end == b;
+      mesh->near[side[s].side / 3][side[s].side % 3] = others == 1 ? found : -1;
     }
-    for (int32_t i = start[a]; i < start[a + 1]; i++) {
-      others += side[i] != s && mesh->triangle[side[i] / 3][(side[i] % 3 + 1) % 3] == b;
-    }
-    mesh->near[s / 3][s % 3] = others == 1 ? found : -1;
   }
 done:
   free(start);

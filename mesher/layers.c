@@ -31,7 +31,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
     CW_TRY(cw_layers_grade(&work));
   }
   cw_ledger_part("layers: repair");
-  CW_TRY(cw_layers_repair(&work, layers->front, &layers->repair_rounds));
+  CW_TRY(cw_layers_repair(&work, &tree, layers->front, &layers->repair_rounds));
   for (int32_t v = 0; v < work.n; v++) {
     double d[3];
     sub3(layers->front[v], input->x[v], d);

@@ -260,7 +260,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
     if (!cap) add_triangle(x, (int32_t[3]){in->triangle[f][0] + work->n, in->triangle[f][1] + work->n,
                                            in->triangle[f][2] + work->n}, &crossing->box[f]);
   }
-  if (!crossing->searched)
+  if (crossing->tree.count == 0)
     CW_TRY(cw_box_tree_make(crossing->item_count, crossing->box, &crossing->tree));
   else
     cw_box_tree_fit(&crossing->tree, crossing->box);

@@ -134,7 +134,7 @@ typedef struct {
   int32_t item_count;
   double (*x)[3];       // front, wall, caps
   CwBox *box;           // of each prism, then of each cap triangle
-  CwBoxTree tree;
+  CwBoxTree tree;       // of the prisms and the caps; may be given in any order
   uint8_t *active;      // triangles that moved
   int32_t *list, list_count;
   int searched;         // a first time
@@ -153,6 +153,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
 // scaled to 1 for a right prism over the same wall triangle.
 double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]);
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
-CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds);
+// Takes the tree of walls and obstacles over.
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds);
 
 #endif

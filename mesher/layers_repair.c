@@ -220,7 +220,7 @@ done:
   return status;
 }
 
-CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds) {
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   Repair repair = {.work = work, .front = front};
@@ -231,6 +231,8 @@ CwStatus cw_layers_repair(CwLayerWork *work, double (*front)[3], int32_t *rounds
   CW_NEW(repair.uncrossed, work->n);
   CW_NEW(repair.height, work->n);
   CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
+  repair.crossing.tree = *tree; // the prisms stand where the walls do
+  memset(tree, 0, sizeof *tree);
   place_changed(&repair); // no height is 0: all of them
   memset(repair.moved, 0, work->n);
   CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_prism, &repair, repair.quality));
