@@ -67,7 +67,7 @@ CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
-// packed (cw_plan_unpack): a task of one rank. With a symmetry it is a fan, where one can be had.
+// packed (cw_plan_unpack). Collective: all ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan, where one can be had.
 CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
                         double tet_factor, void **bytes, int64_t *byte_count);
 

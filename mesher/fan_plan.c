@@ -7,6 +7,7 @@
 #include "mesher/fan.h"
 #include "mesher/plan_profile.h"
 #include "mesher/plan_score.h"
+#include "mesher/schedule.h"
 #include "mesher/symmetry.h"
 #include "mesher/vec.h"
 
@@ -136,22 +137,59 @@ static void place_slices(Fan *fan, int32_t slices) {
   plan->node_count = plan->region_count = slices;
 }
 
+typedef struct {
+  double cost, worst;
+} Judged;
+
+typedef struct {
+  const Fan *fan;
+  const CwPlanPart *wheel;
+} Wheel;
+
+static CwStatus judge_angle(void *context, int32_t i, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Wheel *wheel = context;
+  Judged *made = NULL;
+  CW_NEW(made, 1);
+  double angle = 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES;
+  CW_TRY(judge_half_plane(wheel->fan, wheel->wheel, angle, &made->cost, &made->worst));
+  *bytes = made;
+  *size = sizeof *made;
+  made = NULL;
+done:
+  free(made);
+  return status;
+}
+
+// All half-planes of one pitch, shared among the ranks.
+static CwStatus judge_half_planes(const Fan *fan, const CwPlanPart *part, Judged judged[ANGLES]) {
+  CwStatus status = CW_OK;
+  Wheel wheel = {fan, part};
+  void *bytes[ANGLES] = {0};
+  int64_t size[ANGLES] = {0};
+  CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int i = 0; i < ANGLES; i++) memcpy(&judged[i], bytes[i], sizeof judged[i]);
+done:
+  for (int i = 0; i < ANGLES; i++) free(bytes[i]);
+  return status;
+}
+
 // The half-planes: `wedges` in each pitch, evenly, where they cost least.
 static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
-  double cost[ANGLES], worst[ANGLES], pitch = 2 * M_PI / fan->count, best = INFINITY;
+  Judged judged[ANGLES];
+  double pitch = 2 * M_PI / fan->count, best = INFINITY;
   int apart = ANGLES / wedges, chosen = 0;
   plan->fan_first = plan->fan_region = plan->node_count;
   plan->node[0].child[1] = plan->fan_first;
   plan->node[plan->fan_first].parent = 0;
   plan->fan_count = 1; // for the judges
-  for (int i = 0; i < ANGLES; i++) {
-    CW_TRY(judge_half_plane(fan, wheel, pitch * (i + 0.5) / ANGLES, &cost[i], &worst[i]));
-  }
+  CW_TRY(judge_half_planes(fan, wheel, judged));
   for (int start = 0; start < apart; start++) {
     double sum = 0;
-    for (int w = 0; w < wedges; w++) sum += cost[start + w * apart];
+    for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
     if (sum < best) best = sum, chosen = start;
   }
   if (!(best < INFINITY)) {
@@ -167,7 +205,7 @@ static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
     CwPlane first = half_plane(pitch * (at + 0.5) / ANGLES);
     *node = (CwPlanNode){first, 0, {INT32_MIN, INT32_MIN}}; // children not known yet
     cw_symmetry_turn(fan->count, j / wedges, first.normal, node->plane.normal);
-    plan->worst_angle[plan->fan_first + j] = worst[at];
+    plan->worst_angle[plan->fan_first + j] = judged[at].worst;
   }
 done:
   return status;

@@ -104,10 +104,24 @@ done:
   return status;
 }
 
+// All ranks plan a domain together. CW_RETRY where it has a symmetry and the plan cannot have it.
+static CwStatus plan_domain(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  void *bytes = NULL;
+  int64_t size;
+  cw_ledger_part("planes weighed");
+  CW_TRY(cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor,
+                        &bytes, &size));
+  cw_ledger_part("plan taken up");
+  CW_TRY(cw_domain_take_plan(&run->domain[d], bytes));
+done:
+  free(bytes);
+  return status;
+}
+
 // Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
 static CwStatus plan_whole(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
-  CwResults results = {0};
   double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
   cw_log("%s: its passages cannot be divided alike; it is meshed whole", run->domain[d].name);
   cw_domain_clear(&run->domain[d]);
@@ -116,17 +130,11 @@ static CwStatus plan_whole(CwMeshRun *run, int d) {
   run->prism_factor = run->planned_prism_factor;
   run->tet_factor = run->planned_tet_factor;
   cw_mesh_set_scale(run, run->planned_scale);
-  int32_t one[CW_DOMAINS_MOST];
-  for (int i = 0; i < run->domains.count; i++) one[i] = 1;
-  CW_TRY(cw_results_make(&results, run->domains.count, one));
-  CwMeshTask task = {d, 0, 1};
-  CW_TRY(cw_run_step(run, "decomposition", "domains", cw_step_plan, 1, &task, results.bytes, NULL));
-  CW_TRY(cw_domain_take_plan(&run->domain[d], results.bytes[d][0]));
+  CW_TRY(plan_domain(run, d));
   run->prism_factor = prism_factor;
   run->tet_factor = tet_factor;
   cw_mesh_set_scale(run, scale);
 done:
-  cw_results_free(&results);
   return status;
 }
 
@@ -155,19 +163,21 @@ static void log_plan(const CwMeshRun *run, int d) {
 
 CwStatus cw_mesh_plan(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  CwResults results = {0};
+  double started = cw_seconds();
   run->planned_prism_factor = run->prism_factor;
   run->planned_tet_factor = run->tet_factor;
   run->planned_scale = run->scale;
-  CW_TRY(cw_run_domains(run, "decomposition", cw_step_plan, &results));
-  cw_ledger_part("plan taken up");
   for (int d = 0; d < run->domains.count; d++) {
-    status = cw_domain_take_plan(&run->domain[d], results.bytes[d][0]);
+    cw_progress_start("decomposition", 1, "domains");
+    status = plan_domain(run, d);
+    cw_progress_end();
     if (status == CW_RETRY) status = plan_whole(run, d);
     CW_TRY(status);
     log_plan(run, d);
   }
+  if (run->rank == 0) {
+    CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->domains.count, "domains"));
+  }
 done:
-  cw_results_free(&results);
   return status;
 }

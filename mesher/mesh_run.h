@@ -67,7 +67,6 @@ typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, in
 CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);

@@ -23,11 +23,6 @@ CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
   return cw_domain_make_size(&run->domain[task.domain], run->table, run->seeds[task.domain], bytes, size);
 }
 
-CwStatus cw_step_plan(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_plan(&run->domain[task.domain], run->table, cw_predicted_cells(run, task.domain), run->prism_factor,
-                        run->tet_factor, bytes, size);
-}
-
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }

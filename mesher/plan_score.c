@@ -3,8 +3,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/plan_profile.h"
+#include "mesher/schedule.h"
 #include "mesher/vec.h"
 
 enum {
@@ -14,6 +16,7 @@ enum {
   PIECES_LARGE = 8000, // parts of more pieces leave room enough for every other direction
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
   SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
+  SHARED_LEAST = 6000, // pieces and samples of a part whose directions are worth sharing among the ranks
   LINES_JUDGED = 200 // candidates whose lines are looked at, best first
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
@@ -86,6 +89,8 @@ static int32_t splits_of(int32_t regions, int32_t *split) {
   return count;
 }
 
+enum { OF_DIRECTION = SPLITS_MOST * (2 * SHIFTS + 2) }; // candidates
+
 static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, int32_t regions, int32_t d,
                               Candidate *candidate) {
   CwPlanProfile profile;
@@ -138,11 +143,59 @@ typedef struct {
   double score;
 } Best;
 
+// Directions to look along: from, from + every, ...
+typedef struct {
+  const CwPlanModel *model;
+  const CwPlanPart *part;
+  int32_t regions, from, every, count;
+} Directions;
+
+static CwStatus look_along(void *context, int32_t task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Directions *look = context;
+  Candidate *made = NULL;
+  CW_NEW(made, OF_DIRECTION);
+  int32_t count = add_candidates(look->model, look->part, look->regions, look->from + task * look->every, made);
+  *bytes = made;
+  *size = count * (int64_t)sizeof *made;
+done:
+  return status;
+}
+
+// The candidates of all directions, in their order; large parts are shared among the ranks.
+static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
+  CwStatus status = CW_OK;
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  *count = 0;
+  if (look->part->pieces.count + look->part->sample_count < SHARED_LEAST) {
+    for (int32_t i = 0; i < look->count; i++) {
+      *count += add_candidates(look->model, look->part, look->regions, look->from + i * look->every, candidate + *count);
+    }
+    goto done;
+  }
+  CW_NEW(bytes, look->count);
+  CW_NEW(size, look->count);
+  CwSchedule schedule = {.step = "decomposition", .count = look->count, .run = look_along, .context = look, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t i = 0; i < look->count; i++) {
+    if (size[i] > 0) memcpy(candidate + *count, bytes[i], (size_t)size[i]);
+    *count += (int32_t)(size[i] / (int64_t)sizeof *candidate);
+  }
+done:
+  for (int32_t i = 0; bytes && i < look->count; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  return status;
+}
+
 // Looks for a better plane among some directions.
-static void search(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part, int32_t regions,
-                   int32_t from, int32_t to, int32_t every, Candidate *candidate, Best *best) {
+static CwStatus search(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                       int32_t regions, int32_t from, int32_t to, int32_t every, Candidate *candidate, Best *best) {
+  CwStatus status = CW_OK;
   int32_t count = 0, judged = 0;
-  for (int32_t d = from; d <= to; d += every) count += add_candidates(model, part, regions, d, candidate + count);
+  Directions directions = {model, part, regions, from, every, (to - from) / every + 1};
+  CW_TRY(look(&directions, candidate, &count));
   qsort(candidate, (size_t)count, sizeof *candidate, by_score);
   // Lines only add to a score, so the rest cannot win once the next score alone is no less than the best.
   for (int32_t i = 0; i < count && candidate[i].score < best->score; i++) {
@@ -153,6 +206,8 @@ static void search(const CwPlanModel *model, const CwPlan *plan, int32_t node, c
     double score = candidate[i].score + cw_plan_line_cost(&lines);
     if (score < best->score) *best = (Best){plane, candidate[i].below, score};
   }
+done:
+  return status;
 }
 
 CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
@@ -161,10 +216,10 @@ CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_
   Candidate *candidate = NULL;
   Best best = {.score = INFINITY};
   int32_t every = part->pieces.count > PIECES_LARGE ? 2 : 1;
-  CW_NEW(candidate, (DIRECTIONS + 1) * SPLITS_MOST * (2 * SHIFTS + 2));
-  search(model, plan, node, part, regions, 0, DIRECTIONS, every, candidate, &best);
+  CW_NEW(candidate, (DIRECTIONS + 1) * OF_DIRECTION);
+  CW_TRY(search(model, plan, node, part, regions, 0, DIRECTIONS, every, candidate, &best));
   if (best.score > WELL) {
-    search(model, plan, node, part, regions, DIRECTIONS + 1, DIRECTIONS + LEANING, every, candidate, &best);
+    CW_TRY(search(model, plan, node, part, regions, DIRECTIONS + 1, DIRECTIONS + LEANING, every, candidate, &best));
   }
   *first = best.below;
   *plane = best.plane;
