@@ -124,15 +124,22 @@ static CwStatus set_more_domains(const CwAssembly *a, CwValues *values) {
   CW_TRY(blocks_open(&domains));
   CW_TRY(blocks_open(&les));
   for (int d = CW_MESH_STATOR + 1; d < mesh->domain_count; ++d) {
-    Blocks walls = {0};
+    Blocks walls = {0}, shaft = {0};
     CW_TRY(blocks_open(&walls));
+    CW_TRY(blocks_open(&shaft));
     for (int p = 0, first = 1; p < mesh->patch_count; ++p)
       if (mesh->patches[p].domain == d && mesh->patches[p].kind == CW_KIND_WALL &&
           a->patches[p].triangles + a->patches[p].quads > 0) {
+        if (cw_patch_is_shaft(&mesh->patches[p])) {
+          CW_TRY(cw_values_set(values, "shaft_patch", "%s", mesh->patches[p].name));
+          CW_TRY(blocks_add(&shaft, "shaft.ccl", values));
+          continue;
+        }
         fprintf(walls.out, "%s%s", first ? "" : ",", mesh->patches[p].name);
         first = 0;
       }
     CW_TRY(blocks_close(&walls, "zone_walls", values));
+    CW_TRY(blocks_close(&shaft, "zone_shaft", values));
     CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
     CW_TRY(cw_values_set(values, "zone_wall_name", "%s walls", mesh->domains[d].name));
     CW_TRY(set_boundaries(mesh, d, "zone_ends", "zone_sides", values));

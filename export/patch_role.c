@@ -8,10 +8,14 @@ int cw_patch_rotates(const CwMeshPatch *patch) {
          strcmp(patch->name, "suction_pipe") != 0;
 }
 
+int cw_patch_is_shaft(const CwMeshPatch *patch) {
+  return patch->domain > CW_MESH_STATOR && strcmp(patch->name, "hub_shaft_pipe") == 0;
+}
+
 double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
   if (strncmp(patch->name, "blade", 5) == 0)
     return walls->blade.y_plus;
-  if (cw_patch_rotates(patch))
+  if (cw_patch_rotates(patch) || cw_patch_is_shaft(patch))
     return walls->hub_shroud.y_plus;
   if (patch->domain == CW_MESH_ROTOR || strcmp(patch->name, "discharge") == 0 ||
       strcmp(patch->name, "inlet_pipe") == 0 || strcmp(patch->name, "outlet_pipe") == 0)

@@ -13,6 +13,9 @@
 // A wall that turns with the impeller: the walls of the rotor but for the suction pipe.
 int cw_patch_rotates(const CwMeshPatch *patch);
 
+// A wall that turns in a zone that does not: the shaft in a suction pipe of its own.
+int cw_patch_is_shaft(const CwMeshPatch *patch);
+
 // The y+ target of the case for the patch, as the mesher applies it.
 double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls);
 

@@ -47,6 +47,11 @@ const CwSolidFace &face_named(const CwSolid *solid, const std::string &name) {
   throw Standard_Failure(("no face named " + name).c_str());
 }
 
+bool has_patch(const CwSolid *solid, const std::string &patch) {
+  return std::any_of(solid->faces.begin(), solid->faces.end(),
+                     [&](const CwSolidFace &face) { return face.patch == patch; });
+}
+
 bool has_face(const CwSolid *solid, const std::string &name) {
   for (const CwSolidFace &face : solid->faces)
     if (face.name == name)
@@ -249,7 +254,7 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
 
 CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
   return guarded(rotor, [&] {
-    const Extent inlet = extent(rotor, has_face(rotor, "rotor_to_suction") ? "rotor_to_suction" : "inlet"),
+    const Extent inlet = extent(rotor, has_patch(rotor, "inlet") ? "inlet" : "rotor_to_suction"),
                  interface = extent(rotor, "rotor_interface");
     measured->inlet_diameter = 2 * inlet.largest_r;
     measured->inlet_area = inlet.area;

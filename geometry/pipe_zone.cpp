@@ -10,6 +10,7 @@
 #include <BRep_Tool.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_CylindricalSurface.hxx>
+#include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -26,36 +27,31 @@ const int PLANE_CURVE = 49;   // points of a curve in a plane's or cylinder's pa
 const double U_MARGIN = 0.1;  // rad: keeps the faces of cylinders off u = 0, where u jumps
 const double SAME_POINT = 1e-7; // mm
 
-struct Arc {
-  Handle(Geom_Circle) circle;
+struct Piece { // of an outline: an arc or, between the sectors of a ring, a straight line
+  Handle(Geom_Curve) curve;
   double first, last;
 };
 
-CwSolidFace &single_face(CwSolid &solid, const std::string &patch) {
-  CwSolidFace *found = nullptr;
-  for (CwSolidFace &face : solid.faces) {
-    if (face.patch != patch)
-      continue;
-    if (found)
-      throw std::runtime_error("patch " + patch + " has more than one face");
-    found = &face;
-  }
-  if (!found)
+std::vector<CwSolidFace *> faces_of(CwSolid &solid, const std::string &patch) {
+  std::vector<CwSolidFace *> found;
+  for (CwSolidFace &face : solid.faces)
+    if (face.patch == patch)
+      found.push_back(&face);
+  if (found.empty())
     throw std::runtime_error("no patch " + patch);
-  return *found;
+  return found;
 }
 
-std::vector<Arc> outline_of(const CwSolidFace &face) {
-  std::vector<Arc> arcs;
+std::vector<Piece> outline_of(const CwSolidFace &face) {
+  std::vector<Piece> outline;
   for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next()) {
-    Arc arc;
-    arc.circle = Handle(Geom_Circle)::DownCast(
-        BRep_Tool::Curve(TopoDS::Edge(at.Current()), arc.first, arc.last));
-    if (arc.circle.IsNull())
-      throw std::runtime_error("the outline of patch " + face.patch + " is no circle");
-    arcs.push_back(arc);
+    Piece piece;
+    piece.curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), piece.first, piece.last);
+    if (!piece.curve->IsKind(STANDARD_TYPE(Geom_Circle)) && !piece.curve->IsKind(STANDARD_TYPE(Geom_Line)))
+      throw std::runtime_error("the outline of patch " + face.patch + " has other curves than circles and lines");
+    outline.push_back(piece);
   }
-  return arcs;
+  return outline;
 }
 
 // The plane's normal, out of the solid.
@@ -68,55 +64,96 @@ gp_Dir outward_of(const CwSolidFace &face) {
   return face.face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal;
 }
 
-int vertex_at(LoopBuilder &builder, std::vector<int> &vertices, const gp_Pnt &point) {
-  for (int v : vertices)
-    if (builder.point(v).Distance(point) < SAME_POINT)
-      return v;
-  vertices.push_back(builder.vertex(point));
-  return vertices.back();
-}
-
-CwSolid *build(const CwSolidFace &end, double length, const CwPipeZoneNames &names) {
-  LoopBuilder builder(PLANE_CURVE);
-  const std::vector<Arc> arcs = outline_of(end);
-  const gp_Dir out = outward_of(end);
-  const gp_Vec along = gp_Vec(out) * length;
-  const gp_Pnt centre = arcs[0].circle->Location();
-  const double radius = arcs[0].circle->Radius();
-  std::vector<int> ring[2], line;
-  std::vector<LoopEdge> disc[2];
-  struct Side {
-    int arc[2], start, end;
-  };
-  std::vector<Side> sides;
-  for (const Arc &arc : arcs) {
-    Side side = {};
-    for (int far = 0; far < 2; far++) {
-      const Handle(Geom_Circle) circle = Handle(Geom_Circle)::DownCast(arc.circle->Copy());
-      circle->Translate(far ? along : gp_Vec(0, 0, 0));
-      const int v[2] = {vertex_at(builder, ring[far], circle->Value(arc.first)),
-                        vertex_at(builder, ring[far], circle->Value(arc.last))};
-      side.arc[far] = builder.edge(circle, arc.first, arc.last, v[0], v[1]);
-      disc[far].push_back(side.arc[far]);
-      for (int k = 0; k < 2; k++)
-        (k ? side.end : side.start) = int(std::find(ring[far].begin(), ring[far].end(), v[k]) - ring[far].begin());
+// The prism over flat faces, without walls between them.
+class Prism {
+public:
+  Prism(const std::vector<CwSolidFace *> &ends, double length) : builder(PLANE_CURVE) {
+    const gp_Dir out = outward_of(*ends[0]);
+    along = gp_Vec(out) * length;
+    for (const CwSolidFace *end : ends) {
+      std::vector<int> loop;
+      for (const Piece &piece : outline_of(*end))
+        loop.push_back(rod(piece));
+      loops.push_back(loop);
     }
-    sides.push_back(side);
   }
-  for (size_t v = 0; v < ring[0].size(); v++)
-    line.push_back(builder.line(ring[0][v], ring[1][v]));
-  builder.face(new Geom_Plane(gp_Ax3(centre, out.Reversed())), disc[0], names.side, "interface");
-  for (size_t i = 0; i < arcs.size(); i++) {
+
+  CwSolid *build(const CwSolidFace &end, const CwPipeZoneNames &names) {
+    const gp_Dir out(along);
+    double largest = 0;
+    for (const Rod &rod : rods)
+      if (!rod.circle.IsNull())
+        largest = std::max(largest, rod.circle->Radius());
+    face(gp_Ax3(near_point(), out.Reversed()), 0, names.side, "interface");
+    for (const Rod &rod : rods)
+      if (!rod.circle.IsNull())
+        wall(rod, rod.circle->Radius() < largest - SAME_POINT ? names.core : names.wall);
+    face(gp_Ax3(near_point().Translated(along), out), 1, end.patch.c_str(), end.kind.c_str());
+    return builder.build(names.domain, gp_Trsf(), true);
+  }
+
+private:
+  // A piece of the outline with its copy at the far end.
+  struct Rod {
+    Handle(Geom_Circle) circle; // null: a line
+    double first;
+    int edge[2], start, end; // edges near and far; places of their ends in `line`
+  };
+  LoopBuilder builder;
+  gp_Vec along;
+  std::vector<int> vertex[2], line; // near and far, and the lines between them
+  std::vector<Rod> rods;
+  std::vector<std::vector<int>> loops; // of rods
+
+  gp_Pnt near_point() const { return builder.point(vertex[0][0]); }
+
+  // Place of a near point among the vertices, which is made where there is none.
+  int place_of(const gp_Pnt &point) {
+    for (size_t v = 0; v < vertex[0].size(); v++)
+      if (builder.point(vertex[0][v]).Distance(point) < SAME_POINT)
+        return int(v);
+    vertex[0].push_back(builder.vertex(point));
+    vertex[1].push_back(builder.vertex(point.Translated(along)));
+    line.push_back(-1);
+    return int(line.size()) - 1;
+  }
+
+  int rod(const Piece &piece) {
+    Rod made = {Handle(Geom_Circle)::DownCast(piece.curve), piece.first, {}, place_of(piece.curve->Value(piece.first)),
+                place_of(piece.curve->Value(piece.last))};
+    for (size_t i = 0; i < rods.size(); i++) // a line between two sectors
+      if (made.circle.IsNull() && rods[i].circle.IsNull() &&
+          std::minmax(made.start, made.end) == std::minmax(rods[i].start, rods[i].end))
+        return int(i);
+    for (int far = 0; far < 2; far++) {
+      const Handle(Geom_Curve) curve = Handle(Geom_Curve)::DownCast(piece.curve->Copy());
+      curve->Translate(far ? along : gp_Vec(0, 0, 0));
+      made.edge[far] = builder.edge(curve, piece.first, piece.last, vertex[far][made.start], vertex[far][made.end]);
+    }
+    rods.push_back(made);
+    return int(rods.size()) - 1;
+  }
+
+  void face(const gp_Ax3 &axes, int far, const char *patch, const char *kind) {
+    for (const std::vector<int> &loop : loops) {
+      std::vector<LoopEdge> edges;
+      for (int i : loop)
+        edges.push_back(rods[i].edge[far]);
+      builder.face(new Geom_Plane(axes), edges, patch, kind);
+    }
+  }
+
+  void wall(const Rod &rod, const char *patch) {
+    for (int place : {rod.start, rod.end})
+      if (line[place] < 0)
+        line[place] = builder.line(vertex[0][place], vertex[1][place]);
     // The cylinder's angles count from a little before the arc, in the arc's own sense.
-    const gp_Dir axis = arcs[i].circle->Axis().Direction();
-    const gp_Dir from(gp_Vec(centre, arcs[i].circle->Value(arcs[i].first - U_MARGIN)));
-    builder.face(new Geom_CylindricalSurface(gp_Ax3(centre, axis, from), radius),
-                 {sides[i].arc[0], line[sides[i].end], sides[i].arc[1], line[sides[i].start]}, names.wall);
+    const gp_Pnt centre = rod.circle->Location();
+    const gp_Dir from(gp_Vec(centre, rod.circle->Value(rod.first - U_MARGIN)));
+    builder.face(new Geom_CylindricalSurface(gp_Ax3(centre, rod.circle->Axis().Direction(), from), rod.circle->Radius()),
+                 {rod.edge[0], line[rod.end], rod.edge[1], line[rod.start]}, patch);
   }
-  builder.face(new Geom_Plane(gp_Ax3(centre.Translated(along), out)), disc[1], end.patch.c_str(),
-               end.kind.c_str());
-  return builder.build(names.domain, gp_Trsf(), true);
-}
+};
 
 } // namespace
 
@@ -125,10 +162,13 @@ CwStatus cw_pipe_zone_make(CwSolid *neighbour, const char *end, double length, c
   CwStatus status = CW_OK;
   *pipe = nullptr;
   try {
-    CwSolidFace &face = single_face(*neighbour, end);
-    *pipe = build(face, 1e3 * length, *names);
-    face.patch = face.name = names->neighbour_side;
-    face.kind = "interface";
+    const std::vector<CwSolidFace *> ends = faces_of(*neighbour, end);
+    *pipe = Prism(ends, 1e3 * length).build(*ends[0], *names);
+    for (size_t i = 0; i < ends.size(); i++) {
+      ends[i]->patch = names->neighbour_side;
+      ends[i]->name = ends[i]->patch + (ends.size() > 1 ? "_" + std::to_string(i + 1) : "");
+      ends[i]->kind = "interface";
+    }
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_GEOMETRY, "%s: %s", names->domain, failure.GetMessageString());
   } catch (const std::exception &failure) {

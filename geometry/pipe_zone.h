@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A straight pipe as a domain of its own: a prism over the flat end of another domain, with which it shares
+// A straight pipe, round or round a shaft, as a domain of its own: a prism over the flat end of another domain, with which it shares
 // that end's outline exactly, so that both sides of the disc between them can be meshed to the same border.
 #ifndef CUTWATER_GEOMETRY_PIPE_ZONE_H
 #define CUTWATER_GEOMETRY_PIPE_ZONE_H
@@ -16,13 +16,14 @@ extern "C" {
 typedef struct {
   const char *domain;
   const char *wall;
+  const char *core;           // wall inside a ring
   const char *side;           // of the disc between both, as a patch of the pipe
   const char *neighbour_side; // the same as a patch of the neighbour
 } CwPipeZoneNames;
 
-// Builds the pipe of `length` m outward from the single, flat face of the patch `end` of `neighbour`, whose
-// outline must be arcs of one circle of less than a turn each; that face becomes the interface
-// `neighbour_side`. Free with cw_solid_free(). Fails with CW_ERR_GEOMETRY.
+// Builds the pipe of `length` m outward from the patch `end` of `neighbour`: one disk or the sectors of a ring, flat and in
+// one plane, whose outlines must be arcs of less than a turn about one axis and, between sectors, straight lines. These
+// faces become the interface `neighbour_side`. Free with cw_solid_free(). Fails with CW_ERR_GEOMETRY.
 CwStatus cw_pipe_zone_make(CwSolid *neighbour, const char *end, double length, const CwPipeZoneNames *names,
                            CwSolid **pipe);
 

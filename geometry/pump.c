@@ -32,10 +32,6 @@ CwStatus cw_pump_pipe_stubs(const CwCase *table, CwDesign *design, CwPipeStubs *
   stubs->discharge = design->discharge_pipe_length;
   if (table->impeller.suction_pipe_zone == CW_PIPE_OWN_ZONE) {
     CwMeridian meridian;
-    CW_REQUIRE(!(design->through_shaft_diameter > 0), CW_ERR_DESIGN,
-               "impeller.suction_pipe_zone: own contradicts through_shaft_diameter_mm, %.6g: a shaft that turns "
-               "would stand in a zone at rest; allowed: suction_pipe_zone rotor, or through_shaft_diameter_mm 0",
-               1e3 * design->through_shaft_diameter);
     CW_TRY(cw_meridian_make(design, &meridian));
     const double nut = fmax(0, meridian.shroud.pole[0][1] - meridian.nut_end_z);
     stubs->suction = nut + STUB * design->inlet_diameter;
@@ -69,8 +65,8 @@ done:
 
 CwStatus cw_pump_build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwPump *pump) {
   CwStatus status = CW_OK;
-  static const CwPipeZoneNames suction = {"suction", "inlet_pipe", "suction_to_rotor", "rotor_to_suction"};
-  static const CwPipeZoneNames discharge = {"discharge", "outlet_pipe", "discharge_to_stator",
+  static const CwPipeZoneNames suction = {"suction", "inlet_pipe", "hub_shaft_pipe", "suction_to_rotor", "rotor_to_suction"};
+  static const CwPipeZoneNames discharge = {"discharge", "outlet_pipe", "", "discharge_to_stator",
                                             "stator_to_discharge"};
   CwDesign cut = *design;
   pump->stubs = *stubs;

@@ -51,8 +51,7 @@ typedef struct {
 } CwMeasuredPump;
 
 // Where the suction pipe is a zone and its length is left open, the design gets one that leaves a diameter to
-// the zone. Fails with CW_ERR_DESIGN where a length leaves less than a quarter of a diameter to a zone, and where
-// the suction zone would have to be a ring about a shaft.
+// the zone. Fails with CW_ERR_DESIGN where a length leaves less than a quarter of a diameter to a zone.
 CwStatus cw_pump_pipe_stubs(const CwCase *table, CwDesign *design, CwPipeStubs *stubs);
 
 // Builds all domains; mirrored where the pump turns clockwise. Free with cw_pump_free(), also after a failure;

@@ -123,7 +123,7 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
 // Pipes as zones of their own, from a sequence apart.
 static void draw_zones(uint64_t *state, CwCase *table) {
   const int suction = chance(state, 0.3), discharge = chance(state, 0.3);
-  if (suction && !(table->impeller.through_shaft_diameter > 0))
+  if (suction)
     table->impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
   if (discharge)
     table->volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
