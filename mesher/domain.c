@@ -268,6 +268,14 @@ typedef struct {
   double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
 } Bend;
 
+// Whether all corners are turned copies, which get the heights of their first.
+static int is_copy(const CwSkeleton *skeleton, const int32_t corner[3]) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  return cw_orbit_node_turns(orbits, corner[0]) > 0 && cw_orbit_node_turns(orbits, corner[1]) > 0 &&
+         cw_orbit_node_turns(orbits, corner[2]) > 0;
+}
+
+// Of all vertices but turned copies.
 static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   CwStatus status = CW_OK;
   double(*normal)[3] = NULL;
@@ -276,6 +284,7 @@ static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     const int32_t *corner = skeleton->wall_triangle[t];
     double u[3], v[3];
+    if (is_copy(skeleton, corner)) continue;
     cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
     cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
     cw_cross(u, v, normal[t]);
@@ -290,7 +299,7 @@ static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   }
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     const int32_t *corner = skeleton->wall_triangle[t];
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3 && !is_copy(skeleton, corner); k++) {
       Bend *at = &(*bend)[corner[k]], *next = &(*bend)[corner[(k + 1) % 3]];
       double edge[3], cosine = cw_dot(normal[t], at->normal);
       if (cosine < at->cosine) at->cosine = cosine;
