@@ -79,8 +79,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   const double width = fmax(scale * length + 340, 700);
   CW_TRY(cw_picture_begin(&picture, path, width, scale * ri + 130));
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Meridional section: z = %d%s, nq = %.1f, passage area %.0f mm2 in the eye, %.0f at the leading, %.0f at the "
-                  "trailing edge",
+                  "Meridional section: z = %d%s, nq = %.1f; passage %.0f mm2 in the eye, %.0f at the blade, %.0f at D2",
                   design->blade_count, design->splitter_start > 0 ? " with splitters" : "", design->specific_speed_nq,
                   design->passage_area_eye * 1e6, design->passage_area_inlet * 1e6, design->passage_area_outlet * 1e6);
   draw_blade(&picture, &frame, &m);
