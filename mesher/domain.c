@@ -14,8 +14,8 @@
 #include "mesher/vec.h"
 
 static const double TALLEST_COLUMN = 2.5; // of the edge length on the wall
-static const double TALLEST_AT_BEND = 2;  // the same where the wall bends from triangle to triangle: there columns crowd
-static const double TALLER = 1.3;         // than these, so that the last layer is no lower than LOW_LAST
+static const double TALLER_COLUMN = 3.25; // the same where the last layer would else be lower than LOW_LAST
+static const double TALLEST_AT_BEND = 2;  // both where the wall bends from triangle to triangle: there columns crowd
 static const double BEND = 0.94;          // least cosine of the normals about a vertex on a wall that is as good as flat
 static const double HOLLOW = 0.25;        // least rise of an edge over its length at a bend that is concave
 static const double LAST_LAYER = 1.0;     // its height over that of a regular tetrahedron above, at most
@@ -48,12 +48,13 @@ static double column_height(double first, int count, double growth, double last)
 }
 
 // The tallest column that is fair below cells of the size `size`: its last layer no taller than `last` of a regular
-// tetrahedron, itself no taller than `tallest` such sizes, or somewhat more where the last layer would be low. Columns give up
-// growth for it, never the first height.
-static double fair_height(double first, int count, double growth, double size, double last, double tallest) {
+// tetrahedron, itself no taller than `tallest` such sizes, or up to `taller` where the last layer would be low. Columns give
+// up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double last, double tallest,
+                          double taller) {
   double full = column_height(first, count, growth, last * REGULAR_HEIGHT * size);
   double low = column_height(first, count, growth, fmin(last, LOW_LAST) * REGULAR_HEIGHT * size);
-  double most = fmax(tallest * size, fmin(low, TALLER * tallest * size));
+  double most = fmax(tallest * size, fmin(low, taller * size));
   return fmax(EVEN_LAYERS * count * first, fmin(most, full));
 }
 
@@ -90,7 +91,7 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
     const CwLayerSample *sample = &domain->layer_sample[i];
     const CwLayerTarget *target = &domain->patch_layers[sample->patch];
     double fair = fair_height(target->first_height, domain->layer_count, target->growth, scale * sample->size,
-                              LAST_LAYER, TALLEST_COLUMN);
+                              LAST_LAYER, TALLEST_COLUMN, TALLER_COLUMN);
     layers += sample->density * fmin(target->thickness, fair);
   }
   layers *= domain->layer_share;
@@ -327,7 +328,7 @@ static double fair_target(const CwDomain *domain, int32_t v, const Bend *bend) {
     for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend->normal[k];
     double above = fmin(fmax(size, cw_size_at(domain->size, end)), size + HEIGHT_SLOPE * height);
     height = fair_height(domain->first_height[v], count, domain->growth[v], above, last,
-                         bent ? TALLEST_AT_BEND : TALLEST_COLUMN);
+                         bent ? TALLEST_AT_BEND : TALLEST_COLUMN, bent ? TALLEST_AT_BEND : TALLER_COLUMN);
   }
   return height;
 }
@@ -391,7 +392,7 @@ static CwStatus find_taken(void *context, int32_t t, void *out) {
   double h = cw_size_at(domain->size, centre);
   double weight = cw_norm(normal) / (h * h * h) * cw_orbit_face_copies(&skeleton->orbits, face);
   double fair = fair_height(layers->first_height, domain->layer_count, layers->growth, h, LAST_LAYER,
-                            TALLEST_COLUMN);
+                            TALLEST_COLUMN, TALLER_COLUMN);
   *(Taken *)out = (Taken){weight * mean, weight * fmin(layers->thickness, fair)};
   return CW_OK;
 }
