@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "mesher/fan.h"
-#include "mesher/plan_profile.h"
 #include "mesher/plan_score.h"
 #include "mesher/schedule.h"
 #include "mesher/symmetry.h"
@@ -36,7 +35,7 @@ static CwPlane across(const Fan *fan, double place) {
 static double judge_across(const Fan *fan, double place, double *worst) {
   int bin = cw_profile_bin(&fan->along, place);
   *worst = fan->along.worst[bin];
-  return cw_plan_place_cost(*worst, fan->along.grazed[bin]);
+  return cw_plan_place_cost(&fan->along, bin);
 }
 
 static CwPlane half_plane(double angle) {
@@ -56,7 +55,7 @@ static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double
   cw_plan_profile(fan->model, &half, plane.normal, &profile);
   int bin = cw_profile_bin(&profile, 0);
   *worst = profile.worst[bin];
-  *cost = cw_plan_place_cost(*worst, profile.grazed[bin]);
+  *cost = cw_plan_place_cost(&profile, bin);
   CwPlanLines lines = cw_plan_lines(fan->model, plan, plan->fan_first, &half, &plane);
   *cost += cw_plan_line_cost(&lines);
 done:

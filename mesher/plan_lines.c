@@ -13,6 +13,7 @@ static const double ROOM = 1.5;       // thicknesses of the layers: lines of two
 // Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
 // have room.
 static const double SAME_LINE = 1, APART = 3;
+static const double SAME_POINT = 1e-9;  // m
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 
 // A plane that comes near a line, as so many turns make it: within the wedges of a fan planes have turned copies.
@@ -118,6 +119,26 @@ static double near_an_edge(const Line *line, const CwPlanPart *part, const doubl
   return worst;
 }
 
+// Where other planes cross the line, in their own cells, a piece of a line ends: not within the layers.
+static double judge_crossings(const Line *line, double from, double to, CwPlanLines *lines) {
+  double a[3], b[3], x[3], worst = 0;
+  at(line, from, a);
+  at(line, to, b);
+  for (int i = 0; i < line->neighbour_count; i++) {
+    const Neighbour *near = &line->neighbour[i];
+    double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b), back[3], distance;
+    if ((before > 0) == (after > 0)) continue;
+    cw_lerp(a, b, before / (before - after), x);
+    cw_copy(x, back);
+    if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
+    if (!cw_plan_in_cell(line->plan, near->node, back, SAME_POINT, NULL, 0)) continue;
+    double thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
+    if (thickness > 0) worst = fmax(worst, shortage(distance, thickness, ROOM * thickness));
+    if (distance < thickness) lines->impossible = 1;
+  }
+  return worst;
+}
+
 // One end of a run of the line through the domain.
 static double judge_end(const Line *line, const CwPlanPart *part, const double x[3], double *thickness) {
   double distance;
@@ -137,6 +158,8 @@ static void judge_run(const Line *line, const CwPlanPart *part, double from, dou
   cramped = fmax(cramped, judge_end(line, part, end, &layers[1]));
   double taken = layers[0] + layers[1];
   if (run < taken) lines->impossible = 1;
+  cramped = fmax(cramped, judge_crossings(line, from - step, to + step, lines));
+  if (lines->impossible) return;
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
   double margin = ROOM * fmax(layers[0], layers[1]);
   for (double s = from; s <= to + 0.5 * step; s += step) {

@@ -7,9 +7,9 @@
 
 #include "mesher/vec.h"
 
-enum { EDGE_POINTS_LEAST = 9, EDGE_POINTS_MOST = 1000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
+enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
 enum { SAMPLES_LEAST = 30000, SAMPLES_PER_REGION = 1500 };
-static const double EDGE_STEP = 1.5e-3;   // m between points along CAD edges
+static const double EDGE_STEP = 0.5e-3;   // m between points along CAD edges
 static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
 // want a cell between them; beside a smooth edge only the surface triangles do.
@@ -66,6 +66,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
   CW_NEW(model->edge_tangent, most);
   CW_NEW(model->edge_room, most);
   CW_NEW(model->edge_end, most);
+  CW_NEW(model->edge_sharp, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     double room = 0;
     int faces[2];
@@ -73,7 +74,8 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     cw_cad_edge_range(cad, e, range);
     for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
     if (room == 0) continue; // between two caps
-    room *= is_smooth(cad, e) ? SMOOTH_ROOM : EDGE_ROOM;
+    int smooth = is_smooth(cad, e);
+    room *= smooth ? SMOOTH_ROOM : EDGE_ROOM;
     int32_t points = points_of_edge(cad, e, range);
     for (int32_t i = 0; i < points; i++) {
       int32_t at = model->edge_count++;
@@ -81,6 +83,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
                         model->edge_tangent[at]);
       cw_unit(model->edge_tangent[at]);
       model->edge_room[at] = room;
+      model->edge_sharp[at] = (uint8_t)!smooth;
       model->edge_end[at] = i == 0 || i == points - 1;
     }
   }
@@ -250,6 +253,7 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->edge_tangent);
   free(model->edge_room);
   free(model->edge_end);
+  free(model->edge_sharp);
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);

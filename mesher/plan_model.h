@@ -24,7 +24,7 @@ typedef struct {
   int32_t edge_count;                  // points along CAD edges
   double (*edge_x)[3], (*edge_tangent)[3];
   double *edge_room;                   // m: how near a plane may come to each of them
-  uint8_t *edge_end;                   // at a CAD vertex
+  uint8_t *edge_end, *edge_sharp;      // at a CAD vertex; of an edge that is a feature
   int32_t wall_count;                  // points all over the walls
   double (*wall_x)[3];
   int32_t *wall_triangle;              // of each, the background triangle

@@ -7,7 +7,7 @@
 #include "mesher/vec.h"
 
 enum { SAMPLES_MOST = 16000 }; // a section is seen well enough with these; smaller parts use all they have
-static const double END_WEIGHT = 2;    // of an end of a CAD edge, in points along it
+static const double END_WEIGHT = 6;    // of an end of a CAD edge, in points along it
 static const double ALONG_EDGE = 0.35; // sine of the least angle between a plane and a CAD edge that it crosses
 
 int cw_profile_bin(const CwPlanProfile *profile, double place) {
@@ -88,7 +88,9 @@ static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const do
     for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
       // Full weight within half of the room, then less and less.
       double off = fabs(profile->low + (b + 0.5) * profile->width - place);
-      profile->grazed[b] += (model->edge_end[e] ? END_WEIGHT : 1) * fmin(fmax(2 * (1 - off / room), 0), 1);
+      double near = fmin(fmax(2 * (1 - off / room), 0), 1);
+      profile->grazed[b] += (model->edge_end[e] ? END_WEIGHT : 1) * near;
+      if (model->edge_sharp[e] && near > profile->cut[b]) profile->cut[b] = near;
     }
   }
 }

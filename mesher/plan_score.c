@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/plan_profile.h"
 #include "mesher/schedule.h"
 #include "mesher/vec.h"
 
@@ -17,13 +16,19 @@ enum {
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
   SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
   SHARED_LEAST = 6000, // pieces and samples of a part whose directions are worth sharing among the ranks
-  LINES_JUDGED = 200 // candidates whose lines are looked at, best first
+  LINES_JUDGED = 200, // candidates whose lines are looked at, best first
+  SMALL_PART = 8,     // regions to come of a part for which other planes are tried
+  TRIES = 3           // of them
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                       // shifts until they are twice as wide
 static const double TILT[TILTS] = {0.35, 0.8};         // rad
 static const double WELL = 4;                        // score of a plane that will do
 static const double BALANCE_MOST = 0.1;              // share of a region's work past which a plane is hardly wanted
+static const double CUT_LAYERS = 4;                  // what a plane through the layers along an edge costs
+static const double BAD = 5;                         // score of a plane for which others are tried
+static const double WHOLE = 20;                      // what a part costs that has to stay whole
+static const double LIKE = 0.97;                     // cosine between planes that are tried in vain alike
 static const double SHARP = 0.643, FAIR = 0.766;     // sines of 40 and 50 degrees
 
 typedef struct {
@@ -57,8 +62,9 @@ static double sharpness(double sine) {
   return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 30 * (SHARP - sine) : 0);
 }
 
-double cw_plan_place_cost(double worst, double grazed) {
-  return sharpness(worst) + fmin(0.5 * grazed, 3) + 0.02 * grazed;
+double cw_plan_place_cost(const CwPlanProfile *profile, int bin) {
+  double grazed = profile->grazed[bin];
+  return sharpness(profile->worst[bin]) + fmin(0.17 * grazed, 3) + 0.007 * grazed + CUT_LAYERS * profile->cut[bin];
 }
 
 double cw_plan_line_cost(const CwPlanLines *lines) {
@@ -75,7 +81,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
                      fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
   *worst = profile->worst[bin];
   return 6 * load + 30 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
-         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(*worst, profile->grazed[bin]);
+         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(profile, bin);
 }
 
 // Numbers of regions to try below the plane: about half of them.
@@ -139,9 +145,21 @@ static double plane_to_wall(const CwPlanModel *model, const CwPieces *pieces, co
 
 typedef struct {
   CwPlane plane;
-  int32_t below;
+  int32_t below; // regions on its negative side; 0: no plane will do
   double score;
 } Best;
+
+typedef struct {
+  int32_t count;
+  Best plane[TRIES];
+} Tried;
+
+static int like_one_tried(const Tried *tried, const CwPlane *plane) {
+  for (int32_t i = 0; i < tried->count; i++) {
+    if (fabs(cw_dot(tried->plane[i].plane.normal, plane->normal)) > LIKE) return 1;
+  }
+  return 0;
+}
 
 // Directions to look along: from, from + every, ...
 typedef struct {
@@ -191,17 +209,18 @@ done:
 
 // Looks for a better plane among some directions.
 static CwStatus search(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                       int32_t regions, int32_t from, int32_t to, int32_t every, Candidate *candidate, Best *best) {
+                       int32_t regions, int32_t from, int32_t to, const Tried *tried, Candidate *candidate, Best *best) {
   CwStatus status = CW_OK;
-  int32_t count = 0, judged = 0;
+  int32_t count = 0, judged = 0, every = part->pieces.count > PIECES_LARGE ? 2 : 1;
   Directions directions = {model, part, regions, from, every, (to - from) / every + 1};
   CW_TRY(look(&directions, candidate, &count));
   qsort(candidate, (size_t)count, sizeof *candidate, by_score);
   // Lines only add to a score, so the rest cannot win once the next score alone is no less than the best.
   for (int32_t i = 0; i < count && candidate[i].score < best->score; i++) {
     CwPlane plane = {{0}, candidate[i].offset};
-    if (++judged > LINES_JUDGED && best->score < INFINITY) break;
     direction_of(candidate[i].direction, plane.normal);
+    if (like_one_tried(tried, &plane)) continue;
+    if (++judged > LINES_JUDGED && best->score < INFINITY) break;
     CwPlanLines lines = cw_plan_lines(model, plan, node, part, &plane);
     double score = candidate[i].score + cw_plan_line_cost(&lines);
     if (score < best->score) *best = (Best){plane, candidate[i].below, score};
@@ -210,51 +229,85 @@ done:
   return status;
 }
 
-CwStatus cw_plan_best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                            int32_t regions, CwPlane *plane, int32_t *first, double *worst_angle) {
+// The best plane for `node` (its ancestors are in the plan), unlike those tried.
+static CwStatus best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                           int32_t regions, const Tried *tried, Best *best) {
   CwStatus status = CW_OK;
   Candidate *candidate = NULL;
-  Best best = {.score = INFINITY};
-  int32_t every = part->pieces.count > PIECES_LARGE ? 2 : 1;
+  *best = (Best){.score = INFINITY};
   CW_NEW(candidate, (DIRECTIONS + 1) * OF_DIRECTION);
-  CW_TRY(search(model, plan, node, part, regions, 0, DIRECTIONS, every, candidate, &best));
-  if (best.score > WELL) {
-    CW_TRY(search(model, plan, node, part, regions, DIRECTIONS + 1, DIRECTIONS + LEANING, every, candidate, &best));
+  CW_TRY(search(model, plan, node, part, regions, 0, DIRECTIONS, tried, candidate, best));
+  if (best->score > WELL) {
+    CW_TRY(search(model, plan, node, part, regions, DIRECTIONS + 1, DIRECTIONS + LEANING, tried, candidate, best));
   }
-  *first = best.below;
-  *plane = best.plane;
-  if (best.below > 0) *worst_angle = plane_to_wall(model, &part->pieces, plane);
 done:
   free(candidate);
   return status;
 }
 
-CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, CwPlanPart *part, int32_t regions, int32_t parent,
-                        int side) {
+static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
+                       int side, double *worst);
+
+// Divides the part by this plane, and both sides further. *worst: the score of the worst plane.
+static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, const Best *by,
+                          double *worst) {
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
-  int32_t first = 0, node = plan->node_count;
-  if (regions > 1) {
-    plan->node[node].parent = parent;
-    if (parent >= 0) plan->node[parent].child[side] = node; // it tells on which side the node's cell lies
-    CW_TRY(cw_plan_best_plane(model, plan, node, part, regions, &plan->node[node].plane, &first,
-                              &plan->worst_angle[node]));
-  }
-  if (first == 0) {
-    int32_t region = plan->region_count++;
-    if (parent >= 0) plan->node[parent].child[side] = -1 - region;
-    plan->predicted_cells[region] = part->work;
-    goto done;
-  }
-  plan->node_count++;
+  int32_t node = plan->node_count++, first[2] = {by->below, regions - by->below};
+  *worst = by->score;
+  plan->node[node].plane = by->plane;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
-  for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half[s]));
-  cw_plan_part_free(part); // no more needed below
-  CW_TRY(cw_plan_divide(model, plan, &half[0], first, node, 0));
-  CW_TRY(cw_plan_divide(model, plan, &half[1], regions - first, node, 1));
+  plan->worst_angle[node] = plane_to_wall(model, &part->pieces, &by->plane);
+  for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
+  for (int s = 0; s < 2; s++) {
+    double below;
+    CW_TRY(divide(model, plan, &half[s], first[s], node, s, &below));
+    cw_plan_part_free(&half[s]);
+    *worst = fmax(*worst, below);
+  }
 done:
-  cw_plan_part_free(&half[0]);
-  cw_plan_part_free(&half[1]);
-  cw_plan_part_free(part);
+  for (int s = 0; s < 2; s++) cw_plan_part_free(&half[s]);
   return status;
+}
+
+// Where a small part, or what comes of it, divides badly by the best plane, others are tried: the best of them may leave
+// a part that no plane divides well.
+static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
+                       int side, double *worst) {
+  CwStatus status = CW_OK;
+  const int32_t node = plan->node_count, region = plan->region_count;
+  Tried tried = {0};
+  double least = INFINITY;
+  int32_t chosen = -1, tries = regions <= SMALL_PART ? TRIES : 1;
+  *worst = 0;
+  if (parent >= 0) plan->node[parent].child[side] = node; // it tells on which side the node's cell lies
+  while (regions > 1 && tried.count < tries && least > BAD) {
+    Best *best = &tried.plane[tried.count];
+    plan->node[node].parent = parent;
+    CW_TRY(best_plane(model, plan, node, part, regions, &tried, best));
+    if (best->below == 0 || best->score >= least) break;
+    plan->node_count = node;
+    plan->region_count = region;
+    CW_TRY(divide_by(model, plan, part, regions, best, worst));
+    if (*worst < least) least = *worst, chosen = tried.count;
+    tried.count++;
+  }
+  if (chosen >= 0 && chosen < tried.count - 1) { // the last one was no better
+    plan->node_count = node;
+    plan->region_count = region;
+    CW_TRY(divide_by(model, plan, part, regions, &tried.plane[chosen], worst));
+  }
+  if (chosen >= 0) goto done;
+  *worst = regions > 1 ? WHOLE : 0;
+  if (parent >= 0) plan->node[parent].child[side] = -1 - region;
+  plan->predicted_cells[region] = part->work;
+  plan->region_count++;
+done:
+  return status;
+}
+
+CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
+                        int side) {
+  double worst;
+  return divide(model, plan, part, regions, parent, side, &worst);
 }

@@ -14,6 +14,7 @@
 
 #include "mesher/domain.h"
 #include "mesher/domain_table.h"
+#include "mesher/network.h"
 #include "mesher/vec.h"
 
 enum { CELLS_PER_REGION = 20000 };
@@ -22,6 +23,7 @@ static int asked_regions;
 static CwCase table;
 static CwDomainTable domains;
 static CwDomain domain[CW_DOMAINS_MOST];
+static CwSymmetry *symmetry; // of the rotor
 static double prism_factor;
 static const double TET_FACTOR = 11.6;
 
@@ -61,6 +63,8 @@ static int open_pump(void **state) {
   snprintf(path, sizeof path, "%s/geometry", folder);
   check(cw_domain_table_read(path, &domains));
   for (int d = 0; d < domains.count; d++) open_domain(&domain[d], domains.name[d], path, &scales);
+  check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
+  assert_non_null(symmetry);
   snprintf(command, sizeof command, "rm -r %s", folder);
   assert_int_equal(system(command), 0);
   return 0;
@@ -68,6 +72,7 @@ static int open_pump(void **state) {
 
 static int close_pump(void **state) {
   for (int d = 0; d < domains.count; d++) cw_domain_close(&domain[d]);
+  cw_symmetry_free(&symmetry);
   return 0;
 }
 
@@ -76,17 +81,21 @@ static double cells_at(const CwDomain *of, double scale) {
          TET_FACTOR * cw_domain_tet_integral(of, scale) / (scale * scale * scale);
 }
 
-// A plan of so many regions, at a size that gives each 20,000 cells or more.
-static void make_plan(CwDomain *of, int32_t regions, CwPlan *plan) {
+// A plan of so many regions, of so many cells each or more.
+static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *plan) {
   double scale = 1.1;
   void *bytes;
   int64_t size;
-  while (cells_at(of, scale) < (double)CELLS_PER_REGION * regions) scale *= 0.99;
+  while (cells_at(of, scale) < each * regions) scale *= 0.99;
   cw_size_set_scale(of->size, scale);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
   check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, TET_FACTOR, &bytes, &size));
   check(cw_plan_unpack(bytes, plan));
   free(bytes);
+}
+
+static void make_plan(CwDomain *of, int32_t regions, CwPlan *plan) {
+  make_plan_of(of, regions, CELLS_PER_REGION, plan);
 }
 
 typedef struct {
@@ -182,11 +191,6 @@ static void dozens_of_regions_too(void **state) {
   for (int d = 0; d < domains.count; d++) judge(d, 32, 1.2, 0.8, 0);
 }
 
-// Where blades and layers leave little room a few planes stay sharp and a few parts whole.
-static void hundreds_of_regions_can_be_had(void **state) {
-  for (int d = 0; d < domains.count; d++) judge(d, asked_regions, 4, 0.5, asked_regions / 10);
-}
-
 static void two_plans_are_the_same(void **state) {
   CwPlan a, b;
   make_plan(&domain[0], 12, &a);
@@ -215,10 +219,120 @@ static void packed_plans_come_back_whole(void **state) {
   cw_plan_free(&copy);
 }
 
+// Layers on a face at x, m; 0 on caps.
+static double layers_at(const CwDomain *of, int face, const double x[3]) {
+  int patch = cw_cad_face_patch(of->cad, face);
+  const CwLayerTarget *target = &of->patch_layers[patch];
+  if (cw_cad_patch_kind(of->cad, patch) != CW_PATCH_WALL) return 0;
+  return fmin(target->thickness,
+              fmax(1.05 * of->layer_count * target->first_height, 2.5 * cw_size_at(of->size, x)));
+}
+
+static double layers_at_corner(const CwDomain *of, const CwCorner *corner) {
+  double most = corner->face >= 0 ? layers_at(of, corner->face, corner->x) : 0;
+  int faces[2];
+  if (corner->edge >= 0) {
+    cw_cad_edge_faces(of->cad, corner->edge, faces);
+    for (int s = 0; s < 2; s++) most = fmax(most, layers_at(of, faces[s], corner->x));
+  }
+  return most;
+}
+
+static int is_smooth(const CwCad *cad, int edge) {
+  int face[2];
+  double range[2], normal[2][3];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_faces(cad, edge, face);
+  for (int s = 0; s < 2; s++) {
+    double uv[2], x[3], xu[3], xv[3];
+    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
+    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
+    cw_cross(xu, xv, normal[s]);
+    cw_unit(normal[s]);
+    for (int k = 0; k < 3; k++) normal[s][k] *= cw_cad_face_reversed(cad, face[s]) ? -1 : 1;
+  }
+  return cw_dot(normal[0], normal[1]) > 0.98;
+}
+
+// True where the plane runs along a sharp CAD edge, nearer than half of the layers there.
+static int runs_along(const CwDomain *of, const CwPlan *plan, int32_t node, int edge) {
+  double range[2], x[3], tangent[3];
+  int face[2];
+  cw_cad_edge_range(of->cad, edge, range);
+  cw_cad_edge_faces(of->cad, edge, face);
+  for (int i = 0; i <= 100; i++) {
+    cw_cad_edge_point(of->cad, edge, range[0] + (range[1] - range[0]) * i / 100, x, tangent);
+    cw_unit(tangent);
+    double layers = fmax(layers_at(of, face[0], x), layers_at(of, face[1], x));
+    if (fabs(cw_plane_distance(&plan->node[node].plane, x)) < layers / 2 &&
+        fabs(cw_dot(plan->node[node].plane.normal, tangent)) < 0.35 && cw_plan_in_cell(plan, node, x, 0, NULL, 0)) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+typedef struct {
+  int filled; // pieces of lines that the layers at their ends fill
+  int along;  // planes and edges
+} Room;
+
+// By the network that follows from the plan, not by what the planner thought of it.
+static Room room_of(const CwDomain *of, const CwPlan *plan) {
+  CwNetwork network;
+  Room room = {0};
+  check(cw_network_make(of->cad, &of->background, of->inside, plan, &network));
+  for (int32_t i = 0; i < network.curve_count; i++) {
+    const CwCurve *curve = &network.curve[i];
+    if (curve->kind != CW_CURVE_LINE) continue;
+    double layers = 0;
+    for (int k = 0; k < 2; k++) layers += layers_at_corner(of, &network.corner[curve->corner[k]]);
+    room.filled += curve->fine_length[curve->fine_count - 1] < layers;
+  }
+  cw_network_free(&network);
+  for (int e = 0; e < cw_cad_edge_count(of->cad); e++) {
+    if (is_smooth(of->cad, e)) continue;
+    for (int32_t n = 0; n < plan->node_count; n++) room.along += runs_along(of, plan, n, e);
+  }
+  return room;
+}
+
+// All ways of dividing the pump: planes and lines keep clear of layers and edges, and no plane stands slantwise on walls.
+static void judge_room(int32_t regions, double each, int few) {
+  for (int way = 0; way < 3; way++) {
+    CwDomain *of = &domain[way == 2];
+    CwPlan plan;
+    of->symmetry = way == 1 ? symmetry : NULL;
+    make_plan_of(of, regions, each, &plan);
+    of->symmetry = NULL;
+    Figures figures = figures_of(&plan);
+    Room room = room_of(of, &plan);
+    print_message("%s%s: %d of %d regions, work %.3f to %.3f of the mean, walls at %.0f degrees, %d planes under 40, "
+                  "%d lines filled, %d planes along edges\n",
+                  of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
+                  figures.angle, figures.sharp, room.filled, room.along);
+    assert_int_equal(plan.fan_count > 0, way == 1);
+    assert_true(room.filled <= few && room.along <= few && figures.sharp <= few);
+    cw_plan_free(&plan);
+  }
+}
+
+static void planes_keep_clear_of_edges_and_layers(void **state) {
+  judge_room(8, 4e5, 0);
+  judge_room(30, 1e5, 0);
+}
+
+// Where blades and layers leave little room a few planes stay sharp and a few parts whole.
+static void hundreds_of_regions_can_be_had(void **state) {
+  for (int d = 0; d < domains.count; d++) judge(d, asked_regions, 4, 0.5, asked_regions / 10);
+  judge_room(asked_regions, 4e5, asked_regions / 10);
+}
+
 int main(int argc, char **argv) {
   const struct CMUnitTest quick[] = {
       cmocka_unit_test(few_regions_are_even_and_cut_cleanly),
       cmocka_unit_test(dozens_of_regions_too),
+      cmocka_unit_test(planes_keep_clear_of_edges_and_layers),
       cmocka_unit_test(two_plans_are_the_same),
       cmocka_unit_test(packed_plans_come_back_whole),
   };
