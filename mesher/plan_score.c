@@ -80,7 +80,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   double load = fmax(fabs(cells / (below * model->mean_work) - 1),
                      fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
   *worst = profile->worst[bin];
-  return 6 * load + 30 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
+  return 6 * load + 60 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
          0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(profile, bin);
 }
 
