@@ -244,10 +244,20 @@ static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
   free(length);
 }
 
+// Of this process and of those that ended, as TetGen's.
 static double seconds(void) {
-  struct rusage use;
-  getrusage(RUSAGE_SELF, &use);
-  return (double)use.ru_utime.tv_sec + 1e-6 * (double)use.ru_utime.tv_usec;
+  struct rusage own, ended;
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &ended);
+  return (double)(own.ru_utime.tv_sec + ended.ru_utime.tv_sec) +
+         1e-6 * (double)(own.ru_utime.tv_usec + ended.ru_utime.tv_usec);
+}
+
+// Of the larger of these processes.
+static double peak(void) {
+  struct rusage ended;
+  getrusage(RUSAGE_CHILDREN, &ended);
+  return fmax((double)cw_peak_memory_bytes(), 1024.0 * (double)ended.ru_maxrss);
 }
 
 static double resident(void) {
@@ -400,7 +410,7 @@ int main(int argc, char **argv) {
                          .name = "surface"};
     double before = resident(), start = seconds();
     check(argv[1][0] == 'k' ? cw_kernel_fill(&input, &fill) : cw_fill(&input, &fill));
-    double used = seconds() - start, bytes = (double)cw_peak_memory_bytes() - before;
+    double used = seconds() - start, bytes = peak() - before;
     printf("%d %d %.3f %.0f %.0f ", mesh.triangle_count, fill.tetrahedron_count, used,
            fill.tetrahedron_count / used, bytes / fill.tetrahedron_count);
     print_quality(fill.tetrahedron_count, (const int32_t(*)[4])fill.tetrahedron, (const double(*)[3])fill.x);
