@@ -74,7 +74,8 @@ def main():
         if "\nmesh:\n" not in text:
             sys.exit(f"table1: {options.case}: no mesh section")
         case = folder / "serial.yaml"
-        case.write_text(text.replace("\nmesh:\n", "\nmesh:\n  least_regions: 1\n  cells_per_region: 4000000\n", 1))
+        serially = "\nmesh:\n  least_regions: 1\n  cells_per_region: 4000000\n  periodic_impeller: false\n"
+        case.write_text(text.replace("\nmesh:\n", serially, 1))
         run([options.build / "bin/cutwater-geometry", "--case", options.case, "--run", folder / "first"])
         serial = mesh(options, case, folder / "serial", folder / "first/geometry", 1)
         numbered = mesh(options, options.case, folder / "numbered", folder / "first/geometry", 2)
@@ -94,7 +95,7 @@ def main():
             print_row("  beside dividing planes", found[domain][1]["beside"])
             print_row("  apart from them", found[domain][1]["apart"])
             run([program, "region", one[0], folder / "surface.msh"])
-            output, _, made = run_gmsh(folder, folder / "surface.msh", 1, "-3", algorithm=options.algorithm)
+            output, _, made = run_gmsh(folder, folder / "surface.msh", 1, "-3", "-algo", options.algorithm)
             if not made.exists():
                 sys.exit(f"table1: Gmsh failed on the {domain}:\n{output[-1000:]}")
             print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
