@@ -12,7 +12,7 @@
 namespace {
 
 const double mm = 1e3;
-const double level = 1e-12; // rad: two corners of a trailing edge without lean
+const double level = 1e-12; // rad: two corners of an edge without lean
 const int fillet_points = 7;
 
 gp_Pnt at(double r, double theta, double z) {
@@ -169,7 +169,7 @@ void Maker::trailing_points(double p_bevel) {
 
 void Maker::points() {
   const bool fillets = design->root_fillet_radius > 0;
-  const int side_points = 181, nose_points = 49;
+  const int side_points = 181, nose_points = fillets ? 97 : 49;
   const CwTrailingEdge edge = design->trailing_edge;
   const CwBladeSection &middle = shape.section[CW_SPAN_POINTS / 2];
   shape.has_bevel = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
@@ -232,8 +232,9 @@ void Maker::make() {
     if (shape.section[0].start > 0)
       guide_line(w);
   }
-  if (std::fabs(shape.theta_corner[CW_HUB] - shape.theta_corner[CW_SHROUD]) < level)
-    shape.theta_corner[CW_HUB] = shape.theta_corner[CW_SHROUD];
+  for (double *theta : {shape.theta_corner, shape.theta_up})
+    if (std::fabs(theta[CW_HUB] - theta[CW_SHROUD]) < level)
+      theta[CW_HUB] = theta[CW_SHROUD];
 }
 
 // From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into

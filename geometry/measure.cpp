@@ -254,7 +254,7 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
 
 CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
   return guarded(rotor, [&] {
-    const Extent inlet = extent(rotor, has_patch(rotor, "inlet") ? "inlet" : "rotor_to_suction"),
+    const Extent inlet = extent(rotor, has_patch(rotor, "rotor_to_suction") ? "rotor_to_suction" : "inlet"),
                  interface = extent(rotor, "rotor_interface");
     measured->inlet_diameter = 2 * inlet.largest_r;
     measured->inlet_area = inlet.area;

@@ -10,7 +10,6 @@
 #include <BRep_Tool.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_CylindricalSurface.hxx>
-#include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -27,7 +26,7 @@ const int PLANE_CURVE = 49;   // points of a curve in a plane's or cylinder's pa
 const double U_MARGIN = 0.1;  // rad: keeps the faces of cylinders off u = 0, where u jumps
 const double SAME_POINT = 1e-7; // mm
 
-struct Piece { // of an outline: an arc or, between the sectors of a ring, a straight line
+struct Piece { // of an outline: an arc or, between the sectors of a ring, a line from rim to rim
   Handle(Geom_Curve) curve;
   double first, last;
 };
@@ -47,8 +46,6 @@ std::vector<Piece> outline_of(const CwSolidFace &face) {
   for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next()) {
     Piece piece;
     piece.curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), piece.first, piece.last);
-    if (!piece.curve->IsKind(STANDARD_TYPE(Geom_Circle)) && !piece.curve->IsKind(STANDARD_TYPE(Geom_Line)))
-      throw std::runtime_error("the outline of patch " + face.patch + " has other curves than circles and lines");
     outline.push_back(piece);
   }
   return outline;
@@ -95,7 +92,7 @@ public:
 private:
   // A piece of the outline with its copy at the far end.
   struct Rod {
-    Handle(Geom_Circle) circle; // null: a line
+    Handle(Geom_Circle) circle; // null: a line from rim to rim
     double first;
     int edge[2], start, end; // edges near and far; places of their ends in `line`
   };

@@ -79,8 +79,9 @@ private:
   gp_Ax3 frame(int k, double z = 0) const;
   Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
   Handle(Geom_Curve) nut_curve(double theta) const;
-  // The line on the interface from the shroud's to the hub's angle: axial, or with lean part of a helix.
-  int interface_line(const double theta[2], double turn, int begin, int end);
+  // An edge between places (r, theta, z), in which it is linear: straight where both angles are the same, else part of
+  // a helix or spiral.
+  int slanted_line(const double from[3], const double to[3], int begin, int end);
   void level_edges(Blade &b, int level);
   void band_edges(Blade &b, int band);
   void wall_edges(Blade &b);
@@ -178,20 +179,37 @@ Handle(Geom_Curve) turned(const Handle(Geom_Curve) & curve, double angle) {
   return copy;
 }
 
-int Rotor::interface_line(const double theta[2], double turn, int begin, int end) {
-  const double half = design->outlet_width / 2, ri = design->interface_radius;
-  if (theta[CW_HUB] == theta[CW_SHROUD])
-    return shell.edge(new Geom_Line(at(ri, turn + theta[CW_HUB], 0), gp::DZ()), -mm * half, mm * half, begin,
-                      end);
-  const int points = 33;
+const int slanted_points = 33;
+
+int Rotor::slanted_line(const double from[3], const double to[3], int begin, int end) {
+  const gp_Pnt first = at(from[0], from[1], from[2]), last = at(to[0], to[1], to[2]);
+  if (from[1] == to[1])
+    return shell.edge(new Geom_Line(first, gp_Dir(gp_Vec(first, last))), 0, first.Distance(last), begin, end);
   std::vector<double> u;
   std::vector<gp_Pnt> x;
-  for (int i = 0; i < points; i++) {
-    u.push_back((double)i / (points - 1));
-    x.push_back(
-        at(ri, turn + theta[CW_SHROUD] + u.back() * (theta[CW_HUB] - theta[CW_SHROUD]), half * (2 * u.back() - 1)));
+  for (int i = 0; i < slanted_points; i++) {
+    const double f = (double)i / (slanted_points - 1);
+    u.push_back(f);
+    x.push_back(at(from[0] + f * (to[0] - from[0]), from[1] + f * (to[1] - from[1]), from[2] + f * (to[2] - from[2])));
   }
   return shell.edge(cw_bspline_curve_3d(u, x), 0, 1, begin, end);
+}
+
+// The same between (r, theta) in the plane's parameters.
+Handle(Geom2d_Curve) slanted_line_in_plane(double r, double theta, double to_r, double to_theta) {
+  const auto in_plane = [&](double f) {
+    const double at_r = mm * (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
+    return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
+  };
+  if (theta == to_theta)
+    return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
+  std::vector<double> u;
+  std::vector<gp_Pnt2d> x;
+  for (int i = 0; i < slanted_points; i++) {
+    u.push_back((double)i / (slanted_points - 1));
+    x.push_back(in_plane(u.back()));
+  }
+  return cw_bspline_curve_2d(u, x);
 }
 
 // The curve along a patch at a level, of blade 0.
@@ -270,14 +288,16 @@ void Rotor::wall_edges(Blade &b) {
     b.e_end[CW_HUB] = shell.edge(nut_curve(at_hub), 0, 1, b.disk, b.up[CW_HUB]);
   }
   if (has_shaft) {
-    const double r = meridian.shaft_radius;
-    const gp_Pnt from = at(r, at_hub, meridian.inlet_z), to = at(r_pipe, at_shroud, meridian.inlet_z);
-    b.shaft = shell.vertex(from);
+    const double r = meridian.shaft_radius, from[3] = {r, at_hub, meridian.inlet_z},
+                 to[3] = {r_pipe, at_shroud, meridian.inlet_z};
+    b.shaft = shell.vertex(at(r, at_hub, meridian.inlet_z));
     b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), mm * meridian.inlet_z,
                            mm * meridian.nut_end_z, b.shaft, b.disk);
-    b.e_inlet = shell.edge(new Geom_Line(from, gp_Dir(gp_Vec(from, to))), 0, from.Distance(to), b.shaft, b.inlet);
+    b.e_inlet = slanted_line(from, to, b.shaft, b.inlet);
   }
-  b.x_out = interface_line(s.theta_corner, turn, b.out[CW_SHROUD], b.out[CW_HUB]);
+  const double ri = design->interface_radius, half = design->outlet_width / 2;
+  const double low[3] = {ri, turn + s.theta_corner[CW_SHROUD], -half}, high[3] = {ri, turn + s.theta_corner[CW_HUB], half};
+  b.x_out = slanted_line(low, high, b.out[CW_SHROUD], b.out[CW_HUB]);
 }
 
 // Arcs to the next blade. They have the angle in the frame of their passage as parameter.
@@ -368,13 +388,9 @@ void Rotor::pipe_faces(int i) {
     tube(cylinder(meridian.shaft_radius), CW_HUB, b.e_shaft, next.e_shaft, b.a_shaft, z_inlet,
          b.a_end[CW_HUB], mm * meridian.nut_end_z, false, "hub_shaft");
     // In the plane of the inlet, whose axes are those of the passage.
-    const auto in_plane = [&](double r, double theta) {
-      return gp_Pnt2d(mm * r * std::cos(theta), mm * r * std::sin(theta));
-    };
     const auto spoke = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-      const gp_Pnt2d from = in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset),
-                     to = in_plane(design->inlet_diameter / 2, shape.theta_up[CW_SHROUD] + offset);
-      return new Geom2d_Line(from, gp_Dir2d(gp_Vec2d(from, to)));
+      return slanted_line_in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset,
+                                   design->inlet_diameter / 2, shape.theta_up[CW_SHROUD] + offset);
     };
     const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
       return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), mm * r);
@@ -386,10 +402,10 @@ void Rotor::pipe_faces(int i) {
                 {b.a_shaft, false, circle(meridian.shaft_radius)}},
                false, "inlet", "inlet", "inlet" + number);
   }
-  // An axial line has z as its parameter, a helix 0 to 1.
+  // An axial line has its length as its parameter, a helix 0 to 1.
   const auto across_interface = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
     if (shape.theta_corner[CW_HUB] == shape.theta_corner[CW_SHROUD])
-      return along_v(shape.theta_corner[CW_HUB] + offset);
+      return line(shape.theta_corner[CW_HUB] + offset, -half, 0, 1);
     TColgp_Array1OfPnt2d poles(1, 2);
     poles.SetValue(1, gp_Pnt2d(shape.theta_corner[CW_SHROUD] + offset, -half));
     poles.SetValue(2, gp_Pnt2d(shape.theta_corner[CW_HUB] + offset, half));
