@@ -20,11 +20,11 @@ static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
-// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 8
-// million cells: 17.06 at scale 1.94, 13.12 at 1.14, 11.36 at 0.72, 10.55 at 0.49).
+// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 100
+// million cells: 16.4 at scale 2.02, 12.8 at 1.17, 11.4 at 0.73, 10.3 at 0.50, 9.1 at 0.20).
 static const double PRISMS_PER_LAYER = 2.45;
 static double tets_per_volume(double scale) {
-  return 8.6 + scale * (3.7 + 0.33 * scale);
+  return 8.25 + 4.2 * scale;
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
