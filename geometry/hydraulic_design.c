@@ -124,27 +124,24 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
 }
 
-// The leading edge: on the shroud outside the eye at low specific speed, and drawn into it above nq = 25, where the wheel
-// turns mixed-flow and the blades would else become too short; on the hub where a line square to the flow leads to, but not
-// so near to the axis that the blade would stand too steep there.
-static void leading_edge(const CwImpellerTable *given, CwDesign *design) {
-  enum { STATIONS = 201 };
-  CwMeridianCurve hub, shroud;
-  CwPassageStation station[STATIONS];
+// The leading edge on the shroud: outside the eye at low specific speed, and drawn into it above nq = 25, where the wheel
+// turns mixed-flow and the blades would else become too short.
+static void leading_edge_shroud(const CwImpellerTable *given, CwDesign *design) {
   const double share = 0.635 - 0.105 * fmin(1, fmax(0, (design->specific_speed_nq - 25) / 35));
-  int i = 0;
   TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share * design->inlet_diameter,
        share < 0.635 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
+}
+
+// On the hub: where a line square to the flow leads to from the shroud, but not so near to the axis that the blade would
+// stand too steep there. The passage's height is that of the line.
+static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
+  CwMeridianCurve hub, shroud;
   cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub, &shroud);
-  cw_meridian_passage(&hub, &shroud, design->outlet_diameter / 2, STATIONS, station);
-  while (i < STATIONS - 2 && station[i + 1].shroud[0] < design->leading_edge_radius_shroud)
-    i++;
-  const double part = (design->leading_edge_radius_shroud - station[i].shroud[0]) /
-                      (station[i + 1].shroud[0] - station[i].shroud[0]);
+  const CwPassageStation edge = cw_meridian_passage_at(&hub, &shroud, design->leading_edge_radius_shroud);
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
-       fmax(station[i].hub[0] + part * (station[i + 1].hub[0] - station[i].hub[0]),
-            fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
+       fmax(edge.hub[0], fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
        "square to the flow from the shroud's, at least 0.56 hub diameters and 0.55 of the shroud's");
+  SET(inlet_passage_width, edge.height, "square to the flow from the shroud's leading edge");
 }
 
 // The one blade angle that closes a wrap at mid-span (a logarithmic spiral): the integral is inverse to tan
@@ -260,9 +257,10 @@ static CwStatus impeller(const CwCase *table, double outlet_diameter, double fix
              CW_ERR_DESIGN,
              "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
              design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
+  leading_edge_shroud(&table->impeller, design);
   if (shape)
     cw_meridian_shape(&table->impeller, design);
-  leading_edge(&table->impeller, design);
+  leading_edge_hub(&table->impeller, design);
   CW_TRY(cw_meridian_make(design, meridian));
   inlet_triangle(table, meridian, design);
   CW_TRY(outlet_angle(table, meridian, fixed, design));
@@ -457,17 +455,14 @@ static CwPriority resolved_priority(const CwImpellerTable *given) {
 
 static void passage(const CwMeridian *meridian, CwDesign *design) {
   enum { STEPS = 100 };
-  double a[2], b[2], dx[2], length = 0;
+  double x[2], dx[2], length = 0;
   CwPassageStation station[STEPS + 1];
   cw_meridian_passage(&meridian->hub, &meridian->shroud, design->outlet_diameter / 2, STEPS + 1, station);
   for (int i = 0; i <= STEPS; i++) {
-    cw_meridian_blade_point(meridian, 0.5, (double)i / STEPS, a, dx);
+    cw_meridian_blade_point(meridian, 0.5, (double)i / STEPS, x, dx);
     length += hypot(dx[0], dx[1]) * (i == 0 || i == STEPS ? 0.5 : 1) / STEPS;
   }
-  cw_meridian_blade_point(meridian, 0, 0, a, NULL);
-  cw_meridian_blade_point(meridian, 1, 0, b, NULL);
   SET(meridional_length, length, "meridian");
-  SET(inlet_passage_width, hypot(a[0] - b[0], a[1] - b[1]), "meridian");
   SET(passage_area_eye, station[0].area, "meridian");
   SET(passage_area_inlet, cw_meridian_area(meridian, 0), "meridian");
   SET(passage_area_outlet, cw_meridian_area(meridian, 1), "meridian");

@@ -45,15 +45,17 @@ static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
 }
 
 // Creases sharper than this leave prism layers with more than the skewness that solvers accept.
-static void show_rotor(const CwMeasuredRotor *rotor) {
+static void show_rotor(const CwDesign *design, const CwMeasuredRotor *rotor) {
   const double least = fmin(rotor->hub_crease.angle, rotor->shroud_crease.angle) / degree;
   cw_log("measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
-  cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least; sharpest wedge of the "
-         "trailing edge "
-         "%.1f deg",
-         rotor->hub_crease.angle / degree, rotor->shroud_crease.angle / degree,
-         360 - rotor->trailing_edge.angle / degree);
+  if (design->root_fillet_radius > 0)
+    cw_log("measured: root fillets of %.2f mm meet hub and shroud within %.2f deg of tangency", design->root_fillet_radius * 1e3,
+           fabs(180 - least));
+  else
+    cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least", rotor->hub_crease.angle / degree,
+           rotor->shroud_crease.angle / degree);
+  cw_log("measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
   if (least < 66)
     cw_log_warn(
         "blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
@@ -66,14 +68,14 @@ static void show_rotor(const CwMeasuredRotor *rotor) {
         360 - rotor->trailing_edge.angle / degree);
 }
 
-static void show_measured(const CwPump *pump, const CwMeasuredPump *measured) {
+static void show_measured(const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {
   const CwMeasuredRotor *rotor = &measured->rotor;
   const CwMeasuredStator *stator = &measured->stator;
   for (int i = 0; i < pump->count; i++)
     show_solid(pump->solid[i], &measured->solid[i]);
   cw_log("measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
          100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1), rotor->kink.angle / degree);
-  show_rotor(rotor);
+  show_rotor(design, rotor);
   cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides",
          stator->base_diameter * 1e3, stator->inlet_width * 1e3, rotor->interface_radius * 1e3,
          rotor->interface_area * 1e6);
@@ -91,7 +93,7 @@ static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeS
   CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, faces, "faces"));
   begin = cw_seconds();
   CW_TRY(cw_pump_measure(design, pump, measured));
-  show_measured(pump, measured);
+  show_measured(design, pump, measured);
   CW_TRY(cw_record_step(record, "measure", cw_seconds() - begin, faces, "faces"));
   for (int i = CW_PUMP_STATOR + 1; i < pump->count; i++) {
     snprintf(key, sizeof key, "%s_volume_m3", cw_solid_domain(pump->solid[i]));

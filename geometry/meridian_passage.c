@@ -44,26 +44,48 @@ static double hub_parameter(const CwMeridianCurve *hub, double least, const doub
   return t;
 }
 
+static double parameter_at_radius(const CwMeridianCurve *shroud, double radius) {
+  double low = 0, high = 1, x[2];
+  for (int i = 0; i < 50; i++) {
+    const double middle = 0.5 * (low + high);
+    cw_meridian_point(shroud, middle, x, NULL);
+    *(x[0] < radius ? &low : &high) = middle;
+  }
+  return low;
+}
+
+// The line from the shroud's point at t, to the hub from its parameter `least` on; returns the hub's parameter.
+static double line_from(const CwMeridianCurve *hub, const CwMeridianCurve *shroud, double t, double least,
+                        CwPassageStation *s) {
+  double dx[2];
+  cw_meridian_point(shroud, t, s->shroud, dx);
+  const double speed = hypot(dx[0], dx[1]), along[2] = {dx[0] / speed, dx[1] / speed};
+  const double on_hub = hub_parameter(hub, least, s->shroud, along, s->hub);
+  s->height = hypot(s->hub[0] - s->shroud[0], s->hub[1] - s->shroud[1]);
+  s->area = M_PI * (s->hub[0] + s->shroud[0]) * s->height;
+  return on_hub;
+}
+
+static const double BEFORE = -0.2; // the hub's parameter before its begin, where it is nearly a cylinder
+
 void cw_meridian_passage(const CwMeridianCurve *hub, const CwMeridianCurve *shroud, double outlet_radius, int count,
                          CwPassageStation *station) {
-  double end = 0, high = 1, x[2], dx[2];
-  for (int i = 0; i < 50; i++) {
-    const double middle = 0.5 * (end + high);
-    cw_meridian_point(shroud, middle, x, NULL);
-    *(x[0] < outlet_radius ? &end : &high) = middle;
-  }
-  double t = -0.2; // the hub before its begin: nearly a cylinder
+  const double end = parameter_at_radius(shroud, outlet_radius);
+  double t = BEFORE;
   for (int i = 0; i < count; i++) {
     CwPassageStation *s = &station[i];
-    cw_meridian_point(shroud, end * i / (count - 1), s->shroud, dx);
-    const double speed = hypot(dx[0], dx[1]), along[2] = {dx[0] / speed, dx[1] / speed};
-    t = hub_parameter(hub, t, s->shroud, along, s->hub);
-    s->area = M_PI * (s->hub[0] + s->shroud[0]) * hypot(s->hub[0] - s->shroud[0], s->hub[1] - s->shroud[1]);
+    t = line_from(hub, shroud, end * i / (count - 1), t, s);
     const CwPassageStation *before = i > 0 ? s - 1 : s;
     s->length = before->length * (i > 0) +
                 0.5 * hypot(s->hub[0] + s->shroud[0] - before->hub[0] - before->shroud[0],
                             s->hub[1] + s->shroud[1] - before->hub[1] - before->shroud[1]);
   }
+}
+
+CwPassageStation cw_meridian_passage_at(const CwMeridianCurve *hub, const CwMeridianCurve *shroud, double radius) {
+  CwPassageStation station = {.length = 0};
+  line_from(hub, shroud, parameter_at_radius(shroud, radius), BEFORE, &station);
+  return station;
 }
 
 double cw_passage_reversal(const CwPassageStation *station, int count) {

@@ -76,7 +76,7 @@ static void paper(void **state) {
     for (int wall = 0; wall < 2; wall++) {
       const CwMeridianCurve *curve = wall ? &meridian.shroud : &meridian.hub;
       const double *end = wall ? s->shroud : s->hub;
-      double x[2], dx[2], least = HUGE_VAL;
+      double x[2], dx[2] = {0}, least = HUGE_VAL;
       for (int k = -4000; k <= 20000; k++) { // the curve's direction at its point nearest to the end
         double d[2];
         cw_meridian_point(curve, k / 20000.0, x, d);
@@ -97,6 +97,24 @@ static void paper(void **state) {
   }
 }
 
+// The line at a radius of the shroud is that of the stations about it.
+static void line_at_a_radius(void **state) {
+  CwCase table;
+  CwDesign design;
+  CwMeridian meridian;
+  CwPassageStation station[COUNT];
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
+  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
+  cw_meridian_passage(&meridian.hub, &meridian.shroud, design.outlet_diameter / 2, COUNT, station);
+  for (int i = 1; i < COUNT; i++) {
+    const CwPassageStation at = cw_meridian_passage_at(&meridian.hub, &meridian.shroud, station[i].shroud[0]);
+    near_to(at.hub[0], station[i].hub[0], 1e-9);
+    near_to(at.height, station[i].height, 1e-9);
+    near_to(at.area, station[i].area, 1e-10);
+  }
+}
+
 static void reversal(void **state) {
   CwPassageStation station[5] = {{.area = 10}, {.area = 12}, {.area = 11.4}, {.area = 12.6}, {.area = 13}};
   near_to(cw_passage_reversal(station, 5), 0.05, 1e-12);
@@ -109,7 +127,7 @@ static void reversal(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(straight_annulus), cmocka_unit_test(parallel_disks), cmocka_unit_test(wedge),
-      cmocka_unit_test(paper),            cmocka_unit_test(reversal),
+      cmocka_unit_test(paper),            cmocka_unit_test(line_at_a_radius), cmocka_unit_test(reversal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
