@@ -250,7 +250,7 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
   crossing->list_count = 0;
   for (int32_t f = 0; f < in->triangle_count; f++) {
     const int32_t *v = in->triangle[f];
-    crossing->active[f] = !crossing->searched || moved[v[0]] || moved[v[1]] || moved[v[2]];
+    crossing->active[f] = moved[v[0]] || moved[v[1]] || moved[v[2]];
     if (crossing->active[f]) crossing->list[crossing->list_count++] = f;
   }
   for (int32_t f = 0; f < crossing->item_count; f++) {

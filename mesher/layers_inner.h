@@ -143,8 +143,8 @@ typedef struct {
 } CwLayerCrossing;
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing); // zeroed before
 void cw_layers_crossing_free(CwLayerCrossing *crossing);
-// Brings the pairs up to date with the front; moved: vertices that moved since the last time (not read the first time).
-// Collective.
+// Brings the pairs up to date with the front; moved: vertices that moved since the last time; the first time all those not
+// known to be clear of one another. Collective.
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved);
 
 // layers_repair.c: makes prisms and front valid; fills `front`.

@@ -8,10 +8,11 @@
 #include "mesher/orbit_skeleton.h"
 #include "pipeline/log.h"
 
-enum { ROUNDS = 8 };
+enum { ROUNDS = 20 };
 static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
 static const double VALID = 0.02;    // least prism quality
-static const double THIN = 0.8;      // of the target, where the copies do not fit one another
+static const double THIN = 0.8;      // what a column keeps where the copies do not fit one another
+static const double SLOPE = 0.3;     // heights change by no more per distance, as where they are graded (layers_gap)
 static const double SAME = 1e-9;     // m: fronts that differ less are the same
 
 // The part of the wall that the first ones and what stands near them make up.
@@ -176,33 +177,37 @@ static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
   for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
 }
 
-// Checks the part with the columns as they were spread; marks the points whose columns do not fit.
+// Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What has
+// not moved was checked as it was made.
 static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad, int32_t *bad_count) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = &part->in;
   CwLayerWork work = {.in = in, .n = in->point_count};
   CwLayerCrossing crossing = {0};
+  uint8_t *moved = NULL;
   double (*front)[3] = NULL, most = 0;
   *bad_count = 0;
   memset(bad, 0, (size_t)part->whole->point_count);
   CW_NEW(front, in->point_count);
-  for (int32_t i = 0; i < in->point_count; i++) memcpy(front[i], layers->front[part->global[i]], sizeof *front);
-  for (int32_t f = 0; f < in->triangle_count; f++) { // all that stands on or beside a first face
+  CW_NEW(moved, in->point_count);
+  for (int32_t i = 0; i < in->point_count; i++) {
+    memcpy(front[i], layers->front[part->global[i]], sizeof *front);
+    moved[i] = distance3(front[i], made->front[i]) >= SAME;
+  }
+  for (int32_t f = 0; f < in->triangle_count; f++) {
     const int32_t *corner = in->triangle[f];
-    int beside = 0;
+    int beside = 0, changed = moved[corner[0]] || moved[corner[1]] || moved[corner[2]];
     for (int k = 0; k < 3; k++) beside |= part->is_first[part->global[corner[k]]];
     for (int k = 0; k < 3 && beside; k++) most = fmax(most, distance3(front[corner[k]], made->front[corner[k]]));
-  }
-  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
-               in->triangle_count, part->whole->triangle_count, 1e3 * most);
-  if (most < SAME) goto done; // as the layers were made and checked
-  for (int32_t f = 0; f < in->triangle_count; f++) {
-    if (cw_layers_prism_quality(&work, f, (const double(*)[3])front) >= VALID) continue;
+    if (!changed || cw_layers_prism_quality(&work, f, (const double(*)[3])front) >= VALID) continue;
     ++*bad_count;
     mark(part, f, bad);
   }
+  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
+               in->triangle_count, part->whole->triangle_count, 1e3 * most);
+  if (*bad_count || most < SAME) goto done; // crossings only between sound prisms
   CW_TRY(cw_layers_crossing_make(&work, &crossing));
-  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])front, NULL));
+  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])front, moved));
   for (int32_t i = 0; i < crossing.pair_count; i++) {
     const CwLayerPair *pair = &crossing.pair[i];
     if (pair->kind_f == 1 && pair->kind_g == 1) continue; // the wall is as it is
@@ -213,20 +218,58 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
 done:
   cw_layers_crossing_free(&crossing);
   free(front);
+  free(moved);
   return status;
 }
 
-// Lowers the targets of all orbits with a bad column.
-static void thin(Part *part, const uint8_t *bad) {
+// Gives the columns of all turned copies of v the height `height`, and marks them.
+static void lower(const Part *part, int32_t v, double height, CwLayers *layers, uint8_t *lowered) {
+  const CwLayerInput *whole = part->whole;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
-  for (int32_t v = 0; v < part->whole->point_count; v++) {
-    if (!bad[v]) continue;
-    int32_t at = v;
-    do {
-      if (part->local[at] >= 0) part->target[part->local[at]] *= THIN;
-      at = cw_orbit_node(orbits, at, 1);
-    } while (at >= 0 && at != v);
+  int32_t first = part->is_first[v] ? v : -1;
+  for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+    if (part->is_first[at] && (first < 0 || at < first)) first = at;
   }
+  double *end = layers->front[first], share = height / layers->height[first];
+  for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
+  if (whole->guide_count[first]) whole->snap(whole->snap_context, first, end);
+  int32_t at = first, turns = 0;
+  do {
+    if (at != first) cw_orbit_point(orbits, turns, end, layers->front[at]);
+    layers->height[at] = height;
+    layers->reason[at] = CW_LAYER_REPAIR;
+    lowered[at] = 1;
+    turns++;
+    at = cw_orbit_node(orbits, at, 1);
+  } while (at >= 0 && at != first);
+}
+
+// Lowers the columns of all orbits with a bad one, and those around that would stand out.
+static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *whole = part->whole;
+  uint8_t *lowered = NULL;
+  CW_NEW(lowered, whole->point_count);
+  for (int32_t v = 0; v < whole->point_count; v++) {
+    if (bad[v] && !lowered[v]) lower(part, v, THIN * layers->height[v], layers, lowered);
+  }
+  for (int again = 1; again;) {
+    again = 0;
+    for (int32_t f = 0; f < part->in.triangle_count; f++) {
+      const int32_t *corner = part->in.triangle[f];
+      for (int k = 0; k < 6; k++) { // either way along each edge
+        int32_t v = part->global[corner[k / 2]], w = part->global[corner[(k / 2 + 1 + k % 2) % 3]];
+        if (!lowered[v]) continue;
+        double most = layers->height[v] + SLOPE * distance3(whole->x[v], whole->x[w]);
+        if (layers->height[w] <= most) continue;
+        lower(part, w, most, layers, lowered);
+        again = 1;
+      }
+    }
+  }
+done:
+  free(lowered);
+  return status;
 }
 
 CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers) {
@@ -241,18 +284,17 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   CW_NEW(bad, input->point_count);
   cw_ledger_part("layers: copies");
   CW_TRY(part_make(skeleton, input, &part));
+  CW_TRY(cw_layers_make(&part.in, &made));
+  cw_ledger_part("layers: copies");
+  CW_TRY(spread(&part, &made, layers));
+  layers->repair_rounds = made.repair_rounds;
+  layers->thinned_count = made.thinned_count;
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
-    CW_TRY(cw_layers_make(&part.in, &made));
-    cw_ledger_part("layers: copies");
-    CW_TRY(spread(&part, &made, layers));
     CW_TRY(check(&part, &made, layers, bad, &bad_count));
-    layers->repair_rounds = made.repair_rounds;
-    layers->thinned_count = made.thinned_count;
-    cw_layers_free(&made);
     if (!bad_count) break;
     cw_log_debug("%d prisms and pairs of the front do not fit their turned copies", bad_count);
-    thin(&part, bad);
+    CW_TRY(thin(&part, bad, layers));
   }
   if (bad_count) status = CW_RETRY;
 done:

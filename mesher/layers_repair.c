@@ -229,6 +229,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   CW_NEW(repair.mark, work->n);
   CW_NEW(repair.moved, work->n);
   CW_NEW(repair.uncrossed, work->n);
+  memset(repair.uncrossed, 1, (size_t)work->n);
   CW_NEW(repair.height, work->n);
   CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
   repair.crossing.tree = *tree; // the prisms stand where the walls do
