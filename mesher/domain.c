@@ -198,10 +198,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
                            .prism_factor = prism_factor};
   status = domain->symmetry ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
                                                domain->symmetry->count, &plan)
-                            : CW_RETRY;
-  if (status == CW_RETRY) {
-    status = cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
-  }
+                            : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
   CW_TRY(status);
   CW_TRY(cw_plan_pack(&plan, bytes, byte_count));
 done:
@@ -231,16 +228,15 @@ CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes) {
   cw_plan_free(&domain->plan);
   CW_TRY(cw_plan_unpack(bytes, &domain->plan));
   if (!domain->symmetry) goto done;
-  if (domain->plan.fan_count && fixed_faces_fit(domain)) {
+  if (fixed_faces_fit(domain)) {
     status = cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &network);
     if (status == CW_OK) status = cw_orbit_network(&network, &orbits);
   } else {
-    status = CW_RETRY;
+    status = CW_FAIL(CW_RETRY, "a face round the axis lies on the side of the passages");
   }
   if (status == CW_OK) goto done;
   cw_plan_free(&domain->plan);
   if (status == CW_ERR_MESH) status = CW_RETRY; // a half-plane grazes something; planes of the other kind may not
-  cw_fail_clear();
 done:
   cw_orbit_free(&orbits);
   cw_network_free(&network);

@@ -78,7 +78,7 @@ static CwStatus find_axis(Fan *fan) {
     wet[i] = cw_inside_test(fan->model->inside, x);
     runs += i > 0 && wet[i] != wet[i - 1];
   }
-  if (runs != 1) return CW_RETRY;
+  if (runs != 1) return CW_FAIL(CW_RETRY, "fluid on the axis at both ends, or at none");
   while (wet[last] == wet[0]) last++;
   fan->up = wet[0] ? 1 : -1;
   fan->low = wet[0] ? low : -high;
@@ -102,7 +102,7 @@ static CwStatus place_root(Fan *fan) {
     plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
     plan->worst_angle[0] = worst;
   }
-  return best < INFINITY ? CW_OK : CW_RETRY;
+  return best < INFINITY ? CW_OK : CW_FAIL(CW_RETRY, "no plane across the axis fits");
 }
 
 // Divides the side of the pipe into slices of about equal work: planes 1 .. slices - 1 in a chain from node 0 outwards.
@@ -191,10 +191,7 @@ static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
     for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
     if (sum < best) best = sum, chosen = start;
   }
-  if (!(best < INFINITY)) {
-    status = CW_RETRY;
-    goto done;
-  }
+  CW_REQUIRE(best < INFINITY, CW_RETRY, "no half-planes fit");
   plan->fan_count = wedges * fan->count;
   plan->fan_turns = fan->count;
   plan->node_count += plan->fan_count;

@@ -277,6 +277,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   Part part = {0};
   CwLayers made = {0};
   uint8_t *bad = NULL;
+  const double *near = input->x[0];
   memset(layers, 0, sizeof *layers);
   CW_NEW(layers->front, input->point_count);
   CW_NEW(layers->height, input->point_count);
@@ -293,10 +294,15 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   for (int round = 0; round < ROUNDS && bad_count; round++) {
     CW_TRY(check(&part, &made, layers, bad, &bad_count));
     if (!bad_count) break;
-    cw_log_debug("%d prisms and pairs of the front do not fit their turned copies", bad_count);
+    int32_t first = 0;
+    while (!bad[first]) first++;
+    near = input->x[first];
+    cw_log_debug("%d prisms and pairs of the front do not fit their turned copies, near (%.3f, %.3f, %.3f) mm", bad_count,
+                 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
     CW_TRY(thin(&part, bad, layers));
   }
-  if (bad_count) status = CW_RETRY;
+  CW_REQUIRE(!bad_count, CW_RETRY, "after %d rounds %d prisms and pairs of the front do not fit their turned copies, near "
+             "(%.3f, %.3f, %.3f) mm", ROUNDS, bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
 done:
   part_free(&part);
   cw_layers_free(&made);

@@ -123,7 +123,10 @@ done:
 static CwStatus plan_whole(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
   double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
-  cw_log("%s: its passages cannot be divided alike; it is meshed whole", run->domain[d].name);
+  const char *reason = cw_fail_message();
+  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name,
+         reason[0] ? reason : "as in the run that this one goes on from");
+  cw_fail_clear();
   cw_domain_clear(&run->domain[d]);
   cw_symmetry_free(&run->domain[d].symmetry);
   run->whole = 1;

@@ -159,13 +159,19 @@ done:
   return status;
 }
 
-static CwStatus mesh_inner(CwMeshRun *run) {
+// *tight: places where layers leave no room on the planes; then there are no inner surfaces.
+static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
   CwStatus status = CW_OK;
   CwResults caps = {0}, interfaces = {0};
   CwMeshTask *task = NULL;
   int32_t count, made = 0, counts[CW_DOMAINS_MOST];
   cw_ledger_part("free curves");
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
+  *tight = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
+    *tight += run->domain[d].skeleton.tight_count;
+  }
+  if (*tight > 0) goto done;
   cw_face_counts(run, counts);
   CW_TRY(cw_results_make(&caps, run->domains.count, counts));
   CW_TRY(face_tasks(run, 0, &count, &task));
@@ -314,6 +320,46 @@ static void thin_alike(const CwSkeleton *skeleton, double *most_height) {
   }
 }
 
+static CwStatus start_thinning(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  int32_t count = run->domain[d].skeleton.wall_count;
+  if (run->most_height[d]) goto done;
+  CW_NEW(run->most_height[d], count);
+  for (int32_t v = 0; v < count; v++) run->most_height[d][v] = INFINITY;
+done:
+  return status;
+}
+
+// Where layers leave no room on the planes: thinner columns near the places, as where regions have failed.
+static CwStatus thin_tight(CwMeshRun *run, int attempt) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    if (skeleton->tight_count == 0) continue;
+    double at[3];
+    for (int k = 0; k < 3; k++) at[k] = 1e3 * skeleton->tight[0][k];
+    CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
+               "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it, after %d attempts "
+               "with thinner layers",
+               run->domain[d].name, at[0], at[1], at[2], ATTEMPTS);
+    if (run->rank == 0) {
+      cw_log_warn("%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it; tried again "
+                  "with thinner layers there",
+                  run->domain[d].name, at[0], at[1], at[2]);
+    }
+    CW_TRY(start_thinning(run, d));
+    for (int32_t i = 0; i < skeleton->tight_count; i++) {
+      CwRegionFailure place = {.failed = 1};
+      memcpy(place.at, skeleton->tight[i], sizeof place.at);
+      cw_region_failure_thin(skeleton, -1, &place, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
+    }
+    thin_alike(skeleton, run->most_height[d]);
+  }
+  run->retries++;
+done:
+  return status;
+}
+
 // Where regions have failed: thinner columns near the places, more of them and thinner ones with each attempt. Out of
 // attempts: fails for the first region.
 static CwStatus thin_columns(CwMeshRun *run, int attempt) {
@@ -336,10 +382,7 @@ static CwStatus thin_columns(CwMeshRun *run, int attempt) {
         cw_log_warn("%s region %d, %s: %s; tried again with thinner layers there", run->domain[d].name, r + 1, place,
                     failure->message);
       }
-      if (!run->most_height[d]) {
-        CW_NEW(run->most_height[d], skeleton->wall_count);
-        for (int32_t v = 0; v < skeleton->wall_count; v++) run->most_height[d][v] = INFINITY;
-      }
+      CW_TRY(start_thinning(run, d));
       cw_region_failure_thin(skeleton, r, failure, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
     }
     if (run->most_height[d]) thin_alike(skeleton, run->most_height[d]);
@@ -362,27 +405,39 @@ static void learn_tets(CwMeshRun *run) {
 }
 
 // CW_RETRY where a symmetric domain does not come out symmetric.
-static CwStatus mesh_surfaces(CwMeshRun *run) {
+static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight) {
   CwStatus status = CW_OK;
   CW_TRY(mesh_walls(run));
   CW_TRY(grow_layers(run));
-  CW_TRY(mesh_inner(run));
+  CW_TRY(mesh_inner(run, tight));
 done:
   return status;
 }
 
+static void end_thinning(CwMeshRun *run) {
+  for (int d = 0; d < run->domains.count; d++) {
+    free(run->most_height[d]);
+    run->most_height[d] = NULL;
+  }
+}
+
 // One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal, the
-// impeller is meshed whole; regions that fail are tried again with thinner layers.
+// impeller is meshed whole; surfaces and regions that fail are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  int32_t failed = 0;
+  int32_t failed = 0, tight = 0;
   for (int attempt = 0;;) {
-    status = mesh_surfaces(run);
+    status = mesh_surfaces(run, &tight);
     if (status == CW_RETRY) {
+      end_thinning(run); // the walls will be others
       CW_TRY(cw_mesh_plan_whole(run));
       continue;
     }
     CW_TRY(status);
+    if (tight > 0) {
+      CW_TRY(thin_tight(run, attempt++));
+      continue;
+    }
     CW_TRY(refine_interfaces(run));
     cw_ledger_part("points that regions share");
     for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
@@ -391,10 +446,7 @@ static CwStatus mesh_pass(CwMeshRun *run) {
     CW_TRY(thin_columns(run, attempt++));
   }
 done:
-  for (int d = 0; d < run->domains.count; d++) {
-    free(run->most_height[d]);
-    run->most_height[d] = NULL;
-  }
+  end_thinning(run);
   return status;
 }
 

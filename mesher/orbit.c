@@ -176,17 +176,24 @@ CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits) {
   for (int32_t i = 0; i < network->corner_count; i++) {
     CwCorner turned = turned_corner(network, symmetry, &network->corner[i]);
     next[i] = find_corner(network, &turned);
+    CW_REQUIRE(next[i] >= 0, CW_RETRY, "the corner of planes and edges at (%.3f, %.3f, %.3f) mm has no turned copy",
+               1e3 * network->corner[i].x[0], 1e3 * network->corner[i].x[1], 1e3 * network->corner[i].x[2]);
   }
   status = cw_orbits_make(network->corner_count, next, symmetry->count, 0, &orbits->corner);
   next = NULL;
-  if (status != CW_OK) goto done;
+  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring corners and curves of the planes to themselves");
+  CW_TRY(status);
   CW_NEW(next, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
+    const double *x = network->corner[network->curve[i].corner[0]].x;
     next[i] = find_curve(network, symmetry, &orbits->corner, &network->curve[i]);
+    CW_REQUIRE(next[i] >= 0, CW_RETRY, "the curve from (%.3f, %.3f, %.3f) mm has no turned copy", 1e3 * x[0], 1e3 * x[1],
+               1e3 * x[2]);
   }
   status = cw_orbits_make(network->curve_count, next, symmetry->count, 0, &orbits->curve);
   next = NULL;
-  if (status != CW_OK) goto done;
+  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring corners and curves of the planes to themselves");
+  CW_TRY(status);
   for (int32_t i = 0; i < network->corner_count; i++) {
     const CwCorner *first = &network->corner[orbits->corner.first[i]];
     cw_orbit_point(orbits, orbits->corner.turns[i], first->x, network->corner[i].x);

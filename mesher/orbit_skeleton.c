@@ -72,9 +72,13 @@ CwStatus cw_orbit_outlines(CwSkeleton *skeleton) {
       size_t size = (size_t)outline->corner_count * sizeof *corner;
       if (!memcmp(corner + start[j], corner + start[count] + start[i], size)) next[i] = j;
     }
+    const double *x = skeleton->node_x[outline->corner[0]];
+    CW_REQUIRE(next[i] >= 0, CW_RETRY, "an interface on plane %d has no turned copy, near (%.3f, %.3f, %.3f) mm",
+               outline->node, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
   }
   status = cw_orbits_make(count, next, turns, 1, &orbits->outline);
   next = NULL;
+  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring the interfaces to themselves");
 done:
   free(next);
   free(corner);

@@ -213,3 +213,60 @@ done:
   free(area);
   return status;
 }
+
+typedef struct {
+  double low, high; // along the longer side of all points
+  int32_t edge;
+} Span;
+
+static int by_low(const void *p, const void *q) {
+  const Span *a = p, *b = q;
+  if (a->low != b->low) return a->low < b->low ? -1 : 1;
+  return (a->edge > b->edge) - (a->edge < b->edge);
+}
+
+static double side_of(const double a[2], const double b[2], const double c[2]) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static int cross(const double (*point)[2], const int32_t e[2], const int32_t f[2]) {
+  if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return 0;
+  const double *a = point[e[0]], *b = point[e[1]], *c = point[f[0]], *d = point[f[1]];
+  return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
+}
+
+CwStatus cw_polygons_crossings(int32_t point_count, const double (*point)[2], int32_t edge_count,
+                               const int32_t (*edge)[2], int32_t *crossing_count, int32_t (**crossing)[4]) {
+  CwStatus status = CW_OK;
+  Span *span = NULL;
+  double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+  int32_t capacity = 16;
+  *crossing_count = 0;
+  CW_NEW(*crossing, capacity);
+  CW_NEW(span, edge_count);
+  for (int32_t i = 0; i < point_count; i++) {
+    for (int k = 0; k < 2; k++) low[k] = fmin(low[k], point[i][k]), high[k] = fmax(high[k], point[i][k]);
+  }
+  int along = high[1] - low[1] > high[0] - low[0];
+  for (int32_t e = 0; e < edge_count; e++) {
+    double a = point[edge[e][0]][along], b = point[edge[e][1]][along];
+    span[e] = (Span){fmin(a, b), fmax(a, b), e};
+  }
+  qsort(span, (size_t)edge_count, sizeof *span, by_low);
+  for (int32_t i = 0; i < edge_count; i++) {
+    for (int32_t j = i + 1; j < edge_count && span[j].low <= span[i].high; j++) {
+      const int32_t *e = edge[span[i].edge], *f = edge[span[j].edge];
+      if (!cross(point, e, f)) continue;
+      if (*crossing_count == capacity) {
+        void *grown = realloc(*crossing, 2 * (size_t)capacity * sizeof **crossing);
+        CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d crossings", capacity);
+        *crossing = grown;
+        capacity *= 2;
+      }
+      memcpy((*crossing)[(*crossing_count)++], (int32_t[4]){e[0], e[1], f[0], f[1]}, sizeof **crossing);
+    }
+  }
+done:
+  free(span);
+  return status;
+}

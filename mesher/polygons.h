@@ -29,6 +29,11 @@ CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t
                           const int32_t (*edge)[2], const uint8_t *boundary, CwPolygons *polygons);
 void cw_polygons_free(CwPolygons *polygons);
 
+// Finds edges that cross others elsewhere than at their ends: *crossing_count of them, the ends of a pair one after the
+// other in (*crossing)[4] as point numbers (malloc'd).
+CwStatus cw_polygons_crossings(int32_t point_count, const double (*point)[2], int32_t edge_count,
+                               const int32_t (*edge)[2], int32_t *crossing_count, int32_t (**crossing)[4]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -22,6 +22,7 @@ void cw_skeleton_free(CwSkeleton *skeleton) {
   free(skeleton->node_x);
   free(skeleton->on_plane);
   free(skeleton->corner_node);
+  free(skeleton->tight);
   free(skeleton->cap_triangle);
   free(skeleton->cap_face);
   free(skeleton->cap_region);

@@ -68,6 +68,9 @@ typedef struct {
   uint8_t *on_plane;      // node (and its column) is shared by regions
   int32_t *corner_node;   // skeleton node of each corner, or -1
 
+  int32_t tight_count; // places where layers leave no room for a free curve, or front and free curves cross
+  double (*tight)[3];
+
   int32_t cap_triangle_count;
   int32_t (*cap_triangle)[3], *cap_face, *cap_region;
   int32_t outline_count;
@@ -95,7 +98,8 @@ CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
-// CW_RETRY where the polygons are not symmetric.
+// Where layers leave no room for that, it only collects the places (skeleton->tight): the layers there want to be thinner.
+// CW_RETRY, with a message, where the polygons are not symmetric.
 CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton);
 
 // Meshes cap face or interface outline `index`; results for cw_skeleton_merge_inner.

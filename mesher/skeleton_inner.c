@@ -69,16 +69,28 @@ static double free_end(const CwSkeleton *skeleton, const CwCurve *curve, int end
   return cw_curve_nearest(curve, skeleton->node_x[skeleton->corner_node[corner]]);
 }
 
+static CwStatus add_tight(CwSkeleton *skeleton, const double x[3]) {
+  CwStatus status = CW_OK;
+  void *grown = realloc(skeleton->tight, (size_t)(skeleton->tight_count + 1) * sizeof *skeleton->tight);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", skeleton->tight_count);
+  skeleton->tight = grown;
+  memcpy(skeleton->tight[skeleton->tight_count++], x, sizeof *skeleton->tight);
+done:
+  return status;
+}
+
 static CwStatus divide_free_curve(CwSkeleton *skeleton, CwCurve *curve) {
   CwStatus status = CW_OK;
   double *place = NULL;
   double from = free_end(skeleton, curve, 0), to = free_end(skeleton, curve, 1);
   int closed = curve->corner[0] == curve->corner[1], on_plane = curve->kind != CW_CURVE_EDGE;
   if (closed) from = 0, to = curve->fine_length[curve->fine_count - 1];
-  const double *x0 = skeleton->network.corner[curve->corner[0]].x;
-  CW_REQUIRE(from < to, CW_ERR_MESH,
-             "the layers fill the whole curve that starts at (%.3f, %.3f, %.3f) mm; ask for thinner layers", 1e3 * x0[0],
-             1e3 * x0[1], 1e3 * x0[2]);
+  if (!(from < to)) {
+    for (int end = 0; end < 2; end++) {
+      CW_TRY(add_tight(skeleton, skeleton->node_x[skeleton->corner_node[curve->corner[end]]]));
+    }
+    goto done;
+  }
   CW_TRY(cw_curve_divide(skeleton, curve, from, to, closed ? 3 : 1, &curve->point_count, &place));
   CW_NEW(curve->node, curve->point_count);
   CW_NEW(curve->parameter, curve->point_count);
@@ -124,12 +136,28 @@ done:
   return status;
 }
 
+// The places where edges on a plane cross: layers of neighbouring walls reach over a line of two planes.
+static CwStatus find_crossings(CwSkeleton *skeleton, const CwPatchOutline *outline) {
+  CwStatus status = CW_OK;
+  int32_t count, (*crossing)[4] = NULL;
+  CW_TRY(cw_polygons_crossings(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
+                               (const int32_t(*)[2])outline->edge, &count, &crossing));
+  for (int32_t i = 0; i < count; i++) {
+    for (int k = 0; k < 4; k++) CW_TRY(add_tight(skeleton, skeleton->node_x[outline->node[crossing[i][k]]]));
+  }
+done:
+  free(crossing);
+  return status;
+}
+
 // The interface polygons of one plane, kept as outlines of skeleton nodes.
 static CwStatus find_polygons(CwSkeleton *skeleton, int32_t node) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
   CwPolygons polygons = {0};
   CW_TRY(plane_outline(skeleton, node, &outline));
+  CW_TRY(find_crossings(skeleton, &outline));
+  if (skeleton->tight_count > 0) goto done;
   CW_TRY(cw_polygons_find(outline.point_count, (const double(*)[2])outline.uv, outline.edge_count,
                           (const int32_t(*)[2])outline.edge, outline.boundary, &polygons));
   if (polygons.polygon_count == 0) goto done;
@@ -160,10 +188,12 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
     const CwSkeletonOrbits *orbits = &skeleton->orbits;
     if (skeleton->network.curve[i].wall || cw_orbit_turns(orbits, &orbits->curve, i) > 0) continue;
     CW_TRY(divide_free_curve(skeleton, &skeleton->network.curve[i]));
+    if (skeleton->tight_count > 0) continue;
     CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->corner_node, &skeleton->node_x, add_curve_node));
   }
+  if (skeleton->tight_count > 0) goto done; // not all curves are divided
   for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node));
-  if (skeleton->orbits.symmetry) status = cw_orbit_outlines(skeleton);
+  if (skeleton->tight_count == 0 && skeleton->orbits.symmetry) status = cw_orbit_outlines(skeleton);
 done:
   return status;
 }

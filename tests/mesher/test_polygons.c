@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -103,8 +104,23 @@ static void open_outline_is_named_with_its_place(void **state) {
   assert_non_null(strstr(cw_fail_message(), "(0.0000, 0.0000) mm"));
 }
 
+static void edges_that_cross_are_found(void **state) {
+  Graph graph = {0};
+  int32_t count, (*crossing)[4];
+  add_ring(&graph, 0, 0, 3, 30);
+  add_ring(&graph, 1, 0, 0.5, 12);
+  for (int apart = 1; apart >= 0; apart--) {
+    assert_int_equal(cw_polygons_crossings(graph.points, (const double(*)[2])graph.point, graph.edges,
+                                           (const int32_t(*)[2])graph.edge, &count, &crossing), CW_OK);
+    assert_int_equal(count, apart ? 0 : 2);
+    free(crossing);
+    add_ring(&graph, 3, 0, 0.7, 9); // crosses the large ring twice
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(edges_that_cross_are_found),
       cmocka_unit_test(ring_with_six_blades_is_one_polygon_with_seven_holes),
       cmocka_unit_test(island_in_a_hole_is_a_polygon_of_its_own),
       cmocka_unit_test(line_of_another_plane_divides),
