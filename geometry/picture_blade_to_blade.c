@@ -47,9 +47,9 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   CW_TRY(cw_blade_section(design, &m, 0.5, &section));
   CW_TRY(cw_picture_begin(&picture, path, 2 * centre, 2 * centre + 40));
   cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Blades at mid-span, seen %s (against +z); beta1 %.1f, beta2 %.1f deg",
+                  "Blades at mid-span, seen %s (against +z); wrap %.1f, beta1 %.1f, beta2 %.1f deg",
                   design->rotation == CW_ROTATION_CLOCKWISE ? "from the suction side" : "from the drive",
-                  design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
+                  design->wrap_angle * 180 / M_PI, design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->interface_radius);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->inlet_diameter / 2);
   for (int kind = 0; kind < (design->splitter_start > 0 ? 2 : 1); kind++) {
@@ -78,8 +78,6 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20,
                      centre + scale * m.hub.pole[3][0] * 0.5 * cos(section.theta[0]),
                      centre + 20 - scale * m.hub.pole[3][0] * 0.5 * sin(section.theta[0]));
-  cw_picture_text(&picture, CW_TEXT_LEFT, centre + r0 * 0.9, centre + 20 - r0 * 0.6, "wrap %.1f deg",
-                  design->wrap_angle * 180 / M_PI);
   const double ra = scale * 0.25 * design->outlet_diameter / 2;
   for (int i = 0; i <= 40; i++) {
     const double theta = M_PI * (0.75 + 0.5 * i / 40);
@@ -89,11 +87,9 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   cw_picture_line(&picture, CW_STROKE_FLOW, (const double(*)[2])arc, 40, 0);
   cw_picture_arrow(&picture, CW_STROKE_FLOW, arc[38][0], arc[38][1], arc[40][0] + 4, arc[40][1] + 4);
   cw_picture_text(&picture, CW_TEXT_RIGHT, arc[20][0] - 4, arc[20][1] + 4, "n");
-  cw_picture_text(&picture, CW_TEXT_MIDDLE, centre, centre + 20 + scale * design->inlet_diameter / 2 - 8,
-                  "D1 = %.1f mm", design->inlet_diameter * 1e3);
   cw_picture_text(&picture, CW_TEXT_RIGHT, centre + 340, centre + 56 + scale * design->interface_radius,
-                  "D2 = %.1f mm, outer circle: interface, r = %.1f mm", design->outlet_diameter * 1e3,
-                  design->interface_radius * 1e3);
+                  "D2 = %.1f mm; circles: D1 = %.1f mm, interface r = %.1f mm", design->outlet_diameter * 1e3,
+                  design->inlet_diameter * 1e3, design->interface_radius * 1e3);
   cw_picture_scale(&picture, 20, centre + 56 + scale * design->interface_radius, scale * 1e-3);
   CW_TRY(cw_picture_end(&picture));
 done:

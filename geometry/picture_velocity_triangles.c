@@ -16,9 +16,9 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
     cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
   cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (left + x1), base + 20, "u = %.2f", t->u);
   cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (left + xa) - 8, 0.5 * (base + ya) - 4, "c = %.2f", t->c);
-  // Above w, or where the line without slip runs there, below it.
+  // Above w, or where the line without slip runs there, below u.
   if (xa > left + 1)
-    cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (x1 + xa) - 4, base - 6, "w = %.2f", t->w);
+    cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (x1 + xa), base + 20, "w = %.2f", t->w);
   else
     cw_picture_text(picture, CW_TEXT_LEFT, 0.5 * (x1 + xa) + 8, 0.5 * (base + ya) - 8, "w = %.2f", t->w);
 }

@@ -64,7 +64,7 @@ static void pictures(void **state) {
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   check(cw_picture_meridional, &design, "D2 = 200.0 mm");
-  check(cw_picture_blade_to_blade, &design, "wrap 71.0 deg");
+  check(cw_picture_blade_to_blade, &design, "wrap 71.0, beta1");
   check(cw_picture_velocity_triangles, &design, "u = 15.18");
   check(cw_picture_blade_angle, &design, "mid-span");
   check(cw_picture_volute_sections, &design, "360 deg: ");
