@@ -183,7 +183,8 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
   cw_html_text(page, table->name);
   fputs(": from design table to mesh</h1>\n<p class=\"lead\">", page);
   fprintf(page, "Centrifugal pump, %d blades, D<sub>2</sub>&#8239;=&#8239;%s&#8239;mm; ",
-          table->impeller.blade_count, cw_format_number(table->impeller.outlet_diameter * 1e3, 4, text));
+          (int)cw_json_real(data->design, "blade_count"),
+          cw_format_number(cw_json_real(data->design, "outlet_diameter_m") * 1e3, 4, text));
   fprintf(page, "Q&#8239;=&#8239;%s&#8239;m&sup3;/h, ",
           cw_format_number(table->operating_point.flow_rate * 3600, 4, text));
   fprintf(page, "H&#8239;=&#8239;%s&#8239;m ", cw_format_number(table->operating_point.head, 4, text));

@@ -66,14 +66,19 @@ void cw_report_data_free(CwReportData *data) {
   *data = (CwReportData){0};
 }
 
+// From the design: the case may leave any of them open.
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
-  *sizes = (CwPumpSizes){.blade_count = data->table->impeller.blade_count,
-                         .outlet_radius = 0.5 * data->table->impeller.outlet_diameter,
-                         .interface_radius = cw_json_real(data->design, "interface_radius_m"),
-                         .base_radius = 0.5 * data->table->volute.base_diameter};
-  CW_REQUIRE(sizes->interface_radius > 0, CW_ERR_INPUT,
-             "%s/geometry/design.json: 'interface_radius_m' must be a number above 0", data->run);
+  static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
+  double value[4];
+  for (int i = 0; i < 4; i++) {
+    value[i] = cw_json_real(data->design, keys[i]);
+    CW_REQUIRE(value[i] > 0, CW_ERR_INPUT, "%s/geometry/design.json: '%s' must be a number above 0", data->run, keys[i]);
+  }
+  *sizes = (CwPumpSizes){.blade_count = (int)value[0],
+                         .outlet_radius = 0.5 * value[1],
+                         .interface_radius = value[2],
+                         .base_radius = 0.5 * value[3]};
 done:
   return status;
 }

@@ -142,7 +142,8 @@ static int make_run(void **state) {
   assert_int_equal(cw_make_directory(path), CW_OK);
   path_in_run("mesh", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  write_text("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,"
+  write_text("geometry/design.json", "{\"predicted_head_m\":12.87,\"interface_radius_m\":0.101,\"blade_count\":6,"
+                                     "\"outlet_diameter_m\":0.2,\"base_diameter_m\":0.204,"
                                      "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
                                      "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
   write_text("geometry/record.json",
@@ -284,7 +285,8 @@ static void wrong_content_is_named(void **state) {
       {"mesh/manifest.json", MANIFEST("other"), "of case 'other'"},
       {"mesh/manifest.json", "{\"format\":1,\"case\":\"paper\",\"domains\":[]}", "'domains' must list rotor, stator"},
       {"geometry/design.json", "[]", "object"},
-      {"geometry/design.json", "{}", "interface_radius_m"},
+      {"geometry/design.json", "{}", "blade_count"},
+      {"geometry/design.json", "{\"blade_count\":6}", "outlet_diameter_m"},
       {"geometry/record.json", "{\"stage\":\"mesh\"}", "'stage' is mesh"},
       {"mesh/record.json",
        "{\"stage\":\"mesh\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],\"warnings\":[],"
