@@ -518,9 +518,10 @@ done:
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
   const CwSkeleton *skeleton = &domain->skeleton;
   double fraction[CW_LAYERS_MOST + 1];
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
     int patch = cw_cad_face_patch(domain->cad, skeleton->wall_face[t]);
-    if (skeleton->wall_region[t] != region || patch >= patches) continue;
+    if (patch >= patches) continue;
     CwLayerCoverage *of = &coverage[patch];
     int full = 1, met = 1, worst = 0;
     for (int k = 0; k < 3; k++) {
@@ -546,9 +547,9 @@ CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWa
   const CwSkeleton *skeleton = &domain->skeleton;
   int32_t count = 0, layers = domain->layer_count;
   double fraction[CW_LAYERS_MOST + 1];
-  CW_NEW(*wall, skeleton->wall_triangle_count);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_region[t] != region) continue;
+  CW_NEW(*wall, skeleton->region_wall_start[region + 1] - skeleton->region_wall_start[region]);
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
     CwRatioWall *made = &(*wall)[count++];
     made->first = INFINITY;
     for (int k = 0; k < 3; k++) {

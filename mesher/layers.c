@@ -28,7 +28,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
     CW_TRY(cw_layers_fan(&work));
     cw_ledger_part("layers: grading");
     CW_TRY(cw_layers_limit_by_gap(&work, &tree));
-    CW_TRY(cw_layers_grade(&work));
+    CW_TRY(cw_layers_grade(&work, NULL));
   }
   cw_ledger_part("layers: repair");
   CW_TRY(cw_layers_repair(&work, &tree, layers->front, &layers->repair_rounds));

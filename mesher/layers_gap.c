@@ -170,12 +170,13 @@ void cw_layers_limit_by_hollow(CwLayerWork *work) {
   }
 }
 
-CwStatus cw_layers_grade(CwLayerWork *work) {
+CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
   CwStatus status = CW_OK;
   const double slope = 0.3;
   CwHeap heap = {0};
   for (int32_t v = 0; v < work->n; v++) {
     int low = 0;
+    if (lowered && !lowered[v]) continue;
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !low; k++) {
       int32_t w = work->near[k];
       low = work->t[w] > work->t[v] + slope * distance3(work->in->x[v], work->in->x[w]);

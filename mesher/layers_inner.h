@@ -109,8 +109,8 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which they
 // would meet. Beside a concave crease the fan keeps them apart, and nothing is limited.
 void cw_layers_limit_by_hollow(CwLayerWork *work);
-// Lowers heights until |dt| <= 0.3 length along every edge.
-CwStatus cw_layers_grade(CwLayerWork *work);
+// Lowers heights until |dt| <= 0.3 length along every edge. lowered: vertices lowered since that last held; NULL: any.
+CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 
 // layers_heap.c: vertices by key, smallest first, ties by number.
 typedef struct {

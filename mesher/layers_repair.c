@@ -101,9 +101,11 @@ typedef struct {
   CwLayerWork *work;
   double (*front)[3];
   double *quality;         // of each prism
-  int32_t bad_count;
+  int32_t bad_count, *bad; // prisms
+  int32_t *stale;          // prisms to judge
   uint8_t *mark;           // vertices to turn or to thin
   uint8_t *moved;          // vertices that moved since prisms were judged
+  int32_t moved_count, *moved_list;
   uint8_t *uncrossed;      // and since crossings were looked for
   double limit;            // prism quality asked for
   double *height;          // as placed
@@ -116,22 +118,40 @@ static CwStatus judge_prism(void *context, int32_t f, void *out) {
   return CW_OK;
 }
 
-// Brings the qualities up to date and marks the vertices of bad prisms.
+static void set_moved(Repair *repair, int32_t v) {
+  if (!repair->moved[v]) repair->moved_list[repair->moved_count++] = v;
+  repair->moved[v] = 1;
+}
+
+// Brings the qualities round what moved up to date and marks the vertices of bad prisms.
 static void find_bad(Repair *repair) {
   const CwLayerWork *work = repair->work;
-  const double (*front)[3] = (const double (*)[3])repair->front;
-  memset(repair->mark, 0, work->n);
-  repair->bad_count = 0;
-  for (int32_t f = 0; f < work->in->triangle_count; f++) {
-    const int32_t *v = work->in->triangle[f];
-    if (repair->moved[v[0]] || repair->moved[v[1]] || repair->moved[v[2]])
-      repair->quality[f] = cw_layers_prism_quality(work, f, front);
-    if (repair->quality[f] >= repair->limit) continue;
-    repair->bad_count++;
-    for (int i = 0; i < 3; i++) repair->mark[v[i]] = 1;
+  int32_t stale = 0, kept = 0;
+  for (int32_t i = 0; i < repair->moved_count; i++) {
+    int32_t v = repair->moved_list[i];
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      int32_t f = work->face[k];
+      if (repair->quality[f] == INFINITY) continue; // listed already
+      repair->quality[f] = INFINITY;
+      repair->stale[stale++] = f;
+    }
+    repair->moved[v] = 0;
+    repair->uncrossed[v] = 1;
   }
-  for (int32_t v = 0; v < work->n; v++) repair->uncrossed[v] |= repair->moved[v];
-  memset(repair->moved, 0, work->n);
+  repair->moved_count = 0;
+  for (int32_t i = 0; i < repair->bad_count; i++) {
+    if (repair->quality[repair->bad[i]] < repair->limit) repair->bad[kept++] = repair->bad[i];
+  }
+  for (int32_t i = 0; i < stale; i++) {
+    int32_t f = repair->stale[i];
+    repair->quality[f] = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front);
+    if (repair->quality[f] < repair->limit) repair->bad[kept++] = f;
+  }
+  repair->bad_count = kept;
+  memset(repair->mark, 0, (size_t)work->n);
+  for (int32_t i = 0; i < kept; i++) {
+    for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[repair->bad[i]][k]] = 1;
+  }
 }
 
 // Puts the ends of the columns whose height changed where they belong.
@@ -141,7 +161,7 @@ static void place_changed(Repair *repair) {
     if (work->t[v] == repair->height[v]) continue;
     cw_layers_place(work, v, repair->front[v]);
     repair->height[v] = work->t[v];
-    repair->moved[v] = 1;
+    set_moved(repair, v);
   }
 }
 
@@ -153,7 +173,7 @@ static CwStatus thin_marked(Repair *repair) {
       work->t[v] *= THIN;
       work->reason[v] = CW_LAYER_REPAIR;
     }
-  CW_TRY(cw_layers_grade(work));
+  CW_TRY(cw_layers_grade(work, repair->mark));
   place_changed(repair);
 done:
   return status;
@@ -201,7 +221,7 @@ static void turn_marked(Repair *repair) {
     double before[3];
     memcpy(before, repair->front[v], sizeof before);
     turn(work, v, repair->front);
-    repair->moved[v] |= memcmp(before, repair->front[v], sizeof before) != 0;
+    if (memcmp(before, repair->front[v], sizeof before) != 0) set_moved(repair, v);
   }
 }
 
@@ -214,7 +234,7 @@ static CwStatus fan_again(Repair *repair) {
     double before[3];
     memcpy(before, repair->front[v], sizeof before);
     cw_layers_place(work, v, repair->front[v]);
-    repair->moved[v] |= memcmp(before, repair->front[v], sizeof before) != 0;
+    if (memcmp(before, repair->front[v], sizeof before) != 0) set_moved(repair, v);
   }
 done:
   return status;
@@ -228,6 +248,9 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   CW_NEW(repair.quality, in->triangle_count);
   CW_NEW(repair.mark, work->n);
   CW_NEW(repair.moved, work->n);
+  CW_NEW(repair.moved_list, work->n);
+  CW_NEW(repair.bad, in->triangle_count);
+  CW_NEW(repair.stale, in->triangle_count);
   CW_NEW(repair.uncrossed, work->n);
   memset(repair.uncrossed, 1, (size_t)work->n);
   CW_NEW(repair.height, work->n);
@@ -235,8 +258,12 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   repair.crossing.tree = *tree; // the prisms stand where the walls do
   memset(tree, 0, sizeof *tree);
   place_changed(&repair); // no height is 0: all of them
-  memset(repair.moved, 0, work->n);
+  memset(repair.moved, 0, (size_t)work->n);
+  repair.moved_count = 0;
   CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_prism, &repair, repair.quality));
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    if (repair.quality[f] < GOOD) repair.bad[repair.bad_count++] = f;
+  }
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
     repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;
@@ -269,6 +296,9 @@ done:
   free(repair.quality);
   free(repair.mark);
   free(repair.moved);
+  free(repair.moved_list);
+  free(repair.bad);
+  free(repair.stale);
   free(repair.uncrossed);
   free(repair.height);
   cw_layers_crossing_free(&repair.crossing);

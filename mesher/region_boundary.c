@@ -34,11 +34,12 @@ CwStatus cw_region_boundary_make(const CwSkeleton *skeleton, int32_t region, int
   CwStatus status = CW_OK;
   Gathering gathering = {skeleton, boundary, NULL};
   planned = planned && skeleton->planned_triangle;
-  int32_t interfaces = planned ? skeleton->planned_triangle_count : skeleton->interface_triangle_count, count = 0;
+  int32_t interfaces = planned ? skeleton->planned_triangle_count : skeleton->interface_triangle_count;
+  int32_t wall_start = skeleton->region_wall_start[region], wall_end = skeleton->region_wall_start[region + 1];
+  int32_t count = wall_end - wall_start;
   const int32_t(*triangle)[3] = (const int32_t(*)[3])(planned ? skeleton->planned_triangle : skeleton->interface_triangle);
   const int32_t(*beside)[2] = (const int32_t(*)[2])(planned ? skeleton->planned_region : skeleton->interface_region);
   *boundary = (CwRegionBoundary){0};
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) count += skeleton->wall_region[t] == region;
   for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) count += skeleton->cap_region[t] == region;
   for (int32_t t = 0; t < interfaces; t++) count += beside[t][0] == region || beside[t][1] == region;
   CW_NEW(boundary->triangle, count);
@@ -47,8 +48,9 @@ CwStatus cw_region_boundary_make(const CwSkeleton *skeleton, int32_t region, int
   CW_NEW(boundary->x, 3 * (size_t)count);
   CW_NEW(gathering.local, skeleton->node_count);
   memset(gathering.local, -1, (size_t)skeleton->node_count * sizeof *gathering.local);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_region[t] == region) add(&gathering, &boundary->wall_count, skeleton->wall_triangle[t], 0, t);
+  for (int32_t i = wall_start; i < wall_end; i++) {
+    int32_t t = skeleton->region_wall[i];
+    add(&gathering, &boundary->wall_count, skeleton->wall_triangle[t], 0, t);
   }
   for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) {
     if (skeleton->cap_region[t] == region) add(&gathering, &boundary->cap_count, skeleton->cap_triangle[t], 0, t);

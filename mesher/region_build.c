@@ -87,8 +87,8 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_region[t] != region) continue;
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
     cw_hash_bytes(&hash, &skeleton->wall_face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) {
       int32_t v = skeleton->wall_triangle[t][k];

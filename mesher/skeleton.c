@@ -15,6 +15,8 @@ void cw_skeleton_free(CwSkeleton *skeleton) {
   free(skeleton->wall_triangle);
   free(skeleton->wall_face);
   free(skeleton->wall_region);
+  free(skeleton->region_wall_start);
+  free(skeleton->region_wall);
   free(skeleton->wall_source);
   free(skeleton->front);
   free(skeleton->height);

@@ -59,6 +59,7 @@ typedef struct {
   int32_t *corner_vertex; // wall vertex of each corner of the network, or -1
   int32_t wall_triangle_count;
   int32_t (*wall_triangle)[3], *wall_face, *wall_region;
+  int32_t *region_wall_start, *region_wall; // wall triangles of each region, ascending
   int32_t *wall_source;   // the wall triangle that this one is a copy of, turned; or itself
   double (*front)[3], *height;
   uint8_t *reason;

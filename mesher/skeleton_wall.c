@@ -304,6 +304,25 @@ done:
   return status;
 }
 
+// Lists the wall triangles by region.
+static CwStatus list_regions(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  int32_t regions = skeleton->plan->region_count, *start, *fill = NULL;
+  CW_NEW(skeleton->region_wall_start, regions + 1);
+  CW_NEW(skeleton->region_wall, skeleton->wall_triangle_count);
+  CW_NEW(fill, regions);
+  start = skeleton->region_wall_start;
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) start[skeleton->wall_region[t] + 1]++;
+  for (int32_t r = 0; r < regions; r++) {
+    fill[r] = start[r];
+    start[r + 1] += start[r];
+  }
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) skeleton->region_wall[fill[skeleton->wall_region[t]]++] = t;
+done:
+  free(fill);
+  return status;
+}
+
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
   CwStatus status = CW_OK;
   int32_t faces = cw_cad_face_count(skeleton->cad), total = 0;
@@ -323,6 +342,7 @@ CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
     CW_TRY(merge_wall(skeleton, f, &block));
   }
   CW_TRY(check_regions(skeleton));
+  CW_TRY(list_regions(skeleton));
 done:
   return status;
 }
