@@ -56,16 +56,25 @@ static int meet(void *context, int32_t item) {
   return near->met;
 }
 
-static int is_near(const CwBoxTree *tree, Near *near, const double p[3]) {
+typedef struct {
+  const CwBoxTree *tree; // of the first ones
+  Near near;
+  const uint8_t *is_first;
+} Reach;
+
+static CwStatus find_near(void *context, int32_t v, void *out) {
+  const Reach *reach = context;
+  Near near = reach->near;
   CwBox box;
-  for (int k = 0; k < 3; k++) box.low[k] = p[k] - near->reach, box.high[k] = p[k] + near->reach;
-  near->p = p;
-  near->met = 0;
-  cw_box_tree_overlaps(tree, &box, meet, near);
-  return near->met;
+  near.p = near.x[v];
+  near.met = reach->is_first[v];
+  for (int k = 0; k < 3; k++) box.low[k] = near.p[k] - near.reach, box.high[k] = near.p[k] + near.reach;
+  if (!near.met) cw_box_tree_overlaps(reach->tree, &box, meet, &near);
+  *(uint8_t *)out = (uint8_t)near.met;
+  return CW_OK;
 }
 
-// Marks the points within reach of the first ones.
+// Marks the points within reach of the first ones. Collective.
 static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
   CwStatus status = CW_OK;
   CwBoxTree tree = {0};
@@ -90,8 +99,8 @@ static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole,
     vertex[firsts++] = v;
   }
   CW_TRY(cw_box_tree_make(firsts, box, &tree));
-  Near at = {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest};
-  for (int32_t v = 0; v < whole->point_count; v++) near[v] = is_first[v] || is_near(&tree, &at, whole->x[v]);
+  Reach reach = {&tree, {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest}, is_first};
+  CW_TRY(cw_share("layers: reach", whole->point_count, sizeof *near, find_near, &reach, near));
 done:
   cw_box_tree_free(&tree);
   free(box);
