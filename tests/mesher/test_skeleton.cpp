@@ -32,7 +32,7 @@ static double finer_size(const void *, const double *) {
 }
 
 // A box of 40 x 30 x 20 mm with inlet at x = 0 and outlet at x = 40. Plane 0: x = 21. Plane 1, behind it: y = 14, a
-// little askew. Plane 2, before it: z = 9.
+// little askew. Plane 2, before it: z = 9, or as given.
 struct Box {
   CwCad *cad;
   CwBackground background;
@@ -42,7 +42,7 @@ struct Box {
   CwPlan plan;
   CwSkeleton skeleton;
 
-  explicit Box(int nodes)
+  explicit Box(int nodes, double across = 0.009)
       : cad(open_solid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), [](const TopoDS_Face &face) -> std::string {
           BRepAdaptor_Surface surface(face);
           double x = surface.Value(0.5, 0.5).X(), y = surface.Value(0.6, 0.7).X();
@@ -53,7 +53,7 @@ struct Box {
     double tilt = 0.1, c = std::cos(tilt), s = std::sin(tilt);
     node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, -2}};
     node[1] = {{{s, c, 0}, 0.014 * c + 0.030 * s}, 0, {-2, -3}};
-    node[2] = {{{0, 0, 1}, 0.009}, 0, {-1, -4}};
+    node[2] = {{{0, 0, 1}, across}, 0, {-1, -4}};
     if (nodes >= 2) node[0].child[1] = 1;
     if (nodes >= 3) node[0].child[0] = 2;
     plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
@@ -190,11 +190,11 @@ static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
   for (void *bytes : refined) free(bytes);
 }
 
-// All surfaces of the box, as far as the inner ones.
-static void make_surfaces(Box &box) {
+// Walls, and layers of 1.5 mm on them.
+static void make_layers(Box &box) {
   CwSkeleton &skeleton = box.skeleton;
   int faces = cw_cad_face_count(box.cad);
-  std::vector<void *> walls(faces, nullptr), caps(faces, nullptr), interfaces;
+  std::vector<void *> walls(faces, nullptr);
   int64_t size;
   Box::check(cw_skeleton_wall_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
@@ -203,6 +203,29 @@ static void make_surfaces(Box &box) {
   Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
   std::vector<double> target(skeleton.wall_count, 1.5e-3);
   Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data()));
+  for (void *bytes : walls) free(bytes);
+}
+
+// The line of planes 0 and 2 runs a millimetre above a wall, and the front there above the line.
+static void layers_that_cross_a_line_are_found(void **) {
+  Box box(3, 0.001);
+  const CwSkeleton &skeleton = box.skeleton;
+  make_layers(box);
+  Box::check(cw_skeleton_free_curves(&box.skeleton));
+  assert_true(skeleton.tight_count > 0);
+  for (int i = 0; i < skeleton.tight_count; i++) {
+    assert_near(skeleton.tight[i][0], 0.021, 1e-9);
+    assert_true(skeleton.tight[i][2] < 1.6e-3);
+  }
+}
+
+// All surfaces of the box, as far as the inner ones.
+static void make_surfaces(Box &box) {
+  CwSkeleton &skeleton = box.skeleton;
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> caps(faces, nullptr), interfaces;
+  int64_t size;
+  make_layers(box);
   for (int v = 0; v < skeleton.wall_count; v++) { // corners and edges of a box keep the asked height to the walls
     for (int k = 1; k < 3; k++) {
       double side = k == 1 ? 0.030 : 0.020, x = skeleton.front[v][k];
@@ -210,6 +233,7 @@ static void make_surfaces(Box &box) {
     }
   }
   Box::check(cw_skeleton_free_curves(&skeleton));
+  assert_int_equal(skeleton.tight_count, 0);
   for (int f = 0; f < faces; f++) {
     if (!cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }
@@ -218,7 +242,6 @@ static void make_surfaces(Box &box) {
     Box::check(cw_skeleton_mesh_interface(&skeleton, i, &interfaces[i], &size));
   }
   Box::check(cw_skeleton_merge_inner(&skeleton, caps.data(), interfaces.data()));
-  for (void *bytes : walls) free(bytes);
   for (void *bytes : caps) free(bytes);
   for (void *bytes : interfaces) free(bytes);
 }
@@ -382,6 +405,7 @@ static void a_crossing_boundary_is_examined(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(layers_that_cross_a_line_are_found),
       cmocka_unit_test(network_of_a_box),
       cmocka_unit_test(curves_lie_on_their_planes),
       cmocka_unit_test(regions_fill_the_box),
