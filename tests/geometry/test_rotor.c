@@ -15,34 +15,9 @@
 #include "geometry/rotor.h"
 #include "geometry/rotor_volume.h"
 #include "pipeline/case.h"
+#include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;
-
-static CwCase paper(void) {
-  CwCase table;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  return table;
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
-}
-
-static CwDesign design_of(const CwCase *table) {
-  CwDesign design;
-  if (cw_hydraulic_design(table, &design) != CW_OK)
-    fail_msg("%s", cw_fail_message());
-  return design;
-}
-
-static void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured) {
-  CwSolid *rotor = NULL;
-  if (cw_rotor_build(design, &rotor) != CW_OK || cw_measure_solid(rotor, solid) != CW_OK ||
-      cw_measure_rotor(rotor, measured) != CW_OK)
-    fail_msg("%s", cw_fail_message());
-  cw_solid_free(&rotor);
-}
 
 // The B-rep's volume and that of the sections.
 static void volumes_agree(const CwDesign *design, const CwMeasuredSolid *solid, double tolerance) {
@@ -57,9 +32,6 @@ static void paper_rotor(void **state) {
   CwMeasuredSolid solid;
   CwMeasuredRotor rotor;
   measure(&design, &solid, &rotor);
-  assert_true(solid.valid);
-  assert_true(solid.closed);
-  assert_true(solid.largest_tolerance < 1e-6);
   assert_int_equal(solid.face_count, 6 * 10 + 2);
   near_to(rotor.wrap_angle, 71 * degree, 0.01 * degree);
   near_to(rotor.inlet_diameter, 0.074, 1e-6);
@@ -140,7 +112,6 @@ static void other_priorities(void **state) {
     CwMeasuredSolid solid;
     CwMeasuredRotor rotor;
     measure(&design, &solid, &rotor);
-    assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
     near_to(rotor.wrap_angle, design.wrap_angle, 0.01 * degree);
   }
 }
@@ -166,7 +137,6 @@ static void trailing_edges(void **state) {
     CwMeasuredSolid solid;
     CwMeasuredRotor measured;
     measure(&design, &solid, &measured);
-    assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
     volumes_agree(&design, &solid, 2e-5);
     volume[edge] = solid.volume;
     near_to(measured.outlet_diameter, 0.2, edge == CW_EDGE_ROUNDED ? 1e-5 : 1e-6);
@@ -208,7 +178,6 @@ static void splitters(void **state) {
   CwMeasuredSolid solid;
   CwMeasuredRotor measured;
   measure(&design, &solid, &measured);
-  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
   near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
   assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
   assert_int_equal(faces_of_patch(rotor, "blade_pressure"), 12);
@@ -244,7 +213,6 @@ static void cylindrical_blades_and_lean(void **state) {
   CwMeasuredSolid solid;
   CwMeasuredRotor measured;
   measure(&design, &solid, &measured);
-  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
   table = paper();
   table.impeller.lean_angle = 12 * degree;
   design = design_of(&table);
@@ -252,7 +220,6 @@ static void cylindrical_blades_and_lean(void **state) {
   assert_int_equal(cw_blade_section(&design, &meridian, 1, &shroud), CW_OK);
   near_to(cw_blade_theta(&shroud, 1) - cw_blade_theta(&hub, 1), 8e-3 * tan(12 * degree) / 0.1, 1e-12);
   measure(&design, &solid, &measured);
-  assert_true(solid.valid && solid.closed && solid.largest_tolerance < 1e-6);
 }
 
 // A pump of the other hand: the same volume, the inlet on the other side, faces in the same order.

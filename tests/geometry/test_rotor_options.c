@@ -14,37 +14,9 @@
 #include "geometry/rotor.h"
 #include "geometry/rotor_volume.h"
 #include "pipeline/case.h"
+#include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;
-
-static CwCase paper(void) {
-  CwCase table;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  return table;
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
-}
-
-static CwDesign design_of(const CwCase *table) {
-  CwDesign design;
-  if (cw_hydraulic_design(table, &design) != CW_OK)
-    fail_msg("%s", cw_fail_message());
-  return design;
-}
-
-static void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured) {
-  CwSolid *rotor = NULL;
-  if (cw_rotor_build(design, &rotor) != CW_OK ||
-      (design->rotation == CW_ROTATION_CLOCKWISE && cw_solid_mirror(rotor) != CW_OK) ||
-      cw_measure_solid(rotor, solid) != CW_OK ||
-      cw_measure_rotor(rotor, measured) != CW_OK)
-    fail_msg("%s", cw_fail_message());
-  cw_solid_free(&rotor);
-  assert_true(solid->valid && solid->closed && solid->largest_tolerance < 1e-6);
-}
 
 static int count(const CwSolid *solid, const char *patch, const char *part) {
   int found = 0;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tests/geometry/paper_rotor.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "geometry/rotor.h"
+
+CwCase paper(void) {
+  CwCase table;
+  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
+  return table;
+}
+
+void near_to(double value, double expected, double tolerance) {
+  if (!(fabs(value - expected) <= tolerance))
+    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+}
+
+CwDesign design_of(const CwCase *table) {
+  CwDesign design;
+  if (cw_hydraulic_design(table, &design) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  return design;
+}
+
+void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured) {
+  CwSolid *rotor = NULL;
+  if (cw_rotor_build(design, &rotor) != CW_OK ||
+      (design->rotation == CW_ROTATION_CLOCKWISE && cw_solid_mirror(rotor) != CW_OK) ||
+      cw_measure_solid(rotor, solid) != CW_OK || cw_measure_rotor(rotor, measured) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  cw_solid_free(&rotor);
+  assert_true(solid->valid && solid->closed && solid->largest_tolerance < 1e-6);
+}

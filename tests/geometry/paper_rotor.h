@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The paper's case, and designs and rotors made of it, for tests; each fails the test where the program would.
+#ifndef CUTWATER_TESTS_GEOMETRY_PAPER_ROTOR_H
+#define CUTWATER_TESTS_GEOMETRY_PAPER_ROTOR_H
+
+#include "geometry/hydraulic_design.h"
+#include "geometry/measure.h"
+#include "pipeline/case.h"
+
+CwCase paper(void);
+void near_to(double value, double expected, double tolerance);
+CwDesign design_of(const CwCase *table);
+
+// Builds the rotor, turned to its hand, and measures it: valid, closed, and of a tolerance under 0.001 mm.
+void measure(const CwDesign *design, CwMeasuredSolid *solid, CwMeasuredRotor *measured);
+
+#endif
