@@ -17,6 +17,14 @@ enum {
   ANGLES = 120         // places tried for half-planes in one pitch
 };
 static const double UNEVEN = 20; // what a slice too much or too little costs
+// Where regions are more than EVEN off their mean, numbers of regions in a pitch beside the wanted one are tried.
+enum { NUMBERS = 4 };
+static const int32_t BESIDE[NUMBERS] = {0, 1, -1, 2};
+static const double EVEN = 0.15, BESIDE_MOST = 0.12;
+
+typedef struct {
+  double cost, worst;
+} Judged;
 
 typedef struct {
   const CwPlanModel *model;
@@ -25,6 +33,8 @@ typedef struct {
   double up;              // 1: z grows from pipe to impeller, -1: it falls
   double low, nose, high; // along up * z: ends of the domain, end of the fluid on the axis, m
   CwPlanProfile along;    // the domain along up * z
+  Judged judged[ANGLES];  // half-planes, once they were judged
+  int is_judged;
 } Fan;
 
 static CwPlane across(const Fan *fan, double place) {
@@ -109,6 +119,7 @@ static CwStatus place_root(Fan *fan) {
 static void place_slices(Fan *fan, int32_t slices) {
   CwPlan *plan = fan->plan;
   double top = plan->node[0].plane.offset, all = cw_profile_below(&fan->along, top), from = top, inner = all;
+  plan->node[0].child[0] = -1; // with one slice alone
   for (int32_t i = 1; i < slices; i++) {
     double best = INFINITY, chosen = from;
     plan->node[i].parent = i - 1;
@@ -137,10 +148,6 @@ static void place_slices(Fan *fan, int32_t slices) {
 }
 
 typedef struct {
-  double cost, worst;
-} Judged;
-
-typedef struct {
   const Fan *fan;
   const CwPlanPart *wheel;
 } Wheel;
@@ -161,14 +168,15 @@ done:
 }
 
 // All half-planes of one pitch, shared among the ranks.
-static CwStatus judge_half_planes(const Fan *fan, const CwPlanPart *part, Judged judged[ANGLES]) {
+static CwStatus judge_half_planes(Fan *fan, const CwPlanPart *part) {
   CwStatus status = CW_OK;
   Wheel wheel = {fan, part};
   void *bytes[ANGLES] = {0};
   int64_t size[ANGLES] = {0};
   CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  for (int i = 0; i < ANGLES; i++) memcpy(&judged[i], bytes[i], sizeof judged[i]);
+  for (int i = 0; i < ANGLES; i++) memcpy(&fan->judged[i], bytes[i], sizeof fan->judged[i]);
+  fan->is_judged = 1;
 done:
   for (int i = 0; i < ANGLES; i++) free(bytes[i]);
   return status;
@@ -178,14 +186,14 @@ done:
 static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
-  Judged judged[ANGLES];
+  const Judged *judged = fan->judged;
   double pitch = 2 * M_PI / fan->count, best = INFINITY;
   int apart = ANGLES / wedges, chosen = 0;
   plan->fan_first = plan->fan_region = plan->node_count;
   plan->node[0].child[1] = plan->fan_first;
   plan->node[plan->fan_first].parent = 0;
   plan->fan_count = 1; // for the judges
-  CW_TRY(judge_half_planes(fan, wheel, judged));
+  if (!fan->is_judged) CW_TRY(judge_half_planes(fan, wheel));
   for (int start = 0; start < apart; start++) {
     double sum = 0;
     for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
@@ -258,18 +266,67 @@ static void turn_wedges(const Fan *fan, int wedges) {
   }
 }
 
-// Numbers of slices and of regions in one pitch that come near the asked number of regions, all about as large.
-static void choose_numbers(double pipe, double pitch, int32_t count, int32_t asked, int32_t *slices, int32_t *regions) {
+// The plan with so many slices and regions in one pitch; node 0 is placed.
+static CwStatus divide(Fan *fan, CwPlanModel *model, double work, const CwPlanPart *wheel, int32_t slices, int32_t regions) {
+  CwStatus status = CW_OK;
+  int wedges = fan->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
+  model->mean_work = work / (slices + fan->count * regions);
+  place_slices(fan, slices);
+  CW_TRY(place_fan(fan, wheel, wedges));
+  CW_TRY(divide_wedges(fan, wheel, wedges, wheel->work / fan->count / regions));
+  turn_wedges(fan, wedges);
+done:
+  return status;
+}
+
+// How far the work of a region is off the mean, at most.
+static double unevenness(const CwPlan *plan) {
+  double sum = 0, most = 0;
+  for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
+  for (int32_t r = 0; r < plan->region_count; r++) {
+    most = fmax(most, fabs(plan->predicted_cells[r] / sum * plan->region_count - 1));
+  }
+  return most;
+}
+
+static void copy_plan(const CwPlan *from, size_t room, CwPlan *to) {
+  CwPlan kept = *to;
+  *to = *from;
+  to->node = kept.node;
+  to->worst_angle = kept.worst_angle;
+  to->predicted_cells = kept.predicted_cells;
+  memcpy(to->node, from->node, room * sizeof *to->node);
+  memcpy(to->worst_angle, from->worst_angle, room * sizeof *to->worst_angle);
+  memcpy(to->predicted_cells, from->predicted_cells, room * sizeof *to->predicted_cells);
+}
+
+static CwStatus new_plan(size_t room, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  memset(plan, 0, sizeof *plan);
+  CW_NEW(plan->node, room);
+  CW_NEW(plan->worst_angle, room);
+  CW_NEW(plan->predicted_cells, room);
+done:
+  return status;
+}
+
+static int32_t slices_beside(double pipe, double pitch, int32_t regions) {
+  return (int32_t)fmax(1, floor(pipe / pitch * regions + 0.5));
+}
+
+// The number of regions in one pitch with which, and the slices beside, all come near the asked number, all about as large.
+static int32_t choose_number(double pipe, double pitch, int32_t count, int32_t asked) {
+  int32_t chosen = 1;
   double region = (pipe + count * pitch) / asked, best = INFINITY;
   for (int32_t n = (int32_t)fmax(1, 0.7 * pitch / region); n <= fmax(1, 1.4 * pitch / region); n++) {
-    int32_t s = (int32_t)fmax(1, floor(pipe / pitch * n + 0.5)), all = s + count * n;
+    int32_t s = slices_beside(pipe, pitch, n), all = s + count * n;
     double mean = (pipe + count * pitch) / all;
     double cost = fmax(fabs(pipe / s / mean - 1), fabs(pitch / n / mean - 1)) + 0.3 * fabs(log((double)all / asked));
     if (cost >= best) continue;
     best = cost;
-    *slices = s;
-    *regions = n;
+    chosen = n;
   }
+  return chosen;
 }
 
 CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
@@ -277,31 +334,35 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0}, wheel = {0};
-  Fan fan = {.model = &model, .plan = plan, .count = count};
-  int wedges = count == 2 ? 2 : 1; // a wedge is narrower than half a turn
-  int32_t slices = 1, regions = 1;
-  memset(plan, 0, sizeof *plan);
+  CwPlan tried = {0};
+  Fan fan = {.model = &model, .plan = &tried, .count = count};
   size_t room = 2 * (size_t)options->region_count + 4 * (size_t)count;
-  CW_NEW(plan->node, room);
-  CW_NEW(plan->worst_angle, room);
-  CW_NEW(plan->predicted_cells, room);
+  double least = INFINITY;
+  CW_TRY(new_plan(room, plan));
+  CW_TRY(new_plan(room, &tried));
   CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
   CW_TRY(find_axis(&fan));
   CwPlane along = across(&fan, 0);
   cw_plan_profile(&model, &whole, along.normal, &fan.along);
   CW_TRY(place_root(&fan));
-  CW_TRY(cw_plan_part_clip(&model, &whole, &plan->node[0].plane, 1, &wheel));
-  choose_numbers(whole.work - wheel.work, wheel.work / count, count, options->region_count, &slices, &regions);
-  model.mean_work = whole.work / (slices + count * regions);
-  place_slices(&fan, slices);
-  CW_TRY(place_fan(&fan, &wheel, wedges));
-  CW_TRY(divide_wedges(&fan, &wheel, wedges, wheel.work / count / regions));
-  turn_wedges(&fan, wedges);
+  CW_TRY(cw_plan_part_clip(&model, &whole, &tried.node[0].plane, 1, &wheel));
+  double pipe = whole.work - wheel.work, pitch = wheel.work / count;
+  int32_t number = choose_number(pipe, pitch, count, options->region_count);
+  for (int k = 0; k < NUMBERS && least > EVEN; k++) {
+    int32_t regions = number + BESIDE[k];
+    if (regions < 1 || abs(BESIDE[k]) > BESIDE_MOST * number) continue;
+    CW_TRY(divide(&fan, &model, whole.work, &wheel, slices_beside(pipe, pitch, regions), regions));
+    double uneven = unevenness(&tried);
+    if (uneven >= least) continue;
+    least = uneven;
+    copy_plan(&tried, room, plan);
+  }
 done:
   cw_plan_part_free(&wheel);
   cw_plan_part_free(&whole);
   cw_plan_model_free(&model);
+  cw_plan_free(&tried);
   if (status != CW_OK) cw_plan_free(plan);
   return status;
 }
