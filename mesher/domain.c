@@ -26,6 +26,7 @@ static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
 static const double LITTLE_GROWTH = 1.1;
+static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -161,9 +162,15 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *
                              int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwSize *size = NULL;
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, seeds, &size));
+  double *rim_size = NULL;
+  int patches = cw_cad_patch_count(domain->cad);
+  CW_NEW(rim_size, patches);
+  for (int p = 0; p < patches; p++) rim_size[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
+                      &size));
   CW_TRY(cw_size_pack(size, bytes, byte_count));
 done:
+  free(rim_size);
   cw_size_free(&size);
   return status;
 }

@@ -15,7 +15,8 @@ struct CwSizeSeeds {
 
 struct CwSize {
   double scale;
-  CwSizeGrid grid;
+  CwSizeGrid grid; // to be scaled
+  CwSizeGrid rim;  // m, whatever the scale: what rims of walls allow; no nodes where they ask nothing
   CwScanlines lines;
 };
 
@@ -38,7 +39,7 @@ done:
 CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                              const double *patch_size, double base_size, CwSizeSeeds **seeds) {
   CwStatus status = CW_OK;
-  const CwSizeInput input = {cad, background, table, patch_size, base_size};
+  const CwSizeInput input = {cad, background, table, patch_size, base_size, NULL};
   CwSizeSeeds *made = NULL;
   CW_TRY(check_input(&input));
   CW_NEW(made, 1);
@@ -104,9 +105,10 @@ done:
 }
 
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, void *const *seeds, CwSize **size) {
+                      const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
+                      CwSize **size) {
   CwStatus status = CW_OK;
-  const CwSizeInput input = {cad, background, table, patch_size, base_size};
+  const CwSizeInput input = {cad, background, table, patch_size, base_size, rim_size};
   CwSize *made = NULL;
   uint8_t *within = NULL;
   *size = NULL;
@@ -123,6 +125,11 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   CW_TRY(cw_scanlines_make(background, &low[1], &high[1], grid->spacing, &made->lines));
   CW_TRY(mark_inside(made, &within));
   CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
+  if (rim_size) {
+    CW_TRY(cw_size_surface_grid(&input, &made->rim));
+    cw_size_seed_rims(&input, &made->rim);
+    CW_TRY(cw_size_grid_spread(&made->rim, table->gradation, within));
+  }
   *size = made;
   made = NULL;
 done:
@@ -131,17 +138,21 @@ done:
   return status;
 }
 
-// The plain part of a field; arrays follow it: grid values, starts of the lines, crossings.
+// The plain part of a field; arrays follow it: values of both grids, starts of the lines, crossings.
 typedef struct {
   CwSize plain;
-  int64_t nodes, lines, crossings;
+  int64_t nodes, rim_nodes, lines, crossings;
 } Packed;
 
+static int64_t node_count(const CwSizeGrid *grid) {
+  return (int64_t)grid->count[0] * grid->count[1] * grid->count[2];
+}
+
 static Packed packed_head(const CwSize *size) {
-  const CwSizeGrid *grid = &size->grid;
   const CwScanlines *lines = &size->lines;
   Packed head = {.plain = *size};
-  head.nodes = (int64_t)grid->count[0] * grid->count[1] * grid->count[2];
+  head.nodes = node_count(&size->grid);
+  head.rim_nodes = node_count(&size->rim);
   head.lines = (int64_t)lines->count[0] * lines->count[1];
   head.crossings = lines->start[head.lines];
   return head;
@@ -150,19 +161,23 @@ static Packed packed_head(const CwSize *size) {
 CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   Packed head = packed_head(size);
-  size_t values = (size_t)head.nodes * sizeof(float), starts = (size_t)(head.lines + 1) * sizeof(int64_t),
-         crossings = (size_t)head.crossings * sizeof(double);
+  size_t values = (size_t)head.nodes * sizeof(float), rim_values = (size_t)head.rim_nodes * sizeof(float);
+  size_t starts = (size_t)(head.lines + 1) * sizeof(int64_t), crossings = (size_t)head.crossings * sizeof(double);
   char *block;
-  CW_NEW(block, sizeof head + values + starts + crossings);
-  head.plain.grid.value = NULL; // addresses mean nothing elsewhere
+  CW_NEW(block, sizeof head + values + rim_values + starts + crossings);
+  head.plain.grid.value = head.plain.rim.value = NULL; // addresses mean nothing elsewhere
   head.plain.lines.start = NULL;
   head.plain.lines.crossing = NULL;
+  char *at = block + sizeof head;
   memcpy(block, &head, sizeof head);
-  memcpy(block + sizeof head, size->grid.value, values);
-  memcpy(block + sizeof head + values, size->lines.start, starts);
-  memcpy(block + sizeof head + values + starts, size->lines.crossing, crossings);
+  memcpy(at, size->grid.value, values);
+  at += values;
+  if (rim_values) memcpy(at, size->rim.value, rim_values);
+  at += rim_values;
+  memcpy(at, size->lines.start, starts);
+  memcpy(at + starts, size->lines.crossing, crossings);
   *bytes = block;
-  *byte_count = (int64_t)(sizeof head + values + starts + crossings);
+  *byte_count = (int64_t)(sizeof head + values + rim_values + starts + crossings);
 done:
   return status;
 }
@@ -176,10 +191,13 @@ CwStatus cw_size_unpack(const void *bytes, CwSize **size) {
   CW_NEW(made, 1);
   *made = head.plain;
   CW_NEW(made->grid.value, head.nodes);
+  if (head.rim_nodes) CW_NEW(made->rim.value, head.rim_nodes);
   CW_NEW(made->lines.start, head.lines + 1);
   CW_NEW(made->lines.crossing, head.crossings);
   memcpy(made->grid.value, at, (size_t)head.nodes * sizeof(float));
   at += (size_t)head.nodes * sizeof(float);
+  if (head.rim_nodes) memcpy(made->rim.value, at, (size_t)head.rim_nodes * sizeof(float));
+  at += (size_t)head.rim_nodes * sizeof(float);
   memcpy(made->lines.start, at, (size_t)(head.lines + 1) * sizeof(int64_t));
   at += (size_t)(head.lines + 1) * sizeof(int64_t);
   memcpy(made->lines.crossing, at, (size_t)head.crossings * sizeof(double));
@@ -194,6 +212,7 @@ void cw_size_free(CwSize **size) {
   if (!*size)
     return;
   cw_size_grid_free(&(*size)->grid);
+  cw_size_grid_free(&(*size)->rim);
   cw_scanlines_free(&(*size)->lines);
   free(*size);
   *size = NULL;
@@ -209,7 +228,8 @@ double cw_size_scale(const CwSize *size) {
 
 double cw_size_at(const void *size, const double x[3]) {
   const CwSize *field = size;
-  return field->scale * cw_size_grid_at(&field->grid, x);
+  double wanted = field->scale * cw_size_grid_at(&field->grid, x);
+  return field->rim.value ? fmin(wanted, cw_size_grid_at(&field->rim, x)) : wanted;
 }
 
 // Cuts the inside runs of all lines into lengths of about one spacing; stores them where x is not NULL.

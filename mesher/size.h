@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The size field: edge length of the mesh as a function of place, h(x) = scale * min over the surface of
-// (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps. Kept on a Cartesian grid
+// (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps; near rims of walls no
+// more than these allow. Kept on a Cartesian grid
 // that also knows which of its nodes lie inside the domain, so that cell counts can be predicted by
 // integration.
 #ifndef CUTWATER_MESHER_SIZE_H
@@ -29,9 +30,12 @@ CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, c
 CwStatus cw_size_seeds_of_face(CwSizeSeeds *seeds, int face, void **bytes, int64_t *byte_count);
 void cw_size_seeds_free(CwSizeSeeds **seeds);
 
-// The field that spreads from the seeds of all faces (seeds[face]) through the domain.
+// The field that spreads from the seeds of all faces (seeds[face]) through the domain. `rim_size`, if given, is the
+// longest edge (m, by patch; only those of walls count) where a wall meets an open face, at any scale: prisms
+// there have a side on the boundary, and what is left to hold a cell falls with the fourth power of height over length.
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, void *const *seeds, CwSize **size);
+                      const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
+                      CwSize **size);
 void cw_size_free(CwSize **size);
 
 // The field in one block of bytes (malloc'd), to travel between ranks, and back. An unpacked field gives the same bits.

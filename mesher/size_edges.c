@@ -139,3 +139,33 @@ done:
   free(line);
   return status;
 }
+
+static int is_wall(const CwCad *cad, int face) {
+  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
+}
+
+void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid) {
+  const CwCad *cad = input->cad;
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    int face[2];
+    double t[2], from[3], to[3];
+    cw_cad_edge_faces(cad, e, face);
+    if (is_wall(cad, face[0]) == is_wall(cad, face[1]))
+      continue;
+    double size = input->rim_size[cw_cad_face_patch(cad, is_wall(cad, face[0]) ? face[0] : face[1])];
+    cw_cad_edge_range(cad, e, t);
+    cw_cad_edge_point(cad, e, t[0], from, NULL);
+    for (int i = 1; i <= MOST_PARTS; i++) {
+      cw_cad_edge_point(cad, e, t[0] + (t[1] - t[0]) * i / MOST_PARTS, to, NULL);
+      int parts = (int)ceil(distance(from, to) / grid->spacing);
+      for (int j = 0; j <= parts; j++) {
+        double x[3];
+        for (int k = 0; k < 3; k++)
+          x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
+        cw_size_grid_seed(grid, x, size);
+      }
+      for (int k = 0; k < 3; k++)
+        from[k] = to[k];
+    }
+  }
+}

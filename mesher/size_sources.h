@@ -19,6 +19,7 @@ typedef struct {
   const CwMeshTable *table;
   const double *patch_size; // relative, by patch
   double base_size;         // m
+  const double *rim_size;   // m, by patch, or NULL: see cw_size_make
 } CwSizeInput;
 
 // No single feature asks for less than this share of the base size: what is smaller is resolved by its edges
@@ -51,6 +52,9 @@ void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes);
 // Seeds `grid` along those CAD edges that are creases: with the length of a short one, and with the width of
 // the face between two that have no vertex in common.
 CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid);
+
+// Seeds `grid` with the sizes that rims of walls allow, along them.
+void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid);
 
 #ifdef __cplusplus
 }

@@ -31,7 +31,8 @@ struct Model {
   CwSize *size = nullptr;
 
   Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
-        std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall)
+        std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall,
+        const std::vector<double> &rim_size = {})
       : cad(open_solid(solid, patch_of)) {
     CwMeshTable table = {};
     table.gradation = gradation;
@@ -46,7 +47,8 @@ struct Model {
     for (int f = cw_cad_face_count(cad) - 1; f >= 0; f--)
       check(cw_size_seeds_of_face(seeds, f, &seeds_of_face[f], &bytes));
     cw_size_seeds_free(&seeds);
-    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, seeds_of_face.data(), &size));
+    const double *rim = rim_size.empty() ? nullptr : rim_size.data();
+    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, seeds_of_face.data(), &size));
     for (void *of_face : seeds_of_face)
       free(of_face);
   }
@@ -191,6 +193,34 @@ static void two_runs_are_the_same(void **state) {
   }
 }
 
+static void rims_hold_at_any_scale(void **state) {
+  const PatchOfFace open_top = [](const TopoDS_Face &face) {
+    gp_Pln plane = BRepAdaptor_Surface(face).Plane();
+    int top = std::fabs(plane.Axis().Direction().Z()) > 0.5 && plane.Location().Z() > 29;
+    return std::string(top ? "top,inlet" : "rest,wall");
+  };
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
+  const Model plain(box, 3, 0.5, 1, {1, 1}, open_top), rim(box, 3, 0.5, 1, {1, 1}, open_top, {1e-3, 1e-3});
+  for (double scale : {1.0, 2.0}) {
+    cw_size_set_scale(plain.size, scale);
+    cw_size_set_scale(rim.size, scale);
+    assert_true(rim.at(15, 0, 30) <= 1 + 1e-6);                       // on the rim, no matter the scale
+    assert_true(rim.at(15, 15, 30) > 1 + gradation * 10);             // in the middle of the open face
+    assert_true(rim.at(15, 0, 20) <= 1 + gradation * 12);             // down the wall
+    assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);          // far from it as before
+  }
+  void *bytes = nullptr;
+  int64_t count;
+  CwSize *copy = nullptr;
+  check(cw_size_pack(rim.size, &bytes, &count));
+  check(cw_size_unpack(bytes, &copy));
+  const double x[3] = {0.015, 0.001, 0.029};
+  const double there = cw_size_at(copy, x), here = cw_size_at(rim.size, x);
+  assert_memory_equal(&there, &here, sizeof here);
+  cw_size_free(&copy);
+  free(bytes);
+}
+
 static void wrong_input_is_refused(void **state) {
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
   CwBackground background;
@@ -199,9 +229,9 @@ static void wrong_input_is_refused(void **state) {
   double patch_size = 1;
   table.gradation = table.curvature_angle = 0.2;
   assert_int_equal(cw_background_make(cad, 1e-5, 0.1, &background), CW_OK);
-  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, nullptr, &size), CW_ERR_USAGE);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, nullptr, nullptr, &size), CW_ERR_USAGE);
   patch_size = 0;
-  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, nullptr, &size), CW_ERR_USAGE);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, nullptr, nullptr, &size), CW_ERR_USAGE);
   assert_non_null(std::strstr(cw_fail_message(), "patch 'wall'"));
   assert_null(size);
   cw_background_free(&background);
@@ -218,6 +248,7 @@ int main(void) {
       cmocka_unit_test(growth_is_limited),
       cmocka_unit_test(samples_fill_the_domain),
       cmocka_unit_test(two_runs_are_the_same),
+      cmocka_unit_test(rims_hold_at_any_scale),
       cmocka_unit_test(wrong_input_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
