@@ -241,7 +241,7 @@ void Maker::make() {
 // the meridian within a fifth of a pitch. The points are evenly spaced: with uneven ones the curve through
 // them wriggles.
 void Maker::guide_line(int wall) {
-  const int fine = 4000, points = 240;
+  const int fine = 8000, points = 480;
   const CwBladeOnWall on = cw_blade_on_wall(&meridian, wall);
   const CwMeridianCurve &curve = *on.curve;
   const double begin = on.begin, length = on.length, pitch = 2 * M_PI / design->blade_count;
