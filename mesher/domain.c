@@ -25,6 +25,7 @@ static const double LAST_IN_HOLLOW = 0.65; // the same at concave bends, times t
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05; // of count times first height: hardly any growth
+static const double LEAST_REGION_CELLS = 400e3, MOST_REGIONS = 140;
 static const double LITTLE_GROWTH = 1.1;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
@@ -184,11 +185,18 @@ done:
   return status;
 }
 
+// Cells a region. With more than some 140 regions in all a dividing plane finds no good place in narrow parts, such as
+// beside the tongue, while memory never asks for so many.
+static double cells_per_region(const CwCase *table) {
+  if (table->mesh.cells_per_region > 0) return (double)table->mesh.cells_per_region;
+  return fmax(LEAST_REGION_CELLS, (double)table->mesh.cells / MOST_REGIONS);
+}
+
 CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
                         double tet_factor, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
-  double regions = ceil(cells / (double)table->mesh.cells_per_region);
+  double regions = ceil(cells / cells_per_region(table));
   double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
   CW_NEW(least, cw_cad_patch_count(domain->cad));

@@ -136,7 +136,7 @@ typedef struct {
 typedef struct {
   int64_t cells;             // asked number of cells, all zones together
   CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
-  int64_t cells_per_region;  // about this many
+  int64_t cells_per_region;  // about this many; 0: computed
   int least_regions;         // of a domain
   int periodic_impeller;     // 1: of the equal passages of the impeller one is meshed and copied, 0: meshed whole
   double gradation;          // growth of size with distance, d(size)/d(distance)
