@@ -35,8 +35,8 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   cw_unit_of_key(key->key, &length);
   snprintf(stem, sizeof stem, "%.*s", (int)length, key->key);
   double value = cw_case_key_value(key, table);
-  if (key->presence == CW_KEY_COMPUTED && isnan(value))
-    return; // stands among the derived dimensions
+  if (key->presence == CW_KEY_COMPUTED && (isnan(value) || value == key->fallback))
+    return; // left open: stands among the derived dimensions, or follows from others
   if (key->presence == CW_KEY_DEFAULT && value == key->fallback)
     origin = "default";
   cw_quantity_start(page, stem);
