@@ -94,7 +94,8 @@ CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node) {
   return (CwPlanBound){above, plan->node[above].child[1] == (cw_fan_holds(plan, node) ? plan->fan_first : node)};
 }
 
-CwPlanBound cw_plan_region_bound(const CwPlan *plan, int32_t region) {
+// The innermost plane that bounds a region.
+static CwPlanBound region_bound(const CwPlan *plan, int32_t region) {
   for (int32_t node = 0; node < plan->node_count; node++) {
     if (plan->node[node].child[1] == -1 - region) return (CwPlanBound){node, 1};
     // A wedge is found by the half-plane that opens it.
@@ -129,7 +130,7 @@ int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double 
 
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
   if (cw_plan_locate(plan, x) == region) return 1; // as a rule
-  return within(plan, cw_plan_region_bound(plan, region), x, tolerance, NULL, 0);
+  return within(plan, region_bound(plan, region), x, tolerance, NULL, 0);
 }
 
 int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node) {

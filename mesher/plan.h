@@ -41,10 +41,9 @@ typedef struct {
   int positive;
 } CwPlanBound;
 
-// The planes that bound the cell which the plane of `node` divides, or that of a region, from the innermost to the root:
-// the ancestors, and for cells within a wedge the half-plane that ends it too.
+// The planes that bound the cell which the plane of `node` divides, from the innermost to the root: the
+// ancestors, and for cells within a wedge the half-plane that ends it too.
 CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node);
-CwPlanBound cw_plan_region_bound(const CwPlan *plan, int32_t region);
 CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound);
 
 typedef struct {

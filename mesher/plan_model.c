@@ -25,8 +25,7 @@ static void triangle_normal(const CwBackground *background, int32_t t, double no
   cw_unit(normal);
 }
 
-// True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
-static int is_smooth(const CwCad *cad, int edge) {
+int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
   int face[2];
   double range[2], normal[2][3];
   cw_cad_edge_range(cad, edge, range);
@@ -74,7 +73,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     cw_cad_edge_range(cad, e, range);
     for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
     if (room == 0) continue; // between two caps
-    int smooth = is_smooth(cad, e);
+    int smooth = cw_plan_edge_is_smooth(cad, e);
     room *= smooth ? SMOOTH_ROOM : EDGE_ROOM;
     int32_t points = points_of_edge(cad, e, range);
     for (int32_t i = 0; i < points; i++) {

@@ -50,6 +50,9 @@ typedef struct {
   double low[3], high[3];    // box of the samples
 } CwPlanPart;
 
+// True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
+int cw_plan_edge_is_smooth(const CwCad *cad, int edge);
+
 CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
                             const CwSize *size, const CwPlanOptions *options, CwPlanModel *model);
 void cw_plan_model_free(CwPlanModel *model);

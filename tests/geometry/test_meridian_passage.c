@@ -59,16 +59,20 @@ static void wedge(void **state) {
     near_to(hypot(station[i].shroud[0] - 1, station[i].shroud[1]), station[i].hub[1], 1e-10);
 }
 
-// On the paper's wheel: both angles alike, and the area as an integral over the line.
-static void paper(void **state) {
+static void paper_passage(CwMeridian *meridian, CwPassageStation *station) {
   CwCase table;
   CwDesign design;
-  CwMeridian meridian;
-  CwPassageStation station[COUNT];
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
-  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
-  cw_meridian_passage(&meridian.hub, &meridian.shroud, design.outlet_diameter / 2, COUNT, station);
+  assert_int_equal(cw_meridian_make(&design, meridian), CW_OK);
+  cw_meridian_passage(&meridian->hub, &meridian->shroud, design.outlet_diameter / 2, COUNT, station);
+}
+
+// On the paper's wheel: both angles alike, and the area as an integral over the line.
+static void paper(void **state) {
+  CwMeridian meridian;
+  CwPassageStation station[COUNT];
+  paper_passage(&meridian, station);
   for (int i = 0; i < COUNT; i++) {
     const CwPassageStation *s = &station[i];
     const double across[2] = {s->shroud[0] - s->hub[0], s->shroud[1] - s->hub[1]}, width = hypot(across[0], across[1]);
@@ -99,14 +103,9 @@ static void paper(void **state) {
 
 // The line at a radius of the shroud is that of the stations about it.
 static void line_at_a_radius(void **state) {
-  CwCase table;
-  CwDesign design;
   CwMeridian meridian;
   CwPassageStation station[COUNT];
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
-  assert_int_equal(cw_meridian_make(&design, &meridian), CW_OK);
-  cw_meridian_passage(&meridian.hub, &meridian.shroud, design.outlet_diameter / 2, COUNT, station);
+  paper_passage(&meridian, station);
   for (int i = 1; i < COUNT; i++) {
     const CwPassageStation at = cw_meridian_passage_at(&meridian.hub, &meridian.shroud, station[i].shroud[0]);
     near_to(at.hub[0], station[i].hub[0], 1e-9);

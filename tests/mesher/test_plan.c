@@ -15,6 +15,7 @@
 #include "mesher/domain.h"
 #include "mesher/domain_table.h"
 #include "mesher/network.h"
+#include "mesher/plan_model.h"
 #include "mesher/vec.h"
 
 enum { CELLS_PER_REGION = 20000 };
@@ -238,22 +239,6 @@ static double layers_at_corner(const CwDomain *of, const CwCorner *corner) {
   return most;
 }
 
-static int is_smooth(const CwCad *cad, int edge) {
-  int face[2];
-  double range[2], normal[2][3];
-  cw_cad_edge_range(cad, edge, range);
-  cw_cad_edge_faces(cad, edge, face);
-  for (int s = 0; s < 2; s++) {
-    double uv[2], x[3], xu[3], xv[3];
-    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
-    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
-    cw_cross(xu, xv, normal[s]);
-    cw_unit(normal[s]);
-    for (int k = 0; k < 3; k++) normal[s][k] *= cw_cad_face_reversed(cad, face[s]) ? -1 : 1;
-  }
-  return cw_dot(normal[0], normal[1]) > 0.98;
-}
-
 // True where the plane runs along a sharp CAD edge, nearer than half of the layers there.
 static int runs_along(const CwDomain *of, const CwPlan *plan, int32_t node, int edge) {
   double range[2], x[3], tangent[3];
@@ -291,7 +276,7 @@ static Room room_of(const CwDomain *of, const CwPlan *plan) {
   }
   cw_network_free(&network);
   for (int e = 0; e < cw_cad_edge_count(of->cad); e++) {
-    if (is_smooth(of->cad, e)) continue;
+    if (cw_plan_edge_is_smooth(of->cad, e)) continue;
     for (int32_t n = 0; n < plan->node_count; n++) room.along += runs_along(of, plan, n, e);
   }
   return room;
