@@ -4,8 +4,8 @@
 #define CUTWATER_MESHER_DOMAIN_H
 
 #include "mesher/background.h"
+#include "mesher/column_heights.h"
 #include "mesher/interface_rule.h"
-#include "mesher/layer_ratio.h"
 #include "mesher/region_build.h"
 #include "mesher/size.h"
 #include "mesher/symmetry.h"
@@ -39,8 +39,7 @@ typedef struct {
   double layer_share;                         // of that, what graded columns take; known with the walls
   CwPlan plan;
   CwSkeleton skeleton;
-  double *first_height, *target, *growth;     // of each wall vertex; m, m, largest ratio
-  double *room;                               // m, how tall the columns could be, once the layers are grown
+  CwColumnHeights heights;
   CwRegionContext context;
   int32_t *number, colours;                   // region numbers
   int32_t pair_count, (*pair)[2];             // adjacent regions
@@ -61,13 +60,13 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *
                              int64_t *byte_count);
 CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
 
-
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
-// packed (cw_plan_unpack). Collective: all ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan, where one can be had.
+// packed (cw_plan_unpack). Collective: all ranks look along some of the directions each, and have the same plan. With a
+// symmetry it is a fan, where one can be had.
 CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
                         double tet_factor, void **bytes, int64_t *byte_count);
 
@@ -80,7 +79,7 @@ CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
 CwStatus cw_domain_start(CwDomain *domain);
 
 // First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume. Collective.
-CwStatus cw_domain_targets(CwDomain *domain, const CwCase *table);
+CwStatus cw_domain_targets(CwDomain *domain);
 
 // Region numbers, once the inner surfaces are merged.
 CwStatus cw_domain_number(CwDomain *domain);
@@ -98,9 +97,6 @@ typedef struct {
 } CwLayerCoverage;
 // Of the patches up to `patches`, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
-
-// What the case allows the layers over each wall triangle of a region, in the order of its file.
-CwStatus cw_domain_ratio_walls(const CwDomain *domain, int32_t region, CwRatioWall **wall);
 
 void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
 void cw_domain_close(CwDomain *domain);

@@ -117,7 +117,7 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     for (int d = 0; d < run->domains.count; d++) {
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
       cw_ledger_part("heights of the layers");
-      CW_TRY(cw_domain_targets(&run->domain[d], run->table));
+      CW_TRY(cw_domain_targets(&run->domain[d]));
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name, run->domain[d].layer_share);
       triangles += run->domain[d].skeleton.wall_triangle_count;
       integral += run->domain[d].prism_integral;
@@ -133,7 +133,7 @@ static CwStatus mesh_walls(CwMeshRun *run) {
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
-      domain->target[v] = fmin(domain->target[v], run->most_height[d][v]);
+      domain->heights.target[v] = fmin(domain->heights.target[v], run->most_height[d][v]);
     }
   }
 done:
@@ -149,7 +149,7 @@ static CwStatus grow_layers(CwMeshRun *run) {
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
     cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
-    status = cw_skeleton_grow(&domain->skeleton, &domain->background, domain->target);
+    status = cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target);
     if (status == CW_OK) cw_progress(domain->skeleton.wall_triangle_count);
     cw_progress_end();
     CW_TRY(status);

@@ -120,7 +120,7 @@ static CwStatus measure_layers(const CwMeshRun *run, int d, int32_t region, cons
                                CwRegionSummary *summary) {
   CwStatus status = CW_OK;
   CwRatioWall *wall = NULL;
-  CW_TRY(cw_domain_ratio_walls(&run->domain[d], region, &wall));
+  CW_TRY(cw_column_heights_ratio(&run->domain[d].heights, &run->domain[d].skeleton, region, &wall));
   cw_domain_coverage(&run->domain[d], region, CW_PATCH_LIMIT, summary->coverage);
   CW_TRY(cw_layer_ratio(mesh, run->table->walls.layer_count, wall, CW_PATCH_LIMIT, summary->ratio));
 done:

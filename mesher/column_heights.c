@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/column_heights.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/layer_heights.h"
+#include "mesher/layers.h"
+#include "mesher/share.h"
+#include "mesher/vec.h"
+
+static const double TALLER_COLUMN = 3.25; // of the wanted length, where the last layer would else be below LOW_LAST
+static const double TALLEST_AT_BEND = 2;  // the same and that of all where the wall bends: there columns crowd
+static const double BEND = 0.94;          // least cosine of the normals about a vertex of a wall as good as flat
+static const double HOLLOW = 0.25;        // least rise of an edge over its length at a bend that is concave
+static const double LAST_LAYER = 1.0;     // its height over that of a regular tetrahedron above, at most
+static const double LOW_LAST = 0.75;      // the same where columns are at their tallest
+static const double LAST_IN_HOLLOW = 0.65; // the same at concave bends, times their cosine: tetrahedra there have two
+                                           // faces on the front, and are the flatter the sharper the bend is
+static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
+static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
+static const double LITTLE_GROWTH = 1.1;
+static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
+
+// How the wall lies about a vertex.
+typedef struct {
+  double normal[3]; // mean of the triangles, out of the domain
+  double cosine;    // least, of their normals to it
+  double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
+} Bend;
+
+// A column up to a last layer of `last` times the height of a regular tetrahedron; no layer grows by more than
+// `growth`.
+static double height_below(double last, double first, int count, double growth, double size) {
+  if (count > 1) growth = fmin(growth, pow(fmax(last * REGULAR_HEIGHT * size / first, 1), 1.0 / (count - 1)));
+  return cw_layer_thickness(first, count, growth);
+}
+
+double cw_column_height_least(double first, int layer_count) {
+  return EVEN_LAYERS * layer_count * first;
+}
+
+// The tallest column that is fair below cells of the size `size`: its last layer no taller than `last` of a regular
+// tetrahedron, itself no taller than `tallest` such sizes, or up to `taller` where the last layer would be low. Columns
+// give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double last, double tallest,
+                          double taller) {
+  double full = height_below(last, first, count, growth, size);
+  double low = height_below(fmin(last, LOW_LAST), first, count, growth, size);
+  double most = fmax(tallest * size, fmin(low, taller * size));
+  return fmax(cw_column_height_least(first, count), fmin(most, full));
+}
+
+double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size) {
+  return fmin(layers->thickness, fair_height(layers->first_height, layer_count, layers->growth, size, LAST_LAYER,
+                                             CW_TALLEST_COLUMN, TALLER_COLUMN));
+}
+
+// Whether all corners are turned copies, which get the heights of their first.
+static int is_copy(const CwSkeleton *skeleton, const int32_t corner[3]) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  return cw_orbit_node_turns(orbits, corner[0]) > 0 && cw_orbit_node_turns(orbits, corner[1]) > 0 &&
+         cw_orbit_node_turns(orbits, corner[2]) > 0;
+}
+
+// Of all vertices but turned copies.
+static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
+  CwStatus status = CW_OK;
+  double(*normal)[3] = NULL;
+  CW_NEW(*bend, skeleton->wall_count);
+  CW_NEW(normal, skeleton->wall_triangle_count);
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const int32_t *corner = skeleton->wall_triangle[t];
+    double u[3], v[3];
+    if (is_copy(skeleton, corner)) continue;
+    cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+    cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+    cw_cross(u, v, normal[t]);
+    cw_unit(normal[t]);
+    for (int k = 0; k < 3; k++) {
+      for (int c = 0; c < 3; c++) (*bend)[corner[k]].normal[c] += normal[t][c];
+    }
+  }
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    (*bend)[v].cosine = 1, (*bend)[v].rise = -1;
+    cw_unit((*bend)[v].normal);
+  }
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const int32_t *corner = skeleton->wall_triangle[t];
+    for (int k = 0; k < 3 && !is_copy(skeleton, corner); k++) {
+      Bend *at = &(*bend)[corner[k]], *next = &(*bend)[corner[(k + 1) % 3]];
+      double edge[3], cosine = cw_dot(normal[t], at->normal);
+      if (cosine < at->cosine) at->cosine = cosine;
+      cw_sub(skeleton->wall_x[corner[k]], skeleton->wall_x[corner[(k + 1) % 3]], edge);
+      cw_unit(edge);
+      double rise = cw_dot(edge, at->normal), other = -cw_dot(edge, next->normal);
+      if (rise > at->rise) at->rise = rise;
+      if (other > next->rise) next->rise = other;
+    }
+  }
+done:
+  free(normal);
+  return status;
+}
+
+// What the tasks below read.
+typedef struct {
+  const CwSkeleton *skeleton;
+  const CwColumnHeights *heights;
+  const CwLayerTarget *layers; // of each CAD face
+  const Bend *bend;
+  const double *graded; // heights
+} Columns;
+
+static double size_at(const CwSkeleton *skeleton, const double x[3]) {
+  return skeleton->size_at(skeleton->size, x);
+}
+
+// The height of a column that is fair by the cells around it. The tetrahedron on it stands at the end of the column,
+// where the size is another than at the wall: the height is reckoned twice. Nowhere grow sizes faster than heights.
+// Turned copies get that of their first: the size field is symmetric only to within its grid.
+static CwStatus find_fair(void *context, int32_t v, void *out) {
+  const Columns *columns = context;
+  const CwSkeleton *skeleton = columns->skeleton;
+  const CwColumnHeights *heights = columns->heights;
+  const Bend *bend = &columns->bend[v];
+  const double *x = skeleton->wall_x[v];
+  int bent = bend->cosine < BEND;
+  double last = bent && bend->rise > HOLLOW ? LAST_IN_HOLLOW * bend->cosine : LAST_LAYER, height = 0;
+  if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
+  double size = size_at(skeleton, x);
+  for (int pass = 0; pass < 2; pass++) {
+    double end[3];
+    for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend->normal[k];
+    double above = fmin(fmax(size, size_at(skeleton, end)), size + HEIGHT_SLOPE * height);
+    height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last,
+                         bent ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, bent ? TALLEST_AT_BEND : TALLER_COLUMN);
+  }
+  *(double *)out = height;
+  return CW_OK;
+}
+
+// Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge: over all
+// triangles, forth and back by turns; after the first time over those alone where something has changed since.
+static CwStatus grade(const CwSkeleton *skeleton, double slope, double *value) {
+  CwStatus status = CW_OK;
+  int32_t *changed = NULL; // the sweep in which each vertex was lowered last
+  CW_NEW(changed, skeleton->wall_count);
+  for (int32_t sweep = 1, lowered = 1; lowered; sweep++) {
+    lowered = 0;
+    for (int32_t i = 0; i < skeleton->wall_triangle_count; i++) {
+      const int32_t *corner = skeleton->wall_triangle[sweep % 2 ? i : skeleton->wall_triangle_count - 1 - i];
+      int32_t last = changed[corner[0]] > changed[corner[1]] ? changed[corner[0]] : changed[corner[1]];
+      if (changed[corner[2]] > last) last = changed[corner[2]];
+      if (sweep > 1 && last < sweep - 1) continue;
+      for (int k = 0; k < 3; k++) {
+        int32_t a = corner[k], b = corner[(k + 1) % 3];
+        if (value[a] == value[b]) continue;
+        int32_t low = value[a] < value[b] ? a : b, high = low == a ? b : a;
+        double most = value[low] + slope * cw_distance(skeleton->wall_x[a], skeleton->wall_x[b]);
+        if (value[high] <= most) continue;
+        value[high] = most;
+        changed[high] = sweep;
+        lowered = 1;
+      }
+    }
+  }
+done:
+  free(changed);
+  return status;
+}
+
+// The finer one holds where patches meet; away from there the first height grows no faster than columns whose layers
+// grow a little can.
+static CwStatus take_asked(const CwSkeleton *skeleton, const CwLayerTarget *layers, CwColumnHeights *heights) {
+  CwStatus status = CW_OK;
+  for (int32_t v = 0; v < skeleton->wall_count; v++) heights->first_height[v] = heights->target[v] = INFINITY;
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    const CwLayerTarget *asked = &layers[skeleton->wall_face[t]];
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      heights->first_height[v] = fmin(heights->first_height[v], asked->first_height);
+      heights->target[v] = fmin(heights->target[v], asked->thickness);
+      heights->growth[v] = fmax(heights->growth[v], asked->growth);
+    }
+  }
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
+               heights->first_height));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    const double *x = skeleton->wall_x[v];
+    CW_REQUIRE(isfinite(heights->target[v]), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
+               1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  }
+done:
+  return status;
+}
+
+static void turn_copies(const CwSkeletonOrbits *orbits, int32_t count, CwColumnHeights *heights) {
+  for (int32_t v = 0; v < count; v++) {
+    if (cw_orbit_node_turns(orbits, v) > 0) continue;
+    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+      heights->target[at] = heights->target[v];
+      heights->first_height[at] = heights->first_height[v];
+      heights->growth[at] = heights->growth[v];
+    }
+  }
+}
+
+CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwLayerTarget *layers, int layer_count,
+                                CwColumnHeights *heights) {
+  CwStatus status = CW_OK;
+  Bend *bend = NULL;
+  double *fair = NULL;
+  *heights = (CwColumnHeights){.layer_count = layer_count};
+  CW_NEW(heights->first_height, skeleton->wall_count);
+  CW_NEW(heights->growth, skeleton->wall_count);
+  CW_NEW(heights->target, skeleton->wall_count);
+  CW_NEW(fair, skeleton->wall_count);
+  CW_TRY(take_asked(skeleton, layers, heights));
+  CW_TRY(find_bends(skeleton, &bend));
+  Columns columns = {.skeleton = skeleton, .heights = heights, .bend = bend};
+  CW_TRY(cw_share("heights: fair ones", skeleton->wall_count, sizeof *fair, find_fair, &columns, fair));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    if (cw_orbit_node_turns(&skeleton->orbits, v) == 0) heights->target[v] = fmin(heights->target[v], fair[v]);
+  }
+  turn_copies(&skeleton->orbits, skeleton->wall_count, heights);
+done:
+  free(bend);
+  free(fair);
+  return status;
+}
+
+// What a wall triangle takes of the volume, and what a flat wall would, in cells; with its turned copies.
+typedef struct {
+  double taken, flat;
+} Taken;
+
+static CwStatus find_taken(void *context, int32_t t, void *out) {
+  const Columns *columns = context;
+  const CwSkeleton *skeleton = columns->skeleton;
+  const int32_t *corner = skeleton->wall_triangle[t], face = skeleton->wall_face[t];
+  double u[3], v[3], normal[3], centre[3], mean = 0;
+  if (skeleton->wall_source[t] != t) return CW_OK;
+  for (int k = 0; k < 3; k++) {
+    u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
+    v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
+    centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
+    mean += columns->graded[corner[k]] / 3;
+  }
+  cw_cross(u, v, normal);
+  double h = size_at(skeleton, centre);
+  double weight = cw_norm(normal) / (h * h * h) * cw_orbit_face_copies(&skeleton->orbits, face);
+  double flat = cw_column_height_flat(&columns->layers[face], columns->heights->layer_count, h);
+  *(Taken *)out = (Taken){weight * mean, weight * flat};
+  return CW_OK;
+}
+
+CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton,
+                                 const CwLayerTarget *layers, double *share) {
+  CwStatus status = CW_OK;
+  double *graded = NULL;
+  Taken *of = NULL, sum = {0};
+  CW_NEW(graded, skeleton->wall_count);
+  CW_NEW(of, skeleton->wall_triangle_count);
+  memcpy(graded, heights->target, (size_t)skeleton->wall_count * sizeof *graded);
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE, graded));
+  Columns columns = {.skeleton = skeleton, .heights = heights, .layers = layers, .graded = graded};
+  CW_TRY(cw_share("heights: volume", skeleton->wall_triangle_count, sizeof *of, find_taken, &columns, of));
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    sum.taken += of[t].taken;
+    sum.flat += of[t].flat;
+  }
+  *share = sum.flat > 0 ? sum.taken / sum.flat : 1;
+done:
+  free(graded);
+  free(of);
+  return status;
+}
+
+CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  CW_NEW(heights->room, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    int thinned = skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    heights->room[v] = thinned ? skeleton->height[v]
+                               : cw_layer_thickness(heights->first_height[v], heights->layer_count, heights->growth[v]);
+  }
+  CW_TRY(grade(skeleton, HEIGHT_SLOPE, heights->room));
+done:
+  return status;
+}
+
+CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t region,
+                                 CwRatioWall **wall) {
+  CwStatus status = CW_OK;
+  int32_t count = 0, layers = heights->layer_count;
+  double fraction[CW_LAYERS_MOST + 1];
+  CW_NEW(*wall, skeleton->region_wall_start[region + 1] - skeleton->region_wall_start[region]);
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
+    CwRatioWall *made = &(*wall)[count++];
+    made->first = INFINITY;
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      cw_layer_fractions(heights->room[v], heights->first_height[v], layers, heights->growth[v], fraction);
+      made->first = fmin(made->first, heights->first_height[v]);
+      made->last += heights->room[v] * (1 - fraction[layers - 1]) / 3;
+      made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    }
+  }
+done:
+  return status;
+}
+
+void cw_column_heights_free(CwColumnHeights *heights) {
+  free(heights->first_height);
+  free(heights->growth);
+  free(heights->target);
+  free(heights->room);
+  *heights = (CwColumnHeights){0};
+}
