@@ -71,12 +71,10 @@ done:
   return status;
 }
 
-CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background) {
+CwStatus cw_background_join(const CwCad *cad, void *const *face_bytes, CwBackground *background) {
   CwStatus status = CW_OK;
   memset(background, 0, sizeof *background);
-  CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE,
-             "deflection %g m and angle %g rad must be greater than zero", deflection, angle);
-  CW_TRY(cw_background_tessellate(cad, deflection, angle, background));
+  CW_TRY(cw_tessellation_weld(cad, face_bytes, background));
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(cw_background_volume(background) > 0, CW_ERR_GEOMETRY,
              "the tessellation encloses %g m3; it must be positive", cw_background_volume(background));
@@ -86,61 +84,23 @@ done:
   return status;
 }
 
-enum { PARTS = 5 };
-
-static CwStatus parts_new(CwBackground *background) {
+CwStatus cw_background_make(const CwCad *cad, double deflection, double angle, CwBackground *background) {
   CwStatus status = CW_OK;
-  CW_NEW(background->x, background->point_count);
-  CW_NEW(background->triangle, background->triangle_count);
-  CW_NEW(background->face, background->triangle_count);
-  CW_NEW(background->uv, background->triangle_count);
-  CW_NEW(background->neighbour, background->triangle_count);
-done:
-  return status;
-}
-
-static void parts_of(const CwBackground *background, void *part[PARTS], size_t size[PARTS]) {
-  size_t points = (size_t)background->point_count, triangles = (size_t)background->triangle_count;
-  part[0] = background->x, size[0] = points * sizeof *background->x;
-  part[1] = background->triangle, size[1] = triangles * sizeof *background->triangle;
-  part[2] = background->face, size[2] = triangles * sizeof *background->face;
-  part[3] = background->uv, size[3] = triangles * sizeof *background->uv;
-  part[4] = background->neighbour, size[4] = triangles * sizeof *background->neighbour;
-}
-
-CwStatus cw_background_pack(const CwBackground *background, void **bytes, int64_t *byte_count) {
-  CwStatus status = CW_OK;
-  const int32_t count[2] = {background->point_count, background->triangle_count};
-  void *part[PARTS];
-  size_t size[PARTS], all = sizeof count;
-  char *block, *at;
-  parts_of(background, part, size);
-  for (int i = 0; i < PARTS; i++) all += size[i];
-  CW_NEW(block, all);
-  memcpy(block, count, sizeof count);
-  at = block + sizeof count;
-  for (int i = 0; i < PARTS; at += size[i++]) memcpy(at, part[i], size[i]);
-  *bytes = block;
-  *byte_count = (int64_t)all;
-done:
-  return status;
-}
-
-CwStatus cw_background_unpack(const void *bytes, CwBackground *background) {
-  CwStatus status = CW_OK;
-  int32_t count[2];
-  void *part[PARTS];
-  size_t size[PARTS];
-  const char *at = (const char *)bytes + sizeof count;
+  CwTessellation *tessellation = NULL;
+  void **bytes = NULL;
+  int64_t size;
+  int faces = cw_cad_face_count(cad);
   memset(background, 0, sizeof *background);
-  memcpy(count, bytes, sizeof count);
-  background->point_count = count[0];
-  background->triangle_count = count[1];
-  CW_TRY(parts_new(background));
-  parts_of(background, part, size);
-  for (int i = 0; i < PARTS; at += size[i++]) memcpy(part[i], at, size[i]);
+  CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE,
+             "deflection %g m and angle %g rad must be greater than zero", deflection, angle);
+  CW_NEW(bytes, faces);
+  CW_TRY(cw_tessellation_start(cad, deflection, angle, &tessellation));
+  for (int f = 0; f < faces; f++) CW_TRY(cw_tessellation_face(tessellation, f, &bytes[f], &size));
+  CW_TRY(cw_background_join(cad, bytes, background));
 done:
-  if (status != CW_OK) cw_background_free(background);
+  for (int f = 0; bytes && f < faces; f++) free(bytes[f]);
+  free(bytes);
+  cw_tessellation_free(&tessellation);
   return status;
 }
 

@@ -24,14 +24,13 @@ typedef struct {
   int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
 } CwBackground;
 
-// Tessellates with the given chord deflection (m) and angle (rad). Fails with CW_ERR_GEOMETRY where the
-// result is not closed (the place is named). Deterministic.
-CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
-void cw_background_free(CwBackground *background);
+// Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that other
+// ranks have made.
+CwStatus cw_background_make(const CwCad *cad, double deflection, double angle, CwBackground *background);
 
-// The whole in one block of bytes (malloc'd), to travel between ranks, and back: the same bits.
-CwStatus cw_background_pack(const CwBackground *background, void **bytes, int64_t *byte_count);
-CwStatus cw_background_unpack(const void *bytes, CwBackground *background);
+// From the faces (background_tessellate.h). Fails with CW_ERR_GEOMETRY where the result is not closed (the place is named).
+CwStatus cw_background_join(const CwCad *cad, void *const *face_bytes, CwBackground *background);
+void cw_background_free(CwBackground *background);
 
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);

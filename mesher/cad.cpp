@@ -5,11 +5,13 @@
 #include <cmath>
 #include <string>
 
-#include <BRepGProp.hxx>
+#include <BRepGProp_Domain.hxx>
+#include <BRepGProp_Face.hxx>
+#include <BRepGProp_Vinert.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Pnt2d.hxx>
@@ -69,16 +71,6 @@ void cw_cad_close(CwCad **cad) {
   *cad = nullptr;
 }
 
-double cw_cad_volume(const CwCad *cad) {
-  try {
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(cad->solid, properties);
-    return std::fabs(properties.Mass()) * metre_per_mm * metre_per_mm * metre_per_mm;
-  } catch (const Standard_Failure &) {
-    return 0;
-  }
-}
-
 int cw_cad_patch_count(const CwCad *cad) {
   return cad->table.patch_count;
 }
@@ -129,6 +121,18 @@ void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[
       to_metres(dv.XYZ(), xv);
   }
   to_metres(p.XYZ(), x);
+}
+
+double cw_cad_face_volume(const CwCad *cad, int face) {
+  try {
+    const TopoDS_Face &shape = TopoDS::Face(cad->face_map(face + 1));
+    BRepGProp_Face integrand(shape);
+    BRepGProp_Domain edges(shape);
+    double volume = BRepGProp_Vinert(integrand, edges, gp_Pnt(0, 0, 0)).Mass();
+    return (cad->inside_out ? -volume : volume) * metre_per_mm * metre_per_mm * metre_per_mm;
+  } catch (const Standard_Failure &) {
+    return 0;
+  }
 }
 
 double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {

@@ -22,9 +22,6 @@ typedef struct CwCad CwCad;
 CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
 void cw_cad_close(CwCad **cad);
 
-// Volume of the solid, m3, by OpenCASCADE, integrated anew each time; 0 where it cannot be.
-double cw_cad_volume(const CwCad *cad);
-
 int cw_cad_patch_count(const CwCad *cad);
 const char *cw_cad_patch_name(const CwCad *cad, int patch);
 CwPatchKind cw_cad_patch_kind(const CwCad *cad, int patch);
@@ -40,6 +37,10 @@ int cw_cad_face_reversed(const CwCad *cad, int face);
 // Point of a face at (u,v); with the first derivatives where xu and xv are not NULL.
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
                        double xv[3]);
+
+// What the exact face adds to the volume of the solid: the integral of x.n / 3 over it, n out of the domain, m3; 0 where
+// OpenCASCADE cannot have it.
+double cw_cad_face_volume(const CwCad *cad, int face);
 
 // Greatest absolute principal curvature, 1/m.
 double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/background_tessellate.h"
 #include "mesher/fan.h"
 #include "mesher/layer_heights.h"
 #include "mesher/layers.h"
@@ -83,31 +84,40 @@ done:
   return status;
 }
 
+CwStatus cw_domain_start_measures(CwDomain *domain) {
+  return cw_tessellation_start(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->tessellation);
+}
+
+double cw_domain_measure_cost(const CwDomain *domain, int part) {
+  int faces = cw_cad_face_count(domain->cad);
+  double triangles = cw_tessellation_cost(domain->tessellation, part % faces);
+  return part < faces ? triangles : triangles / 4;
+}
+
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
-  CwBackground background = {0};
   double *volume = NULL;
-  if (part == 0) {
-    CW_TRY(cw_background_make(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &background));
-    CW_TRY(cw_background_pack(&background, bytes, byte_count));
+  int faces = cw_cad_face_count(domain->cad);
+  if (part < faces) {
+    CW_TRY(cw_tessellation_face(domain->tessellation, part, bytes, byte_count));
   } else {
     CW_NEW(volume, 1);
-    *volume = cw_cad_volume(domain->cad);
-    CW_REQUIRE(*volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
+    *volume = cw_cad_face_volume(domain->cad, part - faces);
     *bytes = volume;
     *byte_count = sizeof *volume;
-    volume = NULL;
   }
 done:
-  free(volume);
-  cw_background_free(&background);
   return status;
 }
 
 CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_background_unpack(bytes[0], &domain->background));
-  memcpy(&domain->solid_volume, bytes[1], sizeof domain->solid_volume);
+  int faces = cw_cad_face_count(domain->cad);
+  cw_tessellation_free(&domain->tessellation);
+  CW_TRY(cw_background_join(domain->cad, bytes, &domain->background));
+  domain->solid_volume = 0;
+  for (int f = 0; f < faces; f++) domain->solid_volume += *(const double *)bytes[faces + f];
+  CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));
@@ -323,6 +333,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_size_free(&domain->size);
   cw_symmetry_free(&domain->symmetry);
   cw_inside_free(&domain->inside);
+  cw_tessellation_free(&domain->tessellation);
   cw_background_free(&domain->background);
   cw_cad_close(&domain->cad);
   free(domain->layer_sample);

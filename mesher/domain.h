@@ -23,6 +23,7 @@ typedef struct {
 typedef struct {
   const char *name;
   CwCad *cad;
+  struct CwTessellation *tessellation;        // while the background is made
   CwBackground background;
   double solid_volume;                        // m3, exact
   CwInside *inside;
@@ -50,9 +51,11 @@ typedef struct {
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
 
-// What one rank makes for all, packed, and how all take it up: the background triangulation (part 0) and the exact
-// volume (part 1); the seeds of one face; the size field from the seeds of all faces.
-enum { CW_DOMAIN_PARTS = 2 };
+// What one rank makes for all, packed, and how all take it up. First the background triangulation and the exact volume: a
+// part for each face, then one for what each face adds to the volume. Then the seeds of one face; the size field from the
+// seeds of all faces.
+CwStatus cw_domain_start_measures(CwDomain *domain);
+double cw_domain_measure_cost(const CwDomain *domain, int part);
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count);

@@ -9,22 +9,26 @@
 #include "mesher/run_step.h"
 #include "pipeline/log.h"
 
-// Background triangulations and exact volumes: each made by one rank.
+// Background triangulations and exact volumes, face by face.
 static CwStatus measure_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults results = {0};
-  CwMeshTask task[CW_DOMAINS_MOST * CW_DOMAIN_PARTS];
-  int32_t parts[CW_DOMAINS_MOST], count = 0;
-  for (int d = 0; d < run->domains.count; d++) parts[d] = CW_DOMAIN_PARTS;
-  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  CwMeshTask *task = NULL;
+  int32_t parts[CW_DOMAINS_MOST], count = 0, all = 0;
+  cw_ledger_part("edges of the background");
   for (int d = 0; d < run->domains.count; d++) {
-    for (int part = 0; part < CW_DOMAIN_PARTS; part++) {
-      // Faces are measured in half the time that their triangles take.
-      task[count++] = (CwMeshTask){d, part, cw_cad_face_count(run->domain[d].cad) / (1.0 + part)};
+    CW_TRY(cw_domain_start_measures(&run->domain[d]));
+    all += parts[d] = 2 * cw_cad_face_count(run->domain[d].cad);
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int part = 0; part < parts[d]; part++) {
+      task[count++] = (CwMeshTask){d, part, cw_domain_measure_cost(&run->domain[d], part)};
     }
   }
   CW_TRY(cw_run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
-  cw_ledger_part("trees of the background");
+  cw_ledger_part("background joined");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
     cw_log("%s: %d faces, %d background triangles", run->domain[d].name, cw_cad_face_count(run->domain[d].cad),
@@ -32,6 +36,7 @@ static CwStatus measure_domains(CwMeshRun *run) {
   }
 done:
   cw_results_free(&results);
+  free(task);
   return status;
 }
 

@@ -37,6 +37,14 @@ extern "C" {
       fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);                                             \
   } while (0)
 
+// Volume of the solid, m3, from all its faces.
+static inline double solid_volume(const CwCad *cad) {
+  double volume = 0;
+  for (int f = 0; f < cw_cad_face_count(cad); f++)
+    volume += cw_cad_face_volume(cad, f);
+  return volume;
+}
+
 struct TemporaryFolder {
   char path[64] = "cutwater-test-XXXXXX";
   TemporaryFolder() {

@@ -2,11 +2,13 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <vector>
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 
 #include "mesher/background.h"
+#include "mesher/background_tessellate.h"
 
 #include "solids.h"
 
@@ -94,13 +96,22 @@ static void two_runs_are_the_same(void **state) {
   cw_cad_close(&cad);
 }
 
-static void a_packed_one_comes_back_whole(void **state) {
-  CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(5, 12, M_PI / 2).Shape());
-  CwBackground a = make(cad, 1e-5), b;
-  void *bytes;
+// As two ranks do: each divides the edges, and takes every other face from the other.
+static void faces_of_two_ranks_are_joined(void **state) {
+  CwCad *cad[2] = {open_solid(BRepPrimAPI_MakeCylinder(5, 12, M_PI / 2).Shape()),
+                   open_solid(BRepPrimAPI_MakeCylinder(5, 12, M_PI / 2).Shape())};
+  CwTessellation *tessellation[2];
+  CwBackground a = make(cad[0], 1e-5), b;
+  int faces = cw_cad_face_count(cad[0]);
+  std::vector<void *> bytes(faces);
   int64_t size;
-  assert_int_equal(cw_background_pack(&a, &bytes, &size), CW_OK);
-  assert_int_equal(cw_background_unpack(bytes, &b), CW_OK);
+  for (int rank = 0; rank < 2; rank++)
+    assert_int_equal(cw_tessellation_start(cad[rank], 1e-5, 0.2, &tessellation[rank]), CW_OK);
+  for (int f = faces - 1; f >= 0; f--) {
+    assert_int_equal(cw_tessellation_face(tessellation[f % 2], f, &bytes[f], &size), CW_OK);
+    assert_true(cw_tessellation_cost(tessellation[0], f) >= 4);
+  }
+  assert_int_equal(cw_background_join(cad[1], bytes.data(), &b), CW_OK);
   assert_int_equal(a.point_count, b.point_count);
   assert_int_equal(a.triangle_count, b.triangle_count);
   assert_memory_equal(a.x, b.x, a.point_count * sizeof *a.x);
@@ -116,10 +127,14 @@ static void a_packed_one_comes_back_whole(void **state) {
       assert_int_equal(shared, 1);
     }
   }
-  free(bytes);
   cw_background_free(&a);
   cw_background_free(&b);
-  cw_cad_close(&cad);
+  for (void *block : bytes)
+    free(block);
+  for (int rank = 0; rank < 2; rank++) {
+    cw_tessellation_free(&tessellation[rank]);
+    cw_cad_close(&cad[rank]);
+  }
 }
 
 static void senseless_deflection_is_refused(void **state) {
@@ -136,7 +151,7 @@ int main(void) {
       cmocka_unit_test(inside_out_file_still_has_normals_out),
       cmocka_unit_test(cylinder_converges_from_inside),
       cmocka_unit_test(two_runs_are_the_same),
-      cmocka_unit_test(a_packed_one_comes_back_whole),
+      cmocka_unit_test(faces_of_two_ranks_are_joined),
       cmocka_unit_test(senseless_deflection_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

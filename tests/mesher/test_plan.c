@@ -33,13 +33,17 @@ static void check(CwStatus status) {
 }
 
 static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
-  void *part[CW_DOMAIN_PARTS], **seed, *bytes;
+  void **part, **seed, *bytes;
   int64_t size;
   check(cw_domain_open(made, name, folder, &table, scales));
-  for (int i = 0; i < CW_DOMAIN_PARTS; i++) check(cw_domain_measure(made, i, &part[i], &size));
-  check(cw_domain_take_measures(made, part));
-  for (int i = 0; i < CW_DOMAIN_PARTS; i++) free(part[i]);
   int faces = cw_cad_face_count(made->cad);
+  part = calloc(2 * (size_t)faces, sizeof *part);
+  assert_non_null(part);
+  check(cw_domain_start_measures(made));
+  for (int i = 0; i < 2 * faces; i++) check(cw_domain_measure(made, i, &part[i], &size));
+  check(cw_domain_take_measures(made, part));
+  for (int i = 0; i < 2 * faces; i++) free(part[i]);
+  free(part);
   seed = calloc((size_t)faces, sizeof *seed);
   assert_non_null(seed);
   for (int f = 0; f < faces; f++) check(cw_domain_seed(made, &table, f, &seed[f], &size));

@@ -356,7 +356,7 @@ static void fill_the_tank(bool divided) {
     cw_region_free(&mesh);
   }
   for (int r = 0; r < each; r++) cw_region_free(&first_mesh[r]);
-  assert_near(volume / cw_cad_volume(tank.cad), 1, 1e-12);
+  assert_near(volume / solid_volume(tank.cad), 1, 1e-12);
   assert_int_equal(shared.size(), context.shared_count);
   assert_int_equal(shared.rbegin()->first, context.shared_count - 1);
   for (const auto &point : held) assert_true(point.second >= 2);
