@@ -75,6 +75,7 @@ static void across(const double direction[3], double a[3], double b[3]) {
 static void curve_direction(const CwCurve *curve, const double x[3], double direction[3]) {
   int32_t last = curve->fine_count - 1;
   int at_end = cw_distance(curve->fine_x[last], x) < cw_distance(curve->fine_x[0], x);
+  memset(direction, 0, sizeof(double[3]));
   for (int32_t i = 1; i <= last; i++) {
     cw_sub(curve->fine_x[at_end ? last - i : i], curve->fine_x[at_end ? last : 0], direction);
     if (cw_unit(direction) > DIRECTION_LENGTH) break;

@@ -279,7 +279,7 @@ static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBloc
   for (int32_t turns = 0; turns < copies; turns++) {
     int32_t base = skeleton->wall_count;
     for (int32_t i = 0; i < block->point_count; i++) {
-      int32_t vertex;
+      int32_t vertex = -1;
       double x[3];
       cw_orbit_point(orbits, turns, block->x[i], x);
       CW_TRY(add_wall_vertex(skeleton, x, (CwGuide){CW_GUIDE_NONE, -1}, &vertex));

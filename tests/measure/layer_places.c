@@ -176,9 +176,12 @@ static void choose_plane(const Place *place, const Points *points, Plane *plane)
   cw_unit(radius);
   cw_unit(along);
   plane->half = place->half;
-  if (place->section == NORMAL_TO_AXIS) cw_copy(axis, plane->normal);
-  if (place->section == MERIDIAN) cw_cross(axis, radius, plane->normal);
-  if (place->section == ACROSS_EDGE) cw_copy(along, plane->normal);
+  if (place->section == NORMAL_TO_AXIS)
+    cw_copy(axis, plane->normal);
+  else if (place->section == MERIDIAN)
+    cw_cross(axis, radius, plane->normal);
+  else // across the edge
+    cw_copy(along, plane->normal);
   double right = cw_dot(radius, plane->normal);
   for (int k = 0; k < 3; k++) plane->u[k] = radius[k] - right * plane->normal[k];
   if (!(cw_unit(plane->u) > 0.1)) {

@@ -18,12 +18,14 @@ static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "i
 enum { FILE_COUNT = sizeof FILES / sizeof *FILES };
 static const CwDomainTable domains = {.count = 2, .name = {"rotor", "stator"}};
 
-static void path_of(char *path, const char *name) {
-  sprintf(path, "%s/%s", run, name);
+enum { PATH_SIZE = 128 };
+
+static void path_of(char path[PATH_SIZE], const char *name) {
+  assert_true(snprintf(path, PATH_SIZE, "%s/%s", run, name) < PATH_SIZE);
 }
 
 static void write_file(const char *name, const char *text) {
-  char path[128];
+  char path[PATH_SIZE];
   path_of(path, name);
   FILE *file = fopen(path, "w");
   assert_non_null(file);
@@ -32,23 +34,23 @@ static void write_file(const char *name, const char *text) {
 }
 
 static int make_run(void **state) {
-  char path[128];
+  char path[PATH_SIZE];
   if (!mkdtemp(run)) return -1;
   path_of(path, "geometry");
   mkdir(path, 0777);
   path_of(path, "mesh");
   mkdir(path, 0777);
   for (int i = 0; i < FILE_COUNT; i++) {
-    sprintf(path, "geometry/%s", FILES[i]);
+    snprintf(path, sizeof path, "geometry/%s", FILES[i]);
     write_file(path, FILES[i]);
   }
   return 0;
 }
 
 static int remove_run(void **state) {
-  char path[128], name[64];
+  char path[PATH_SIZE], name[64];
   for (int i = 0; i < FILE_COUNT; i++) {
-    sprintf(name, "geometry/%s", FILES[i]);
+    snprintf(name, sizeof name, "geometry/%s", FILES[i]);
     path_of(path, name);
     unlink(path);
   }

@@ -64,7 +64,7 @@ static double shape_of(const CwTetWork *w, double *mean) {
 
 static void shaken_points_become_even(void **state) {
   double(*x)[3], before, after;
-  int32_t outside, count = lattice(8, 0.2, &outside, &x), moved = 0;
+  int32_t outside = 0, count = lattice(8, 0.2, &outside, &x), moved = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.flips = {.mesh = &mesh},
@@ -105,7 +105,7 @@ static void shaken_points_become_even(void **state) {
 // Two layers below the skin all tetrahedra are regular: their points stay to the bit.
 static void lattice_stays(void **state) {
   double(*x)[3];
-  int32_t outside, count = lattice(8, 1e-3, &outside, &x), deep = 0;
+  int32_t outside = 0, count = lattice(8, 1e-3, &outside, &x), deep = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.flips = {.mesh = &mesh},
