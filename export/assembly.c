@@ -18,8 +18,7 @@ typedef struct {
   int64_t interface_count[CW_DOMAINS_MOST][2], interface_room[CW_DOMAINS_MOST][2];
   double *least[CW_DOMAINS_MOST],
       *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
-  double *volume, *least_volume; // by region
-  int64_t *open_counts;          // by region
+  int64_t *open_counts; // by region
 } Collected;
 
 static void collected_free(Collected *c) {
@@ -30,8 +29,6 @@ static void collected_free(Collected *c) {
     free(c->least[d]);
     free(c->most[d]);
   }
-  free(c->volume);
-  free(c->least_volume);
   free(c->open_counts);
 }
 
@@ -92,53 +89,17 @@ done:
   return status;
 }
 
-static CwStatus collect_points(const CwMesh *mesh, int region, const CwRegionData *data, Collected *c) {
-  CwStatus status = CW_OK;
-  unsigned char *used = NULL;
-  CW_NEW(used, data->point_count);
-  for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
-    int count;
-    const int32_t *nodes = cw_cell_nodes(data, cell, &count);
-    for (int i = 0; i < count; ++i)
-      used[nodes[i]] = 1;
-  }
-  for (int32_t p = 0; p < data->point_count; ++p) {
-    const double *x = data->points[p];
-    CW_REQUIRE(used[p] || p < data->shared_count, CW_ERR_INPUT,
-               "%s: point %d at (%.6g, %.6g, %.6g) mm is used by no cell", mesh->regions[region].path, p,
-               1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
-    if (p < data->shared_count && used[p]) {
-      double *least = c->least[data->domain] + 3 * data->shared_id[p];
-      double *most = c->most[data->domain] + 3 * data->shared_id[p];
-      for (int k = 0; k < 3; ++k) {
-        double value = x[k] + 0.0; // turns -0 into 0: the bits must not follow from the order of the ranks
-        least[k] = fmin(least[k], value);
-        most[k] = fmax(most[k], value);
-      }
+static void collect_points(const CwRegionData *data, Collected *c) {
+  for (int32_t p = 0; p < data->shared_count; ++p) {
+    double *least = c->least[data->domain] + 3 * data->shared_id[p];
+    double *most = c->most[data->domain] + 3 * data->shared_id[p];
+    for (int k = 0; k < 3; ++k) {
+      // 0 turns -0 into 0: the bits must not follow from the order of the ranks.
+      double value = data->points[p][k] + 0.0;
+      least[k] = fmin(least[k], value);
+      most[k] = fmax(most[k], value);
     }
   }
-done:
-  free(used);
-  return status;
-}
-
-static CwStatus collect_volumes(const CwMesh *mesh, int region, const CwRegionData *data, Collected *c) {
-  CwStatus status = CW_OK;
-  c->least_volume[region] = INFINITY;
-  for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
-    double volume = cw_cell_volume(data, cell);
-    if (!(volume > 0)) {
-      double x[3];
-      cw_cell_centre(data, cell, x);
-      CW_REQUIRE(0, CW_ERR_INPUT,
-                 "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
-                 mesh->regions[region].path, cell, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e9 * volume);
-    }
-    c->volume[region] += volume;
-    c->least_volume[region] = fmin(c->least_volume[region], volume);
-  }
-done:
-  return status;
 }
 
 static void add_patch_face(CwPatchPart *part, const CwRegionData *data, const int32_t *nodes, int count) {
@@ -199,20 +160,27 @@ done:
 static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
   CwRegionData data = {0};
-  CwRegionFaces faces = {0};
+  CwOpenFace *open = NULL;
+  int32_t count = 0;
+  int64_t triangles, quads;
   CW_TRY(cw_mesh_region_read(mesh, region, CW_REGION_WHOLE, &data));
-  CW_TRY(collect_volumes(mesh, region, &data, c));
-  CW_TRY(cw_region_faces(mesh, region, &data, &faces));
-  CW_TRY(collect_points(mesh, region, &data, c));
+  CW_TRY(cw_region_open_faces(mesh, region, &data, &open, &count));
+  collect_points(&data, c);
   CW_TRY(collect_patches(mesh, region, &data, a, c));
-  a->places[region].inner_triangles = faces.inner_triangles;
-  a->places[region].inner_quads = faces.inner_quads;
-  c->open_counts[region] = faces.open_count;
-  CW_TRY(reserve((void **)&c->open, &c->open_room, c->open_count, faces.open_count, sizeof *c->open));
-  memcpy(c->open + c->open_count, faces.open, (size_t)faces.open_count * sizeof *c->open);
-  c->open_count += faces.open_count;
+  // Each face of a cell is one of two at an inner face, or lies on a patch or a dividing plane.
+  triangles = 4 * (int64_t)(data.tetrahedron_count + data.pyramid_count) + 2 * (int64_t)data.prism_count;
+  triangles -= data.triangle_count;
+  quads = data.pyramid_count + 3 * (int64_t)data.prism_count - data.quad_count;
+  for (int32_t i = 0; i < count; ++i)
+    --*(open[i].loop[3] < 0 ? &triangles : &quads);
+  a->places[region].inner_triangles = triangles / 2;
+  a->places[region].inner_quads = quads / 2;
+  c->open_counts[region] = count;
+  CW_TRY(reserve((void **)&c->open, &c->open_room, c->open_count, count, sizeof *c->open));
+  memcpy(c->open + c->open_count, open, (size_t)count * sizeof *open);
+  c->open_count += count;
 done:
-  cw_region_faces_free(&faces);
+  free(open);
   cw_mesh_region_free(&data);
   return status;
 }
@@ -226,17 +194,11 @@ static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
     CwPatchPart *parts = a->parts + (size_t)r * (size_t)mesh->patch_count;
     MPI_Bcast(&a->places[r], sizeof a->places[r], MPI_BYTE, root, ranks->comm);
     MPI_Bcast(parts, (int)sizeof *parts * mesh->patch_count, MPI_BYTE, root, ranks->comm);
-    MPI_Bcast(&c->volume[r], 1, MPI_DOUBLE, root, ranks->comm);
-    MPI_Bcast(&c->least_volume[r], 1, MPI_DOUBLE, root, ranks->comm);
     MPI_Bcast(&c->open_counts[r], 1, MPI_INT64_T, root, ranks->comm);
   }
   for (int r = 0; r < mesh->region_count; ++r) {
     a->places[r].open = a->open_count;
     a->open_count += c->open_counts[r];
-    CwDomainTotal *total = &a->totals[mesh->regions[r].domain];
-    total->least_volume =
-        total->volume > 0 ? fmin(total->least_volume, c->least_volume[r]) : c->least_volume[r];
-    total->volume += c->volume[r];
     for (int p = 0; p < mesh->patch_count; ++p) {
       CwPatchPart *part = &a->parts[(size_t)r * (size_t)mesh->patch_count + (size_t)p], *sum = &a->patches[p];
       part->triangle = sum->triangles;
@@ -260,7 +222,7 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
     for (int64_t i = 0; i < count; ++i) {
       const double *x = c->least[d] + i / 3 * 3;
       CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT,
-                 "domain %s: shared point %lld is used by no cell of any region", domain->name,
+                 "domain %s: shared point %lld is in no region", domain->name,
                  (long long)(i / 3));
       // Regions that are copies of one another, turned, differ by rounding: the least coordinates are taken.
       CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING, CW_ERR_INPUT,
@@ -400,8 +362,6 @@ static CwStatus prepare(const CwMesh *mesh, CwAssembly *a, Collected *c) {
   CW_TRY(number_regions(mesh, a));
   CW_NEW(a->parts, (size_t)mesh->region_count * (size_t)mesh->patch_count);
   CW_NEW(a->patches, mesh->patch_count);
-  CW_NEW(c->volume, mesh->region_count);
-  CW_NEW(c->least_volume, mesh->region_count);
   CW_NEW(c->open_counts, mesh->region_count);
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     CW_NEW(c->least[d], 3 * mesh->domains[d].shared_points);
@@ -419,7 +379,7 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CwStatus status = CW_OK;
   Collected c = {0};
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
-  cw_progress_start("check the mesh", mesh->region_count, "regions");
+  cw_progress_start("number the mesh", mesh->region_count, "regions");
   for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
     if (cw_ranks_own(ranks, r))
       status = collect_region(mesh, r, a, &c);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The mesh as a whole without holding it: one pass over the region files finds the numbers every region
-// starts at, the shared points, which cells meet across dividing planes, and whether the mesh is sound.
-// Writers then take the regions one at a time, in any order and from any rank.
+// The mesh as a whole without holding it: a first look at the region files finds the numbers every region starts at,
+// the shared points, and which cells meet across dividing planes. Regions are then checked and written one at a time,
+// in any order and from any rank (region_check.h).
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
@@ -36,7 +36,7 @@ typedef struct {
 typedef struct {
   int64_t first_point; // points of the domains before
   int64_t points, tetrahedra, pyramids, prisms, cells;
-  double volume, least_volume; // m3
+  double volume, least_volume; // m3; known when all regions have been checked
 } CwDomainTotal;
 
 typedef struct {
@@ -51,9 +51,9 @@ typedef struct {
   CwInterfaceFace *interface[CW_DOMAINS_MOST][2]; // by interface and side; on rank 0 only, by place
 } CwAssembly;
 
-// Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a point is used
-// by no cell or differs between regions, a cell has no positive volume, a face on a dividing plane has no
-// partner, the surface of a domain is not closed, or a patch that is no wall is empty. Collective.
+// Reads every region once. Beyond the checks of the readers it fails with CW_ERR_INPUT where a shared point differs
+// between regions, a face on a dividing plane has no partner, the surface of a domain is not closed, or a patch that is
+// no wall is empty. Collective.
 CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *assembly);
 void cw_assembly_free(CwAssembly *assembly);
 

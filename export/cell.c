@@ -25,7 +25,7 @@ int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nod
   return i;
 }
 
-static void add_triangle(const double a[3], const double b[3], const double c[3], double area[3]) {
+static inline void add_triangle(const double a[3], const double b[3], const double c[3], double area[3]) {
   double u[3], v[3];
   for (int k = 0; k < 3; ++k) {
     u[k] = b[k] - a[k];
@@ -63,7 +63,7 @@ void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]) 
   face_mean((const double(*)[3])region->points, nodes, count, centre);
 }
 
-static double tetrahedron_volume(const double a[3], const double b[3], const double c[3], const double d[3]) {
+static inline double tetrahedron_volume(const double a[3], const double b[3], const double c[3], const double d[3]) {
   double area[3] = {0};
   add_triangle(a, b, c, area);
   return (area[0] * (d[0] - a[0]) + area[1] * (d[1] - a[1]) + area[2] * (d[2] - a[2])) / 3;
@@ -77,18 +77,19 @@ double cw_cell_volume(const CwRegionData *region, int32_t cell) {
   if (count == 4)
     return tetrahedron_volume(points[corner[0]], points[corner[1]], points[corner[2]], points[corner[3]]);
   cw_cell_centre(region, cell, centre);
-  for (int f = 0; f < cw_cell_face_count(count); ++f) {
-    int32_t nodes[4] = {0};
-    int n = cw_cell_face(region, cell, f, nodes);
-    double mean[3];
-    face_mean(points, nodes, n, mean);
-    for (int i = 0; i < (n == 3 ? 1 : 4); ++i) {
-      double area[3] = {0};
-      const double *apex = n == 3 ? points[nodes[2]] : mean;
-      add_triangle(points[nodes[i]], points[nodes[(i + 1) % n]], apex, area);
-      for (int k = 0; k < 3; ++k)
-        volume += area[k] * (apex[k] - centre[k]) / 3;
+  const signed char(*face)[4] = cw_cell_face_table(count);
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    const double *a = points[corner[face[f][0]]], *b = points[corner[face[f][1]]], *c = points[corner[face[f][2]]];
+    if (face[f][3] < 0) {
+      volume -= tetrahedron_volume(a, b, c, centre);
+      continue;
     }
+    const double *d = points[corner[face[f][3]]];
+    double mean[3];
+    for (int k = 0; k < 3; ++k)
+      mean[k] = (a[k] + b[k] + c[k] + d[k]) / 4;
+    volume -= tetrahedron_volume(a, b, mean, centre) + tetrahedron_volume(b, c, mean, centre) +
+              tetrahedron_volume(c, d, mean, centre) + tetrahedron_volume(d, a, mean, centre);
   }
   return volume;
 }

@@ -55,7 +55,7 @@ static CwStatus write_points(hid_t file, const CwMesh *mesh, int domain, int64_t
                              const double (*points)[3]) {
   CwStatus status = CW_OK;
   double *one = NULL;
-  CW_NEW(one, count);
+  CW_NEW_UNSET(one, count);
   for (int k = 0; k < 3; ++k) {
     char path[100];
     snprintf(path, sizeof path, "/pump/%s/GridCoordinates/Coordinate%c/ data", mesh->domains[domain].zone,
@@ -88,7 +88,7 @@ static CwStatus write_elements(hid_t file, const CwAssembly *a, int region, cons
   int64_t used = 0;
   char path[100];
   int local_patch = section->patch - a->mesh->domains[data->domain].first_patch;
-  CW_NEW(out, count * section->nodes);
+  CW_NEW_UNSET(out, count * section->nodes);
   for (int64_t i = 0; i < count; ++i)
     if (!patch_of || patch_of[i] == local_patch)
       for (int n = 0; n < section->nodes; ++n)

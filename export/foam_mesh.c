@@ -10,15 +10,16 @@
 
 #include "export/cell.h"
 
-static const char *const file_names[CW_FOAM_FILES] = {"points", "faces", "owner", "neighbour"};
-static const char *const file_classes[CW_FOAM_FILES] = {"vectorField", "faceCompactList", "labelList",
-                                                        "labelList"};
+static const char *const file_names[CW_FOAM_FILES] = {"points", "faces", "owner", "neighbour", "cellZones"};
+static const char *const file_classes[CW_FOAM_FILES] = {"vectorField", "faceCompactList", "labelList", "labelList",
+                                                        "regIOobject"};
 
 enum { HEADER_SIZE = 1000 };
 
-// The head of a binary file, up to the bracket before the first value.
+// The head of a binary file, up to the bracket before the first value or zone.
 static int make_header(const CwFoamMesh *mesh, CwFoamFile f, char text[HEADER_SIZE]) {
-  int64_t counts[CW_FOAM_FILES] = {mesh->points, mesh->faces + 1, mesh->faces, mesh->inner_faces};
+  int64_t counts[CW_FOAM_FILES] = {mesh->points, mesh->faces + 1, mesh->faces, mesh->inner_faces,
+                                   mesh->assembly->mesh->domain_count};
   char note[200] = "";
   if (f == CW_FOAM_OWNER || f == CW_FOAM_NEIGHBOUR)
     snprintf(note, sizeof note,
@@ -28,9 +29,17 @@ static int make_header(const CwFoamMesh *mesh, CwFoamFile f, char text[HEADER_SI
   return snprintf(text, HEADER_SIZE,
                   "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       %s;\n%s"
                   "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
-                  "    object      %s;\n}\n\n%lld\n(",
-                  file_classes[f], note, file_names[f], (long long)counts[f]);
+                  "    object      %s;\n}\n\n%lld\n(%s",
+                  file_classes[f], note, file_names[f], (long long)counts[f], f == CW_FOAM_ZONES ? "\n" : "");
 }
+
+// What stands before the cells of a domain in `cellZones`.
+static int make_zone_head(const CwFoamMesh *mesh, int domain, char text[HEADER_SIZE]) {
+  return snprintf(text, HEADER_SIZE, "%s\n{\n    type            cellZone;\n    cellLabels      List<label>\n%lld\n(",
+                  mesh->assembly->mesh->domains[domain].name, (long long)mesh->assembly->totals[domain].cells);
+}
+
+static const char zone_tail[] = ");\n}\n";
 
 CwStatus cw_foam_mesh_plan(const CwAssembly *a, const char *folder, CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
@@ -69,6 +78,11 @@ CwStatus cw_foam_mesh_plan(const CwAssembly *a, const char *folder, CwFoamMesh *
              (long long)mesh->points, INT32_MAX);
   for (int f = 0; f < CW_FOAM_FILES; ++f)
     mesh->start[f] = make_header(mesh, (CwFoamFile)f, text);
+  int64_t zone = mesh->start[CW_FOAM_ZONES];
+  for (int d = 0; d < a->mesh->domain_count; ++d) {
+    mesh->zone_start[d] = zone + make_zone_head(mesh, d, text);
+    zone = mesh->zone_start[d] + 4 * a->totals[d].cells + (int64_t)strlen(zone_tail);
+  }
   // ")\n\nCOUNT\n(" stands between the offsets and the labels.
   mesh->label_start = mesh->start[CW_FOAM_FACES] + 4 * (mesh->faces + 1) +
                       snprintf(text, sizeof text, ")\n\n%lld\n(", (long long)mesh->labels);
@@ -173,33 +187,19 @@ done:
   return status;
 }
 
-// The cells of each domain are one run of numbers.
-static CwStatus write_zones(const CwFoamMesh *mesh) {
+// All of `cellZones` but the numbers of the cells.
+static CwStatus put_zone_texts(const CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
-  FILE *out = NULL;
-  char *path = NULL;
-  int32_t cell = 0;
-  CW_REQUIRE(asprintf(&path, "%s/cellZones", mesh->folder) >= 0, CW_ERR_MEMORY, "out of memory");
-  out = fopen(path, "wb");
-  CW_REQUIRE(out, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
-  fprintf(out, "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       regIOobject;\n"
-               "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
-               "    object      cellZones;\n}\n\n%d\n(\n",
-          mesh->assembly->mesh->domain_count);
+  char text[HEADER_SIZE];
+  int64_t end = 0;
   for (int d = 0; d < mesh->assembly->mesh->domain_count; ++d) {
-    int64_t count = mesh->assembly->totals[d].cells;
-    fprintf(out, "%s\n{\n    type            cellZone;\n    cellLabels      List<label>\n%lld\n(",
-            mesh->assembly->mesh->domains[d].name, (long long)count);
-    for (int64_t i = 0; i < count; ++i, ++cell)
-      fwrite(&cell, sizeof cell, 1, out);
-    fprintf(out, ");\n}\n");
+    int length = make_zone_head(mesh, d, text);
+    CW_TRY(put(mesh, CW_FOAM_ZONES, text, length, mesh->zone_start[d] - length));
+    end = mesh->zone_start[d] + 4 * mesh->assembly->totals[d].cells;
+    CW_TRY(put(mesh, CW_FOAM_ZONES, zone_tail, (int64_t)strlen(zone_tail), end));
   }
-  fprintf(out, ")\n");
-  CW_REQUIRE(!ferror(out), CW_ERR_IO, "%s: cannot be written", path);
+  CW_TRY(put(mesh, CW_FOAM_ZONES, ")\n", 2, end + (int64_t)strlen(zone_tail)));
 done:
-  if (out && fclose(out) != 0 && status == CW_OK)
-    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
-  free(path);
   return status;
 }
 
@@ -223,7 +223,7 @@ CwStatus cw_foam_mesh_create(CwFoamMesh *mesh) {
     CW_TRY(put(mesh, CW_FOAM_POINTS, a->shared[d], 24 * a->mesh->domains[d].shared_points,
                mesh->start[CW_FOAM_POINTS] + 24 * a->totals[d].first_point));
   CW_TRY(write_boundary(mesh));
-  CW_TRY(write_zones(mesh));
+  CW_TRY(put_zone_texts(mesh));
 done:
   return status;
 }
@@ -237,10 +237,10 @@ typedef struct {
 static CwStatus stretch_new(int64_t triangles, int64_t quads, int64_t first_label, Stretch *s) {
   CwStatus status = CW_OK;
   *s = (Stretch){.first_label = first_label};
-  CW_NEW(s->offsets, triangles + quads);
-  CW_NEW(s->owners, triangles + quads);
-  CW_NEW(s->neighbours, triangles + quads);
-  CW_NEW(s->labels, 3 * triangles + 4 * quads);
+  CW_NEW_UNSET(s->offsets, triangles + quads);
+  CW_NEW_UNSET(s->owners, triangles + quads);
+  CW_NEW_UNSET(s->neighbours, triangles + quads);
+  CW_NEW_UNSET(s->labels, 3 * triangles + 4 * quads);
 done:
   return status;
 }
@@ -253,17 +253,18 @@ static void stretch_free(Stretch *s) {
   memset(s, 0, sizeof *s);
 }
 
-static void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data,
-                        int32_t cell, int face, int64_t neighbour) {
+static inline void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data,
+                               int32_t cell, int face, int64_t neighbour) {
   const CwAssembly *a = mesh->assembly;
   int64_t points_before = a->totals[data->domain].first_point;
-  int32_t nodes[4];
-  int count = cw_cell_face(data, cell, face, nodes);
+  int count;
+  const int32_t *nodes = cw_cell_nodes(data, cell, &count);
+  const signed char *corner = cw_cell_face_table(count)[face];
   s->offsets[s->faces] = (int32_t)(s->first_label + s->labels_used);
   s->owners[s->faces] = (int32_t)(a->places[region].cell + cell);
   s->neighbours[s->faces++] = (int32_t)neighbour;
-  for (int i = 0; i < count; ++i)
-    s->labels[s->labels_used++] = (int32_t)(points_before + cw_point_number(a, region, data, nodes[i]));
+  for (int i = 0; i < 4 && corner[i] >= 0; ++i)
+    s->labels[s->labels_used++] = (int32_t)(points_before + cw_point_number(a, region, data, nodes[corner[i]]));
 }
 
 static CwStatus stretch_write(const Stretch *s, const CwFoamMesh *mesh, int64_t first_face, int is_inner) {
@@ -339,6 +340,22 @@ done:
   return status;
 }
 
+static CwStatus write_zone(const CwFoamMesh *mesh, int region, const CwRegionData *data) {
+  CwStatus status = CW_OK;
+  int32_t *cells = NULL, count = cw_region_cell_count(data);
+  int64_t first = mesh->assembly->places[region].cell;
+  int64_t before = 0; // cells of other domains
+  for (int d = 0; d < data->domain; ++d)
+    before += mesh->assembly->totals[d].cells;
+  CW_NEW_UNSET(cells, count);
+  for (int32_t i = 0; i < count; ++i)
+    cells[i] = (int32_t)(first + i);
+  CW_TRY(put(mesh, CW_FOAM_ZONES, cells, 4 * (int64_t)count, mesh->zone_start[data->domain] + 4 * (first - before)));
+done:
+  free(cells);
+  return status;
+}
+
 CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwRegionData *data,
                                    const CwRegionFaces *faces) {
   CwStatus status = CW_OK;
@@ -348,6 +365,7 @@ CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwR
   CW_TRY(put(mesh, CW_FOAM_POINTS, data->points + data->shared_count,
              24 * (int64_t)(data->point_count - data->shared_count),
              mesh->start[CW_FOAM_POINTS] + 24 * first_point));
+  CW_TRY(write_zone(mesh, region, data));
   CW_TRY(write_inner_faces(mesh, region, data, faces));
   for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p)
     CW_TRY(write_patch_faces(mesh, region, data, faces, p));

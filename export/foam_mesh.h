@@ -7,7 +7,14 @@
 
 #include "export/assembly.h"
 
-typedef enum { CW_FOAM_POINTS, CW_FOAM_FACES, CW_FOAM_OWNER, CW_FOAM_NEIGHBOUR, CW_FOAM_FILES } CwFoamFile;
+typedef enum {
+  CW_FOAM_POINTS,
+  CW_FOAM_FACES,
+  CW_FOAM_OWNER,
+  CW_FOAM_NEIGHBOUR,
+  CW_FOAM_ZONES, // cellZones: the cells of each domain are one run of numbers
+  CW_FOAM_FILES
+} CwFoamFile;
 
 // Numbers of faces and where things stand in the files; the same on all ranks.
 typedef struct {
@@ -19,18 +26,19 @@ typedef struct {
   int64_t *patch_face, *patch_label; // by patch
   int64_t start[CW_FOAM_FILES];      // byte at which the first value stands
   int64_t label_start;               // that of the labels in `faces`, whose first values are offsets
+  int64_t zone_start[CW_DOMAINS_MOST]; // that of the cells of each domain in `cellZones`
 } CwFoamMesh;
 
 // Computes the layout. CW_ERR_EXPORT where a number passes 2^31 - 1. Zeroed `mesh` on entry.
 CwStatus cw_foam_mesh_plan(const CwAssembly *assembly, const char *folder, CwFoamMesh *mesh);
 
-// Makes the files with everything but the values of the regions, boundary and cellZones. One rank calls it.
+// Makes the files with everything but the values of the regions, and the whole of `boundary`. One rank calls it.
 CwStatus cw_foam_mesh_create(CwFoamMesh *mesh);
 
 // Opens the files for cw_foam_mesh_write_region(), on any rank.
 CwStatus cw_foam_mesh_open(CwFoamMesh *mesh);
 
-// Writes the own points and the faces of a region. A face between regions is written by that of the lower
+// Writes the own points, the faces and the zone of a region. A face between regions is written by that of the lower
 // cell.
 CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwRegionData *data,
                                    const CwRegionFaces *faces);

@@ -15,6 +15,22 @@ typedef struct {
   int32_t opposite, ref;
 } Side;
 
+// Faces in the making. Sides lie in buckets by their smallest node; those of a bucket find each other in a small
+// hash table, which the next bucket uses again.
+typedef struct {
+  const CwMesh *mesh;
+  int region;
+  const CwRegionData *data;
+  int32_t end;          // faces with all their nodes below it are matched
+  int64_t *start;       // of the buckets by node
+  Side *sides;          // NULL while they are counted
+  int32_t *slot;        // the table: place in the bucket, or -1
+  unsigned char *met;   // by place in the bucket: whether the side has found the other
+  CwRegionFaces *faces; // NULL where only open faces are asked for
+  int32_t *open;        // these, as refs
+  int32_t open_count;
+} Match;
+
 int cw_face_loop(const int64_t *nodes, int count, int64_t loop[4]) {
   int first = 0;
   for (int i = 1; i < count; ++i)
@@ -33,7 +49,6 @@ void cw_region_faces_free(CwRegionFaces *faces) {
   free(faces->across);
   free(faces->triangle_face);
   free(faces->quad_face);
-  free(faces->open);
   memset(faces, 0, sizeof *faces);
 }
 
@@ -68,178 +83,264 @@ static inline int same_face(const Side *a, const Side *b) {
   return a->key >> 1 == b->key >> 1 && a->opposite == b->opposite;
 }
 
-static inline int side_before(const Side *a, const Side *b) {
-  if (a->key >> 1 != b->key >> 1)
-    return a->key < b->key;
-  return a->opposite != b->opposite ? a->opposite < b->opposite : a->ref < b->ref;
-}
-
-static int compare_sides(const void *left, const void *right) {
-  return side_before(left, right) ? -1 : side_before(right, left);
-}
-
-// Buckets hold a few dozen sides: insertion beats qsort there.
-static void sort_sides(Side *sides, int64_t count) {
-  if (count > 64) {
-    qsort(sides, (size_t)count, sizeof *sides, compare_sides);
-    return;
-  }
-  for (int64_t i = 1; i < count; ++i) {
-    Side side = sides[i];
-    int64_t j = i;
-    for (; j > 0 && side_before(&side, &sides[j - 1]); --j)
-      sides[j] = sides[j - 1];
-    sides[j] = side;
-  }
-}
-
-static CwStatus fail_at_face(const CwMesh *mesh, int region, const CwRegionData *data, int32_t ref,
-                             const char *what) {
+static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
   int32_t nodes[4];
-  int count = side_nodes(data, ref, nodes);
+  int count = side_nodes(m->data, ref, nodes);
   double centre[3] = {0};
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < count; ++i)
-      centre[k] += 1e3 * data->points[nodes[i]][k] / count;
-  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm %s", mesh->regions[region].path, centre[0],
+      centre[k] += 1e3 * m->data->points[nodes[i]][k] / count;
+  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm %s", m->mesh->regions[m->region].path, centre[0],
                  centre[1], centre[2], what);
 }
 
-// Counts a side (sides NULL) or puts it into its bucket.
-static inline void add_side(const int32_t *nodes, int count, int32_t ref, int64_t *start, Side *sides) {
+// Counts a side or puts it into its bucket.
+static inline void add_side(Match *m, const int32_t *nodes, int count, int32_t ref) {
   Side side;
+  for (int i = 0; i < count; ++i)
+    if (nodes[i] >= m->end)
+      return;
   int32_t least = side_make(nodes, count, ref, &side);
-  if (sides)
-    sides[start[least]++] = side;
+  if (m->sides)
+    m->sides[m->start[least]++] = side;
   else
-    ++start[least + 1];
+    ++m->start[least + 1];
 }
 
-// Every side of the region, in the order of their refs but for the boundary faces.
-static void for_all_sides(const CwRegionData *data, int64_t *start, Side *sides) {
-  int32_t cells = cw_region_cell_count(data);
+static inline uint64_t lesser(uint64_t a, uint64_t b) {
+  return a < b ? a : b;
+}
+
+static inline uint64_t greater(uint64_t a, uint64_t b) {
+  return a < b ? b : a;
+}
+
+// The four sides of a tetrahedron at once, as add_side() would do them one by one: with its nodes in order (a < b < c
+// < d, the corner of each in the lowest bits) three sides have a as their smallest node, the fourth b.
+static inline void add_tetrahedron(Match *m, int32_t cell) {
+  static const signed char face_opposite[4] = {2, 3, 1, 0};
+  const int32_t *n = m->data->tetrahedra[cell];
+  uint64_t p = (uint64_t)n[0] << 2, q = (uint64_t)n[1] << 2 | 1, r = (uint64_t)n[2] << 2 | 2;
+  uint64_t s = (uint64_t)n[3] << 2 | 3;
+  unsigned odd = (p > q) ^ (p > r) ^ (p > s) ^ (q > r) ^ (q > s) ^ (r > s); // of the permutation that orders them
+  uint64_t low = lesser(p, q), high = greater(p, q), low2 = lesser(r, s), high2 = greater(r, s);
+  uint64_t a = lesser(low, low2), d = greater(high, high2), u = greater(low, low2), v = lesser(high, high2);
+  uint64_t b = lesser(u, v), c = greater(u, v);
+  int32_t least = (int32_t)(a >> 2), second = (int32_t)(b >> 2), end = m->end;
+  int whole = (int32_t)(d >> 2) < end;
+  if ((int32_t)(c >> 2) >= end)
+    return;
+  if (!m->sides) {
+    m->start[least + 1] += whole ? 3 : 1;
+    m->start[second + 1] += whole;
+    return;
+  }
+  // Seen from outside a tetrahedron in order has its sides a c b, a b d, a d c and b c d.
+  int32_t ref = CW_CELL_FACES * cell;
+  uint64_t b31 = (b >> 2) << 32, c31 = (c >> 2) << 32, c1 = (c >> 2) << 1, d1 = (d >> 2) << 1;
+  Side *side = &m->sides[m->start[least]];
+  side[0] = (Side){b31 | c1 | (odd ^ 1), -1, ref + face_opposite[d & 3]};
+  if (!whole) {
+    m->start[least] += 1;
+    return;
+  }
+  side[1] = (Side){b31 | d1 | odd, -1, ref + face_opposite[c & 3]};
+  side[2] = (Side){c31 | d1 | (odd ^ 1), -1, ref + face_opposite[b & 3]};
+  m->start[least] += 3;
+  m->sides[m->start[second]++] = (Side){c31 | d1 | odd, -1, ref + face_opposite[a & 3]};
+}
+
+// Every side that counts, in the order of the cells but for the boundary faces, which stand before.
+static void add_sides(Match *m) {
+  const CwRegionData *data = m->data;
   for (int32_t i = 0; i < data->triangle_count; ++i)
-    add_side(data->triangles[i], 3, -1 - i, start, sides);
+    add_side(m, data->triangles[i], 3, -1 - i);
   for (int32_t i = 0; i < data->quad_count; ++i)
-    add_side(data->quads[i], 4, -1 - data->triangle_count - i, start, sides);
-  for (int32_t cell = 0; cell < cells; ++cell) {
-    int corners;
+    add_side(m, data->quads[i], 4, -1 - data->triangle_count - i);
+  for (int32_t cell = 0; cell < data->tetrahedron_count; ++cell)
+    add_tetrahedron(m, cell);
+  for (int32_t cell = data->tetrahedron_count, cells = cw_region_cell_count(data); cell < cells; ++cell) {
+    int corners, below = 0;
     const int32_t *of_cell = cw_cell_nodes(data, cell, &corners);
+    for (int i = 0; i < corners; ++i)
+      below += of_cell[i] < m->end;
+    if (below < 3)
+      continue;
     const signed char(*face)[4] = cw_cell_face_table(corners);
-    for (int f = 0; f < cw_cell_face_count(corners); ++f) {
+    for (int f = 0; f < CW_CELL_FACES; ++f) {
       int count = face[f][3] < 0 ? 3 : 4;
       const int32_t nodes[4] = {of_cell[face[f][0]], of_cell[face[f][1]], of_cell[face[f][2]],
                                 of_cell[face[f][count - 1]]};
-      add_side(nodes, count, CW_CELL_FACES * cell + f, start, sides);
+      add_side(m, nodes, count, CW_CELL_FACES * cell + f);
     }
   }
 }
 
-static CwStatus take_boundary_face(const CwMesh *mesh, int region, const CwRegionData *data,
-                                   const Side side[2], CwRegionFaces *faces) {
+static CwStatus take_boundary_face(const Match *m, const Side *bound, const Side *of_cell) {
   CwStatus status = CW_OK;
-  int32_t bound = side[0].ref, cell_face = side[1].ref, place = -1 - bound;
+  const CwRegionData *data = m->data;
+  int32_t place = -1 - bound->ref;
   int is_quad = place >= data->triangle_count;
   if (is_quad)
     place -= data->triangle_count;
   int32_t said = is_quad ? data->quad_cell[place] : data->triangle_cell[place];
-  if (side[0].key != side[1].key)
-    CW_TRY(fail_at_face(mesh, region, data, bound, "on a patch has its normal into the domain"));
-  if (said != cell_face / CW_CELL_FACES)
-    CW_TRY(fail_at_face(mesh, region, data, bound, "on a patch names a cell it does not belong to"));
-  faces->across[cell_face] = CW_ACROSS_PATCH;
-  (is_quad ? faces->quad_face : faces->triangle_face)[place] = cell_face;
-done:
-  return status;
-}
-
-// The sides first, first+1, ... (at most `count`) of one face.
-static CwStatus take_face(const CwMesh *mesh, int region, const CwRegionData *data, const Side *side,
-                          int64_t count, CwRegionFaces *faces) {
-  CwStatus status = CW_OK;
-  if (count > 2)
-    CW_TRY(
-        fail_at_face(mesh, region, data, side[0].ref, "is shared by more than two cells or boundary faces"));
-  if (count == 2 && side[1].ref < 0)
-    CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "is listed twice as a boundary face"));
-  if (count == 1 && side[0].ref < 0)
-    CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "on a patch is not the face of any cell"));
-  if (count == 2 && side[0].ref < 0) {
-    CW_TRY(take_boundary_face(mesh, region, data, side, faces));
-  } else if (count == 2) {
-    if (side[0].key == side[1].key)
-      CW_TRY(fail_at_face(mesh, region, data, side[0].ref, "has both of its cells on the same side"));
-    faces->across[side[0].ref] = side[1].ref / CW_CELL_FACES;
-    faces->across[side[1].ref] = side[0].ref / CW_CELL_FACES;
-    ++*(side[0].opposite < 0 ? &faces->inner_triangles : &faces->inner_quads);
-  } else {
-    int32_t nodes[4];
-    int n = side_nodes(data, side[0].ref, nodes);
-    for (int i = 0; i < n; ++i)
-      if (nodes[i] >= data->shared_count)
-        CW_TRY(fail_at_face(mesh, region, data, side[0].ref,
-                            "has one cell only and lies neither on a patch nor on a dividing plane"));
-    faces->across[side[0].ref] = CW_ACROSS_OPEN;
-    ++faces->open_count;
+  if (bound->key != of_cell->key)
+    CW_TRY(fail_at_face(m, bound->ref, "on a patch has its normal into the domain"));
+  if (said != of_cell->ref / CW_CELL_FACES)
+    CW_TRY(fail_at_face(m, bound->ref, "on a patch names a cell it does not belong to"));
+  if (m->faces) {
+    m->faces->across[of_cell->ref] = CW_ACROSS_PATCH;
+    (is_quad ? m->faces->quad_face : m->faces->triangle_face)[place] = of_cell->ref;
   }
 done:
   return status;
 }
 
-static CwStatus list_open_faces(int region, const CwRegionData *data, CwRegionFaces *faces) {
+// Two sides of one face; boundary faces come first.
+static inline CwStatus take_pair(const Match *m, const Side *first, const Side *second) {
+  CwRegionFaces *faces = m->faces;
+  if (second->ref < 0)
+    return fail_at_face(m, first->ref, "is listed twice as a boundary face");
+  if (first->ref < 0)
+    return take_boundary_face(m, first, second);
+  if (first->key == second->key)
+    return fail_at_face(m, first->ref, "has both of its cells on the same side");
+  if (faces) {
+    faces->across[first->ref] = second->ref / CW_CELL_FACES;
+    faces->across[second->ref] = first->ref / CW_CELL_FACES;
+    ++*(first->opposite < 0 ? &faces->inner_triangles : &faces->inner_quads);
+  }
+  return CW_OK;
+}
+
+// A side that has not met another.
+static CwStatus take_single(Match *m, const Side *side) {
   CwStatus status = CW_OK;
-  int32_t slot = 0, cells = cw_region_cell_count(data);
-  CW_NEW(faces->open, faces->open_count);
-  for (int32_t cell = 0; cell < cells; ++cell)
-    for (int f = 0; f < CW_CELL_FACES; ++f) {
-      if (faces->across[CW_CELL_FACES * cell + f] != CW_ACROSS_OPEN)
-        continue;
-      int32_t nodes[4];
-      int64_t wide[4];
-      int n = cw_cell_face(data, cell, f, nodes);
-      for (int i = 0; i < n; ++i)
-        wide[i] = data->shared_id[nodes[i]];
-      CwOpenFace *open = &faces->open[slot];
-      open->reversed = cw_face_loop(wide, n, open->loop);
-      open->region = region;
-      open->cell = cell;
-      open->slot = slot++;
+  int32_t nodes[4];
+  if (side->ref < 0)
+    CW_TRY(fail_at_face(m, side->ref, "on a patch is not the face of any cell"));
+  for (int i = 0, count = side_nodes(m->data, side->ref, nodes); i < count; ++i)
+    if (nodes[i] >= m->data->shared_count)
+      CW_TRY(fail_at_face(m, side->ref, "has one cell only and lies neither on a patch nor on a dividing plane"));
+  if (m->faces)
+    m->faces->across[side->ref] = CW_ACROSS_OPEN;
+  else
+    m->open[m->open_count] = side->ref;
+  ++m->open_count;
+done:
+  return status;
+}
+
+// Bits of the table for so many sides: at least two places for each.
+static int table_bits(int64_t count) {
+  int bits = 1;
+  while (count > (int64_t)1 << (bits - 1))
+    ++bits;
+  return bits;
+}
+
+static CwStatus match_bucket(Match *m, const Side *side, int32_t count) {
+  CwStatus status = CW_OK;
+  int bits = table_bits(count);
+  uint32_t mask = ((uint32_t)1 << bits) - 1;
+  int32_t alone = count;
+  memset(m->slot, -1, ((size_t)mask + 1) * sizeof *m->slot);
+  for (int32_t i = 0; i < count; ++i) {
+    uint64_t hash = ((side[i].key >> 1) ^ (uint64_t)(uint32_t)side[i].opposite << 16) * 0x9e3779b97f4a7c15u;
+    uint32_t at = (uint32_t)(hash >> (64 - bits));
+    while (m->slot[at] >= 0 && !same_face(&side[m->slot[at]], &side[i]))
+      at = (at + 1) & mask;
+    int32_t first = m->slot[at];
+    m->met[i] = first >= 0;
+    if (first < 0) {
+      m->slot[at] = i;
+      continue;
+    }
+    if (m->met[first])
+      CW_TRY(fail_at_face(m, side[first].ref, "is shared by more than two cells or boundary faces"));
+    m->met[first] = 1;
+    alone -= 2;
+    CW_TRY(take_pair(m, &side[first], &side[i]));
+  }
+  for (int32_t i = 0; alone > 0; ++i)
+    if (!m->met[i]) {
+      --alone;
+      CW_TRY(take_single(m, &side[i]));
     }
 done:
+  return status;
+}
+
+// A counting sort of the sides by smallest node, then each bucket by itself.
+static CwStatus match_all(Match *m) {
+  CwStatus status = CW_OK;
+  const CwRegionData *data = m->data;
+  int64_t most = 0;
+  CW_REQUIRE((int64_t)CW_CELL_FACES * cw_region_cell_count(data) + data->triangle_count + data->quad_count <= INT32_MAX,
+             CW_ERR_INPUT, "%s: %d cells; a region may have %d", m->mesh->regions[m->region].path,
+             cw_region_cell_count(data), INT32_MAX / CW_CELL_FACES);
+  CW_NEW(m->start, (size_t)m->end + 2);
+  add_sides(m);
+  for (int32_t p = 0; p < m->end; ++p) {
+    most = m->start[p + 1] > most ? m->start[p + 1] : most;
+    m->start[p + 1] += m->start[p];
+  }
+  CW_NEW_UNSET(m->sides, m->start[m->end]);
+  CW_NEW_UNSET(m->slot, (size_t)1 << table_bits(most));
+  CW_NEW_UNSET(m->met, most);
+  if (!m->faces)
+    CW_NEW_UNSET(m->open, m->start[m->end]);
+  add_sides(m); // leaves start[p] at the end of bucket p
+  for (int64_t first = 0, p = 0; p < m->end; first = m->start[p++])
+    CW_TRY(match_bucket(m, m->sides + first, (int32_t)(m->start[p] - first)));
+done:
+  free(m->start);
+  free(m->sides);
+  free(m->slot);
+  free(m->met);
   return status;
 }
 
 CwStatus cw_region_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwRegionFaces *faces) {
   CwStatus status = CW_OK;
-  int64_t *start = NULL;
-  Side *sides = NULL;
-  int64_t cell_faces = (int64_t)CW_CELL_FACES * cw_region_cell_count(data);
-  CW_REQUIRE(cell_faces <= INT32_MAX, CW_ERR_INPUT, "%s: %d cells; a region may have %d",
-             mesh->regions[region].path, cw_region_cell_count(data), INT32_MAX / CW_CELL_FACES);
-  CW_NEW(faces->across, cell_faces);
-  CW_NEW(faces->triangle_face, data->triangle_count);
-  CW_NEW(faces->quad_face, data->quad_count);
-  for (int64_t i = 0; i < cell_faces; ++i)
-    faces->across[i] = CW_ACROSS_NO_FACE;
-
-  // A counting sort by smallest node, then a small sort within each bucket.
-  CW_NEW(start, (size_t)data->point_count + 2);
-  for_all_sides(data, start, NULL);
-  for (int32_t p = 0; p < data->point_count; ++p)
-    start[p + 1] += start[p];
-  CW_NEW(sides, start[data->point_count]);
-  for_all_sides(data, start, sides); // leaves start[p] at the end of bucket p
-  for (int64_t first = 0, p = 0; p < data->point_count; first = start[p++]) {
-    sort_sides(sides + first, start[p] - first);
-    for (int64_t i = first, j; i < start[p]; i = j) {
-      for (j = i + 1; j < start[p] && same_face(&sides[i], &sides[j]);)
-        ++j;
-      CW_TRY(take_face(mesh, region, data, sides + i, j - i, faces));
-    }
-  }
-  CW_TRY(list_open_faces(region, data, faces));
+  Match m = {.mesh = mesh, .region = region, .data = data, .end = data->point_count, .faces = faces};
+  size_t cell_faces = (size_t)CW_CELL_FACES * (size_t)cw_region_cell_count(data);
+  CW_NEW_UNSET(faces->across, cell_faces);
+  CW_NEW_UNSET(faces->triangle_face, data->triangle_count);
+  CW_NEW_UNSET(faces->quad_face, data->quad_count);
+  memset(faces->across, CW_ACROSS_NO_FACE, cell_faces * sizeof *faces->across);
+  CW_TRY(match_all(&m));
+  faces->open_count = m.open_count;
 done:
-  free(start);
-  free(sides);
+  return status;
+}
+
+static int compare_refs(const void *left, const void *right) {
+  int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
+  return (a > b) - (a < b);
+}
+
+CwStatus cw_region_open_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwOpenFace **open,
+                              int32_t *count) {
+  CwStatus status = CW_OK;
+  Match m = {.mesh = mesh, .region = region, .data = data, .end = data->shared_count};
+  CW_TRY(match_all(&m));
+  qsort(m.open, (size_t)m.open_count, sizeof *m.open, compare_refs);
+  CW_NEW(*open, m.open_count);
+  for (int32_t i = 0; i < m.open_count; ++i) {
+    CwOpenFace *face = &(*open)[i];
+    int32_t nodes[4];
+    int64_t wide[4];
+    int n = side_nodes(data, m.open[i], nodes);
+    for (int k = 0; k < n; ++k)
+      wide[k] = data->shared_id[nodes[k]];
+    face->reversed = cw_face_loop(wide, n, face->loop);
+    face->region = region;
+    face->cell = m.open[i] / CW_CELL_FACES;
+    face->slot = i;
+  }
+  *count = m.open_count;
+done:
+  free(m.open);
   return status;
 }

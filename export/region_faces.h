@@ -24,7 +24,6 @@ typedef struct {
   int32_t *across; // CW_CELL_FACES entries a cell: the cell of this region across, or a CW_ACROSS_ value
   int32_t *triangle_face; // for each boundary triangle CW_CELL_FACES * cell + face of the cell it lies on
   int32_t *quad_face;     // the same for each boundary quadrilateral
-  CwOpenFace *open;       // in the order of cell, then face of the cell
   int32_t open_count;
   int64_t inner_triangles, inner_quads; // faces between two cells of the region
 } CwRegionFaces;
@@ -34,6 +33,11 @@ typedef struct {
 // outward and the right cell, or has only shared points. Time and memory grow linearly with the cells.
 CwStatus cw_region_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwRegionFaces *faces);
 void cw_region_faces_free(CwRegionFaces *faces);
+
+// The open faces alone, in the order of cell, then face of the cell, into new memory. Only faces of shared points are
+// looked at, so that it takes a small part of the time; what cw_region_faces() would find wrong elsewhere is not seen.
+CwStatus cw_region_open_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwOpenFace **open,
+                              int32_t *count);
 
 // The loop of CwOpenFace for any node numbers; returns `reversed`. `count` is 3 or 4.
 int cw_face_loop(const int64_t *nodes, int count, int64_t loop[4]);

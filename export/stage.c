@@ -14,6 +14,7 @@
 #include "export/foam_mesh.h"
 #include "export/folder.h"
 #include "export/interface.h"
+#include "export/region_check.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
@@ -69,13 +70,14 @@ done:
   return status;
 }
 
-static CwStatus write_region(const CwAssembly *assembly, int region, hid_t cgns, const CwFoamMesh *foam) {
+static CwStatus write_region(const CwAssembly *assembly, int region, hid_t cgns, const CwFoamMesh *foam,
+                             CwRegionVolume *volume) {
   CwStatus status = CW_OK;
   CwRegionData data = {0};
   CwRegionFaces faces = {0};
   CW_TRY(cw_mesh_region_read(assembly->mesh, region, CW_REGION_WHOLE, &data));
+  CW_TRY(cw_region_check(assembly, region, &data, &faces, volume));
   CW_TRY(cw_cgns_write_region(cgns, assembly, region, &data));
-  CW_TRY(cw_region_faces(assembly->mesh, region, &data, &faces));
   CW_TRY(cw_foam_mesh_write_region(foam, region, &data, &faces));
 done:
   cw_region_faces_free(&faces);
@@ -85,20 +87,23 @@ done:
 
 // The bulk: every rank its regions. The failures of single ranks are told at the end, as closing is
 // collective.
-static CwStatus write_regions(const CwAssembly *assembly, const CwRanks *ranks, const Paths *paths,
-                              CwFoamMesh *foam) {
+static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, const Paths *paths, CwFoamMesh *foam) {
   CwStatus status = CW_OK, closed;
   hid_t cgns = -1;
+  CwRegionVolume *volumes = calloc((size_t)assembly->mesh->region_count, sizeof *volumes);
+  if (!volumes)
+    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
+  CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_cgns_open(paths->cgns, ranks, &cgns);
   if (status == CW_OK)
     status = cw_foam_mesh_open(foam);
   CW_TRY(cw_ranks_agree(ranks, status));
   if (ranks->rank == 0)
     status = cw_cgns_write_shared(cgns, assembly);
-  cw_progress_start("write the mesh", assembly->mesh->region_count, "regions");
+  cw_progress_start("check and write the mesh", assembly->mesh->region_count, "regions");
   for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
     if (cw_ranks_own(ranks, r))
-      status = write_region(assembly, r, cgns, foam);
+      status = write_region(assembly, r, cgns, foam, &volumes[r]);
     cw_progress(r + 1);
   }
   cw_progress_end();
@@ -108,7 +113,11 @@ done:
     status = status == CW_OK ? closed : status;
   }
   closed = cw_foam_mesh_close(foam);
-  return cw_ranks_agree(ranks, status == CW_OK ? closed : status);
+  status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
+  if (status == CW_OK)
+    cw_region_volumes_sum(ranks, volumes, assembly);
+  free(volumes);
+  return status;
 }
 
 static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
@@ -243,9 +252,9 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
   if (ranks->rank == 0) {
     warn(&assembly, interfaces);
-    CW_TRY(cw_record_step(record, "check the mesh", checked - start, cells, "cells"));
+    CW_TRY(cw_record_step(record, "number the mesh", checked - start, cells, "cells"));
     CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
-    CW_TRY(cw_record_step(record, "write the mesh", written - planned, cells, "cells"));
+    CW_TRY(cw_record_step(record, "check and write the mesh", written - planned, cells, "cells"));
     CW_TRY(record_results(&assembly, interfaces, record));
     CW_TRY(cw_record_integer(record, "ranks", ranks->size));
     cw_record_set_peak_memory(record, memory);

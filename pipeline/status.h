@@ -92,6 +92,15 @@ void cw_fail_clear(void);
                sizeof *(pointer));                                                                           \
   } while (0)
 
+// The same without zeroing them: for large arrays that are written before they are read.
+#define CW_NEW_UNSET(pointer, count)                                                                         \
+  do {                                                                                                       \
+    size_t cw_new_count = (size_t)(count);                                                                   \
+    (pointer) = malloc((cw_new_count ? cw_new_count : 1) * sizeof *(pointer));                               \
+    CW_REQUIRE((pointer), CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_new_count,              \
+               sizeof *(pointer));                                                                           \
+  } while (0)
+
 #ifdef __cplusplus
 }
 #endif

@@ -179,7 +179,7 @@ CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, 
   for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
     if (part == CW_REGION_SURFACE && sets[i].part == CW_REGION_WHOLE)
       continue;
-    *sets[i].into = calloc((size_t)sets[i].rows + !sets[i].rows, sets[i].size);
+    *sets[i].into = malloc(((size_t)sets[i].rows + !sets[i].rows) * sets[i].size);
     CW_REQUIRE(*sets[i].into, CW_ERR_MEMORY, "out of memory: %s of %s", sets[i].name, path);
     CW_TRY(read_rows(file, path, sets[i].name, sets[i].type, sets[i].rows, sets[i].columns, *sets[i].into));
   }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What is checked of a whole region before it is written.
+#ifndef CUTWATER_EXPORT_REGION_CHECK_H
+#define CUTWATER_EXPORT_REGION_CHECK_H
+
+#include "export/assembly.h"
+
+typedef struct {
+  double sum, least; // m3, of its cells
+} CwRegionVolume;
+
+// Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and sums its volume. Fails with
+// CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
+// belongs to no cell, or the faces are not as many as the assembly found.
+CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionData *data, CwRegionFaces *faces,
+                         CwRegionVolume *volume);
+
+// Gives all ranks the volumes of all regions, each set on the rank that owns it, and sums them into the totals of the
+// domains. Collective.
+void cw_region_volumes_sum(const CwRanks *ranks, CwRegionVolume *volumes, CwAssembly *assembly);
+
+#endif
