@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-export: `mpirun -n RANKS cutwater-export --case FILE --run DIR`.
 #include <hdf5.h>
+#include <malloc.h>
 #include <mpi.h>
 
 #include "export/stage.h"
@@ -17,6 +18,9 @@ int main(int argc, char **argv) {
   CwStageArgs args = {0};
   CwCase table;
   CwRanks ranks = {.comm = MPI_COMM_WORLD};
+  // Memory of one region serves the next: it is not given back to the system in between.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(ranks.comm, &ranks.rank);
   MPI_Comm_size(ranks.comm, &ranks.size);

@@ -63,20 +63,38 @@ static int side_nodes(const CwRegionData *data, int32_t ref, int32_t nodes[4]) {
   return count;
 }
 
-// The smallest node of a side; what else is to be known of it in `side`.
-static inline int32_t side_make(const int32_t *nodes, int count, int32_t ref, Side *side) {
-  int first = nodes[1] < nodes[0];
-  if (nodes[2] < nodes[first])
-    first = 2;
-  if (count == 4 && nodes[3] < nodes[first])
-    first = 3;
-  uint32_t next = (uint32_t)nodes[first + 1 == count ? 0 : first + 1];
-  uint32_t last = (uint32_t)nodes[first == 0 ? count - 1 : first - 1];
-  int reversed = last < next;
-  side->key = ((uint64_t)(reversed ? last : next) << 31 | (reversed ? next : last)) << 1 | (unsigned)reversed;
-  side->opposite = count == 4 ? nodes[first ^ 2] : -1;
+static inline int32_t lesser(int32_t a, int32_t b) {
+  return a < b ? a : b;
+}
+
+static inline int32_t greater(int32_t a, int32_t b) {
+  return a < b ? b : a;
+}
+
+// The smallest node of a side; what else is to be known of it in `side`. Without branches, which no processor could
+// foresee.
+static inline int32_t side_make(const int32_t *n, int count, int32_t ref, Side *side) {
+  int32_t low = lesser(n[0], n[2]), high = greater(n[0], n[2]); // of one diagonal of a quadrilateral
+  int32_t least, next, last;
+  unsigned reversed;
+  if (count == 3) {
+    least = lesser(low, n[1]);
+    last = greater(high, n[1]);
+    next = n[0] ^ n[1] ^ n[2] ^ least ^ last;
+    reversed = (unsigned)(n[0] > n[1]) ^ (n[0] > n[2]) ^ (n[1] > n[2]);
+    side->opposite = -1;
+  } else {
+    int32_t low2 = lesser(n[1], n[3]), high2 = greater(n[1], n[3]); // of the other
+    int first = low < low2;
+    least = first ? low : low2;
+    next = first ? low2 : low;
+    last = first ? high2 : high;
+    side->opposite = first ? high : high2;
+    reversed = (unsigned)(first ? (n[3] < n[1]) ^ (n[2] < n[0]) : (n[0] < n[2]) ^ (n[3] < n[1]));
+  }
+  side->key = (uint64_t)(uint32_t)next << 32 | (uint64_t)(uint32_t)last << 1 | reversed;
   side->ref = ref;
-  return nodes[first];
+  return least;
 }
 
 static inline int same_face(const Side *a, const Side *b) {
@@ -94,76 +112,66 @@ static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
                  centre[1], centre[2], what);
 }
 
-// Counts a side or puts it into its bucket.
-static inline void add_side(Match *m, const int32_t *nodes, int count, int32_t ref) {
+// Counts a side (`sides` NULL) or puts it into its bucket, if all its nodes lie below `end`.
+static inline void add_side(const int32_t *nodes, int count, int32_t ref, int32_t end, int64_t *start, Side *sides) {
   Side side;
   for (int i = 0; i < count; ++i)
-    if (nodes[i] >= m->end)
+    if (nodes[i] >= end)
       return;
   int32_t least = side_make(nodes, count, ref, &side);
-  if (m->sides)
-    m->sides[m->start[least]++] = side;
+  if (sides)
+    sides[start[least]++] = side;
   else
-    ++m->start[least + 1];
-}
-
-static inline uint64_t lesser(uint64_t a, uint64_t b) {
-  return a < b ? a : b;
-}
-
-static inline uint64_t greater(uint64_t a, uint64_t b) {
-  return a < b ? b : a;
+    ++start[least + 1];
 }
 
 // The four sides of a tetrahedron at once, as add_side() would do them one by one: with its nodes in order (a < b < c
 // < d, the corner of each in the lowest bits) three sides have a as their smallest node, the fourth b.
-static inline void add_tetrahedron(Match *m, int32_t cell) {
+static inline void add_tetrahedron(const int32_t *n, int32_t ref, int32_t end, int64_t *start, Side *sides) {
   static const signed char face_opposite[4] = {2, 3, 1, 0};
-  const int32_t *n = m->data->tetrahedra[cell];
   uint64_t p = (uint64_t)n[0] << 2, q = (uint64_t)n[1] << 2 | 1, r = (uint64_t)n[2] << 2 | 2;
   uint64_t s = (uint64_t)n[3] << 2 | 3;
   unsigned odd = (p > q) ^ (p > r) ^ (p > s) ^ (q > r) ^ (q > s) ^ (r > s); // of the permutation that orders them
-  uint64_t low = lesser(p, q), high = greater(p, q), low2 = lesser(r, s), high2 = greater(r, s);
-  uint64_t a = lesser(low, low2), d = greater(high, high2), u = greater(low, low2), v = lesser(high, high2);
-  uint64_t b = lesser(u, v), c = greater(u, v);
-  int32_t least = (int32_t)(a >> 2), second = (int32_t)(b >> 2), end = m->end;
+  uint64_t low = p < q ? p : q, high = p < q ? q : p, low2 = r < s ? r : s, high2 = r < s ? s : r;
+  uint64_t a = low < low2 ? low : low2, u = low < low2 ? low2 : low;
+  uint64_t d = high < high2 ? high2 : high, v = high < high2 ? high : high2;
+  uint64_t b = u < v ? u : v, c = u < v ? v : u;
+  int32_t least = (int32_t)(a >> 2), second = (int32_t)(b >> 2);
   int whole = (int32_t)(d >> 2) < end;
   if ((int32_t)(c >> 2) >= end)
     return;
-  if (!m->sides) {
-    m->start[least + 1] += whole ? 3 : 1;
-    m->start[second + 1] += whole;
+  if (!sides) {
+    start[least + 1] += whole ? 3 : 1;
+    start[second + 1] += whole;
     return;
   }
   // Seen from outside a tetrahedron in order has its sides a c b, a b d, a d c and b c d.
-  int32_t ref = CW_CELL_FACES * cell;
   uint64_t b31 = (b >> 2) << 32, c31 = (c >> 2) << 32, c1 = (c >> 2) << 1, d1 = (d >> 2) << 1;
-  Side *side = &m->sides[m->start[least]];
+  Side *side = &sides[start[least]];
   side[0] = (Side){b31 | c1 | (odd ^ 1), -1, ref + face_opposite[d & 3]};
   if (!whole) {
-    m->start[least] += 1;
+    start[least] += 1;
     return;
   }
   side[1] = (Side){b31 | d1 | odd, -1, ref + face_opposite[c & 3]};
   side[2] = (Side){c31 | d1 | (odd ^ 1), -1, ref + face_opposite[b & 3]};
-  m->start[least] += 3;
-  m->sides[m->start[second]++] = (Side){c31 | d1 | odd, -1, ref + face_opposite[a & 3]};
+  start[least] += 3;
+  sides[start[second]++] = (Side){c31 | d1 | odd, -1, ref + face_opposite[a & 3]};
 }
 
-// Every side that counts, in the order of the cells but for the boundary faces, which stand before.
-static void add_sides(Match *m) {
-  const CwRegionData *data = m->data;
+// Every side with all its nodes below `end`, in the order of the cells but for the boundary faces, which stand before.
+static void add_sides(const CwRegionData *data, int32_t end, int64_t *start, Side *sides) {
   for (int32_t i = 0; i < data->triangle_count; ++i)
-    add_side(m, data->triangles[i], 3, -1 - i);
+    add_side(data->triangles[i], 3, -1 - i, end, start, sides);
   for (int32_t i = 0; i < data->quad_count; ++i)
-    add_side(m, data->quads[i], 4, -1 - data->triangle_count - i);
+    add_side(data->quads[i], 4, -1 - data->triangle_count - i, end, start, sides);
   for (int32_t cell = 0; cell < data->tetrahedron_count; ++cell)
-    add_tetrahedron(m, cell);
+    add_tetrahedron(data->tetrahedra[cell], CW_CELL_FACES * cell, end, start, sides);
   for (int32_t cell = data->tetrahedron_count, cells = cw_region_cell_count(data); cell < cells; ++cell) {
     int corners, below = 0;
     const int32_t *of_cell = cw_cell_nodes(data, cell, &corners);
     for (int i = 0; i < corners; ++i)
-      below += of_cell[i] < m->end;
+      below += of_cell[i] < end;
     if (below < 3)
       continue;
     const signed char(*face)[4] = cw_cell_face_table(corners);
@@ -171,7 +179,10 @@ static void add_sides(Match *m) {
       int count = face[f][3] < 0 ? 3 : 4;
       const int32_t nodes[4] = {of_cell[face[f][0]], of_cell[face[f][1]], of_cell[face[f][2]],
                                 of_cell[face[f][count - 1]]};
-      add_side(m, nodes, count, CW_CELL_FACES * cell + f);
+      if (count == 3)
+        add_side(nodes, 3, CW_CELL_FACES * cell + f, end, start, sides);
+      else
+        add_side(nodes, 4, CW_CELL_FACES * cell + f, end, start, sides);
     }
   }
 }
@@ -280,7 +291,7 @@ static CwStatus match_all(Match *m) {
              CW_ERR_INPUT, "%s: %d cells; a region may have %d", m->mesh->regions[m->region].path,
              cw_region_cell_count(data), INT32_MAX / CW_CELL_FACES);
   CW_NEW(m->start, (size_t)m->end + 2);
-  add_sides(m);
+  add_sides(data, m->end, m->start, NULL);
   for (int32_t p = 0; p < m->end; ++p) {
     most = m->start[p + 1] > most ? m->start[p + 1] : most;
     m->start[p + 1] += m->start[p];
@@ -290,7 +301,7 @@ static CwStatus match_all(Match *m) {
   CW_NEW_UNSET(m->met, most);
   if (!m->faces)
     CW_NEW_UNSET(m->open, m->start[m->end]);
-  add_sides(m); // leaves start[p] at the end of bucket p
+  add_sides(data, m->end, m->start, m->sides); // leaves start[p] at the end of bucket p
   for (int64_t first = 0, p = 0; p < m->end; first = m->start[p++])
     CW_TRY(match_bucket(m, m->sides + first, (int32_t)(m->start[p] - first)));
 done:
