@@ -9,6 +9,10 @@
 #include "mesher/size_grid.h"
 #include "mesher/size_sources.h"
 
+// Rims are granted edges down to this share of the wanted ones, and no shorter ones at all where they ask for less than
+// LEAST_ASKED of these: there prisms inside have a small determinant too, and edges of micrometres would take all cells.
+static const double LEAST_AT_RIM = 0.4, LEAST_ASKED = 0.2;
+
 struct CwSizeSeeds {
   CwSizeSurface *surface;
 };
@@ -17,6 +21,7 @@ struct CwSize {
   double scale;
   CwSizeGrid grid; // to be scaled
   CwSizeGrid rim;  // m, whatever the scale: what rims of walls allow; no nodes where they ask nothing
+  double rim_asks; // mean along the rims of what they allow over what is wanted at scale 1
   CwScanlines lines;
 };
 
@@ -127,7 +132,7 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
   if (rim_size) {
     CW_TRY(cw_size_surface_grid(&input, &made->rim));
-    cw_size_seed_rims(&input, &made->rim);
+    made->rim_asks = cw_size_seed_rims(&input, grid, &made->rim);
     CW_TRY(cw_size_grid_spread(&made->rim, table->gradation, within));
   }
   *size = made;
@@ -226,10 +231,17 @@ double cw_size_scale(const CwSize *size) {
   return size->scale;
 }
 
+// The least share of the wanted length that rims are granted.
+static double least_at_rims(const CwSize *field) {
+  double asked = field->rim_asks / field->scale;
+  double refused = (LEAST_AT_RIM - asked) / (LEAST_AT_RIM - LEAST_ASKED);
+  return LEAST_AT_RIM + (1 - LEAST_AT_RIM) * fmin(fmax(refused, 0), 1);
+}
+
 double cw_size_at(const void *size, const double x[3]) {
   const CwSize *field = size;
   double wanted = field->scale * cw_size_grid_at(&field->grid, x);
-  return field->rim.value ? fmin(wanted, cw_size_grid_at(&field->rim, x)) : wanted;
+  return field->rim.value ? fmin(wanted, fmax(cw_size_grid_at(&field->rim, x), least_at_rims(field) * wanted)) : wanted;
 }
 
 // Cuts the inside runs of all lines into lengths of about one spacing; stores them where x is not NULL.

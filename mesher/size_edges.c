@@ -144,8 +144,9 @@ static int is_wall(const CwCad *cad, int face) {
   return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
 }
 
-void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid) {
+double cw_size_seed_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
   const CwCad *cad = input->cad;
+  double shares = 0, count = 0;
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     int face[2];
     double t[2], from[3], to[3];
@@ -163,9 +164,12 @@ void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid) {
         for (int k = 0; k < 3; k++)
           x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
         cw_size_grid_seed(grid, x, size);
+        shares += size / cw_size_grid_at(wanted, x);
+        count++;
       }
       for (int k = 0; k < 3; k++)
         from[k] = to[k];
     }
   }
+  return count > 0 ? shares / count : 0;
 }

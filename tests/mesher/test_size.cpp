@@ -202,14 +202,18 @@ static void rims_hold_at_any_scale(void **state) {
   };
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
   const Model plain(box, 3, 0.5, 1, {1, 1}, open_top), rim(box, 3, 0.5, 1, {1, 1}, open_top, {1e-3, 1e-3});
-  for (double scale : {1.0, 2.0}) {
+  for (double scale : {0.5, 0.8}) {
     cw_size_set_scale(plain.size, scale);
     cw_size_set_scale(rim.size, scale);
     assert_true(rim.at(15, 0, 30) <= 1 + 1e-6);                       // on the rim, no matter the scale
-    assert_true(rim.at(15, 15, 30) > 1 + gradation * 10);             // in the middle of the open face
+    assert_near(rim.at(15, 15, 30), plain.at(15, 15, 30), 1e-6);      // in the middle of the open face as before
     assert_true(rim.at(15, 0, 20) <= 1 + gradation * 12);             // down the wall
-    assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);          // far from it as before
+    assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);            // far from it as before
   }
+  cw_size_set_scale(rim.size, 1); // a third is less than 0.4: of the way down to 0.2 it is 1/3, as from 0.4 up to 0.6
+  assert_near(rim.at(15, 0, 30), 0.6 * 3, 1e-5);
+  cw_size_set_scale(rim.size, 2); // a sixth is less than 0.2
+  assert_near(rim.at(15, 0, 30), 2 * 3, 1e-5);
   void *bytes = nullptr;
   int64_t count;
   CwSize *copy = nullptr;
