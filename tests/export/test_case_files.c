@@ -7,7 +7,9 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "export/cfx_case.h"
 #include "export/foam_case.h"
+#include "pipeline/atomic_file.h"
 #include "tests/export/stage_run.h"
 #include "tests/export/synthetic_run.h"
 
@@ -84,6 +86,86 @@ static void resolved_walls_take_k_omega(void **state) {
   expect("openfoam/0/nut", "volute\n    {\n        type            nutkWallFunction;");
 }
 
+// The block of `file` that begins with `head` and ends with `end`, in `output`.
+static void find_block(const char *file, const char *head, const char *end) {
+  assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", folder, file), 0);
+  char *from = strstr(output, head), *to = from ? strstr(from, end) : NULL;
+  if (!to)
+    fail_msg("no '%s' in %s:\n%s", head, file, output);
+  to[strlen(end)] = '\0';
+  memmove(output, from, strlen(from) + 1);
+}
+
+static void expect_in_block(const char *words) {
+  if (!strstr(output, words))
+    fail_msg("no '%s' in:\n%s", words, output);
+}
+
+// A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.
+static void the_shaft_in_a_suction_zone_turns(void **state) {
+  (void)state;
+  enum { SUCTION = CW_MESH_STATOR + 1 };
+  CwMeshPatch patches[] = {{"hub", CW_KIND_WALL, CW_MESH_ROTOR},
+                           {"hub_shaft", CW_KIND_WALL, CW_MESH_ROTOR},
+                           {"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR},
+                           {"rotor_interface", CW_KIND_INTERFACE, CW_MESH_ROTOR},
+                           {"rotor_to_suction", CW_KIND_INTERFACE, CW_MESH_ROTOR},
+                           {"stator_interface", CW_KIND_INTERFACE, CW_MESH_STATOR},
+                           {"volute", CW_KIND_WALL, CW_MESH_STATOR},
+                           {"outlet", CW_KIND_OUTLET, CW_MESH_STATOR},
+                           {"suction_to_rotor", CW_KIND_INTERFACE, SUCTION},
+                           {"inlet_pipe", CW_KIND_WALL, SUCTION},
+                           {"hub_shaft_pipe", CW_KIND_WALL, SUCTION},
+                           {"inlet", CW_KIND_INLET, SUCTION}};
+  enum { PATCHES = sizeof patches / sizeof *patches };
+  CwMesh mesh = {.domain_count = 3,
+                 .domains = {{.name = "rotor", .zone = "ROTOR", .first_patch = 0, .patch_count = 5},
+                             {.name = "stator", .zone = "STATOR", .first_patch = 5, .patch_count = 3},
+                             {.name = "suction", .zone = "SUCTION", .first_patch = 8, .patch_count = 4}},
+                 .interface_count = 2,
+                 .interfaces = {{{3, 5}}, {{4, 8}}},
+                 .patch_count = PATCHES,
+                 .patches = patches};
+  CwPatchPart parts[PATCHES];
+  for (int p = 0; p < PATCHES; ++p)
+    parts[p] = (CwPatchPart){.triangles = 1, .area = 1, .vector = {0, 0, 1}};
+  CwAssembly assembly = {.mesh = &mesh, .patches = parts};
+  CwDesign design = {.relative_speed = 9, .suction_speed = 2};
+  CwCase table = {.name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}};
+  char path[STAGE_PATH_SIZE + 60];
+  snprintf(path, sizeof path, "%s/run/export/cfx", folder);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(cw_cfx_case_write(path, &table, &assembly), CW_OK);
+  find_block("cfx/steady.ccl", "BOUNDARY: suction walls", "\n    END\n");
+  expect_in_block("Location = inlet_pipe\n");
+  assert_null(strstr(output, "Rotating Wall"));
+  find_block("cfx/steady.ccl", "BOUNDARY: shaft", "\n    END\n");
+  expect_in_block("Location = hub_shaft_pipe\n");
+  expect_in_block("Option = Rotating Wall\n");
+  expect_in_block("Angular Velocity = 954.929659 [rev min^-1]\n"); // 100 rad/s
+  expect_in_block("Rotation Axis = Coord 0.3\n");
+  // The frame of the rotor turns already: there a shaft is one of the walls at rest in it.
+  assert_int_equal(stage_shell(output, "grep -c 'Option = Rotating Wall' '%s/steady.ccl'", path), 0);
+  assert_string_equal(output, "1\n");
+  // CFX finds a boundary by its name.
+  assert_int_equal(stage_shell(output, "grep BOUNDARY: '%s/steady.ccl' | sort | uniq -d", path), 0);
+  assert_string_equal(output, "");
+
+  snprintf(path, sizeof path, "%s/run/export/openfoam", folder);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  assert_int_equal(cw_foam_case_write(path, &table, &design, &assembly), CW_OK);
+  static const char *const fields[] = {"openfoam/0/U", "openfoam/transient/0/U"};
+  for (int i = 0; i < 2; ++i) {
+    find_block(fields[i], "hub_shaft_pipe\n", "}\n");
+    expect_in_block("rotatingWallVelocity;");
+    expect_in_block("omega           100;");
+    find_block(fields[i], "    hub_shaft\n", "}\n");
+    expect_in_block(i ? "movingWallVelocity;" : "fixedValue;");
+    find_block(fields[i], "inlet_pipe\n", "}\n");
+    expect_in_block("noSlip;");
+  }
+}
+
 // 5 % of 2 m/s: k = 1.5 * 0.1^2; l = 10 mm: epsilon = 0.09^0.75 * 0.015^1.5 / 0.01.
 static void turbulence_follows_the_textbook(void **state) {
   (void)state;
@@ -99,6 +181,7 @@ int main(void) {
       cmocka_unit_test(log_layer_meshes_take_k_epsilon),
       cmocka_unit_test(rough_walls_take_the_roughness),
       cmocka_unit_test(resolved_walls_take_k_omega),
+      cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(turbulence_follows_the_textbook),
   };
   return cmocka_run_group_tests(tests, make_run, remove_run);
