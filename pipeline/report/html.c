@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static void escaped(FILE *page, char c) {
   switch (c) {
@@ -40,8 +41,22 @@ void cw_html_label(FILE *page, const char *key) {
       escaped(page, *key == '_' ? ' ' : *key);
     return;
   }
-  for (const char *c = key; *c; c++)
+  // Names and abbreviations, which keys have in small letters.
+  static const char *const words[] = {"NPSH", "Wiesner", "Pfleiderer", "Guelich"};
+  for (const char *c = key; *c; c++) {
+    int starts = c == key || c[-1] == '_';
+    for (size_t k = 0; starts && k < sizeof words / sizeof *words; k++) {
+      size_t length = strlen(words[k]);
+      if (strncasecmp(c, words[k], length) || (c[length] && c[length] != '_'))
+        continue;
+      fputs(!strcmp(words[k], "Guelich") ? "G&uuml;lich" : words[k], page);
+      c += length;
+      break;
+    }
+    if (!*c)
+      break;
     escaped(page, *c == '_' ? ' ' : c == key ? (char)toupper((unsigned char)*c) : *c);
+  }
 }
 
 void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size) {

@@ -43,6 +43,7 @@ static const char style[] =
     "tr.s td{font-weight:600;padding-top:16px;border-bottom:1px solid var(--soft)}\n"
     "tr.t td{font-weight:600;border-top:1px solid var(--ink)}\n"
     "td.q{color:var(--soft)}\n"
+    "td.o{white-space:nowrap}\n"
     ".columns{columns:2;column-gap:52px}.columns table{width:100%;break-inside:avoid;margin-top:0}\n"
     ".grid{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:30px 34px;margin:18px 0}\n"
     ".wide{grid-column:1/-1}\n"

@@ -70,12 +70,15 @@ void cw_report_data_free(CwReportData *data) {
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
   static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
-  double value[4];
+  double value[4], splitters = cw_json_real(data->design, "splitter_count");
+  double leading = fmax(cw_json_real(data->design, "leading_edge_radius_hub_m"),
+                        cw_json_real(data->design, "leading_edge_radius_shroud_m"));
   for (int i = 0; i < 4; i++) {
     value[i] = cw_json_real(data->design, keys[i]);
     CW_REQUIRE(value[i] > 0, CW_ERR_INPUT, "%s/geometry/design.json: '%s' must be a number above 0", data->run, keys[i]);
   }
-  *sizes = (CwPumpSizes){.blade_count = (int)value[0],
+  *sizes = (CwPumpSizes){.blade_count = (int)value[0] + (splitters > 0 ? (int)splitters : 0),
+                         .leading_radius = leading > 0 ? 1.1 * leading : INFINITY,
                          .outlet_radius = 0.5 * value[1],
                          .interface_radius = value[2],
                          .base_radius = 0.5 * value[3]};

@@ -49,7 +49,7 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   } else {
     cw_html_number_cell(page, cw_format_number(value, 6, number));
   }
-  fprintf(page, "<td>%s</td><td class=\"q\">%s</td></tr>\n", unit_text(key->unit), origin);
+  fprintf(page, "<td>%s</td><td class=\"q o\">%s</td></tr>\n", unit_text(key->unit), origin);
 }
 
 CwStatus cw_page_input(FILE *page, const CwReportData *data) {
@@ -76,6 +76,17 @@ CwStatus cw_page_input(FILE *page, const CwReportData *data) {
   return CW_OK;
 }
 
+// The keys of the design that begin a part of it, in their order.
+static const struct {
+  const char *key, *title;
+} parts[] = {{"blade_count", "Duty and specific speed"},
+             {"shaft_power_w", "Shaft, main dimensions and meridian"},
+             {"inlet_blade_angle_deg", "Blade"},
+             {"impeller_tip_speed_m_per_s", "Velocity triangles, slip and head"},
+             {"inlet_throat_width_m", "Throats and NPSH"},
+             {"base_diameter_m", "Volute, diffuser and discharge"},
+             {"relative_speed_m_per_s", "Speeds that walls are meshed for, and volumes"}};
+
 // A flat list of numbers in JSON as table rows.
 static void design_rows(FILE *page, json_t *object, json_t *sources) {
   const char *key;
@@ -84,12 +95,17 @@ static void design_rows(FILE *page, json_t *object, json_t *sources) {
   json_object_foreach(object, key, value) {
     if (!json_is_number(value))
       continue;
+    for (size_t k = 0; sources && k < sizeof parts / sizeof *parts; k++) {
+      if (!strcmp(key, parts[k].key))
+        fprintf(page, "<tr class=\"s\"><td colspan=\"5\">%s</td></tr>\n", parts[k].title);
+    }
     const CwQuantityUnit *unit = cw_quantity_unit(key);
+    double real = json_number_value(value) * unit->scale;
     cw_quantity_stem(key, stem);
     cw_quantity_start(page, stem);
     cw_html_number_cell(page, json_is_integer(value)
                                   ? cw_format_count(json_integer_value(value), number)
-                                  : cw_format_number(json_real_value(value) * unit->scale, 5, number));
+                                  : cw_format_number(fabs(real) < 1e-9 ? 0 : real, 5, number)); // residuals
     fprintf(page, "<td>%s</td>", unit->unit);
     if (sources) {
       const char *source = json_string_value(json_object_get(sources, key));

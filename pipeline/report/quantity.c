@@ -5,19 +5,23 @@
 
 #include "pipeline/report/html.h"
 
-// Longer ends first.
+// Longer ends first. One that does not begin with _ belongs to the name but for what follows its last _.
 static const CwQuantityUnit units[] = {
     {"_m3_per_s", "m&sup3;/h", 3600},
     {"_m2_per_s", "m&sup2;/s", 1},
     {"_rad_per_s", "rad/s", 1},
     {"_m_per_s", "m/s", 1},
-    {"_head_m", "m", 1},
     {"head_m", "m", 1},
     {"head_residual_m", "m", 1},
+    {"head_wiesner_m", "m", 1},
+    {"head_pfleiderer_m", "m", 1},
+    {"npsh_required_m", "m", 1},
+    {"npsh_available_m", "m", 1},
     {"_deg", "&deg;", 1},
     {"_m2", "mm&sup2;", 1e6},
     {"_m3", "cm&sup3;", 1e6},
     {"_m", "mm", 1e3},
+    {"_w", "W", 1},
 };
 
 static const struct {
@@ -69,10 +73,7 @@ const CwQuantityUnit *cw_quantity_unit(const char *key) {
 
 void cw_quantity_stem(const char *key, char stem[CW_STEM_SIZE]) {
   const CwQuantityUnit *unit = cw_quantity_unit(key);
-  const char *last = strrchr(unit->end, '_');
-  size_t cut = strlen(unit->end);
-  if (strstr(unit->end, "head"))
-    cut = strlen(last); // "head" belongs to the name
+  size_t cut = strlen(*unit->end && *unit->end != '_' ? strrchr(unit->end, '_') : unit->end);
   snprintf(stem, CW_STEM_SIZE, "%.*s", (int)(strlen(key) - cut), key);
 }
 

@@ -59,6 +59,8 @@ void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cel
     for (int k = 0; k < CW_PLACE_COUNT; k++) {
       if (patch[k] != cells->triangle_patch[t])
         continue;
+      if (k == CW_PLACE_LEADING_EDGE && hypot(middle[0], middle[1]) > survey->sizes.leading_radius)
+        continue;
       double *sum = survey->place_sum[k][bin_of(atan2(middle[1], middle[0]))];
       sum[0] += area;
       for (int i = 0; i < 3; i++)

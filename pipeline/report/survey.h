@@ -13,7 +13,8 @@ typedef enum { CW_PLACE_LEADING_EDGE, CW_PLACE_TRAILING_EDGE, CW_PLACE_TONGUE, C
 
 // What the pictures take from case and design, m.
 typedef struct {
-  int blade_count;
+  int blade_count;       // at the outlet: blades and splitters
+  double leading_radius; // no leading edge of a whole blade lies outside it; those of splitters do
   double outlet_radius, interface_radius, base_radius;
 } CwPumpSizes;
 

@@ -64,6 +64,10 @@ static void html_is_escaped_and_encoded(void **state) {
   cw_html_label(page, "|outlet_width");
   cw_html_label(page, "outlet_width");
   cw_html_label(page, "y_plus_blade");
+  cw_html_label(page, "|");
+  cw_html_label(page, "npsh_required");
+  cw_html_label(page, "predicted_head_wiesner");
+  cw_html_label(page, "guelich");
   cw_html_number_cell(page, "12.87");
   cw_html_number_cell(page, "74");
   for (size_t n = 0; n < 4; n++)
@@ -71,6 +75,7 @@ static void html_is_escaped_and_encoded(void **state) {
   cw_html_base64(page, (const unsigned char *)"\377\373\360", 3);
   fclose(page);
   assert_string_equal(text, "&lt;a &amp; &quot;b&quot;&gt;|outlet widthOutlet widthy<sup>+</sup> blade"
+                            "|NPSH requiredPredicted head WiesnerG&uuml;lich"
                             "<td class=\"n\">12<span>.87</span></td><td class=\"n\">74<span></span></td>"
                             "TQ==TWE=TWFu//vw");
   free(text);
@@ -190,7 +195,7 @@ static void survey_finds_places(void **state) {
   CwMesh mesh = {.patch_count = 3, .patches = names};
   CwRegionData cells = {
       .point_count = 12, .triangle_count = 4, .points = x, .triangles = triangle, .triangle_patch = patch};
-  CwPumpSizes sizes = {2, 0.1, 0.101, 0.102};
+  CwPumpSizes sizes = {2, 0.05, 0.1, 0.101, 0.102};
   CwSurvey *survey = malloc(sizeof *survey);
   double middle[3], radius, z_least, z_most, z;
   cw_survey_start(survey, &sizes);
@@ -211,6 +216,14 @@ static void survey_finds_places(void **state) {
   assert_near(z_most, 0.02, 1e-12);
   assert_int_equal(cw_survey_shroud(survey, 0.05 / 3, &z), 1);
   assert_near(z, -0.01, 1e-12);
+  // Of leading edges those of whole blades count: the larger face, further out, is a splitter's.
+  names[0] = (CwMeshPatch){"blade_leading_edge", CW_KIND_WALL, 0};
+  x[0][0] = 0.04;
+  x[1][0] = x[2][0] = 0.041;
+  cw_survey_start(survey, &sizes);
+  cw_survey_add(survey, &mesh, &cells);
+  assert_int_equal(cw_survey_place(survey, CW_PLACE_LEADING_EDGE, middle), 1);
+  assert_near(middle[0], 0.122 / 3, 1e-9);
   free(survey);
 }
 
