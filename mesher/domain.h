@@ -11,7 +11,7 @@
 #include "mesher/symmetry.h"
 #include "mesher/wall_targets.h"
 
-#define CW_LAYER_SHARE 0.98 // before the walls are known
+#define CW_LAYER_SHARE 1.0 // before the walls are known
 
 // The layers over a piece of wall.
 typedef struct {

@@ -19,17 +19,22 @@ static const double FIRST_REACH = 4; // wanted lengths about a failure in which 
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
-// triangles would be 4 / sqrt(3) = 2.31 per h^2; a graded surface needs a few per cent more. A lattice of tetrahedra is
-// 8.2 per h^3; the cells that fit it to the front come on top, and their share grows with h (measured from 0.3 to 100
+// triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
+// (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35). A
+// lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise (measured from 0.3 to 100
 // million cells: 16.4 at scale 2.02, 12.8 at 1.17, 11.4 at 0.73, 10.3 at 0.50, 9.1 at 0.20).
-static const double PRISMS_PER_LAYER = 2.45;
+static double prisms_per_layer(double scale) {
+  return 2.33 + 0.1 * scale;
+}
+
 static double tets_per_volume(double scale) {
   return 8.25 + 4.2 * scale;
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
+  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(scale) * run->table->walls.layer_count;
   double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(scale); // 0: nothing learned yet
-  return run->prism_factor * run->domain[d].prism_integral / (scale * scale) +
+  return prisms * run->domain[d].prism_integral / (scale * scale) +
          tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
 
@@ -462,11 +467,11 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_make_directory(path));
   CW_TRY(cw_mesh_open(run));
-  run->prism_factor = PRISMS_PER_LAYER * run->table->walls.layer_count;
   double asked = (double)run->table->mesh.cells;
   run->scale = 1;
-  run->tet_factor = 0;
+  run->prism_factor = run->tet_factor = 0;
   solve_scale(run);
+  run->prism_factor = prisms_per_layer(run->scale) * run->table->walls.layer_count;
   run->tet_factor = tets_per_volume(run->scale);
   CW_TRY(cw_mesh_plan(run));
   CwPassState state = {.pass = 1};
