@@ -149,8 +149,21 @@ done:
   return status;
 }
 
+// When each line along x was looked at last, and when a node on it was lowered last.
+typedef struct {
+  int32_t now, *seen, *lowered;
+} Clock;
+
+// Whether nothing on the line or beside it was lowered since it was looked at: then another look, either way, lowers nothing.
+static int is_settled(const Clock *clock, const int32_t n[3], int32_t j, int32_t k) {
+  int32_t line = k * n[1] + j, seen = clock->seen[line];
+  return seen > clock->lowered[line] && (j == 0 || seen > clock->lowered[line - 1]) &&
+         (j + 1 == n[1] || seen > clock->lowered[line + 1]) && (k == 0 || seen > clock->lowered[line - n[1]]) &&
+         (k + 1 == n[2] || seen > clock->lowered[line + n[1]]);
+}
+
 // One sweep in the direction of bits of `sweep`; returns how many nodes went lower.
-static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step) {
+static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step, Clock *clock) {
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
   float least_change = (float)(1e-3 * step), least_rise = (float)(0.57 * step);
@@ -160,6 +173,9 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
     for (int32_t jj = 0; jj < n[1]; jj++) {
       int32_t j = sweep & 2 ? n[1] - 1 - jj : jj;
       float *line = grid->value + (size_t)k * slab + (size_t)j * row;
+      if (is_settled(clock, n, j, k)) continue;
+      int64_t before = lowered;
+      clock->seen[k * n[1] + j] = ++clock->now;
       int32_t first = runs->start[k * n[1] + j], last = runs->start[k * n[1] + j + 1] - 1;
       for (int32_t rr = first; rr <= last; rr++) {
         int32_t r = sweep & 1 ? first + last - rr : rr, begin = runs->begin[r], end = runs->end[r];
@@ -179,6 +195,7 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
           }
         }
       }
+      if (lowered > before) clock->lowered[k * n[1] + j] = clock->now;
     }
   }
   return lowered;
@@ -209,13 +226,18 @@ static void go_on_outside(CwSizeGrid *grid, const uint8_t *within, float step) {
 CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *within) {
   CwStatus status = CW_OK;
   Runs runs = {0};
+  Clock clock = {0};
   double step = slope * grid->spacing;
   CW_TRY(runs_make(grid, within, &runs));
+  CW_NEW(clock.seen, (size_t)grid->count[1] * (size_t)grid->count[2]);
+  CW_NEW(clock.lowered, (size_t)grid->count[1] * (size_t)grid->count[2]);
   for (int quiet = 0, sweep = 0; quiet < 8; sweep = (sweep + 1) % 8) {
-    quiet = sweep_once(grid, &runs, sweep, step) > 0 ? 0 : quiet + 1;
+    quiet = sweep_once(grid, &runs, sweep, step, &clock) > 0 ? 0 : quiet + 1;
   }
   if (within) go_on_outside(grid, within, (float)step);
 done:
   runs_free(&runs);
+  free(clock.seen);
+  free(clock.lowered);
   return status;
 }
