@@ -32,10 +32,23 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// What the count of cells follows from: integrals of the size field at scale 1 over walls and volume.
+// Reciprocal of h^3 at one of many points.
+typedef struct {
+  const CwSize *size;
+  const double (*x)[3];
+} Points;
+
+static CwStatus find_density(void *context, int32_t i, void *out) {
+  const Points *points = context;
+  double h = cw_size_at(points->size, points->x[i]);
+  *(double *)out = 1 / (h * h * h);
+  return CW_OK;
+}
+
+// What the count of cells follows from: integrals of the size field at scale 1 over walls and volume. Collective.
 static CwStatus integrate(CwDomain *domain) {
   CwStatus status = CW_OK;
-  double(*x)[3] = NULL, *volume = NULL;
+  double(*x)[3] = NULL, *volume = NULL, *density = NULL;
   int32_t count = 0;
   CW_NEW(domain->layer_sample, domain->background.triangle_count);
   for (int32_t t = 0; t < domain->background.triangle_count; t++) {
@@ -47,13 +60,14 @@ static CwStatus integrate(CwDomain *domain) {
     domain->layer_sample[domain->layer_sample_count++] = (CwLayerSample){area / (h * h * h), h, patch};
   }
   CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
-  for (int32_t i = 0; i < count; i++) {
-    double h = cw_size_at(domain->size, x[i]);
-    domain->volume_integral += volume[i] / (h * h * h);
-  }
+  CW_NEW(density, count);
+  Points points = {domain->size, (const double(*)[3])x};
+  CW_TRY(cw_share("size integrals", count, sizeof *density, find_density, &points, density));
+  for (int32_t i = 0; i < count; i++) domain->volume_integral += volume[i] * density[i];
 done:
   free(x);
   free(volume);
+  free(density);
   return status;
 }
 
@@ -136,7 +150,7 @@ done:
   return status;
 }
 
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwSize *size = NULL;
@@ -145,7 +159,7 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *
   CW_NEW(rim_size, patches);
   for (int p = 0; p < patches; p++) rim_size[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
   CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
-                      &size));
+                      (CwSizePart)part, &size));
   CW_TRY(cw_size_pack(size, bytes, byte_count));
 done:
   free(rim_size);
@@ -153,12 +167,16 @@ done:
   return status;
 }
 
-CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes) {
+CwStatus cw_domain_take_size(CwDomain *domain, void *const *bytes) {
   CwStatus status = CW_OK;
+  CwSize *rims = NULL;
   cw_size_seeds_free(&domain->seeds);
-  CW_TRY(cw_size_unpack(bytes, &domain->size));
+  CW_TRY(cw_size_unpack(bytes[0], &domain->size));
+  CW_TRY(cw_size_unpack(bytes[1], &rims));
+  cw_size_join(domain->size, &rims);
   CW_TRY(integrate(domain));
 done:
+  cw_size_free(&rims);
   return status;
 }
 

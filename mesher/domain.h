@@ -53,16 +53,16 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
 
 // What one rank makes for all, packed, and how all take it up. First the background triangulation and the exact volume: a
 // part for each face, then one for what each face adds to the volume. Then the seeds of one face; the size field from the
-// seeds of all faces.
+// seeds of all faces, a part for each CwSizePart.
 CwStatus cw_domain_start_measures(CwDomain *domain);
 double cw_domain_measure_cost(const CwDomain *domain, int part);
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, void **bytes,
+enum { CW_DOMAIN_SIZE_PARTS = 2 };
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, const void *bytes);
-
+CwStatus cw_domain_take_size(CwDomain *domain, void *const *bytes); // collective
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);

@@ -61,7 +61,8 @@ static CwStatus make_sizes(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults seeds = {0}, results = {0};
   CwMeshTask *task = NULL;
-  int32_t count = 0, all = 0, faces[CW_DOMAINS_MOST];
+  CwMeshTask part[CW_DOMAINS_MOST * CW_DOMAIN_SIZE_PARTS];
+  int32_t count = 0, all = 0, made = 0, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   cw_face_counts(run, faces);
   for (int d = 0; d < run->domains.count; d++) all += faces[d];
   CW_TRY(cw_results_make(&seeds, run->domains.count, faces));
@@ -74,9 +75,14 @@ static CwStatus make_sizes(CwMeshRun *run) {
     run->seeds[d] = seeds.bytes[d];
   }
   CW_TRY(cw_run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
-  CW_TRY(cw_run_domains(run, "size field", cw_step_size, &results));
+  for (int d = 0; d < run->domains.count; d++) {
+    parts[d] = CW_DOMAIN_SIZE_PARTS;
+    for (int i = 0; i < parts[d]; i++) part[made++] = (CwMeshTask){d, i, run->domain[d].background.triangle_count};
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  CW_TRY(cw_run_step(run, "size field", "parts", cw_step_size, made, part, results.bytes, NULL));
   cw_ledger_part("integrals of the size");
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d][0]));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
 done:
   for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
   cw_results_free(&seeds);

@@ -53,13 +53,18 @@ void cw_mesh_set_scale(CwMeshRun *run, double scale) {
   for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
 }
 
-// Sets the scale of the size fields so that the predicted count is the asked one: cells go by about the -2.7th power of it.
+// Sets the scale of the size fields so that the predicted count is the asked one: by secants in the logarithms, the first
+// of a slope of -2.7, about which cells go with the scale.
 static void solve_scale(CwMeshRun *run) {
-  double asked = (double)run->table->mesh.cells, off = INFINITY;
+  double asked = (double)run->table->mesh.cells, slope = -2.7, before = 0, step = 0;
   run->scale = 1; // the same bits, whatever scale was before
-  for (int step = 0; step < SCALE_STEPS && fabs(off - 1) > 1e-12; step++) {
-    off = all_cells_at(run, run->scale) / asked;
-    run->scale *= pow(off, 1 / 2.7);
+  for (int i = 0; i < SCALE_STEPS; i++) {
+    double off = log(all_cells_at(run, run->scale) / asked);
+    if (fabs(off) < 1e-12) break;
+    if (i > 0 && off != before) slope = fmin(fmax((off - before) / step, -4), -1.5);
+    step = -off / slope;
+    before = off;
+    run->scale *= exp(step);
   }
   cw_mesh_set_scale(run, run->scale);
 }

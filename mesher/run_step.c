@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run_step.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "mesher/schedule.h"
@@ -70,19 +69,4 @@ void cw_results_free(CwResults *results) {
 
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
   for (int d = 0; d < run->domains.count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
-}
-
-CwStatus cw_run_domains(CwMeshRun *run, const char *name, CwMeshStep body, CwResults *results) {
-  CwStatus status = CW_OK;
-  CwMeshTask task[CW_DOMAINS_MOST];
-  int32_t one[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) one[d] = 1;
-  CW_TRY(cw_results_make(results, run->domains.count, one));
-  for (int d = 0; d < run->domains.count; d++) {
-    double cost = fmax(run->domain[d].skeleton.wall_count, run->domain[d].background.triangle_count);
-    task[d] = (CwMeshTask){d, 0, cost};
-  }
-  CW_TRY(cw_run_step(run, name, "domains", body, run->domains.count, task, results->bytes, NULL));
-done:
-  return status;
 }

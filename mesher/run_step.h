@@ -19,9 +19,6 @@ void cw_results_free(CwResults *results);
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
                      const CwMeshTask *task, void ***bytes, double **seconds);
 
-// Runs a step that has one task a domain; makes `results`.
-CwStatus cw_run_domains(CwMeshRun *run, const char *name, CwMeshStep body, CwResults *results);
-
 // CAD faces of each domain.
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]);
 

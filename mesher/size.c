@@ -111,7 +111,7 @@ done:
 
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                       const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
-                      CwSize **size) {
+                      CwSizePart part, CwSize **size) {
   CwStatus status = CW_OK;
   const CwSizeInput input = {cad, background, table, patch_size, base_size, rim_size};
   CwSize *made = NULL;
@@ -129,10 +129,14 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   cw_size_box(background, low, high);
   CW_TRY(cw_scanlines_make(background, &low[1], &high[1], grid->spacing, &made->lines));
   CW_TRY(mark_inside(made, &within));
-  CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
-  if (rim_size) {
+  if (part == CW_SIZE_SEEDS) {
+    CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
+    if (rim_size) made->rim_asks = cw_size_rims_ask(&input, grid);
+  } else {
+    cw_size_grid_free(grid);
+    cw_scanlines_free(&made->lines);
     CW_TRY(cw_size_surface_grid(&input, &made->rim));
-    made->rim_asks = cw_size_seed_rims(&input, grid, &made->rim);
+    cw_size_seed_rims(&input, &made->rim);
     CW_TRY(cw_size_grid_spread(&made->rim, table->gradation, within));
   }
   *size = made;
@@ -141,6 +145,12 @@ done:
   free(within);
   cw_size_free(&made);
   return status;
+}
+
+void cw_size_join(CwSize *size, CwSize **rims) {
+  size->rim = (*rims)->rim;
+  (*rims)->rim = (CwSizeGrid){0};
+  cw_size_free(rims);
 }
 
 // The plain part of a field; arrays follow it: values of both grids, starts of the lines, crossings.
@@ -159,30 +169,48 @@ static Packed packed_head(const CwSize *size) {
   head.nodes = node_count(&size->grid);
   head.rim_nodes = node_count(&size->rim);
   head.lines = (int64_t)lines->count[0] * lines->count[1];
-  head.crossings = lines->start[head.lines];
+  head.crossings = lines->start ? lines->start[head.lines] : 0;
   return head;
+}
+
+enum { ARRAYS = 4 };
+
+static CwStatus arrays_new(const Packed *head, CwSize *size) {
+  CwStatus status = CW_OK;
+  if (head->nodes) CW_NEW(size->grid.value, head->nodes);
+  if (head->rim_nodes) CW_NEW(size->rim.value, head->rim_nodes);
+  if (head->lines) CW_NEW(size->lines.start, head->lines + 1);
+  if (head->lines) CW_NEW(size->lines.crossing, head->crossings);
+done:
+  return status;
+}
+
+// The arrays and their sizes in bytes; returns the sum.
+static size_t arrays_of(const Packed *head, const CwSize *size, void *array[ARRAYS], size_t bytes[ARRAYS]) {
+  array[0] = size->grid.value, bytes[0] = (size_t)head->nodes * sizeof(float);
+  array[1] = size->rim.value, bytes[1] = (size_t)head->rim_nodes * sizeof(float);
+  array[2] = size->lines.start, bytes[2] = head->lines ? (size_t)(head->lines + 1) * sizeof(int64_t) : 0;
+  array[3] = size->lines.crossing, bytes[3] = (size_t)head->crossings * sizeof(double);
+  return bytes[0] + bytes[1] + bytes[2] + bytes[3];
 }
 
 CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   Packed head = packed_head(size);
-  size_t values = (size_t)head.nodes * sizeof(float), rim_values = (size_t)head.rim_nodes * sizeof(float);
-  size_t starts = (size_t)(head.lines + 1) * sizeof(int64_t), crossings = (size_t)head.crossings * sizeof(double);
-  char *block;
-  CW_NEW(block, sizeof head + values + rim_values + starts + crossings);
+  void *array[ARRAYS];
+  size_t length[ARRAYS], all = sizeof head + arrays_of(&head, size, array, length);
+  char *block, *at;
+  CW_NEW(block, all);
   head.plain.grid.value = head.plain.rim.value = NULL; // addresses mean nothing elsewhere
   head.plain.lines.start = NULL;
   head.plain.lines.crossing = NULL;
-  char *at = block + sizeof head;
   memcpy(block, &head, sizeof head);
-  memcpy(at, size->grid.value, values);
-  at += values;
-  if (rim_values) memcpy(at, size->rim.value, rim_values);
-  at += rim_values;
-  memcpy(at, size->lines.start, starts);
-  memcpy(at + starts, size->lines.crossing, crossings);
+  at = block + sizeof head;
+  for (int i = 0; i < ARRAYS; at += length[i++]) {
+    if (length[i]) memcpy(at, array[i], length[i]);
+  }
   *bytes = block;
-  *byte_count = (int64_t)(sizeof head + values + rim_values + starts + crossings);
+  *byte_count = (int64_t)all;
 done:
   return status;
 }
@@ -191,21 +219,17 @@ CwStatus cw_size_unpack(const void *bytes, CwSize **size) {
   CwStatus status = CW_OK;
   Packed head;
   CwSize *made = NULL;
+  void *array[ARRAYS];
+  size_t length[ARRAYS];
   const char *at = (const char *)bytes + sizeof head;
   memcpy(&head, bytes, sizeof head);
   CW_NEW(made, 1);
   *made = head.plain;
-  CW_NEW(made->grid.value, head.nodes);
-  if (head.rim_nodes) CW_NEW(made->rim.value, head.rim_nodes);
-  CW_NEW(made->lines.start, head.lines + 1);
-  CW_NEW(made->lines.crossing, head.crossings);
-  memcpy(made->grid.value, at, (size_t)head.nodes * sizeof(float));
-  at += (size_t)head.nodes * sizeof(float);
-  if (head.rim_nodes) memcpy(made->rim.value, at, (size_t)head.rim_nodes * sizeof(float));
-  at += (size_t)head.rim_nodes * sizeof(float);
-  memcpy(made->lines.start, at, (size_t)(head.lines + 1) * sizeof(int64_t));
-  at += (size_t)(head.lines + 1) * sizeof(int64_t);
-  memcpy(made->lines.crossing, at, (size_t)head.crossings * sizeof(double));
+  CW_TRY(arrays_new(&head, made));
+  arrays_of(&head, made, array, length);
+  for (int i = 0; i < ARRAYS; at += length[i++]) {
+    if (length[i]) memcpy(array[i], at, length[i]);
+  }
   *size = made;
   made = NULL;
 done:

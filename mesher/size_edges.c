@@ -144,7 +144,8 @@ static int is_wall(const CwCad *cad, int face) {
   return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
 }
 
-double cw_size_seed_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
+// Walks along the rims: seeds `grid`, and returns the mean share of what is allowed in `wanted`; either may be NULL.
+static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
   const CwCad *cad = input->cad;
   double shares = 0, count = 0;
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
@@ -158,13 +159,13 @@ double cw_size_seed_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwS
     cw_cad_edge_point(cad, e, t[0], from, NULL);
     for (int i = 1; i <= MOST_PARTS; i++) {
       cw_cad_edge_point(cad, e, t[0] + (t[1] - t[0]) * i / MOST_PARTS, to, NULL);
-      int parts = (int)ceil(distance(from, to) / grid->spacing);
+      int parts = (int)ceil(distance(from, to) / (grid ? grid : wanted)->spacing);
       for (int j = 0; j <= parts; j++) {
         double x[3];
         for (int k = 0; k < 3; k++)
           x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
-        cw_size_grid_seed(grid, x, size);
-        shares += size / cw_size_grid_at(wanted, x);
+        if (grid) cw_size_grid_seed(grid, x, size);
+        if (wanted) shares += size / cw_size_grid_at(wanted, x);
         count++;
       }
       for (int k = 0; k < 3; k++)
@@ -172,4 +173,12 @@ double cw_size_seed_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwS
     }
   }
   return count > 0 ? shares / count : 0;
+}
+
+void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid) {
+  walk_rims(input, NULL, grid);
+}
+
+double cw_size_rims_ask(const CwSizeInput *input, const CwSizeGrid *wanted) {
+  return walk_rims(input, wanted, NULL);
 }

@@ -53,9 +53,10 @@ void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes);
 // the face between two that have no vertex in common.
 CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid);
 
-// Seeds `grid` with the sizes that rims of walls allow, along them. Returns their mean share of those of `wanted`; 0
-// without rims.
-double cw_size_seed_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid);
+// Seeds `grid` with the sizes that rims of walls allow, along them.
+void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid);
+// The mean along the rims of what they allow over the sizes of `wanted`; 0 without rims.
+double cw_size_rims_ask(const CwSizeInput *input, const CwSizeGrid *wanted);
 
 #ifdef __cplusplus
 }

@@ -33,7 +33,7 @@ static void check(CwStatus status) {
 }
 
 static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
-  void **part, **seed, *bytes;
+  void **part, **seed, *field[CW_DOMAIN_SIZE_PARTS];
   int64_t size;
   check(cw_domain_open(made, name, folder, &table, scales));
   int faces = cw_cad_face_count(made->cad);
@@ -47,11 +47,11 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
   seed = calloc((size_t)faces, sizeof *seed);
   assert_non_null(seed);
   for (int f = 0; f < faces; f++) check(cw_domain_seed(made, &table, f, &seed[f], &size));
-  check(cw_domain_make_size(made, &table, seed, &bytes, &size));
-  check(cw_domain_take_size(made, bytes));
+  for (int i = 0; i < CW_DOMAIN_SIZE_PARTS; i++) check(cw_domain_make_size(made, &table, seed, i, &field[i], &size));
+  check(cw_domain_take_size(made, field));
   for (int f = 0; f < faces; f++) free(seed[f]);
   free(seed);
-  free(bytes);
+  for (int i = 0; i < CW_DOMAIN_SIZE_PARTS; i++) free(field[i]);
 }
 
 static int open_pump(void **state) {

@@ -44,12 +44,25 @@ struct Model {
     CwSizeSeeds *seeds = nullptr;
     std::vector<void *> seeds_of_face(cw_cad_face_count(cad));
     int64_t bytes;
+    void *rim_bytes;
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
     for (int f = cw_cad_face_count(cad) - 1; f >= 0; f--)
       check(cw_size_seeds_of_face(seeds, f, &seeds_of_face[f], &bytes));
     cw_size_seeds_free(&seeds);
     const double *rim = rim_size.empty() ? nullptr : rim_size.data();
-    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, seeds_of_face.data(), &size));
+    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, seeds_of_face.data(),
+                       CW_SIZE_SEEDS, &size));
+    if (rim) {
+      CwSize *rims = nullptr;
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, seeds_of_face.data(),
+                         CW_SIZE_RIMS, &rims));
+      check(cw_size_pack(rims, &rim_bytes, &bytes));
+      cw_size_free(&rims);
+      check(cw_size_unpack(rim_bytes, &rims));
+      free(rim_bytes);
+      cw_size_join(size, &rims);
+      assert_null(rims);
+    }
     for (void *of_face : seeds_of_face)
       free(of_face);
   }
@@ -234,9 +247,11 @@ static void wrong_input_is_refused(void **state) {
   double patch_size = 1;
   table.gradation = table.curvature_angle = 0.2;
   assert_int_equal(cw_background_make(cad, 1e-5, 0.1, &background), CW_OK);
-  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, nullptr, nullptr, &size), CW_ERR_USAGE);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0, nullptr, nullptr, CW_SIZE_SEEDS, &size),
+                   CW_ERR_USAGE);
   patch_size = 0;
-  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, nullptr, nullptr, &size), CW_ERR_USAGE);
+  assert_int_equal(cw_size_make(cad, &background, &table, &patch_size, 0.001, nullptr, nullptr, CW_SIZE_SEEDS, &size),
+                   CW_ERR_USAGE);
   assert_non_null(std::strstr(cw_fail_message(), "patch 'wall'"));
   assert_null(size);
   cw_background_free(&background);
