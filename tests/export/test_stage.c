@@ -130,7 +130,7 @@ static void a_manifest_that_does_not_fit_is_told(void **state) {
     const char *edit, *words;
   } cases[] = {
       {"0,/\"tetrahedra\": [0-9]*/s//\"tetrahedra\": 17/",
-       "dataset 'tetrahedra' has 2184 rows, but the manifest says 17"},
+       "dataset 'tetrahedra' has 2184 rows; it must have 17"},
       {"0,/\"shared_points\": [0-9]*/s//\"shared_points\": 3/", "leave more than the 3 'shared_points'"},
       {"s/\"region\": 2/\"region\": 3/", "regions must stand in order 1, 2, 3, ..."},
       {"s/rotor-0001.h5/rotor-0002.h5/", "rotor-0002.h5: attribute 'region' is 2; it must be 1"},

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The items of a region file (docs/file-formats.md): one definition for the mesher, which writes them, and for all who
+// read them.
+#ifndef CUTWATER_PIPELINE_MESH_REGION_ITEMS_H
+#define CUTWATER_PIPELINE_MESH_REGION_ITEMS_H
+
+#include <hdf5.h>
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_REGION_FORMAT = 1 };
+
+// A region in memory, as its file has it; see docs/file-formats.md for shapes and orders.
+typedef struct {
+  int domain, region; // domain: of the manifest
+  int32_t point_count, shared_count;
+  int32_t tetrahedron_count, pyramid_count, prism_count, triangle_count, quad_count;
+  double (*points)[3];
+  int64_t *shared_id;
+  int32_t (*tetrahedra)[4], (*pyramids)[5], (*prisms)[6];
+  int32_t (*triangles)[3], *triangle_patch, *triangle_cell;
+  int32_t (*quads)[4], *quad_patch, *quad_cell;
+} CwRegionData;
+
+typedef enum {
+  CW_REGION_WHOLE,
+  CW_REGION_SURFACE // points and boundary faces with their patches; the other counts stay 0
+} CwRegionPart;
+
+// Opens a region file of this format for reading. CW_ERR_IO where it is no whole HDF5 file, CW_ERR_INPUT.
+CwStatus cw_region_items_open(const char *path, hid_t *file);
+
+// An attribute; CW_ERR_INPUT where it is missing, or no integer, or a text of `size` or more characters.
+CwStatus cw_region_items_integer(hid_t file, const char *path, const char *name, int32_t *value);
+CwStatus cw_region_items_text(hid_t file, const char *path, const char *name, char *text, size_t size);
+
+// Reads the arrays of a part into new memory. Counts that are not negative on entry must be met; the others are those
+// of the file. CW_ERR_INPUT or CW_ERR_IO, naming the item; the caller frees `data` then too.
+CwStatus cw_region_items_read(hid_t file, const char *path, CwRegionPart part, CwRegionData *data);
+
+// Checks that coordinates are finite and that every index is in range: of points and cells, of so many patches and of
+// so many shared points of the domain. CW_ERR_INPUT, naming item and place.
+CwStatus cw_region_items_check(const char *path, CwRegionPart part, int64_t patches, int64_t shared_points,
+                               const CwRegionData *data);
+
+// Writes all arrays. CW_ERR_IO.
+CwStatus cw_region_items_write(hid_t file, const CwRegionData *data);
+
+static inline int32_t cw_region_cell_count(const CwRegionData *data) {
+  return data->tetrahedron_count + data->pyramid_count + data->prism_count;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif
