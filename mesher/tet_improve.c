@@ -7,7 +7,7 @@
 #include "mesher/tet_mesh.h"
 #include "mesher/tet_work.h"
 
-static const double limit_insert = 0.4226;
+static const double insert_limit = 0.4226, round_limit = 0.38;
 enum { PASSES = 5 };
 
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -70,7 +70,7 @@ static CwStatus improve_one(CwTetWork *w, int32_t t, int move, int insert, int *
     CW_TRY(cw_tet_remove_face(w, t, i, done_it));
   for (int i = 0; i < 4 && move && !*done_it; i++)
     CW_TRY(cw_tet_smooth(w, t, c[i], done_it));
-  if (insert && !*done_it && w->mesh->tet[t].square < limit_insert)
+  if (insert && !*done_it && w->mesh->tet[t].square < w->insert)
     CW_TRY(cw_tet_insert(w, t, done_it));
 done:
   return status;
@@ -84,8 +84,7 @@ static int has_changed(const CwTetWork *w, int32_t t) {
   return 0;
 }
 
-// Goes over the list, again and again while something changes. The first pass adds no points.
-static CwStatus improve_list(CwTetWork *w, int passes, int move) {
+CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move) {
   CwStatus status = CW_OK;
   for (int pass = 0; pass < passes && w->next_count; pass++) {
     int32_t *swap = w->bad, space = w->bad_space, changes = 0;
@@ -133,15 +132,19 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
                  .mesh = mesh,
                  .fixed_count = fixed_count,
                  .source_count = *source_count,
-                 .limit = CW_TET_IMPROVE};
+                 .limit = CW_TET_IMPROVE,
+                 .insert = insert_limit,
+                 .insert_round = round_limit};
   CW_TRY(cw_tet_scan(&w));
   w.count.least_before = least_quality(&w);
-  CW_TRY(improve_list(&w, 1, 0));
+  CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_TURN;
   CW_TRY(cw_tet_relax(&w));
-  CW_TRY(improve_list(&w, 1, 0));
+  CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_IMPROVE;
-  CW_TRY(improve_list(&w, PASSES, 1));
+  CW_TRY(cw_tet_improve_list(&w, PASSES, 1));
+  if (fixed_count < *source_count)
+    CW_TRY(cw_tet_search(&w));
   w.count.least_after = least_quality(&w);
   *source_count = w.source_count;
   if (improved)

@@ -5,7 +5,6 @@
 #include <string.h>
 
 static const double worth = 0.02;   // least gain: a point more must pay
-static const double bad = 0.38;     // quality below which places round about are tried too
 static const double SPACING = 0.2;  // of these, over the mean edge
 enum { CAVITY = 64, SIDES = CW_FLIP, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
 
@@ -114,7 +113,7 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
     for (int i = 0; i < 3; i++)
       place[count][i] = 0.5 * (x[cw_tet_edge[e][0]][i] + x[cw_tet_edge[e][1]][i]);
   }
-  if (tet->square >= bad)
+  if (tet->square >= w->insert_round)
     return count;
   CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
   double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
@@ -161,11 +160,34 @@ static double best_from(CwTetWork *w, int32_t t, const double place[3], double a
   return best;
 }
 
+// Puts the star from a new point at p into the cavity.
+static CwStatus fill_cavity(CwTetWork *w, const Cavity *cavity, const double p[3]) {
+  CwStatus status = CW_OK;
+  double quality[SIDES];
+  int32_t corner[SIDES][4], point;
+  CW_TRY(cw_delaunay_add_point(w->mesh, p, w->source_count++, &point));
+  for (int s = 0; s < cavity->side_count; s++) {
+    const int32_t *c = w->mesh->tet[cavity->side[s] / 4].corner;
+    const int8_t *face = cw_tet_face[cavity->side[s] % 4];
+    const int32_t one[4] = {c[face[0]], c[face[2]], c[face[1]], point};
+    memcpy(corner[s], one, sizeof one);
+    quality[s] = cw_tet_quality_of(w, one[0], one[1], one[2], point);
+  }
+  CW_TRY(cw_tet_replace(w, cavity->count, cavity->tet, cavity->side_count, (const int32_t(*)[4])corner, quality));
+done:
+  return status;
+}
+
+CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least) {
+  Cavity chosen = {0};
+  double p[3];
+  return best_from(w, t, place, aim, least, &chosen, p) > least ? fill_cavity(w, &chosen, p) : CW_OK;
+}
+
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
   static const double aim[4] = {0.4, 0.32, 0.25, 0.0};
-  double place[PLACES][3], least = w->mesh->tet[t].square + worth, best = least, p[3], quality[SIDES];
-  int32_t corner[SIDES][4], point;
+  double place[PLACES][3], least = w->mesh->tet[t].square + worth, best = least, p[3];
   int tries = candidates(w, t, place);
   Cavity chosen = {0};
   *done_it = 0;
@@ -175,16 +197,7 @@ CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   }
   if (best <= least)
     goto done;
-  CW_TRY(cw_delaunay_add_point(w->mesh, p, w->source_count++, &point));
-  for (int s = 0; s < chosen.side_count; s++) {
-    const int32_t *c = w->mesh->tet[chosen.side[s] / 4].corner;
-    const int8_t *face = cw_tet_face[chosen.side[s] % 4];
-    const int32_t one[4] = {c[face[0]], c[face[2]], c[face[1]], point};
-    memcpy(corner[s], one, sizeof one);
-    quality[s] = cw_tet_quality_of(w, one[0], one[1], one[2], point);
-  }
-  CW_TRY(
-      cw_tet_replace(w, chosen.count, chosen.tet, chosen.side_count, (const int32_t(*)[4])corner, quality));
+  CW_TRY(fill_cavity(w, &chosen, p));
   w->count.points_added++;
   *done_it = 1;
 done:

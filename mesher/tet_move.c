@@ -71,8 +71,7 @@ double cw_hollow_best(CwHollow *hollow, double p[3], double start) {
   return best;
 }
 
-// Tetrahedra of an inner point of t; 0 where there are more than CW_TET_STAR.
-static int star_of(CwTetWork *w, int32_t t, int32_t point, int32_t *star) {
+int cw_tet_star(CwTetWork *w, int32_t t, int32_t point, int32_t star[CW_TET_STAR]) {
   CwDelaunay *mesh = w->mesh;
   int count = 1;
   w->stamp += 1.0;
@@ -103,7 +102,7 @@ CwStatus cw_tet_smooth(CwTetWork *w, int32_t t, int32_t point, int *done_it) {
   *done_it = 0;
   if (w->mesh->source[point] < w->fixed_count)
     goto done;
-  int n = star_of(w, t, point, star);
+  int n = cw_tet_star(w, t, point, star);
   hollow.count = n;
   for (int k = 0; k < n; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[star[k]];

@@ -9,33 +9,7 @@
 #include <cmocka.h>
 
 #include "mesher/tet_work.h"
-
-// A body-centred lattice of n cubes along each edge, shaken by so much of a cube; those on the outside first.
-static int32_t lattice(int n, double shake, int32_t *outside, double (**x)[3]) {
-  uint64_t state = 7;
-  int32_t count = 0;
-  *x = malloc((size_t)(2 * (n + 1) * (n + 1) * (n + 1)) * sizeof **x);
-  for (int pass = 0; pass < 2; pass++) {
-    for (int k = 0; k < 2 * (n + 1) * (n + 1) * (n + 1); k++) {
-      int m = k / 2, i[3] = {m % (n + 1), m / (n + 1) % (n + 1), m / (n + 1) / (n + 1)}, skin = 0, within = 1;
-      for (int a = 0; a < 3; a++) {
-        skin |= k % 2 == 0 ? i[a] == 0 || i[a] == n : i[a] == 0 || i[a] == n - 1;
-        within &= k % 2 == 0 || i[a] < n;
-      }
-      if (!within || skin != (pass == 0))
-        continue;
-      for (int a = 0; a < 3; a++) {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        (*x)[count][a] =
-            i[a] + 0.5 * (k % 2) + (skin ? 1e-3 : shake) * ((double)(state >> 11) * 0x1p-52 - 1.0);
-      }
-      count++;
-    }
-    if (pass == 0)
-      *outside = count;
-  }
-  return count;
-}
+#include "shaken_lattice.h"
 
 // Sum of the volumes, mean quality of the tetrahedra that have an inner point; all are positive.
 static double shape_of(const CwTetWork *w, double *mean) {
@@ -64,7 +38,7 @@ static double shape_of(const CwTetWork *w, double *mean) {
 
 static void shaken_points_become_even(void **state) {
   double(*x)[3], before, after;
-  int32_t outside = 0, count = lattice(8, 0.2, &outside, &x), moved = 0;
+  int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x), moved = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.flips = {.mesh = &mesh},
@@ -105,7 +79,7 @@ static void shaken_points_become_even(void **state) {
 // Two layers below the skin all tetrahedra are regular: their points stay to the bit.
 static void lattice_stays(void **state) {
   double(*x)[3];
-  int32_t outside = 0, count = lattice(8, 1e-3, &outside, &x), deep = 0;
+  int32_t outside, count = shaken_lattice(8, 1e-3, &outside, &x), deep = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.flips = {.mesh = &mesh},
