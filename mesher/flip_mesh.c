@@ -10,34 +10,41 @@ int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
   return -1;
 }
 
-// A side of a triangle by the vertex it starts from.
+// A side of a triangle, kept with the lesser of its two vertices.
 typedef struct {
-  int32_t end, side; // vertex; 3 * triangle + side
+  int32_t other, side; // the greater vertex; 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
 } Side;
 
 CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t *start = NULL;
   Side *side = NULL;
-  CW_NEW(mesh->near, triangle_count);
+  if (!mesh->near) CW_NEW(mesh->near, triangle_count);
   CW_NEW(start, (size_t)point_count + 2);
   CW_NEW(side, 3 * (size_t)triangle_count);
-  for (int32_t t = 0; t < triangle_count; t++) {
-    for (int k = 0; k < 3; k++) start[mesh->triangle[t][k] + 2]++;
-  }
-  for (int32_t v = 0; v < point_count; v++) start[v + 2] += start[v + 1];
-  for (int32_t t = 0; t < triangle_count; t++) {
-    const int32_t *corner = mesh->triangle[t];
-    for (int k = 0; k < 3; k++) side[start[corner[k] + 1]++] = (Side){corner[(k + 1) % 3], 3 * t + k};
-  }
-  for (int32_t a = 0; a < point_count; a++) { // sides that start at a now stand from start[a] to start[a + 1]
-    for (int32_t s = start[a]; s < start[a + 1]; s++) {
-      int32_t b = side[s].end, found = -1, others = 0;
-      for (int32_t i = start[b]; i < start[b + 1]; i++) {
-        if (side[i].end == a) found = side[i].side / 3, others++;
+  for (int store = 0; store < 2; store++) {
+    for (int32_t t = 0; t < triangle_count; t++) {
+      for (int k = 0; k < 3; k++) {
+        int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3], low = a < b ? a : b;
+        if (store) {
+          side[start[low + 1]++] = (Side){a < b ? b : a, 2 * (3 * t + k) + (a < b)};
+        } else {
+          start[low + 2]++;
+        }
       }
-      for (int32_t i = start[a]; i < start[a + 1]; i++) others += i != s && side[i].end == b;
-      mesh->near[side[s].side / 3][side[s].side % 3] = others == 1 ? found : -1;
+    }
+    for (int32_t v = 0; !store && v < point_count; v++) start[v + 2] += start[v + 1];
+  }
+  for (int32_t v = 0; v < point_count; v++) { // sides kept with v stand from start[v] to start[v + 1]
+    for (int32_t s = start[v]; s < start[v + 1]; s++) {
+      int32_t found = -1, others = 0;
+      for (int32_t i = start[v]; i < start[v + 1]; i++) {
+        if (side[i].other != side[s].other || i == s) continue;
+        if ((side[i].side ^ side[s].side) & 1) found = side[i].side / 6;
+        others++;
+      }
+      int32_t own = side[s].side / 2;
+      mesh->near[own / 3][own % 3] = others == 1 ? found : -1;
     }
   }
 done:

@@ -12,7 +12,7 @@ typedef struct {
   int32_t (*triangle)[3], (*near)[3];
 } CwFlipMesh;
 
-// Makes `near` (the caller frees it). Sides that run the same way twice, or that three triangles share, have none.
+// Makes `near`, or brings a given one up to date (the caller frees it). Sides that run the same way twice, or that three triangles share, have none.
 CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, CwFlipMesh *mesh);
 // Place of a vertex in triangle t, or -1.
 int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex);

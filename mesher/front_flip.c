@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mesher/flip_mesh.h"
 #include "mesher/share.h"
 #include "mesher/vec.h"
 
@@ -119,19 +118,18 @@ static CwStatus judge_triangle(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const double (*front)[3], int32_t triangle_count,
-                       int32_t (*triangle)[3], const int64_t *group, int32_t *flips) {
+CwStatus cw_front_flip(const double (*wall)[3], const double (*front)[3], int32_t triangle_count, CwFlipMesh *mesh,
+                       const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
-  CwFlipMesh mesh = {.triangle = triangle};
+  int32_t(*const triangle)[3] = mesh->triangle;
   Judged *judged = NULL;
   double *angle = NULL; // least of each front triangle
   uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
   CW_NEW(angle, triangle_count);
   CW_NEW(fresh, triangle_count);
-  CW_TRY(cw_flip_neighbours(point_count, triangle_count, &mesh));
   CW_NEW(judged, triangle_count);
-  Front given = {wall, front, &mesh, group};
+  Front given = {wall, front, mesh, group};
   CW_TRY(cw_share("layers: flips", triangle_count, sizeof *judged, judge_triangle, &given, judged));
   for (int32_t t = 0; t < triangle_count; t++) {
     angle[t] = judged[t].angle;
@@ -143,18 +141,18 @@ CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const doubl
       if (!fresh[t]) continue;
       int turned = 0;
       for (int k = 0; k < 3 && !turned; k++) {
-        int32_t u = mesh.near[t][k], d = across(&mesh, group, t, k);
+        int32_t u = mesh->near[t][k], d = across(mesh, group, t, k);
         if (d < 0) continue;
         int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3], c = triangle[t][(k + 2) % 3];
         double before = fmin(angle[t], angle[u]);
-        if (c == d || !flip_helps(wall, front, before, a, b, c, d) || cw_flip_joined(&mesh, t, c, d)) continue;
-        cw_flip(&mesh, t, k, u);
+        if (c == d || !flip_helps(wall, front, before, a, b, c, d) || cw_flip_joined(mesh, t, c, d)) continue;
+        cw_flip(mesh, t, k, u);
         angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
         angle[u] = least_angle(front, triangle[u][0], triangle[u][1], triangle[u][2]);
         fresh[u] = 1;
         for (int i = 0; i < 3; i++) {
-          if (mesh.near[t][i] >= 0) fresh[mesh.near[t][i]] = 1;
-          if (mesh.near[u][i] >= 0) fresh[mesh.near[u][i]] = 1;
+          if (mesh->near[t][i] >= 0) fresh[mesh->near[t][i]] = 1;
+          if (mesh->near[u][i] >= 0) fresh[mesh->near[u][i]] = 1;
         }
         turned = 1;
       }
@@ -165,7 +163,6 @@ CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const doubl
     if (made == 0) break;
   }
 done:
-  free(mesh.near);
   free(angle);
   free(judged);
   free(fresh);

@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "mesher/flip_mesh.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -14,9 +15,10 @@ extern "C" {
 #endif
 
 // Flips edges between triangles of equal `group` where that raises the least angle of the front, keeps the wall's
-// triangles fair and flat, and leaves the thick prisms valid. Changes `triangle` in place; *flips counts. Deterministic.
-CwStatus cw_front_flip(int32_t point_count, const double (*wall)[3], const double (*front)[3], int32_t triangle_count,
-                       int32_t (*triangle)[3], const int64_t *group, int32_t *flips);
+// triangles fair and flat, and leaves the thick prisms valid. Changes `mesh` in place; *flips counts. Deterministic.
+// Collective.
+CwStatus cw_front_flip(const double (*wall)[3], const double (*front)[3], int32_t triangle_count, CwFlipMesh *mesh,
+                       const int64_t *group, int32_t *flips);
 
 #ifdef __cplusplus
 }

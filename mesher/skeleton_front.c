@@ -120,27 +120,31 @@ done:
   return status;
 }
 
-static CwStatus unfold_wall(CwSkeleton *skeleton) {
+static CwStatus unfold_wall(CwSkeleton *skeleton, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int64_t *group = NULL;
   int32_t flips, folded;
   CW_TRY(make_groups(skeleton, &group));
-  CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count,
-                        skeleton->wall_triangle, group, &flips, &folded));
+  CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, mesh));
+  CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count, mesh,
+                        group, &flips, &folded));
   cw_orbit_copy_triangles(skeleton);
+  if (flips && skeleton->orbits.symmetry) { // copies have followed
+    CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, mesh));
+  }
   if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
 done:
   free(group);
   return status;
 }
 
-static CwStatus flip_front(CwSkeleton *skeleton) {
+static CwStatus flip_front(CwSkeleton *skeleton, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int64_t *group = NULL;
   int32_t flips;
   CW_TRY(make_groups(skeleton, &group));
-  CW_TRY(cw_front_flip(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
-                       skeleton->wall_triangle_count, skeleton->wall_triangle, group, &flips));
+  CW_TRY(cw_front_flip((const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
+                       skeleton->wall_triangle_count, mesh, group, &flips));
   cw_orbit_copy_triangles(skeleton);
   cw_log_debug("%d edges of wall and front flipped", flips);
 done:
@@ -190,8 +194,9 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   double(*guide_normal)[2][3] = NULL;
   Snap snapping = {skeleton, NULL};
   CwLayers layers = {0};
+  CwFlipMesh mesh = {.triangle = skeleton->wall_triangle};
   cw_ledger_part("layers: wall unfolded");
-  CW_TRY(unfold_wall(skeleton));
+  CW_TRY(unfold_wall(skeleton, &mesh));
   CW_NEW(guide_count, n);
   CW_NEW(guide_normal, n);
   CW_NEW(snapping.uv, n);
@@ -221,8 +226,9 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   skeleton->reason = layers.reason;
   layers = (CwLayers){0};
   cw_ledger_part("layers: front flipped");
-  CW_TRY(flip_front(skeleton));
+  CW_TRY(flip_front(skeleton, &mesh));
 done:
+  free(mesh.near);
   cw_layers_free(&layers);
   free(guide_count);
   free(guide_normal);

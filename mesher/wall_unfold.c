@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/flip_mesh.h"
 #include "mesher/layers_inner.h"
 
 enum { SWEEPS = 8 };
@@ -121,17 +120,16 @@ static int try_side(Wall *wall, const int64_t *group, int32_t t, int k) {
   return 0;
 }
 
-CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t triangle_count, int32_t (*triangle)[3],
+CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t triangle_count, CwFlipMesh *mesh,
                         const int64_t *group, int32_t *flips, int32_t *folded) {
   CwStatus status = CW_OK;
-  Wall wall = {.x = x, .mesh = {.triangle = triangle}};
+  Wall wall = {.x = x, .mesh = *mesh};
   *flips = *folded = 0;
   CW_NEW(wall.around, point_count);
   CW_NEW(wall.open, point_count);
   CW_NEW(wall.stale, point_count);
-  CW_TRY(cw_flip_neighbours(point_count, triangle_count, &wall.mesh));
   for (int32_t t = 0; t < triangle_count; t++)
-    for (int k = 0; k < 3; k++) wall.around[triangle[t][k]] = t;
+    for (int k = 0; k < 3; k++) wall.around[mesh->triangle[t][k]] = t;
   CW_TRY(cw_share("layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
@@ -161,6 +159,5 @@ done:
   free(wall.around);
   free(wall.open);
   free(wall.stale);
-  free(wall.mesh.near);
   return status;
 }
