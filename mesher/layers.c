@@ -20,7 +20,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   CW_TRY(cw_layers_normals(&work));
   cw_ledger_part("layers: tree");
   CW_TRY(cw_gap_tree_make(&work, &tree));
-  cw_layers_limit_by_hollow(&work);
+  CW_TRY(cw_layers_limit_by_hollow(&work));
   memcpy(work.t, work.most, work.n * sizeof *work.t);
   // The fan needs heights and the gap needs directions: twice is enough for both to settle.
   for (int pass = 0; pass < 2; pass++) {

@@ -100,6 +100,20 @@ static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int
   return box;
 }
 
+// The box of a prism or of a cap's triangle.
+static CwStatus find_box(void *context, int32_t f, void *out) {
+  const CwLayerCrossing *crossing = context;
+  const CwLayerWork *work = crossing->work;
+  const CwLayerInput *in = work->in;
+  const double (*x)[3] = (const double (*)[3])crossing->x;
+  int cap = f >= in->triangle_count;
+  CwBox box = box_of(work, x, cap ? 2 : 0, cap ? f - in->triangle_count : f);
+  if (!cap) add_triangle(x, (int32_t[3]){in->triangle[f][0] + work->n, in->triangle[f][1] + work->n,
+                                         in->triangle[f][2] + work->n}, &box);
+  *(CwBox *)out = box;
+  return CW_OK;
+}
+
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
@@ -242,7 +256,6 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
   CwStatus status = CW_OK;
   const CwLayerWork *work = crossing->work;
   const CwLayerInput *in = work->in;
-  const double (*x)[3] = (const double (*)[3])crossing->x;
   void **bytes = NULL;
   int64_t *size = NULL;
   int32_t blocks = 0;
@@ -253,12 +266,10 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
     crossing->active[f] = moved[v[0]] || moved[v[1]] || moved[v[2]];
     if (crossing->active[f]) crossing->list[crossing->list_count++] = f;
   }
-  for (int32_t f = 0; f < crossing->item_count; f++) {
-    int cap = f >= in->triangle_count;
-    if (crossing->searched && (cap || !crossing->active[f])) continue;
-    crossing->box[f] = box_of(work, x, cap ? 2 : 0, cap ? f - in->triangle_count : f);
-    if (!cap) add_triangle(x, (int32_t[3]){in->triangle[f][0] + work->n, in->triangle[f][1] + work->n,
-                                           in->triangle[f][2] + work->n}, &crossing->box[f]);
+  if (crossing->searched) {
+    for (int32_t i = 0; i < crossing->list_count; i++) find_box(crossing, crossing->list[i], &crossing->box[crossing->list[i]]);
+  } else {
+    CW_TRY(cw_share("layers: boxes", crossing->item_count, sizeof *crossing->box, find_box, crossing, crossing->box));
   }
   if (crossing->tree.count == 0)
     CW_TRY(cw_box_tree_make(crossing->item_count, crossing->box, &crossing->tree));

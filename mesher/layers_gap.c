@@ -11,6 +11,18 @@ static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) 
                                        : in->obstacle_x[in->obstacle_triangle[f - in->triangle_count][i]];
 }
 
+static CwStatus find_box(void *context, int32_t f, void *out) {
+  const CwLayerWork *work = context;
+  CwBox *box = out;
+  const double *corner[3];
+  corners(work->in, f, corner);
+  for (int k = 0; k < 3; k++) {
+    box->low[k] = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
+    box->high[k] = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
+  }
+  return CW_OK;
+}
+
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
@@ -20,14 +32,7 @@ CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   CW_NEW(box, total);
   CW_NEW(listed, work->n);
   CW_NEW(work->curve, work->n);
-  for (int32_t f = 0; f < total; f++) {
-    const double *corner[3];
-    corners(in, f, corner);
-    for (int k = 0; k < 3; k++) {
-      box[f].low[k] = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
-      box[f].high[k] = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
-    }
-  }
+  CW_TRY(cw_share("layers: boxes", total, sizeof *box, find_box, work, box));
   CW_TRY(cw_box_tree_make(total, box, tree));
   int32_t count = 0;
   for (int32_t i = 0; i < total; i++) {
@@ -152,22 +157,27 @@ static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double
   return corner || fabs(along_v) > least || fabs(along_w) > least;
 }
 
-void cw_layers_limit_by_hollow(CwLayerWork *work) {
+static CwStatus find_most(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
   const CwLayerInput *in = work->in;
   const double share = 0.6;
-  for (int32_t v = 0; v < work->n; v++) {
-    work->most[v] = in->target[v];
-    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-      int32_t w = work->near[k];
-      double e[3];
-      sub3(in->x[w], in->x[v], e);
-      if (fan_parts(work, v, w, e)) continue;
-      // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
-      double closing = dot3(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
-                       dot3(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
-      work->most[v] = fmin(work->most[v], share * dot3(e, e) / fmax(closing, 1e-30));
-    }
+  double most = in->target[v];
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    double e[3];
+    sub3(in->x[w], in->x[v], e);
+    if (fan_parts(work, v, w, e)) continue;
+    // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
+    double closing = dot3(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
+                     dot3(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
+    most = fmin(most, share * dot3(e, e) / fmax(closing, 1e-30));
   }
+  *(double *)out = most;
+  return CW_OK;
+}
+
+CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
+  return cw_share("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {

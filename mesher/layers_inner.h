@@ -102,13 +102,13 @@ void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 // column, later those that the change of heights concerns. Collective.
 CwStatus cw_layers_fan(CwLayerWork *work);
 
-// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`.
+// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`. Collective.
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
 // t = min(most, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which they
-// would meet. Beside a concave crease the fan keeps them apart, and nothing is limited.
-void cw_layers_limit_by_hollow(CwLayerWork *work);
+// would meet. Beside a concave crease the fan keeps them apart, and nothing is limited. Collective.
+CwStatus cw_layers_limit_by_hollow(CwLayerWork *work);
 // Lowers heights until |dt| <= 0.3 length along every edge. lowered: vertices lowered since that last held; NULL: any.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 

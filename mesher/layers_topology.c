@@ -96,39 +96,62 @@ done:
   return status;
 }
 
+// What a triangle gives to its corners and edges.
+typedef struct {
+  double normal[3], cotangent[3], twice; // unit, into the fluid; clamped, at each corner; twice the area
+  double shortest[3];                    // of the two edges at each corner
+} Measured;
+
+static CwStatus measure(void *context, int32_t f, void *out) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = context;
+  const int32_t *corner = in->triangle[f];
+  Measured *made = out;
+  double e1[3], e2[3];
+  sub3(in->x[corner[1]], in->x[corner[0]], e1);
+  sub3(in->x[corner[2]], in->x[corner[0]], e2);
+  cross3(e2, e1, made->normal); // the input's normal points out of the domain
+  made->twice = unit3(made->normal);
+  CW_REQUIRE(made->twice > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
+             "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
+             in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
+  for (int i = 0; i < 3; i++) {
+    sub3(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
+    sub3(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
+    // Clamped so that obtuse corners keep the system monotone.
+    made->cotangent[i] = fmin(fmax(dot3(e1, e2) / made->twice, 0.05), 5.0);
+    made->shortest[i] = fmin(length3(e1), length3(e2));
+  }
+done:
+  return status;
+}
+
 static CwStatus measures(CwLayerWork *work) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
+  Measured *measured = NULL;
+  CW_NEW(measured, in->triangle_count);
   CW_NEW(work->face_normal, in->triangle_count);
   CW_NEW(work->weight, work->near_start[work->n]);
   CW_NEW(work->area, work->n);
   CW_NEW(work->edge_min, work->n);
+  CW_TRY(cw_share("layers: triangles", in->triangle_count, sizeof *measured, measure, (void *)in, measured));
   for (int32_t v = 0; v < work->n; v++) work->edge_min[v] = INFINITY;
   for (int32_t f = 0; f < in->triangle_count; f++) {
-    const int32_t *corner = in->triangle[f];
-    double e1[3], e2[3], *normal = work->face_normal[f];
-    sub3(in->x[corner[1]], in->x[corner[0]], e1);
-    sub3(in->x[corner[2]], in->x[corner[0]], e2);
-    cross3(e2, e1, normal); // the input's normal points out of the domain
-    double twice = unit3(normal);
-    CW_REQUIRE(twice > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
-               "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
-               in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
+    const Measured *of = &measured[f];
+    memcpy(work->face_normal[f], of->normal, sizeof of->normal);
     for (int i = 0; i < 3; i++) {
+      const int32_t *corner = in->triangle[f];
       int32_t v = corner[i], a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
-      sub3(in->x[a], in->x[v], e1);
-      sub3(in->x[b], in->x[v], e2);
-      // Half the cotangent of the angle at v belongs to the opposite edge; clamped so that obtuse corners
-      // keep the
-      // system monotone.
-      double cotangent = fmin(fmax(dot3(e1, e2) / twice, 0.05), 5.0);
-      work->weight[find_near(work, a, b)] += 0.5 * cotangent;
-      work->weight[find_near(work, b, a)] += 0.5 * cotangent;
-      work->area[v] += twice / 6;
-      work->edge_min[v] = fmin(work->edge_min[v], fmin(length3(e1), length3(e2)));
+      // Half the cotangent of the angle at v belongs to the opposite edge.
+      work->weight[find_near(work, a, b)] += 0.5 * of->cotangent[i];
+      work->weight[find_near(work, b, a)] += 0.5 * of->cotangent[i];
+      work->area[v] += of->twice / 6;
+      work->edge_min[v] = fmin(work->edge_min[v], of->shortest[i]);
     }
   }
 done:
+  free(measured);
   return status;
 }
 
