@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/hilbert.h"
+#include "mesher/share.h"
 
 enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGIT_BITS = 13, DIGIT = (1 << DIGIT_BITS) - 1 };
 
@@ -44,6 +45,21 @@ static void add_box(CwBox *sum, const CwBox *box) {
   }
 }
 
+typedef struct {
+  const CwBox *box;
+  const double *low;
+  double cells; // a metre
+} Curve;
+
+static CwStatus find_place(void *context, int32_t i, void *out) {
+  const Curve *curve = context;
+  const CwBox *box = &curve->box[i];
+  uint32_t cell[3];
+  for (int k = 0; k < 3; k++) cell[k] = (uint32_t)(curve->cells * (0.5 * (box->low[k] + box->high[k]) - curve->low[k]));
+  *(Place *)out = (Place){cw_hilbert_place(cell, BITS), i};
+  return CW_OK;
+}
+
 CwStatus cw_box_tree_make(int32_t count, const CwBox *box, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   Place *place = NULL;
@@ -59,12 +75,8 @@ CwStatus cw_box_tree_make(int32_t count, const CwBox *box, CwBoxTree *tree) {
   for (int32_t i = 0; i < count; i++) add_box(&all, &box[i]);
   for (int k = 0; k < 3; k++) side = fmax(side, all.high[k] - all.low[k]);
   double cells = side > 0 ? (double)((1u << BITS) - 1) / side : 0;
-  for (int32_t i = 0; i < count; i++) {
-    uint32_t cell[3];
-    for (int k = 0; k < 3; k++)
-      cell[k] = (uint32_t)(cells * (0.5 * (box[i].low[k] + box[i].high[k]) - all.low[k]));
-    place[i] = (Place){cw_hilbert_place(cell, BITS), i};
-  }
+  Curve curve = {box, all.low, cells};
+  CW_TRY(cw_share("places of boxes", count, sizeof *place, find_place, &curve, place));
   CW_TRY(sort_places(count, place));
   for (int32_t i = 0; i < count; i++) tree->item[i] = place[i].item;
   cw_box_tree_fit(tree, box);

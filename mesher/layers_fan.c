@@ -56,39 +56,62 @@ static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]
   unit3(line);
 }
 
-// Distances from the sources along edges; lists the vertices in reach in order of distance.
-static CwStatus spread(const CwLayerWork *work, CwFanAt *fan, int32_t *order, int32_t *count) {
+// The front of the distances: those known so far in a list of their own, which is looked at most.
+typedef struct {
+  const CwLayerWork *work;
+  CwFanAt *fan;
+  double *distance;
+  CwHeap heap;
+  int32_t *order, count;
+} Spread;
+
+// v has its distance: lists it and offers its neighbours a way through it.
+static CwStatus settle(Spread *spread, int32_t v) {
   CwStatus status = CW_OK;
-  CwHeap heap = {0};
-  uint8_t *done_with = NULL;
-  CW_NEW(done_with, work->n);
-  *count = 0;
+  const CwLayerWork *work = spread->work;
+  const CwFanAt *at = &spread->fan[v];
+  if (at->source != v || length3(at->line) > 0) spread->order[spread->count++] = v;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    double distance = at->distance + distance3(work->in->x[v], work->in->x[w]);
+    if (distance >= spread->distance[w] || distance > REACH * at->height) continue;
+    CwFanAt *next = &spread->fan[w];
+    spread->distance[w] = next->distance = distance;
+    next->opening = at->opening;
+    next->height = at->height;
+    next->source = at->source;
+    CW_TRY(cw_heap_push(&spread->heap, distance, w));
+  }
+done:
+  return status;
+}
+
+// Distances from the sources along edges; lists the vertices in reach in order of distance.
+static CwStatus find_reach(const CwLayerWork *work, CwFanAt *fan, int32_t *order, int32_t *count) {
+  CwStatus status = CW_OK;
+  Spread spread = {.work = work, .fan = fan, .order = order};
+  int32_t *source = NULL, sources = 0;
+  CW_NEW(spread.distance, work->n);
+  CW_NEW(source, work->n);
   for (int32_t v = 0; v < work->n; v++) {
     fan[v] = (CwFanAt){.distance = INFINITY, .source = -1, .widen = 1};
+    spread.distance[v] = INFINITY;
     if (!is_source(work, v, &fan[v])) continue;
     memcpy(fan[v].given, fan[v].u, sizeof fan[v].u);
     sliding_direction(work, v, fan[v].line);
-    CW_TRY(cw_heap_push(&heap, 0, v));
+    spread.distance[v] = 0;
+    source[sources++] = v;
   }
-  while (heap.count) {
-    int32_t v = cw_heap_pop(&heap).v;
-    if (done_with[v]) continue;
-    done_with[v] = 1;
-    if (fan[v].source != v || length3(fan[v].line) > 0) order[(*count)++] = v;
-    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-      int32_t w = work->near[k];
-      double distance = fan[v].distance + distance3(work->in->x[v], work->in->x[w]);
-      if (distance >= fan[w].distance || distance > REACH * fan[v].height) continue;
-      fan[w].distance = distance;
-      fan[w].opening = fan[v].opening;
-      fan[w].height = fan[v].height;
-      fan[w].source = fan[v].source;
-      CW_TRY(cw_heap_push(&heap, distance, w));
-    }
+  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, source[i])); // nothing is nearer
+  while (spread.heap.count) {
+    CwHeapItem least = cw_heap_pop(&spread.heap);
+    if (least.key == spread.distance[least.v]) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
   }
+  *count = spread.count;
 done:
-  cw_heap_free(&heap);
-  free(done_with);
+  cw_heap_free(&spread.heap);
+  free(spread.distance);
+  free(source);
   return status;
 }
 
@@ -104,7 +127,7 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
   CW_NEW(fans.place, work->n);
   CW_NEW(fans.member, work->n);
   CW_NEW(fans.block, work->n);
-  CW_TRY(spread(work, fans.fan, fans.order, &fans.count));
+  CW_TRY(find_reach(work, fans.fan, fans.order, &fans.count));
   for (int32_t v = 0; v < work->n; v++) fans.place[v] = fans.block[v] = -1;
   for (int32_t i = 0; i < fans.count; i++) fans.place[fans.order[i]] = i;
   for (int32_t i = 0; i < work->n; i++) {
