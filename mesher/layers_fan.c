@@ -22,26 +22,26 @@ static void plain(const CwLayerWork *work, int32_t v, const double direction[3],
 }
 
 // Whether the column of v is given, and then its displacement relative to an undisturbed neighbour.
-static int is_source(const CwLayerWork *work, int32_t v, CwFanAt *fan) {
+static int is_source(const CwLayerWork *work, int32_t v, CwFanReach *reach, CwFanSource *source) {
   int guided = work->in->guide_count && work->in->guide_count[v] > 0;
   double cosine;
   if (work->crease[v] == CW_CREASE_CONCAVE) {
-    plain(work, v, work->base[v], work->base_cos[v], fan->u);
+    plain(work, v, work->base[v], work->base_cos[v], source->u);
     cosine = work->base_cos[v];
   } else if (guided && dot3(work->base[v], work->normal[v]) < 0.985) {
     double undisturbed[3];
-    plain(work, v, work->base[v], work->base_cos[v], fan->u);
+    plain(work, v, work->base[v], work->base_cos[v], source->u);
     plain(work, v, work->normal[v], work->normal_cos[v], undisturbed);
-    sub3(fan->u, undisturbed, fan->u);
+    sub3(source->u, undisturbed, source->u);
     cosine = dot3(work->base[v], work->normal[v]);
   } else {
     return 0;
   }
   cosine = fmin(fmax(cosine, CW_FAN_LEAST_COSINE), 1);
-  fan->opening = sqrt(1 - cosine * cosine) / cosine;
-  fan->height = work->t[v];
-  fan->source = v;
-  fan->distance = 0;
+  source->vertex = v;
+  reach->opening = sqrt(1 - cosine * cosine) / cosine;
+  reach->height = work->t[v];
+  reach->distance = 0;
   return 1;
 }
 
@@ -56,30 +56,26 @@ static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]
   unit3(line);
 }
 
-// The front of the distances: those known so far in a list of their own, which is looked at most.
+// The front of the distances.
 typedef struct {
-  const CwLayerWork *work;
-  CwFanAt *fan;
-  double *distance;
+  CwFans *fans;
   CwHeap heap;
-  int32_t *order, count;
 } Spread;
 
 // v has its distance: lists it and offers its neighbours a way through it.
 static CwStatus settle(Spread *spread, int32_t v) {
   CwStatus status = CW_OK;
-  const CwLayerWork *work = spread->work;
-  const CwFanAt *at = &spread->fan[v];
-  if (at->source != v || length3(at->line) > 0) spread->order[spread->count++] = v;
+  CwFans *fans = spread->fans;
+  const CwLayerWork *work = fans->work;
+  const CwFanReach *at = &fans->reach[v];
+  const CwFanSource *source = &fans->source[at->source];
+  if (source->vertex != v || length3(source->line) > 0) fans->order[fans->count++] = v;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
     double distance = at->distance + distance3(work->in->x[v], work->in->x[w]);
-    if (distance >= spread->distance[w] || distance > REACH * at->height) continue;
-    CwFanAt *next = &spread->fan[w];
-    spread->distance[w] = next->distance = distance;
-    next->opening = at->opening;
-    next->height = at->height;
-    next->source = at->source;
+    if (distance >= fans->reach[w].distance || distance > REACH * at->height) continue;
+    fans->reach[w] = *at;
+    fans->reach[w].distance = distance;
     CW_TRY(cw_heap_push(&spread->heap, distance, w));
   }
 done:
@@ -87,31 +83,25 @@ done:
 }
 
 // Distances from the sources along edges; lists the vertices in reach in order of distance.
-static CwStatus find_reach(const CwLayerWork *work, CwFanAt *fan, int32_t *order, int32_t *count) {
+static CwStatus find_reach(CwFans *fans) {
   CwStatus status = CW_OK;
-  Spread spread = {.work = work, .fan = fan, .order = order};
-  int32_t *source = NULL, sources = 0;
-  CW_NEW(spread.distance, work->n);
-  CW_NEW(source, work->n);
+  const CwLayerWork *work = fans->work;
+  Spread spread = {.fans = fans};
+  int32_t sources = 0;
   for (int32_t v = 0; v < work->n; v++) {
-    fan[v] = (CwFanAt){.distance = INFINITY, .source = -1, .widen = 1};
-    spread.distance[v] = INFINITY;
-    if (!is_source(work, v, &fan[v])) continue;
-    memcpy(fan[v].given, fan[v].u, sizeof fan[v].u);
-    sliding_direction(work, v, fan[v].line);
-    spread.distance[v] = 0;
-    source[sources++] = v;
+    CwFanSource *source = &fans->source[sources];
+    fans->reach[v] = (CwFanReach){.distance = INFINITY, .source = -1};
+    if (!is_source(work, v, &fans->reach[v], source)) continue;
+    sliding_direction(work, v, source->line);
+    fans->reach[v].source = sources++;
   }
-  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, source[i])); // nothing is nearer
+  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, fans->source[i].vertex)); // nothing is nearer
   while (spread.heap.count) {
     CwHeapItem least = cw_heap_pop(&spread.heap);
-    if (least.key == spread.distance[least.v]) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
+    if (least.key == fans->reach[least.v].distance) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
   }
-  *count = spread.count;
 done:
   cw_heap_free(&spread.heap);
-  free(spread.distance);
-  free(source);
   return status;
 }
 
@@ -121,13 +111,14 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
   int32_t blocks = 0, made = 0;
   int64_t *size = NULL;
   void **bytes = NULL;
-  CW_NEW(fans.fan, work->n);
+  CW_NEW(fans.reach, work->n);
+  CW_NEW(fans.source, work->n);
   CW_NEW(fans.local, work->n);
   CW_NEW(fans.order, work->n);
   CW_NEW(fans.place, work->n);
   CW_NEW(fans.member, work->n);
   CW_NEW(fans.block, work->n);
-  CW_TRY(find_reach(work, fans.fan, fans.order, &fans.count));
+  CW_TRY(find_reach(&fans));
   for (int32_t v = 0; v < work->n; v++) fans.place[v] = fans.block[v] = -1;
   for (int32_t i = 0; i < fans.count; i++) fans.place[fans.order[i]] = i;
   for (int32_t i = 0; i < work->n; i++) {
@@ -148,7 +139,7 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
   }
   for (int32_t v = 0; v < work->n; v++) {
     int was_held = work->lean_t[v] > 0;
-    work->lean_t[v] = fans.fan[v].source >= 0 ? work->t[v] : -1;
+    work->lean_t[v] = fans.reach[v].source >= 0 ? work->t[v] : -1;
     if (was_held && work->lean_t[v] < 0) cw_layers_upright(work, v, work->column[v]);
   }
   for (int32_t b = 0; b < blocks; b++) {
@@ -163,7 +154,8 @@ done:
   for (int32_t b = 0; bytes && b < blocks; b++) free(bytes[b]);
   free(bytes);
   free(size);
-  free(fans.fan);
+  free(fans.reach);
+  free(fans.source);
   free(fans.local);
   free(fans.order);
   free(fans.place);

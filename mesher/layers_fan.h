@@ -10,20 +10,25 @@ enum { CW_FAN_BLOCK = 8192 }; // vertices
 // Of a direction that a column may lean in.
 #define CW_FAN_LEAST_COSINE 0.3
 
+// Of every vertex: the nearest source.
 typedef struct {
-  double distance, opening, height; // to the nearest source, its cot(alpha/2) and height
-  double widen;                     // factor on L where the usual one leaves prisms overrun
-  int32_t source;                   // -1: out of reach
-  double u[3];                      // displacement relative to an undisturbed neighbour on the wall, m
-  double given[3], line[3];         // of a source: what is fixed of it, and the direction of the rest
-} CwFanAt;
+  double distance, opening, height; // to it, its cot(alpha/2) and height
+  int32_t source;                   // place in the list; -1: out of reach
+} CwFanReach;
+
+// A vertex whose column is given.
+typedef struct {
+  int32_t vertex;
+  double u[3], line[3]; // displacement relative to an undisturbed neighbour, m; direction in which it may still lean
+} CwFanSource;
 
 // What all blocks share. The vertices in reach are divided into blocks along the curve of the domain's tree. A block is
 // solved together with the vertices up to HALO edges around it, whose displacement counts in their own block alone: the
 // solution forgets within a few edges what it was held to beyond them, and the next fan goes on from what all have found.
 typedef struct {
   const CwLayerWork *work;
-  CwFanAt *fan;
+  CwFanReach *reach;
+  CwFanSource *source;
   int32_t *local;               // scratch of a block: local number + 1 of every vertex of the domain, else 0
   int32_t count, *order;        // vertices in reach, in order of distance from their sources
   int32_t *place;               // of each vertex in `order`; -1: out of reach

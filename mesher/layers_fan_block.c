@@ -36,7 +36,33 @@ static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
   for (int k = 0; k < 3; k++) u[k] = h * line[k];
 }
 
-static double range(const CwLayerWork *work, int32_t v, const CwFanAt *fan) {
+// A vertex in a block.
+typedef struct {
+  double distance, opening, height; // to the nearest source, its cot(alpha/2) and height
+  double widen;                     // factor on L where the usual one leaves prisms overrun
+  int32_t source;                   // vertex; -1: out of reach
+  double u[3];                      // displacement relative to an undisturbed neighbour on the wall, m
+  double given[3], line[3];         // of a source: what is fixed of it, and the direction of the rest
+} FanAt;
+
+static int32_t source_of(const CwFans *fans, int32_t v) {
+  int32_t source = fans->reach[v].source;
+  return source < 0 ? -1 : fans->source[source].vertex;
+}
+
+static FanAt fan_at(const CwFans *fans, int32_t v) {
+  const CwFanReach *reach = &fans->reach[v];
+  FanAt at = {.distance = reach->distance, .opening = reach->opening, .height = reach->height, .widen = 1,
+              .source = source_of(fans, v)};
+  if (at.source != v) return at;
+  const CwFanSource *source = &fans->source[reach->source];
+  memcpy(at.u, source->u, sizeof at.u);
+  memcpy(at.given, source->u, sizeof at.given);
+  memcpy(at.line, source->line, sizeof at.line);
+  return at;
+}
+
+static double range(const CwLayerWork *work, int32_t v, const FanAt *fan) {
   double fade = fmax(0, 1 - fan->distance / (FADE * fan->height));
   return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade);
 }
@@ -54,7 +80,7 @@ typedef struct {
   double *reach;                // of members, where nothing is widened
   uint8_t *stirred, *changed;   // members to relax; those whose displacement changed since the columns were set
   uint8_t *touched;             // whose displacement changed at all
-  CwFanAt *fan;                     // of all
+  FanAt *fan;                   // of all
   double (*column)[3], (*front)[3];
   int32_t triangle_count, *triangle; // of the wall, with a member
   double *quality;              // of the prisms over them
@@ -169,7 +195,7 @@ static CwStatus part_make(const CwFans *fans, int32_t block, int32_t *local, Par
         local[w] = ++part->all;
       }
       part->near[links] = local[w] - 1;
-      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && fans->fan[w].source != w;
+      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && source_of(fans, w) != w;
       part->weight[links] = work->weight[k];
       part->weights[i] += work->weight[k];
     }
@@ -185,7 +211,7 @@ static CwStatus part_make(const CwFans *fans, int32_t block, int32_t *local, Par
   CW_NEW(part->fan, part->all);
   CW_NEW(part->column, part->all);
   CW_NEW(part->front, part->all);
-  for (int32_t i = 0; i < part->all; i++) part->fan[i] = fans->fan[vertex_of(part, i)];
+  for (int32_t i = 0; i < part->all; i++) part->fan[i] = fan_at(fans, vertex_of(part, i));
   for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
   for (int32_t i = 0; i < part->all; i++) {
     if (part->fan[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->fan[i]);
@@ -197,7 +223,7 @@ done:
 // One step of the solution at member i; returns how far its displacement moved, in heights.
 static double relax(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
-  CwFanAt *own = &part->fan[i];
+  FanAt *own = &part->fan[i];
   int32_t v = part->member[i];
   double reach = part->reach[i] * own->widen, l2 = reach * reach, sum[3] = {0}, u[3];
   for (int32_t k = part->near_start[i]; k < part->near_start[i + 1]; k++) {
@@ -225,7 +251,7 @@ static double relax(Part *part, int32_t i) {
   return moved;
 }
 
-static int is_wide(const CwFanAt *fan) {
+static int is_wide(const FanAt *fan) {
   return fan->widen > 1.05;
 }
 
@@ -263,7 +289,7 @@ static void set_end(Part *part, int32_t i) {
 // Leans the column of i as the fan asks, but no further than CW_FAN_LEAST_COSINE allows, and keeps its normal height.
 static void lean(Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
-  const CwFanAt *fan = &part->fan[i];
+  const FanAt *fan = &part->fan[i];
   int32_t v = vertex_of(part, i);
   double least = fmin(CW_FAN_LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1, upright[3];
   cw_layers_upright(work, v, upright);
@@ -344,7 +370,7 @@ static int is_between(const CwFans *fans, int32_t v) {
 static void start(const CwFans *fans, Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   int32_t v = vertex_of(part, i);
-  CwFanAt *at = &part->fan[i];
+  FanAt *at = &part->fan[i];
   if (fans->block[v] < 0) { // out of reach, or wholly given
     cw_layers_upright(work, v, part->column[i]);
     set_end(part, i);
@@ -362,7 +388,7 @@ static void start(const CwFans *fans, Part *part, int32_t i) {
     }
   } else if (at->source != v) {
     double fall = exp(-at->distance / part->reach[i]);
-    for (int k = 0; k < 3; k++) at->u[k] = fall * fans->fan[at->source].u[k];
+    for (int k = 0; k < 3; k++) at->u[k] = fall * fans->source[fans->reach[v].source].u[k];
     allow(work, v, at->u);
   }
   if (i >= part->count) lean(part, i);

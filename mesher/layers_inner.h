@@ -72,7 +72,7 @@ static inline void flatten3(double a[3], const double n[3]) {
   for (int k = 0; k < 3; k++) a[k] -= h * n[k];
 }
 
-// layers_topology.c: neighbourhoods, weights, face normals. `work` is zeroed before; freed with the other.
+// layers_topology.c: neighbourhoods, weights, face normals. `work` is zeroed before; freed with the other. Collective.
 CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
 void cw_layers_work_free(CwLayerWork *work);
 

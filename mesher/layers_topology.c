@@ -96,59 +96,87 @@ done:
   return status;
 }
 
-// What a triangle gives to its corners and edges.
-typedef struct {
-  double normal[3], cotangent[3], twice; // unit, into the fluid; clamped, at each corner; twice the area
-  double shortest[3];                    // of the two edges at each corner
-} Measured;
-
-static CwStatus measure(void *context, int32_t f, void *out) {
+static CwStatus find_normal(void *context, int32_t f, void *out) {
   CwStatus status = CW_OK;
-  const CwLayerInput *in = context;
+  const CwLayerInput *in = ((const CwLayerWork *)context)->in;
   const int32_t *corner = in->triangle[f];
-  Measured *made = out;
-  double e1[3], e2[3];
+  double e1[3], e2[3], *normal = out;
   sub3(in->x[corner[1]], in->x[corner[0]], e1);
   sub3(in->x[corner[2]], in->x[corner[0]], e2);
-  cross3(e2, e1, made->normal); // the input's normal points out of the domain
-  made->twice = unit3(made->normal);
-  CW_REQUIRE(made->twice > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
+  cross3(e2, e1, normal); // the input's normal points out of the domain
+  CW_REQUIRE(unit3(normal) > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
              "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
              in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
-  for (int i = 0; i < 3; i++) {
-    sub3(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
-    sub3(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
-    // Clamped so that obtuse corners keep the system monotone.
-    made->cotangent[i] = fmin(fmax(dot3(e1, e2) / made->twice, 0.05), 5.0);
-    made->shortest[i] = fmin(length3(e1), length3(e2));
-  }
 done:
   return status;
+}
+
+static double twice_area(const CwLayerInput *in, int32_t f) {
+  const int32_t *corner = in->triangle[f];
+  double e1[3], e2[3], normal[3];
+  sub3(in->x[corner[1]], in->x[corner[0]], e1);
+  sub3(in->x[corner[2]], in->x[corner[0]], e2);
+  cross3(e2, e1, normal);
+  return length3(normal);
+}
+
+// Half the cotangent of the angle at corner i of f, which belongs to the opposite edge; clamped so that obtuse corners keep
+// the system monotone.
+static double half_cotangent(const CwLayerInput *in, int32_t f, int i) {
+  const int32_t *corner = in->triangle[f];
+  double e1[3], e2[3];
+  sub3(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
+  sub3(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
+  return 0.5 * fmin(fmax(dot3(e1, e2) / twice_area(in, f), 0.05), 5.0);
+}
+
+static CwStatus find_weights(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
+  double *weight = out;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+    int32_t f = work->face[k];
+    const int32_t *corner = work->in->triangle[f];
+    int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2, next = (i + 1) % 3, last = (i + 2) % 3;
+    weight[find_near(work, v, corner[next]) - work->near_start[v]] += half_cotangent(work->in, f, last);
+    weight[find_near(work, v, corner[last]) - work->near_start[v]] += half_cotangent(work->in, f, next);
+  }
+  return CW_OK;
+}
+
+// Of a vertex.
+typedef struct {
+  double area, edge_min;
+} Measured;
+
+static CwStatus measure(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
+  const CwLayerInput *in = work->in;
+  Measured *made = out;
+  made->edge_min = INFINITY;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) made->area += twice_area(in, work->face[k]) / 6;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    made->edge_min = fmin(made->edge_min, distance3(in->x[work->near[k]], in->x[v]));
+  }
+  return CW_OK;
 }
 
 static CwStatus measures(CwLayerWork *work) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   Measured *measured = NULL;
-  CW_NEW(measured, in->triangle_count);
+  CW_NEW(measured, work->n);
   CW_NEW(work->face_normal, in->triangle_count);
   CW_NEW(work->weight, work->near_start[work->n]);
   CW_NEW(work->area, work->n);
   CW_NEW(work->edge_min, work->n);
-  CW_TRY(cw_share("layers: triangles", in->triangle_count, sizeof *measured, measure, (void *)in, measured));
-  for (int32_t v = 0; v < work->n; v++) work->edge_min[v] = INFINITY;
-  for (int32_t f = 0; f < in->triangle_count; f++) {
-    const Measured *of = &measured[f];
-    memcpy(work->face_normal[f], of->normal, sizeof of->normal);
-    for (int i = 0; i < 3; i++) {
-      const int32_t *corner = in->triangle[f];
-      int32_t v = corner[i], a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
-      // Half the cotangent of the angle at v belongs to the opposite edge.
-      work->weight[find_near(work, a, b)] += 0.5 * of->cotangent[i];
-      work->weight[find_near(work, b, a)] += 0.5 * of->cotangent[i];
-      work->area[v] += of->twice / 6;
-      work->edge_min[v] = fmin(work->edge_min[v], of->shortest[i]);
-    }
+  CW_TRY(cw_share("layers: normals", in->triangle_count, sizeof *work->face_normal, find_normal, work,
+                  work->face_normal));
+  CW_TRY(cw_share_lists("layers: weights", work->n, work->near_start, sizeof *work->weight, find_weights, work,
+                        work->weight));
+  CW_TRY(cw_share("layers: lengths", work->n, sizeof *measured, measure, work, measured));
+  for (int32_t v = 0; v < work->n; v++) {
+    work->area[v] = measured[v].area;
+    work->edge_min[v] = measured[v].edge_min;
   }
 done:
   free(measured);

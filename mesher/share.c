@@ -12,18 +12,24 @@ typedef struct {
   CwShareBody body;
   void *context;
   int32_t count;
+  const int32_t *start; // of each item's list; NULL: one each
   size_t width;
 } Share;
+
+// Where the bytes of an item begin.
+static size_t place_of(const Share *share, int32_t item) {
+  return (size_t)(share->start ? share->start[item] : item) * share->width;
+}
 
 static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const Share *share = context;
   int32_t first = block * BLOCK, last = share->count - first < BLOCK ? share->count : first + BLOCK;
-  size_t length = (size_t)(last - first) * share->width;
+  size_t length = place_of(share, last) - place_of(share, first);
   char *result = NULL;
   CW_NEW(result, length);
   for (int32_t i = first; i < last; i++)
-    CW_TRY(share->body(share->context, i, result + (size_t)(i - first) * share->width));
+    CW_TRY(share->body(share->context, i, result + place_of(share, i) - place_of(share, first)));
   *bytes = result;
   *size = (int64_t)length;
   result = NULL;
@@ -33,8 +39,13 @@ done:
 }
 
 CwStatus cw_share(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out) {
+  return cw_share_lists(step, count, NULL, width, body, context, out);
+}
+
+CwStatus cw_share_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwShareBody body,
+                        void *context, void *out) {
   CwStatus status = CW_OK;
-  Share share = {body, context, count, width};
+  Share share = {body, context, count, start, width};
   int32_t blocks = (count + BLOCK - 1) / BLOCK;
   void **bytes = NULL;
   int64_t *size = NULL;
@@ -42,7 +53,7 @@ CwStatus cw_share(const char *step, int32_t count, size_t width, CwShareBody bod
   CW_NEW(size, blocks);
   CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  for (int32_t i = 0; i < blocks; i++) memcpy((char *)out + (size_t)i * BLOCK * width, bytes[i], (size_t)size[i]);
+  for (int32_t i = 0; i < blocks; i++) memcpy((char *)out + place_of(&share, i * BLOCK), bytes[i], (size_t)size[i]);
 done:
   for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
   free(bytes);

@@ -19,6 +19,10 @@ typedef CwStatus (*CwShareBody)(void *context, int32_t item, void *out);
 // Calls body for the items 0 .. count-1; all ranks get all of `out`. step: in the ledger. Collective.
 CwStatus cw_share(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out);
 
+// The same where item i has a list: entries start[i] .. start[i + 1] - 1 of `out`, of `width` bytes each.
+CwStatus cw_share_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwShareBody body,
+                        void *context, void *out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -29,6 +29,25 @@ static void every_item_has_its_place(void **state) {
   assert_int_equal(cw_share("nothing", 0, sizeof *out, square, &shift, out), CW_OK);
 }
 
+// Item i has i % 4 entries, numbered.
+static CwStatus number(void *context, int32_t item, void *out) {
+  int64_t *entry = out;
+  (void)context;
+  for (int32_t k = 0; k < item % 4; k++) entry[k] = 10 * (int64_t)item + k;
+  return CW_OK;
+}
+
+static void lists_stand_one_after_the_other(void **state) {
+  static int32_t start[COUNT + 1];
+  static int64_t out[2 * COUNT];
+  (void)state;
+  for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + i % 4;
+  assert_int_equal(cw_share_lists("lists", COUNT, start, sizeof *out, number, NULL, out), CW_OK);
+  for (int32_t i = 0; i < COUNT; i++) {
+    for (int32_t k = start[i]; k < start[i + 1]; k++) assert_int_equal(out[k], 10 * (int64_t)i + k - start[i]);
+  }
+}
+
 static void a_failure_is_given_back(void **state) {
   static int64_t out[COUNT];
   (void)state;
@@ -37,6 +56,8 @@ static void a_failure_is_given_back(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_has_its_place), cmocka_unit_test(a_failure_is_given_back)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_has_its_place),
+                                     cmocka_unit_test(lists_stand_one_after_the_other),
+                                     cmocka_unit_test(a_failure_is_given_back)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
