@@ -64,21 +64,34 @@ static int is_copy(const CwSkeleton *skeleton, const int32_t corner[3]) {
          cw_orbit_node_turns(orbits, corner[2]) > 0;
 }
 
-// Of all vertices but turned copies.
+// Unit normal of a triangle; zero where it is a copy.
+static CwStatus find_normal(void *context, int32_t t, void *out) {
+  const CwSkeleton *skeleton = context;
+  const int32_t *corner = skeleton->wall_triangle[t];
+  double u[3], v[3], *normal = out;
+  if (is_copy(skeleton, corner)) return CW_OK;
+  cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+  cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+  return CW_OK;
+}
+
+static int is_zero(const double normal[3]) {
+  return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
+}
+
+// Of all vertices but turned copies. Collective.
 static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   CwStatus status = CW_OK;
   double(*normal)[3] = NULL;
   CW_NEW(*bend, skeleton->wall_count);
   CW_NEW(normal, skeleton->wall_triangle_count);
+  CW_TRY(cw_share("heights: normals", skeleton->wall_triangle_count, sizeof *normal, find_normal, (void *)skeleton,
+                  normal));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     const int32_t *corner = skeleton->wall_triangle[t];
-    double u[3], v[3];
-    if (is_copy(skeleton, corner)) continue;
-    cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
-    cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
-    cw_cross(u, v, normal[t]);
-    cw_unit(normal[t]);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3 && !is_zero(normal[t]); k++) {
       for (int c = 0; c < 3; c++) (*bend)[corner[k]].normal[c] += normal[t][c];
     }
   }
@@ -88,7 +101,7 @@ static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
   }
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     const int32_t *corner = skeleton->wall_triangle[t];
-    for (int k = 0; k < 3 && !is_copy(skeleton, corner); k++) {
+    for (int k = 0; k < 3 && !is_zero(normal[t]); k++) {
       Bend *at = &(*bend)[corner[k]], *next = &(*bend)[corner[(k + 1) % 3]];
       double edge[3], cosine = cw_dot(normal[t], at->normal);
       if (cosine < at->cosine) at->cosine = cosine;
@@ -158,6 +171,9 @@ static CwStatus grade(const CwSkeleton *skeleton, double slope, double *value) {
         int32_t a = corner[k], b = corner[(k + 1) % 3];
         if (value[a] == value[b]) continue;
         int32_t low = value[a] < value[b] ? a : b, high = low == a ? b : a;
+        double edge[3], rise = value[high] - value[low];
+        cw_sub(skeleton->wall_x[a], skeleton->wall_x[b], edge);
+        if (rise * rise < 0.99 * slope * slope * cw_dot(edge, edge)) continue; // most edges, without a root
         double most = value[low] + slope * cw_distance(skeleton->wall_x[a], skeleton->wall_x[b]);
         if (value[high] <= most) continue;
         value[high] = most;

@@ -5,7 +5,7 @@
 
 #include "mesher/layers_inner.h"
 
-enum { CW_FAN_BLOCK = 8192 }; // vertices
+enum { CW_FAN_BLOCK = 4096 }; // vertices
 
 // Of a direction that a column may lean in.
 #define CW_FAN_LEAST_COSINE 0.3
