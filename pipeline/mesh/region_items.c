@@ -152,7 +152,8 @@ CwStatus cw_region_items_write(hid_t file, const CwRegionData *data) {
   for (int k = 0; k < ARRAYS; ++k) {
     int32_t rows = *(const int32_t *)((const char *)data + arrays[k].count);
     const void *values = *(void *const *)((const char *)data + arrays[k].member);
-    space = H5Screate_simple(arrays[k].columns > 1 ? 2 : 1, (hsize_t[]){(hsize_t)rows, (hsize_t)arrays[k].columns}, NULL);
+    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)arrays[k].columns};
+    space = H5Screate_simple(arrays[k].columns > 1 ? 2 : 1, size, NULL);
     set = H5Dcreate2(file, arrays[k].name, type_of(arrays[k].kind), space, H5P_DEFAULT, properties, H5P_DEFAULT);
     CW_REQUIRE(space >= 0 && set >= 0, CW_ERR_IO, "dataset '%s' cannot be made", arrays[k].name);
     if (rows)

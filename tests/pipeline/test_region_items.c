@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "pipeline/mesh/region_items.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+static char path[] = "/tmp/cutwater-region-XXXXXX";
+static double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+static int64_t shared_id[1] = {8};
+static int32_t tetrahedra[1][4] = {{0, 1, 2, 3}}, triangles[1][3] = {{0, 2, 1}}, triangle_patch[1] = {2}, zero[1];
+static const CwRegionData region = {.point_count = 4,
+                                    .shared_count = 1,
+                                    .tetrahedron_count = 1,
+                                    .triangle_count = 1,
+                                    .points = points,
+                                    .shared_id = shared_id,
+                                    .tetrahedra = tetrahedra,
+                                    .triangles = triangles,
+                                    .triangle_patch = triangle_patch,
+                                    .triangle_cell = zero};
+
+static void put_integer(hid_t file, const char *name, int value) {
+  hid_t space = H5Screate(H5S_SCALAR);
+  hid_t attribute = H5Acreate2(file, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(H5Awrite(attribute, H5T_NATIVE_INT, &value) >= 0);
+  H5Aclose(attribute);
+  H5Sclose(space);
+}
+
+// A string of any length, as other programs may write it.
+static void put_text(hid_t file, const char *name, const char *text) {
+  hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(H5Awrite(attribute, type, &text) >= 0);
+  H5Aclose(attribute);
+  H5Tclose(type);
+  H5Sclose(space);
+}
+
+static void write_file(int format) {
+  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(file >= 0);
+  put_integer(file, "format", format);
+  put_text(file, "domain", "rotor");
+  assert_int_equal(cw_region_items_write(file, &region), CW_OK);
+  H5Fclose(file);
+}
+
+static int make_file(void **state) {
+  int handle = mkstemp(path);
+  return handle < 0 || close(handle);
+}
+
+static int remove_file(void **state) {
+  return unlink(path);
+}
+
+static void free_all(CwRegionData *data) {
+  free(data->points);
+  free(data->shared_id);
+  free(data->tetrahedra);
+  free(data->pyramids);
+  free(data->prisms);
+  free(data->triangles);
+  free(data->triangle_patch);
+  free(data->triangle_cell);
+  free(data->quads);
+  free(data->quad_patch);
+  free(data->quad_cell);
+}
+
+static void the_surface_comes_without_the_cells(void **state) {
+  CwRegionData data = {.point_count = -1, .triangle_count = -1, .quad_count = -1};
+  hid_t file = -1;
+  write_file(CW_REGION_FORMAT);
+  assert_int_equal(cw_region_items_open(path, &file), CW_OK);
+  assert_int_equal(cw_region_items_read(file, path, CW_REGION_SURFACE, &data), CW_OK);
+  assert_int_equal(data.point_count, 4);
+  assert_int_equal(data.triangle_count, 1);
+  assert_int_equal(data.quad_count, 0);
+  assert_memory_equal(data.points, points, sizeof points);
+  assert_memory_equal(data.triangles, triangles, sizeof triangles);
+  assert_null(data.tetrahedra);
+  assert_null(data.triangle_cell);
+  assert_int_equal(cw_region_items_check(path, CW_REGION_SURFACE, 3, 0, &data), CW_OK);
+  assert_int_equal(cw_region_items_check(path, CW_REGION_SURFACE, 2, 0, &data), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "dataset 'triangle_patch': entry 0 is 2; allowed 0 to 1"));
+  free_all(&data);
+  H5Fclose(file);
+}
+
+static void counts_that_are_asked_must_be_met(void **state) {
+  CwRegionData data = {.point_count = 4, .shared_count = 1, .tetrahedron_count = 2};
+  hid_t file = -1;
+  write_file(CW_REGION_FORMAT);
+  assert_int_equal(cw_region_items_open(path, &file), CW_OK);
+  assert_int_equal(cw_region_items_read(file, path, CW_REGION_WHOLE, &data), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "dataset 'tetrahedra' has 1 rows; it must have 2"));
+  free_all(&data);
+  H5Fclose(file);
+}
+
+static void shared_numbers_have_a_limit(void **state) {
+  assert_int_equal(cw_region_items_check(path, CW_REGION_WHOLE, 3, 9, &region), CW_OK);
+  assert_int_equal(cw_region_items_check(path, CW_REGION_WHOLE, 3, 8, &region), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "dataset 'shared_id': entry 0 is 8; allowed 0 to 7"));
+}
+
+static void attributes_are_read_and_named(void **state) {
+  hid_t file = -1;
+  int32_t value;
+  char text[6];
+  write_file(CW_REGION_FORMAT);
+  assert_int_equal(cw_region_items_open(path, &file), CW_OK);
+  assert_int_equal(cw_region_items_text(file, path, "domain", text, 6), CW_OK);
+  assert_string_equal(text, "rotor");
+  assert_int_equal(cw_region_items_text(file, path, "domain", text, 5), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "attribute 'domain' has 5 characters; at most 4 are allowed"));
+  assert_int_equal(cw_region_items_text(file, path, "format", text, 6), CW_ERR_INPUT);
+  assert_int_equal(cw_region_items_integer(file, path, "number", &value), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "attribute 'number' is missing"));
+  H5Fclose(file);
+}
+
+static void files_that_are_none_are_told(void **state) {
+  hid_t file = -1;
+  write_file(7);
+  assert_int_equal(cw_region_items_open(path, &file), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "attribute 'format' is 7; it must be 1"));
+  assert_int_equal(truncate(path, 100), 0);
+  assert_int_equal(cw_region_items_open(path, &file), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "is missing, damaged or cut short"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_surface_comes_without_the_cells),
+      cmocka_unit_test(counts_that_are_asked_must_be_met),
+      cmocka_unit_test(shared_numbers_have_a_limit),
+      cmocka_unit_test(attributes_are_read_and_named),
+      cmocka_unit_test(files_that_are_none_are_told),
+  };
+  return cmocka_run_group_tests(tests, make_file, remove_file);
+}
