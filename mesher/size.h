@@ -32,7 +32,7 @@ void cw_size_seeds_free(CwSizeSeeds **seeds);
 // The field that spreads from the seeds of all faces (seeds[face]) through the domain. `rim_size`, if given, is the
 // longest edge (m, by patch; only those of walls count) where a wall meets an open face, at any scale: prisms there have a
 // side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims are
-// granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.2 of it in
+// granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of it in
 // the mean.
 // Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it.
 typedef enum { CW_SIZE_SEEDS, CW_SIZE_RIMS } CwSizePart;

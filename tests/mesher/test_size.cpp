@@ -223,9 +223,9 @@ static void rims_hold_at_any_scale(void **state) {
     assert_true(rim.at(15, 0, 20) <= 1 + gradation * 12);             // down the wall
     assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);            // far from it as before
   }
-  cw_size_set_scale(rim.size, 1); // a third is less than 0.4: of the way down to 0.2 it is 1/3, as from 0.4 up to 0.6
-  assert_near(rim.at(15, 0, 30), 0.6 * 3, 1e-5);
-  cw_size_set_scale(rim.size, 2); // a sixth is less than 0.2
+  cw_size_set_scale(rim.size, 1 / 1.02); // asks 0.34, half-way from 0.4 down to 0.28: gets half-way from 0.4 up to 1
+  assert_near(rim.at(15, 0, 30), 0.7 * 3 / 1.02, 1e-5);
+  cw_size_set_scale(rim.size, 2); // asks a sixth, which is less than 0.28
   assert_near(rim.at(15, 0, 30), 2 * 3, 1e-5);
   void *bytes = nullptr;
   int64_t count;
