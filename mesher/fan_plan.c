@@ -66,8 +66,7 @@ static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double
   int bin = cw_profile_bin(&profile, 0);
   *worst = profile.worst[bin];
   *cost = cw_plan_place_cost(&profile, bin);
-  CwPlanLines lines = cw_plan_lines(fan->model, plan, plan->fan_first, &half, &plane);
-  *cost += cw_plan_line_cost(&lines);
+  *cost += cw_plan_lines(fan->model, plan, plan->fan_first, &half, &plane, INFINITY);
 done:
   cw_plan_part_free(&half);
   return status;

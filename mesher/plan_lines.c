@@ -15,6 +15,15 @@ static const double ROOM = 1.5;       // thicknesses of the layers: lines of two
 static const double SAME_LINE = 1, APART = 3;
 static const double SAME_POINT = 1e-9;  // m
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
+static const double SHARP = 0.643, FAIR = 0.766; // sines of 40 and 50 degrees
+static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one without any besides
+
+typedef struct {
+  int impossible;
+  double cramped; // sum over the lines: 0 where a line has room, 1 where it has none
+  int blocked;    // lines that have none
+  double sharp;   // least sine of the angle between the planes along a line in the domain; 1 without lines
+} Lines;
 
 // A plane that comes near a line, as so many turns make it: within the wedges of a fan planes have turned copies.
 typedef struct {
@@ -120,7 +129,7 @@ static double near_an_edge(const Line *line, const CwPlanPart *part, const doubl
 }
 
 // Where other planes cross the line, in their own cells, a piece of a line ends: not within the layers.
-static double judge_crossings(const Line *line, double from, double to, CwPlanLines *lines) {
+static double judge_crossings(const Line *line, double from, double to, Lines *lines) {
   double a[3], b[3], x[3], worst = 0;
   at(line, from, a);
   at(line, to, b);
@@ -150,7 +159,7 @@ static double judge_end(const Line *line, const CwPlanPart *part, const double x
 
 // A run of the line through the domain from `from` to `to`.
 static void judge_run(const Line *line, const CwPlanPart *part, double from, double to, double step,
-                      CwPlanLines *lines) {
+                      Lines *lines) {
   double start[3], end[3], layers[2], run = to - from + step, beside = 0;
   at(line, from, start);
   at(line, to, end);
@@ -179,7 +188,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, double from, dou
 }
 
 static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
-                       CwPlanLines *lines) {
+                       Lines *lines) {
   cut_to_cell(line, node, part);
   if (!(line->to > line->from)) return;
   double length = line->to - line->from;
@@ -207,11 +216,20 @@ static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlan
   return fabs(apart) > 2 * model->sample_spacing;
 }
 
-CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                          const CwPlane *plane) {
-  CwPlanLines lines = {.sharp = 1};
+double cw_plan_sharpness(double sine) {
+  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 30 * (SHARP - sine) : 0);
+}
+
+static double cost_of(const Lines *lines) {
+  if (lines->impossible) return INFINITY;
+  return CRAMPED * lines->cramped + BLOCKED * lines->blocked + cw_plan_sharpness(lines->sharp);
+}
+
+double cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                     const CwPlane *plane, double most) {
+  Lines lines = {.sharp = 1};
   CwPlanBound bound = cw_plan_bound(plan, node);
-  for (; bound.node >= 0 && !lines.impossible; bound = cw_plan_next_bound(plan, bound)) {
+  for (; bound.node >= 0 && cost_of(&lines) < most; bound = cw_plan_next_bound(plan, bound)) {
     const CwPlane *other = &plan->node[bound.node].plane;
     Line line = {.model = model, .plan = plan, .above = bound.node};
     double across[3];
@@ -222,5 +240,5 @@ CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t 
     cw_cross(other->normal, plane->normal, across);
     judge_line(&line, node, part, plane, cw_norm(across), &lines);
   }
-  return lines;
+  return cost_of(&lines);
 }

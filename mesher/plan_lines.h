@@ -6,15 +6,13 @@
 
 #include "mesher/plan_model.h"
 
-typedef struct {
-  int impossible;  // a line runs through the layers of a wall, or along that of another plane, or a parallel plane
-                   // leaves no room between both: the plane will not do
-  double cramped;  // sum over the lines: 0 where a line has room, 1 where it has none
-  int blocked;     // lines that have none
-  double sharp;    // least sine of the angle between the planes along a line in the domain; 1 without lines
-} CwPlanLines;
+// What an angle of this sine, to a wall or to another plane, costs.
+double cw_plan_sharpness(double sine);
 
-CwPlanLines cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                          const CwPlane *plane);
+// What the lines of `plane`, which is to become `node`, with the planes above cost: for each as much as it lacks room, for
+// all the sharpest angle. INFINITY where one runs through the layers of a wall or along that of another plane, or where a
+// parallel plane leaves no room between both: then the plane will not do. May stop at any sum of `most` or more.
+double cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                     const CwPlane *plane, double most);
 
 #endif

@@ -29,11 +29,12 @@ static const double CUT_LAYERS = 4;                  // what a plane through the
 static const double BAD = 5;                         // score of a plane for which others are tried
 static const double WHOLE = 20;                      // what a part costs that has to stay whole
 static const double LIKE = 0.97;                     // cosine between planes that are tried in vain alike
-static const double SHARP = 0.643, FAIR = 0.766;     // sines of 40 and 50 degrees
 
 typedef struct {
-  double score, offset, worst;
+  double score, offset; // without its lines; m
+  double lines;         // what its lines cost at least
   int32_t direction, below; // regions below
+  int32_t judged;       // 1: they cost just so
 } Candidate;
 
 static int by_score(const void *a, const void *b) {
@@ -57,29 +58,19 @@ static void direction_of(int32_t d, double direction[3]) {
   direction[2] = d == DIRECTIONS ? 1 : sin(tilt);
 }
 
-// What an angle of this sine to a wall or another plane costs.
-static double sharpness(double sine) {
-  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 30 * (SHARP - sine) : 0);
-}
-
 double cw_plan_place_cost(const CwPlanProfile *profile, int bin) {
   double grazed = profile->grazed[bin];
-  return sharpness(profile->worst[bin]) + fmin(0.17 * grazed, 3) + 0.007 * grazed + CUT_LAYERS * profile->cut[bin];
-}
-
-double cw_plan_line_cost(const CwPlanLines *lines) {
-  return lines->impossible ? INFINITY : 2 * lines->cramped + 2 * lines->blocked + sharpness(lines->sharp);
+  return cw_plan_sharpness(profile->worst[bin]) + fmin(0.17 * grazed, 3) + 0.007 * grazed + CUT_LAYERS * profile->cut[bin];
 }
 
 // All but the lines.
 static double score_of(const CwPlanModel *model, const CwPlanPart *part, const CwPlanProfile *profile, int32_t regions,
-                       int32_t below, double offset, double *worst) {
+                       int32_t below, double offset) {
   int bin = cw_profile_bin(profile, offset);
   double cells = cw_profile_below(profile, offset), all = profile->below[CW_PROFILE_BINS];
   // Against the mean of the whole domain: what one plane leaves uneven the next ones do not hide.
   double load = fmax(fabs(cells / (below * model->mean_work) - 1),
                      fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
-  *worst = profile->worst[bin];
   return 6 * load + 60 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
          0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(profile, bin);
 }
@@ -113,14 +104,14 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
       *made = (Candidate){.direction = d, .below = split[i]};
       double aside = j * (1 + abs(j) / WIDER) * shift * smaller;
       made->offset = cw_profile_place(&profile, all * ((double)split[i] / regions + aside));
-      made->score = score_of(model, part, &profile, regions, made->below, made->offset, &made->worst);
+      made->score = score_of(model, part, &profile, regions, made->below, made->offset);
     }
     // Through the axis a plane is normal to hub and shroud.
     double share = cw_profile_below(&profile, 0) / all;
     if (d >= DIRECTIONS || fabs(share * regions - split[i]) > 0.2 * smaller * regions) continue;
     Candidate *made = &candidate[count++];
     *made = (Candidate){.direction = d, .below = split[i]};
-    made->score = score_of(model, part, &profile, regions, made->below, made->offset, &made->worst);
+    made->score = score_of(model, part, &profile, regions, made->below, made->offset);
   }
   return count;
 }
@@ -141,24 +132,6 @@ static double plane_to_wall(const CwPlanModel *model, const CwPieces *pieces, co
     if (low <= 0 && high > 0) worst = fmin(worst, sqrt(fmax(0, 1 - dot * dot)));
   }
   return worst;
-}
-
-typedef struct {
-  CwPlane plane;
-  int32_t below; // regions on its negative side; 0: no plane will do
-  double score;
-} Best;
-
-typedef struct {
-  int32_t count;
-  Best plane[TRIES];
-} Tried;
-
-static int like_one_tried(const Tried *tried, const CwPlane *plane) {
-  for (int32_t i = 0; i < tried->count; i++) {
-    if (fabs(cw_dot(tried->plane[i].plane.normal, plane->normal)) > LIKE) return 1;
-  }
-  return 0;
 }
 
 // Directions to look along: from, from + every, ...
@@ -207,50 +180,127 @@ done:
   return status;
 }
 
-// Looks for a better plane among some directions.
-static CwStatus search(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                       int32_t regions, int32_t from, int32_t to, const Tried *tried, Candidate *candidate, Best *best) {
+typedef struct {
+  CwPlane plane;
+  int32_t below; // regions on its negative side; 0: no plane will do
+  double score;
+} Best;
+
+// The planes that could divide a part into so many regions. The ancestors of `node`, which it is to become, are in the plan.
+typedef struct {
+  const CwPlanModel *model;
+  const CwPlan *plan;
+  const CwPlanPart *part;
+  int32_t node, regions, count;
+  Candidate *candidate; // best first
+  int leaning;          // leaning ones are among them
+  int32_t tried_count;
+  Best tried[TRIES];
+} Choice;
+
+static CwStatus look_further(Choice *choice, int32_t from, int32_t to) {
   CwStatus status = CW_OK;
-  int32_t count = 0, judged = 0, every = part->pieces.count > PIECES_LARGE ? 2 : 1;
-  Directions directions = {model, part, regions, from, every, (to - from) / every + 1};
-  CW_TRY(look(&directions, candidate, &count));
-  qsort(candidate, (size_t)count, sizeof *candidate, by_score);
-  // Lines only add to a score, so the rest cannot win once the next score alone is no less than the best.
-  for (int32_t i = 0; i < count && candidate[i].score < best->score; i++) {
-    CwPlane plane = {{0}, candidate[i].offset};
-    direction_of(candidate[i].direction, plane.normal);
-    if (like_one_tried(tried, &plane)) continue;
-    if (++judged > LINES_JUDGED && best->score < INFINITY) break;
-    CwPlanLines lines = cw_plan_lines(model, plan, node, part, &plane);
-    double score = candidate[i].score + cw_plan_line_cost(&lines);
-    if (score < best->score) *best = (Best){plane, candidate[i].below, score};
-  }
+  int32_t added = 0, every = choice->part->pieces.count > PIECES_LARGE ? 2 : 1;
+  Directions directions = {choice->model, choice->part, choice->regions, from, every, (to - from) / every + 1};
+  void *grown = realloc(choice->candidate, sizeof *choice->candidate *
+                                               (size_t)(choice->count + directions.count * OF_DIRECTION));
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d directions", directions.count);
+  choice->candidate = grown;
+  CW_TRY(look(&directions, choice->candidate + choice->count, &added));
+  choice->count += added;
+  qsort(choice->candidate, (size_t)choice->count, sizeof *choice->candidate, by_score);
 done:
   return status;
 }
 
-// The best plane for `node` (its ancestors are in the plan), unlike those tried.
-static CwStatus best_plane(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                           int32_t regions, const Tried *tried, Best *best) {
-  CwStatus status = CW_OK;
-  Candidate *candidate = NULL;
-  *best = (Best){.score = INFINITY};
-  CW_NEW(candidate, (DIRECTIONS + 1) * OF_DIRECTION);
-  CW_TRY(search(model, plan, node, part, regions, 0, DIRECTIONS, tried, candidate, best));
-  if (best->score > WELL) {
-    CW_TRY(search(model, plan, node, part, regions, DIRECTIONS + 1, DIRECTIONS + LEANING, tried, candidate, best));
+static int like_one_tried(const Choice *choice, const CwPlane *plane) {
+  for (int32_t i = 0; i < choice->tried_count; i++) {
+    if (fabs(cw_dot(choice->tried[i].plane.normal, plane->normal)) > LIKE) return 1;
   }
+  return 0;
+}
+
+// Takes the best plane unlike those tried that is better than *best, if there is one.
+static void find_best(const Choice *choice, Best *best) {
+  int32_t judged = 0;
+  // Lines only add to a score, so the rest cannot win once the next score alone is no less than the best.
+  for (int32_t i = 0; i < choice->count && choice->candidate[i].score < best->score; i++) {
+    Candidate *candidate = &choice->candidate[i];
+    CwPlane plane = {{0}, candidate->offset};
+    direction_of(candidate->direction, plane.normal);
+    if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane)) continue;
+    if (!candidate->judged) {
+      if (++judged > LINES_JUDGED && best->score < INFINITY) break;
+      double most = best->score - candidate->score;
+      candidate->lines = cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most);
+      candidate->judged = candidate->lines < most || candidate->lines == INFINITY;
+    }
+    double score = candidate->score + candidate->lines;
+    if (score < best->score) *best = (Best){plane, candidate->below, score};
+  }
+}
+
+// The best plane unlike those tried before that scores less than `limit`; leaning ones only where no other does well.
+static CwStatus next_best(Choice *choice, double limit, Best *best) {
+  CwStatus status = CW_OK;
+  *best = (Best){.score = limit};
+  if (!choice->candidate) CW_TRY(look_further(choice, 0, DIRECTIONS));
+  find_best(choice, best);
+  if (best->score > WELL && !choice->leaning) {
+    CW_TRY(look_further(choice, DIRECTIONS + 1, DIRECTIONS + LEANING));
+    choice->leaning = 1;
+    find_best(choice, best);
+  }
+  choice->tried[choice->tried_count++] = *best;
 done:
-  free(candidate);
   return status;
+}
+
+// A subtree that was made, kept aside while another is tried in its place.
+typedef struct {
+  int32_t nodes, regions;
+  CwPlanNode *node;
+  double *worst_angle, *predicted_cells;
+} Kept;
+
+static CwStatus keep(const CwPlan *plan, int32_t node, int32_t region, Kept *kept) {
+  CwStatus status = CW_OK;
+  kept->nodes = plan->node_count - node;
+  kept->regions = plan->region_count - region;
+  if (!kept->node) {
+    // Room for all that any division of the part can take.
+    CW_NEW(kept->node, SMALL_PART);
+    CW_NEW(kept->worst_angle, SMALL_PART);
+    CW_NEW(kept->predicted_cells, SMALL_PART);
+  }
+  memcpy(kept->node, plan->node + node, (size_t)kept->nodes * sizeof *kept->node);
+  memcpy(kept->worst_angle, plan->worst_angle + node, (size_t)kept->nodes * sizeof *kept->worst_angle);
+  memcpy(kept->predicted_cells, plan->predicted_cells + region, (size_t)kept->regions * sizeof *kept->predicted_cells);
+done:
+  return status;
+}
+
+static void put_back(const Kept *kept, int32_t node, int32_t region, CwPlan *plan) {
+  memcpy(plan->node + node, kept->node, (size_t)kept->nodes * sizeof *kept->node);
+  memcpy(plan->worst_angle + node, kept->worst_angle, (size_t)kept->nodes * sizeof *kept->worst_angle);
+  memcpy(plan->predicted_cells + region, kept->predicted_cells, (size_t)kept->regions * sizeof *kept->predicted_cells);
+  plan->node_count = node + kept->nodes;
+  plan->region_count = region + kept->regions;
+}
+
+static void kept_free(Kept *kept) {
+  free(kept->node);
+  free(kept->worst_angle);
+  free(kept->predicted_cells);
 }
 
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                       int side, double *worst);
+                       int side, double limit, double *worst);
 
-// Divides the part by this plane, and both sides further. *worst: the score of the worst plane.
+// Divides the part by this plane, and both sides further. *worst: the score of the worst plane. Gives up once that is
+// `limit` or more.
 static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, const Best *by,
-                          double *worst) {
+                          double limit, double *worst) {
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
   int32_t node = plan->node_count++, first[2] = {by->below, regions - by->below};
@@ -259,9 +309,9 @@ static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPa
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
   plan->worst_angle[node] = plane_to_wall(model, &part->pieces, &by->plane);
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
-  for (int s = 0; s < 2; s++) {
+  for (int s = 0; s < 2 && *worst < limit; s++) {
     double below;
-    CW_TRY(divide(model, plan, &half[s], first[s], node, s, &below));
+    CW_TRY(divide(model, plan, &half[s], first[s], node, s, limit, &below));
     cw_plan_part_free(&half[s]);
     *worst = fmax(*worst, below);
   }
@@ -270,44 +320,54 @@ done:
   return status;
 }
 
-// Where a small part, or what comes of it, divides badly by the best plane, others are tried: the best of them may leave
-// a part that no plane divides well.
+// Divides the part, or leaves it whole where no plane will do. Where a small part, or what comes of it, divides badly by the
+// best plane, others are tried: the best of them may leave a part that no plane divides well. *worst is `limit` or more, and
+// the subtree of no use, where it would not be less.
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                       int side, double *worst) {
+                       int side, double limit, double *worst) {
   CwStatus status = CW_OK;
   const int32_t node = plan->node_count, region = plan->region_count;
-  Tried tried = {0};
-  double least = INFINITY;
-  int32_t chosen = -1, tries = regions <= SMALL_PART ? TRIES : 1;
+  Choice choice = {.model = model, .plan = plan, .part = part, .node = node, .regions = regions};
+  Kept kept = {0};
+  Best best;
+  double least = limit;
+  int32_t tries = regions <= SMALL_PART ? TRIES : 1;
+  int found = 0, last = 0; // whether some plane did; whether its subtree stands in the plan
   *worst = 0;
   if (parent >= 0) plan->node[parent].child[side] = node; // it tells on which side the node's cell lies
-  while (regions > 1 && tried.count < tries && least > BAD) {
-    Best *best = &tried.plane[tried.count];
+  while (regions > 1 && choice.tried_count < tries && (!found || least > BAD)) {
+    double score;
+    plan->node_count = node;
+    plan->region_count = region;
     plan->node[node].parent = parent;
-    CW_TRY(best_plane(model, plan, node, part, regions, &tried, best));
-    if (best->below == 0 || best->score >= least) break;
-    plan->node_count = node;
-    plan->region_count = region;
-    CW_TRY(divide_by(model, plan, part, regions, best, worst));
-    if (*worst < least) least = *worst, chosen = tried.count;
-    tried.count++;
+    CW_TRY(next_best(&choice, least, &best));
+    last = 0;
+    if (best.below == 0) break;
+    CW_TRY(divide_by(model, plan, part, regions, &best, least, &score));
+    if (score >= least) continue;
+    least = score;
+    found = last = 1;
+    if (choice.tried_count < tries && least > BAD) CW_TRY(keep(plan, node, region, &kept));
   }
-  if (chosen >= 0 && chosen < tried.count - 1) { // the last one was no better
-    plan->node_count = node;
-    plan->region_count = region;
-    CW_TRY(divide_by(model, plan, part, regions, &tried.plane[chosen], worst));
+  if (found) {
+    if (!last) put_back(&kept, node, region, plan);
+    *worst = least;
+    goto done;
   }
-  if (chosen >= 0) goto done;
-  *worst = regions > 1 ? WHOLE : 0;
+  if (regions > 1) *worst = limit < INFINITY ? fmax(limit, WHOLE) : WHOLE;
+  plan->node_count = node;
+  plan->region_count = region;
   if (parent >= 0) plan->node[parent].child[side] = -1 - region;
   plan->predicted_cells[region] = part->work;
   plan->region_count++;
 done:
+  free(choice.candidate);
+  kept_free(&kept);
   return status;
 }
 
 CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
                         int side) {
   double worst;
-  return divide(model, plan, part, regions, parent, side, &worst);
+  return divide(model, plan, part, regions, parent, side, INFINITY, &worst);
 }

@@ -6,9 +6,8 @@
 #include "mesher/plan_lines.h"
 #include "mesher/plan_profile.h"
 
-// What a place costs by the sharpest wall and the edges there, and by its lines: INFINITY where it will not do.
+// What a place costs by the sharpest wall and the edges there.
 double cw_plan_place_cost(const CwPlanProfile *profile, int bin);
-double cw_plan_line_cost(const CwPlanLines *lines);
 
 // Divides `part` into at most `regions` leaves on side `side` of node `parent` (-1: the whole domain);
 // what no plane will do for stays whole. Nodes and regions are appended to the plan, which has room for them.
