@@ -7,13 +7,15 @@
 #include "mesher/symmetry.h"
 #include "mesher/vec.h"
 
-enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64 };
+enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64, HITS = 64 };
 static const double LINE_STEP = 1e-3; // m between samples of a line
 static const double ROOM = 1.5;       // thicknesses of the layers: lines of two planes start behind the layers
 // Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
 // have room.
 static const double SAME_LINE = 1, APART = 3;
 static const double SAME_POINT = 1e-9;  // m
+static const double LEAN_MOST = 0.55;   // least cosine of a column to the wall with which it keeps its height normal to it
+static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 static const double SHARP = 0.643, FAIR = 0.766; // sines of 40 and 50 degrees
 static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one without any besides
@@ -63,9 +65,9 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
   line->from = -INFINITY;
   line->to = INFINITY;
   for (int k = 0; k < 3; k++) {
-    CwPlane side = {{k == 0, k == 1, k == 2}, part->high[k] + 2 * LINE_STEP};
+    CwPlane side = {{k == 0, k == 1, k == 2}, part->high[k] + 2 * line->model->sample_spacing};
     cut(line, &side, 0);
-    side.offset = part->low[k] - 2 * LINE_STEP;
+    side.offset = part->low[k] - 2 * line->model->sample_spacing;
     cut(line, &side, 1);
   }
   const CwPlan *plan = line->plan;
@@ -131,82 +133,98 @@ static double near_an_edge(const Line *line, const CwPlanPart *part, const doubl
 // Where other planes cross the line, in their own cells, a piece of a line ends: not within the layers.
 static double judge_crossings(const Line *line, double from, double to, Lines *lines) {
   double a[3], b[3], x[3], worst = 0;
-  at(line, from, a);
-  at(line, to, b);
-  for (int i = 0; i < line->neighbour_count; i++) {
+  at(line, from - SAME_POINT, a);
+  at(line, to + SAME_POINT, b);
+  for (int i = 0; i < line->neighbour_count && !lines->impossible; i++) {
     const Neighbour *near = &line->neighbour[i];
-    double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b), back[3], distance;
+    double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b), back[3];
     if ((before > 0) == (after > 0)) continue;
     cw_lerp(a, b, before / (before - after), x);
     cw_copy(x, back);
     if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
-    if (!cw_plan_in_cell(line->plan, near->node, back, SAME_POINT, NULL, 0)) continue;
-    double thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
-    if (thickness > 0) worst = fmax(worst, shortage(distance, thickness, ROOM * thickness));
-    if (distance < thickness) lines->impossible = 1;
+    if (!cw_plan_in_cell(line->plan, near->node, back, 2 * SAME_POINT, NULL, 0)) continue;
+    CwPlanWall wall = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest);
+    if (wall.thickness > 0) worst = fmax(worst, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    if (wall.distance < wall.thickness) lines->impossible = 1;
   }
   return worst;
 }
 
-// One end of a run of the line through the domain.
-static double judge_end(const Line *line, const CwPlanPart *part, const double x[3], double *thickness) {
-  double distance;
-  *thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
-  double cramped = near_an_edge(line, part, x);
-  if (*thickness == 0) return cramped;
-  return fmax(cramped, shortage(plane_near(line, x, ROOM * *thickness), *thickness / 2, ROOM * *thickness));
+// An end of a run of the line through the domain.
+typedef struct {
+  double place;     // along the line, m
+  int32_t triangle; // of the background through which it leaves; -1: at a plane that bounds the cell
+  double layers;    // what they take of the run, m
+} End;
+
+static double judge_end(const Line *line, const CwPlanPart *part, End *end) {
+  const CwPlanModel *model = line->model;
+  double x[3];
+  if (end->triangle < 0) return 0; // left to the crossings
+  at(line, end->place, x);
+  double thickness = model->thickness[end->triangle], cramped = near_an_edge(line, part, x);
+  // Columns keep the height normal to the wall, but for those that lean too much.
+  end->layers = thickness / fmax(fabs(cw_dot(line->direction, model->normal[end->triangle])), LEAN_MOST);
+  if (thickness == 0) return cramped;
+  return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
 }
 
-// A run of the line through the domain from `from` to `to`.
-static void judge_run(const Line *line, const CwPlanPart *part, double from, double to, double step,
-                      Lines *lines) {
-  double start[3], end[3], layers[2], run = to - from + step, beside = 0;
-  at(line, from, start);
-  at(line, to, end);
-  double cramped = judge_end(line, part, start, &layers[0]);
-  cramped = fmax(cramped, judge_end(line, part, end, &layers[1]));
-  double taken = layers[0] + layers[1];
+// True where this is the wall at the end of the run, which the line comes near as it should.
+static int is_wall_of(const Line *line, const End *end, double place, int32_t triangle) {
+  const CwPlanModel *model = line->model;
+  return end->triangle >= 0 && fabs(place - end->place) < 2 * ROOM * end->layers &&
+         cw_dot(model->normal[end->triangle], model->normal[triangle]) > SAME_WALL;
+}
+
+// A run of the line through the domain.
+static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *to, Lines *lines) {
+  const CwPlanModel *model = line->model;
+  double run = to->place - from->place, beside = 0;
+  double cramped = judge_end(line, part, from);
+  cramped = fmax(cramped, judge_end(line, part, to));
+  double taken = from->layers + to->layers;
   if (run < taken) lines->impossible = 1;
-  cramped = fmax(cramped, judge_crossings(line, from - step, to + step, lines));
   if (lines->impossible) return;
+  cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
-  double margin = ROOM * fmax(layers[0], layers[1]);
-  for (double s = from; s <= to + 0.5 * step; s += step) {
-    double x[3], distance;
+  int samples = (int)fmin(fmax(ceil(run / LINE_STEP), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  double step = run / samples;
+  for (int i = 0; i < samples && !lines->impossible; i++) {
+    double x[3], s = from->place + step * (i + 0.5);
     at(line, s, x);
-    double h = cw_size_at(line->model->size, x), near = plane_near(line, x, APART * h);
+    double h = cw_size_at(model->size, x), near = plane_near(line, x, APART * h);
     if (near < SAME_LINE * h) beside += step;
     cramped = fmax(cramped, shortage(near, SAME_LINE * h, APART * h));
-    if (s - from < margin || to - s < margin) continue;
-    double thickness = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest, &distance);
-    if (thickness > 0) cramped = fmax(cramped, shortage(distance, thickness, ROOM * thickness));
-    if (distance < thickness) lines->impossible = 1;
+    if (s - from->place < from->layers || to->place - s < to->layers) continue;
+    CwPlanWall wall = cw_plan_wall_near(model, x, ROOM * model->thickest);
+    if (wall.thickness == 0 || is_wall_of(line, from, s, wall.triangle) || is_wall_of(line, to, s, wall.triangle)) continue;
+    cramped = fmax(cramped, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    if (wall.distance < wall.thickness) lines->impossible = 1;
   }
   if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
   lines->cramped += cramped;
   lines->blocked += cramped >= 1;
 }
 
-static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
-                       Lines *lines) {
+static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine, Lines *lines) {
   cut_to_cell(line, node, part);
   if (!(line->to > line->from)) return;
-  double length = line->to - line->from;
-  int samples = (int)fmin(fmax(ceil(length / LINE_STEP), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
-  double step = length / samples, begun = 0;
-  int inside_before = 0;
-  find_neighbours(line, node, plane, 10e-3);
-  for (int i = 0; i <= samples; i++) {
-    double x[3], s = line->from + step * (i + 0.5);
-    at(line, s, x);
-    int inside = i < samples && cw_inside_test(line->model->inside, x);
-    if (inside && !inside_before) begun = s;
-    if (!inside && inside_before) {
+  CwPlanHit hit[HITS];
+  int32_t hits = cw_plan_line_hits(line->model, line->point, line->direction, line->from, line->to, HITS, hit);
+  int found = 0;
+  End from = {line->from, -1, 0};
+  for (int32_t i = 0; i <= hits && !lines->impossible; i++) {
+    End to = {line->to, -1, 0};
+    double x[3];
+    if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
+    at(line, (from.place + to.place) / 2, x);
+    if (to.place - from.place > SAME_POINT && cw_inside_test(line->model->inside, x)) {
+      if (!found) find_neighbours(line, node, plane, 10e-3);
+      found = 1;
       lines->sharp = fmin(lines->sharp, sine);
-      judge_run(line, part, begun, s - step, step, lines);
+      judge_run(line, part, &from, &to, lines);
     }
-    inside_before = inside;
-    if (lines->impossible) return;
+    from = to;
   }
 }
 

@@ -14,7 +14,8 @@ static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that i
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
 // want a cell between them; beside a smooth edge only the surface triangles do.
 static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
-static const double WALL_STEP = 2e-3; // m: between points on walls, at most
+static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
+static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
 
 static void triangle_normal(const CwBackground *background, int32_t t, double normal[3]) {
   const int32_t *corner = background->triangle[t];
@@ -150,11 +151,12 @@ done:
   return status;
 }
 
-double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, double *distance) {
+// The point on a wall nearest to x, -1 where none is within `reach`; *square: of its distance.
+static int32_t wall_point_near(const CwPlanModel *model, const double x[3], double reach, double *square) {
   const CwCubes *walls = &model->walls;
   int32_t nearest = -1, from[3], to[3];
-  double best = INFINITY;
-  cw_cubes_near(walls, x, hypot(reach, 0.5 * WALL_STEP), from, to);
+  *square = INFINITY;
+  cw_cubes_near(walls, x, reach, from, to);
   for (int32_t c = from[2]; c <= to[2]; c++) {
     for (int32_t b = from[1]; b <= to[1]; b++) {
       if (from[0] > to[0]) continue;
@@ -162,19 +164,93 @@ double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double rea
       for (int32_t i = walls->start[cw_cube(walls, from[0], b, c)]; i < end; i++) {
         double d[3];
         cw_sub(model->wall_x[walls->member[i]], x, d);
-        double square = cw_dot(d, d);
-        if (square < best) best = square, nearest = walls->member[i];
+        double other = cw_dot(d, d);
+        if (other < *square) *square = other, nearest = walls->member[i];
       }
     }
   }
-  *distance = sqrt(best);
-  if (nearest < 0) return 0;
+  return nearest;
+}
+
+CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach) {
+  double most = hypot(reach, 0.5 * WALL_STEP), square, d[3];
+  int32_t nearest = -1;
+  // As a rule the wall is much nearer than the reach; the search is the dearer the farther it goes.
+  for (double radius = fmin(FIRST_REACH, most);; radius = fmin(2 * radius, most)) {
+    nearest = wall_point_near(model, x, radius, &square);
+    if (radius == most || (nearest >= 0 && square <= radius * radius)) break;
+  }
+  if (nearest < 0) return (CwPlanWall){-1, INFINITY, 0};
+  CwPlanWall wall = {model->wall_triangle[nearest], sqrt(square), 0};
+  wall.thickness = model->thickness[wall.triangle];
   // Beside a point the wall goes on: then its plane is what counts.
-  double d[3];
   cw_sub(x, model->wall_x[nearest], d);
-  double off = fabs(cw_dot(d, model->normal[model->wall_triangle[nearest]]));
-  if (best - off * off < WALL_STEP * WALL_STEP) *distance = off;
-  return model->thickness[model->wall_triangle[nearest]];
+  double off = fabs(cw_dot(d, model->normal[wall.triangle]));
+  if (square - off * off < WALL_STEP * WALL_STEP) wall.distance = off;
+  return wall;
+}
+
+typedef struct {
+  const CwBackground *background;
+  double start[3], direction[3], to;
+  int32_t count, most;
+  CwPlanHit *hit;
+} Hits;
+
+// T. Moller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
+static int add_hit(void *context, int32_t t) {
+  Hits *hits = context;
+  const int32_t *corner = hits->background->triangle[t];
+  const double *a = hits->background->x[corner[0]];
+  double u[3], v[3], o[3], p[3], q[3];
+  cw_sub(hits->background->x[corner[1]], a, u);
+  cw_sub(hits->background->x[corner[2]], a, v);
+  cw_sub(hits->start, a, o);
+  cw_cross(hits->direction, v, p);
+  cw_cross(o, u, q);
+  double det = cw_dot(u, p), side = det > 0 ? 1 : -1, along_u = side * cw_dot(o, p);
+  double along_v = side * cw_dot(hits->direction, q);
+  if (det == 0 || along_u < 0 || along_v < 0 || along_u + along_v > side * det) return 0;
+  double place = cw_dot(v, q) / det;
+  if (place < 0 || place > hits->to) return 0;
+  hits->hit[hits->count++] = (CwPlanHit){place, t};
+  return hits->count == hits->most;
+}
+
+static int by_place(const void *a, const void *b) {
+  const CwPlanHit *p = a, *q = b;
+  if (p->place != q->place) return p->place < q->place ? -1 : 1;
+  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const double direction[3], double from,
+                          double to, int32_t most, CwPlanHit *hit) {
+  Hits hits = {.background = model->background, .to = to - from, .most = most, .hit = hit};
+  for (int k = 0; k < 3; k++) hits.start[k] = point[k] + from * direction[k];
+  cw_copy(direction, hits.direction);
+  cw_box_tree_ray(&model->triangles, hits.start, direction, &hits.to, add_hit, &hits);
+  for (int32_t i = 0; i < hits.count; i++) hit[i].place += from;
+  qsort(hit, (size_t)hits.count, sizeof *hit, by_place);
+  return hits.count;
+}
+
+static CwStatus sort_triangles(CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = model->background;
+  CwBox *box = NULL;
+  CW_NEW(box, background->triangle_count);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    const int32_t *corner = background->triangle[t];
+    for (int k = 0; k < 3; k++) {
+      double a = background->x[corner[0]][k], b = background->x[corner[1]][k], c = background->x[corner[2]][k];
+      box[t].low[k] = fmin(fmin(a, b), c);
+      box[t].high[k] = fmax(fmax(a, b), c);
+    }
+  }
+  CW_TRY(cw_box_tree_make(background->triangle_count, box, &model->triangles));
+done:
+  free(box);
+  return status;
 }
 
 static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
@@ -215,10 +291,10 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   }
   CW_NEW(model->sample_work, model->sample_count);
   for (int32_t i = 0; i < model->sample_count; i++) {
-    double h = cw_size_at(model->size, model->sample_x[i]), distance;
+    double h = cw_size_at(model->size, model->sample_x[i]);
     model->sample_spacing = fmax(model->sample_spacing, cbrt(model->sample_volume[i]));
-    double thickness = cw_plan_wall_near(model, model->sample_x[i], model->thickest, &distance);
-    if (distance >= thickness) model->sample_work[i] = options->tet_factor * model->sample_volume[i] / (h * h * h);
+    CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest);
+    if (wall.distance >= wall.thickness) model->sample_work[i] = options->tet_factor * model->sample_volume[i] / (h * h * h);
   }
 done:
   return status;
@@ -233,6 +309,7 @@ CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, co
   model->size = size;
   CW_TRY(measure_walls(cad, options, model));
   CW_TRY(sample_walls(model));
+  CW_TRY(sort_triangles(model));
   CW_TRY(sample_volume(options, model));
   CW_TRY(sample_edges(cad, options, model));
 done:
@@ -256,5 +333,6 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);
+  cw_box_tree_free(&model->triangles);
   memset(model, 0, sizeof *model);
 }

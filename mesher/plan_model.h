@@ -4,6 +4,7 @@
 #ifndef CUTWATER_MESHER_PLAN_MODEL_H
 #define CUTWATER_MESHER_PLAN_MODEL_H
 
+#include "mesher/box_tree.h"
 #include "mesher/cubes.h"
 #include "mesher/plan.h"
 
@@ -30,6 +31,7 @@ typedef struct {
   int32_t *wall_triangle;              // of each, the background triangle
   double thickest;                     // m, of the layers anywhere
   CwCubes walls;
+  CwBoxTree triangles;                 // all of the background
   double mean_work;                    // of the regions to be
 } CwPlanModel;
 
@@ -63,8 +65,23 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
                            CwPlanPart *part);
 void cw_plan_part_free(CwPlanPart *part);
 
-// Thickness of the layers at the wall nearest to x and the distance to it, m; 0 and infinity where there is none within
-// `reach` m or a little more.
-double cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach, double *distance);
+typedef struct {
+  int32_t triangle;           // of the background; -1: none
+  double distance, thickness; // m; of its layers
+} CwPlanWall;
+
+// The wall nearest to x; none, infinitely far and with no layers, where none is within `reach` m or a little more.
+CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach);
+
+// A place where a line enters or leaves the domain.
+typedef struct {
+  double place;     // along the line, m
+  int32_t triangle; // of the background
+} CwPlanHit;
+
+// All hits of the line point + s direction, from <= s <= to, in order; at most `most` of them. An edge between two
+// triangles may be hit twice.
+int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const double direction[3], double from,
+                          double to, int32_t most, CwPlanHit *hit);
 
 #endif
