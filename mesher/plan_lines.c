@@ -14,7 +14,9 @@ static const double ROOM = 1.5;       // thicknesses of the layers: lines of two
 // have room.
 static const double SAME_LINE = 1, APART = 3;
 static const double SAME_POINT = 1e-9;  // m
-static const double LEAN_MOST = 0.55;   // least cosine of a column to the wall with which it keeps its height normal to it
+static const double LEANING = 0.55;     // cosine of a line to a wall's normal: columns that lean more are lower
+static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
+static const double HOLLOW_WALL = 0.8;   // share of the layers that a line through them leaves behind where the wall bends
 static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 static const double SHARP = 0.643, FAIR = 0.766; // sines of 40 and 50 degrees
@@ -155,6 +157,7 @@ typedef struct {
   double place;     // along the line, m
   int32_t triangle; // of the background through which it leaves; -1: at a plane that bounds the cell
   double layers;    // what they take of the run, m
+  double cosine;    // between the line and the wall's normal
 } End;
 
 static double judge_end(const Line *line, const CwPlanPart *part, End *end) {
@@ -164,16 +167,20 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end) {
   at(line, end->place, x);
   double thickness = model->thickness[end->triangle], cramped = near_an_edge(line, part, x);
   // Columns keep the height normal to the wall, but for those that lean too much.
-  end->layers = thickness / fmax(fabs(cw_dot(line->direction, model->normal[end->triangle])), LEAN_MOST);
+  end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
+  end->layers = thickness / fmax(end->cosine, LEANING);
   if (thickness == 0) return cramped;
+  cramped = fmax(cramped, shortage(end->cosine, LEANING_MOST, LEANING));
   return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
 }
 
-// True where this is the wall at the end of the run, which the line comes near as it should.
-static int is_wall_of(const Line *line, const End *end, double place, int32_t triangle) {
+// How far the line ought to be from this wall, over the thickness of its layers: less beside an end where the line comes to
+// the same wall.
+static double wanted_of(const Line *line, const End *end, double place, int32_t triangle) {
   const CwPlanModel *model = line->model;
-  return end->triangle >= 0 && fabs(place - end->place) < 2 * ROOM * end->layers &&
-         cw_dot(model->normal[end->triangle], model->normal[triangle]) > SAME_WALL;
+  if (end->triangle < 0 || fabs(place - end->place) > 2 * ROOM * end->layers) return 1;
+  if (cw_dot(model->normal[end->triangle], model->normal[triangle]) < SAME_WALL) return 1;
+  return HOLLOW_WALL * fmin(1, end->cosine / LEANING);
 }
 
 // A run of the line through the domain.
@@ -197,9 +204,10 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
     cramped = fmax(cramped, shortage(near, SAME_LINE * h, APART * h));
     if (s - from->place < from->layers || to->place - s < to->layers) continue;
     CwPlanWall wall = cw_plan_wall_near(model, x, ROOM * model->thickest);
-    if (wall.thickness == 0 || is_wall_of(line, from, s, wall.triangle) || is_wall_of(line, to, s, wall.triangle)) continue;
-    cramped = fmax(cramped, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
-    if (wall.distance < wall.thickness) lines->impossible = 1;
+    if (wall.thickness == 0) continue;
+    double wanted = fmin(wanted_of(line, from, s, wall.triangle), wanted_of(line, to, s, wall.triangle));
+    if (wanted == 1) cramped = fmax(cramped, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    if (wall.distance < wanted * wall.thickness) lines->impossible = 1;
   }
   if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
   lines->cramped += cramped;
@@ -212,9 +220,9 @@ static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const C
   CwPlanHit hit[HITS];
   int32_t hits = cw_plan_line_hits(line->model, line->point, line->direction, line->from, line->to, HITS, hit);
   int found = 0;
-  End from = {line->from, -1, 0};
+  End from = {line->from, -1, 0, 0};
   for (int32_t i = 0; i <= hits && !lines->impossible; i++) {
-    End to = {line->to, -1, 0};
+    End to = {line->to, -1, 0, 0};
     double x[3];
     if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
     at(line, (from.place + to.place) / 2, x);

@@ -11,8 +11,9 @@
 enum {
   DIRECTIONS = 120,  // planes parallel to the axis, every 1.5 degrees
   TILTS = 2,         // planes that lean, for parts that no upright one divides well
-  LEANING = 36 * TILTS,
-  PIECES_LARGE = 8000, // parts of more pieces leave room enough for every other direction
+  AROUND = 36,       // of each tilt, every 10 degrees
+  ALL_DIRECTIONS = DIRECTIONS + 1 + AROUND * TILTS, // along the axis too
+  COARSE = 3, COARSE_LEANING = 2, // of so many directions one is looked along at first
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
   SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
   SHARED_LEAST = 6000, // pieces and samples of a part whose directions are worth sharing among the ranks
@@ -50,8 +51,8 @@ static void direction_of(int32_t d, double direction[3]) {
   double angle = M_PI * (d + 0.37) / DIRECTIONS, tilt = 0;
   if (d > DIRECTIONS) {
     int32_t leaning = d - DIRECTIONS - 1;
-    angle = 2 * M_PI * (leaning / TILTS + 0.37) / (LEANING / TILTS);
-    tilt = TILT[leaning % TILTS];
+    angle = 2 * M_PI * (leaning % AROUND + 0.37) / AROUND;
+    tilt = TILT[leaning / AROUND];
   }
   direction[0] = d == DIRECTIONS ? 0 : cos(tilt) * cos(angle);
   direction[1] = d == DIRECTIONS ? 0 : cos(tilt) * sin(angle);
@@ -134,11 +135,11 @@ static double plane_to_wall(const CwPlanModel *model, const CwPieces *pieces, co
   return worst;
 }
 
-// Directions to look along: from, from + every, ...
+// Directions to look along.
 typedef struct {
   const CwPlanModel *model;
   const CwPlanPart *part;
-  int32_t regions, from, every, count;
+  int32_t regions, count, direction[ALL_DIRECTIONS];
 } Directions;
 
 static CwStatus look_along(void *context, int32_t task, void **bytes, int64_t *size) {
@@ -146,7 +147,7 @@ static CwStatus look_along(void *context, int32_t task, void **bytes, int64_t *s
   const Directions *look = context;
   Candidate *made = NULL;
   CW_NEW(made, OF_DIRECTION);
-  int32_t count = add_candidates(look->model, look->part, look->regions, look->from + task * look->every, made);
+  int32_t count = add_candidates(look->model, look->part, look->regions, look->direction[task], made);
   *bytes = made;
   *size = count * (int64_t)sizeof *made;
 done:
@@ -161,7 +162,7 @@ static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
   *count = 0;
   if (look->part->pieces.count + look->part->sample_count < SHARED_LEAST) {
     for (int32_t i = 0; i < look->count; i++) {
-      *count += add_candidates(look->model, look->part, look->regions, look->from + i * look->every, candidate + *count);
+      *count += add_candidates(look->model, look->part, look->regions, look->direction[i], candidate + *count);
     }
     goto done;
   }
@@ -182,7 +183,7 @@ done:
 
 typedef struct {
   CwPlane plane;
-  int32_t below; // regions on its negative side; 0: no plane will do
+  int32_t direction, below; // regions on its negative side; 0: no plane will do
   double score;
 } Best;
 
@@ -193,25 +194,10 @@ typedef struct {
   const CwPlanPart *part;
   int32_t node, regions, count;
   Candidate *candidate; // best first
-  int leaning;          // leaning ones are among them
+  uint8_t looked[ALL_DIRECTIONS];
   int32_t tried_count;
   Best tried[TRIES];
 } Choice;
-
-static CwStatus look_further(Choice *choice, int32_t from, int32_t to) {
-  CwStatus status = CW_OK;
-  int32_t added = 0, every = choice->part->pieces.count > PIECES_LARGE ? 2 : 1;
-  Directions directions = {choice->model, choice->part, choice->regions, from, every, (to - from) / every + 1};
-  void *grown = realloc(choice->candidate, sizeof *choice->candidate *
-                                               (size_t)(choice->count + directions.count * OF_DIRECTION));
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d directions", directions.count);
-  choice->candidate = grown;
-  CW_TRY(look(&directions, choice->candidate + choice->count, &added));
-  choice->count += added;
-  qsort(choice->candidate, (size_t)choice->count, sizeof *choice->candidate, by_score);
-done:
-  return status;
-}
 
 static int like_one_tried(const Choice *choice, const CwPlane *plane) {
   for (int32_t i = 0; i < choice->tried_count; i++) {
@@ -236,20 +222,66 @@ static void find_best(const Choice *choice, Best *best) {
       candidate->judged = candidate->lines < most || candidate->lines == INFINITY;
     }
     double score = candidate->score + candidate->lines;
-    if (score < best->score) *best = (Best){plane, candidate->below, score};
+    if (score < best->score) *best = (Best){plane, candidate->direction, candidate->below, score};
   }
+}
+
+static void add_direction(Choice *choice, int32_t direction, Directions *directions) {
+  if (choice->looked[direction]) return;
+  choice->looked[direction] = 1;
+  directions->direction[directions->count++] = direction;
+}
+
+// Looks along these directions, and takes the best plane if it is better than *best.
+static CwStatus look_further(Choice *choice, Directions *directions, Best *best) {
+  CwStatus status = CW_OK;
+  int32_t added = 0;
+  if (directions->count == 0) goto done;
+  directions->model = choice->model;
+  directions->part = choice->part;
+  directions->regions = choice->regions;
+  size_t most = (size_t)(choice->count + directions->count * OF_DIRECTION);
+  void *grown = realloc(choice->candidate, most * sizeof *choice->candidate);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d directions", directions->count);
+  choice->candidate = grown;
+  CW_TRY(look(directions, choice->candidate + choice->count, &added));
+  choice->count += added;
+  qsort(choice->candidate, (size_t)choice->count, sizeof *choice->candidate, by_score);
+  find_best(choice, best);
+done:
+  return status;
+}
+
+// Goes from the best plane to those of the directions beside it, as long as these are better.
+static CwStatus climb(Choice *choice, Best *best) {
+  CwStatus status = CW_OK;
+  for (int32_t from = -1; best->below > 0 && best->direction != from && best->direction != DIRECTIONS;) {
+    Directions beside = {.count = 0};
+    from = best->direction;
+    int32_t first = from < DIRECTIONS ? 0 : from - (from - DIRECTIONS - 1) % AROUND;
+    int32_t around = from < DIRECTIONS ? DIRECTIONS : AROUND;
+    add_direction(choice, first + (from - first + 1) % around, &beside);
+    add_direction(choice, first + (from - first + around - 1) % around, &beside);
+    CW_TRY(look_further(choice, &beside, best));
+  }
+done:
+  return status;
 }
 
 // The best plane unlike those tried before that scores less than `limit`; leaning ones only where no other does well.
 static CwStatus next_best(Choice *choice, double limit, Best *best) {
   CwStatus status = CW_OK;
+  Directions upright = {.count = 0}, leaning = {.count = 0};
   *best = (Best){.score = limit};
-  if (!choice->candidate) CW_TRY(look_further(choice, 0, DIRECTIONS));
   find_best(choice, best);
-  if (best->score > WELL && !choice->leaning) {
-    CW_TRY(look_further(choice, DIRECTIONS + 1, DIRECTIONS + LEANING));
-    choice->leaning = 1;
-    find_best(choice, best);
+  for (int32_t d = 0; d < DIRECTIONS; d += COARSE) add_direction(choice, d, &upright);
+  add_direction(choice, DIRECTIONS, &upright);
+  CW_TRY(look_further(choice, &upright, best));
+  CW_TRY(climb(choice, best));
+  if (best->score > WELL) {
+    for (int32_t d = DIRECTIONS + 1; d < ALL_DIRECTIONS; d += COARSE_LEANING) add_direction(choice, d, &leaning);
+    CW_TRY(look_further(choice, &leaning, best));
+    CW_TRY(climb(choice, best));
   }
   choice->tried[choice->tried_count++] = *best;
 done:
