@@ -78,7 +78,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
 
 // Numbers of regions to try below the plane: about half of them.
 static int32_t splits_of(int32_t regions, int32_t *split) {
-  int32_t least = (int32_t)fmax(1, ceil(0.34 * regions)), most = regions - least;
+  int32_t least = (int32_t)fmax(1, floor(0.34 * regions)), most = regions - least;
   if (least > most) least = most = regions / 2;
   int32_t count = most - least + 1 < SPLITS_MOST ? most - least + 1 : SPLITS_MOST;
   for (int32_t i = 0; i < count; i++) {
@@ -199,9 +199,9 @@ typedef struct {
   Best tried[TRIES];
 } Choice;
 
-static int like_one_tried(const Choice *choice, const CwPlane *plane) {
+static int like_one_tried(const Choice *choice, const CwPlane *plane, int32_t below) {
   for (int32_t i = 0; i < choice->tried_count; i++) {
-    if (fabs(cw_dot(choice->tried[i].plane.normal, plane->normal)) > LIKE) return 1;
+    if (choice->tried[i].below == below && fabs(cw_dot(choice->tried[i].plane.normal, plane->normal)) > LIKE) return 1;
   }
   return 0;
 }
@@ -214,7 +214,7 @@ static void find_best(const Choice *choice, Best *best) {
     Candidate *candidate = &choice->candidate[i];
     CwPlane plane = {{0}, candidate->offset};
     direction_of(candidate->direction, plane.normal);
-    if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane)) continue;
+    if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane, candidate->below)) continue;
     if (!candidate->judged) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
