@@ -19,7 +19,7 @@ static const double LEANING_MOST = 0.25; // the same, where nothing is left of t
 static const double HOLLOW_WALL = 0.8;   // share of the layers that a line through them leaves behind where the wall bends
 static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
-static const double SHARP = 0.643, FAIR = 0.766; // sines of 40 and 50 degrees
+static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
 static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one without any besides
 
 typedef struct {
@@ -243,7 +243,7 @@ static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlan
 }
 
 double cw_plan_sharpness(double sine) {
-  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 2 + 30 * (SHARP - sine) : 0);
+  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 4 + 30 * (SHARP - sine) : 0);
 }
 
 static double cost_of(const Lines *lines) {

@@ -76,9 +76,9 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
          0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(profile, bin);
 }
 
-// Numbers of regions to try below the plane: about half of them.
+// Numbers of regions to try below the plane: about half of them, and of three one or two.
 static int32_t splits_of(int32_t regions, int32_t *split) {
-  int32_t least = (int32_t)fmax(1, floor(0.34 * regions)), most = regions - least;
+  int32_t least = regions == 3 ? 1 : (int32_t)fmax(1, ceil(0.34 * regions)), most = regions - least;
   if (least > most) least = most = regions / 2;
   int32_t count = most - least + 1 < SPLITS_MOST ? most - least + 1 : SPLITS_MOST;
   for (int32_t i = 0; i < count; i++) {
