@@ -176,6 +176,10 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
   copy_run("bad", run);
   move_point(run, "rotor-0001.h5", 300, 2, 0.5);
   expect_error(run, "mm has a volume of -");
+  // Found while the other rank writes: nothing of it stays.
+  copy_run("bad", run);
+  move_point(run, "rotor-0002.h5", 300, 2, 0.5);
+  expect_error_on(run, 2, "mm has a volume of -");
   // Point 0 is shared: moved a little in one region only.
   copy_run("bad", run);
   move_point(run, "rotor-0001.h5", 0, 2, -4.0001e-3);
