@@ -256,7 +256,7 @@ done:
   return status;
 }
 
-// The summaries of a region and of its turned copies; its time is that of all of them.
+// The summaries of a region and of its turned copies.
 static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
   const CwSkeleton *skeleton = &run->domain[d].skeleton;
   int32_t copies = cw_region_copies(skeleton, region);
@@ -267,11 +267,39 @@ static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegion
   }
 }
 
-// *failed: how many regions could not be made.
+// The files of the turned copies, once all first regions are whole; adds up the open faces of the domains.
+static CwStatus copy_regions(CwMeshRun *run, const int32_t *regions, uint64_t *open_faces) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  int32_t all = 0, count = 0;
+  for (int d = 0; d < run->domains.count; d++) all += regions[d];
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    for (int32_t r = 0; r < regions[d]; r++) {
+      int32_t first = cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r);
+      if (first != r) task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[first]};
+    }
+  }
+  if (count == 0) goto done;
+  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_run_step(run, "copies", "regions", cw_step_copy, count, task, results.bytes, run->region_seconds));
+  for (int32_t i = 0; i < count; i++) {
+    open_faces[task[i].domain] += *(const uint64_t *)results.bytes[task[i].domain][task[i].index];
+  }
+done:
+  cw_results_free(&results);
+  free(task);
+  return status;
+}
+
+// *failed: how many regions could not be made; then there are no copies.
 static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   CwStatus status = CW_OK;
   CwResults results = {0};
   CwMeshTask *task = NULL;
+  uint64_t open_faces[CW_DOMAINS_MOST] = {0};
   int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
   for (int d = 0; d < run->domains.count; d++) {
     regions[d] = run->domain[d].plan.region_count;
@@ -296,16 +324,16 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   cw_ledger_part("results");
   run->cells = 0;
   *failed = 0;
+  for (int32_t i = 0; i < count; i++) {
+    const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
+    take_summaries(run, task[i].domain, task[i].index, made);
+    open_faces[task[i].domain] += made->quality.open_faces;
+    *failed += made->failure.failed;
+  }
+  if (*failed) goto done;
+  CW_TRY(copy_regions(run, regions, open_faces));
   for (int d = 0; d < run->domains.count; d++) {
-    uint64_t open_faces = 0;
-    for (int32_t r = 0; r < regions[d]; r++) {
-      const CwRegionSummary *made = results.bytes[d][r];
-      if (!made) continue; // a copy
-      take_summaries(run, d, r, made);
-      open_faces += made->quality.open_faces;
-      *failed += made->failure.failed;
-    }
-    CW_REQUIRE(*failed || open_faces == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
+    CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
                run->domain[d].name, run->run_path);
   }
 done:

@@ -85,34 +85,39 @@ done:
   return status;
 }
 
-// The files of the turned copies of a region that is whole.
-static CwStatus write_copies(const CwMeshRun *run, const CwDomain *domain, const CwRegionMesh *first, CwQuality *quality) {
+// Makes a turned copy of a region, whose file is whole, or takes it up where an earlier run left it so. The result is its sum
+// of open faces.
+CwStatus cw_step_copy(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  CwRegionMesh mesh = {0};
-  CwQuality own;
+  const CwDomain *domain = &run->domain[task.domain];
+  const CwSkeletonOrbits *orbits = &domain->skeleton.orbits;
+  CwRegionMesh first = {0}, mesh = {0};
+  CwQuality quality = {0};
+  uint64_t *open_faces = NULL;
   char path[4096], fingerprint[33];
-  int32_t region = first->region - 1, copies = cw_region_copies(&domain->skeleton, region);
-  for (int32_t turns = 1; turns < copies; turns++) {
-    int32_t copy = cw_orbit_region(&domain->skeleton.orbits, &domain->plan, region, turns);
-    CW_TRY(region_path(run, domain, copy, sizeof path, path));
-    cw_region_copy_fingerprint(&domain->context, first, turns, fingerprint);
-    int current = cw_region_is_current(path, fingerprint);
-    if (current) {
-      CW_TRY(cw_region_read(path, &mesh));
-    } else {
-      CW_TRY(cw_region_copy(&domain->context, first, turns, domain->number[copy], fingerprint, &mesh));
-    }
-    if (current) { // its cells come from a file
-      CW_TRY(cw_audit_region(&mesh, &own));
-    } else {
-      CW_TRY(cw_audit_copy(&mesh, &own.open_faces));
-      CW_TRY(cw_region_write(path, &mesh));
-    }
-    quality->open_faces += own.open_faces;
-    cw_region_free(&mesh);
+  int32_t source = cw_orbit_region_first(orbits, &domain->plan, task.index), turns = 1;
+  while (cw_orbit_region(orbits, &domain->plan, source, turns) != task.index) turns++;
+  CW_NEW(open_faces, 1);
+  CW_TRY(region_path(run, domain, source, sizeof path, path));
+  CW_TRY(cw_region_read(path, &first));
+  CW_TRY(region_path(run, domain, task.index, sizeof path, path));
+  cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
+  if (cw_region_is_current(path, fingerprint)) { // its cells come from a file
+    CW_TRY(cw_region_read(path, &mesh));
+    CW_TRY(cw_audit_region(&mesh, &quality));
+  } else {
+    CW_TRY(cw_region_copy(&domain->context, &first, turns, domain->number[task.index], fingerprint, &mesh));
+    CW_TRY(cw_audit_copy(&mesh, &quality.open_faces));
+    CW_TRY(cw_region_write(path, &mesh));
   }
+  *open_faces = quality.open_faces;
+  *bytes = open_faces;
+  *size = sizeof *open_faces;
+  open_faces = NULL;
 done:
+  cw_region_free(&first);
   cw_region_free(&mesh);
+  free(open_faces);
   return status;
 }
 
@@ -142,7 +147,7 @@ done:
   return status;
 }
 
-// Makes the region, or takes it up from its file where an earlier run left it whole; then its turned copies likewise.
+// Makes the region, or takes it up from its file where an earlier run left it whole.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
@@ -164,7 +169,6 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   } else {
     CW_TRY(made);
     if (!current) CW_TRY(cw_region_write(path, &mesh));
-    CW_TRY(write_copies(run, domain, &mesh, &summary->quality));
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
     CW_TRY(measure_layers(run, task.domain, task.index, &mesh, summary));
