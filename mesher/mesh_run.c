@@ -11,11 +11,11 @@
 #include "mesher/mesh_plan.h"
 #include "mesher/pass_state.h"
 #include "mesher/run_step.h"
+#include "mesher/run_thinning.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
-enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100, ATTEMPTS = 3 };
-static const double FIRST_REACH = 4; // wanted lengths about a failure in which layers are thinned; doubled each time
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
@@ -342,94 +342,6 @@ done:
   return status;
 }
 
-// Gives all turned copies of a column the least height of them.
-static void thin_alike(const CwSkeleton *skeleton, double *most_height) {
-  const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  for (int32_t v = 0; orbits->symmetry && v < skeleton->wall_count; v++) {
-    if (cw_orbit_node_turns(orbits, v) > 0) continue;
-    double least = most_height[v];
-    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
-      least = fmin(least, most_height[at]);
-    }
-    most_height[v] = least;
-    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
-      most_height[at] = least;
-    }
-  }
-}
-
-static CwStatus start_thinning(CwMeshRun *run, int d) {
-  CwStatus status = CW_OK;
-  int32_t count = run->domain[d].skeleton.wall_count;
-  if (run->most_height[d]) goto done;
-  CW_NEW(run->most_height[d], count);
-  for (int32_t v = 0; v < count; v++) run->most_height[d][v] = INFINITY;
-done:
-  return status;
-}
-
-// Where layers leave no room on the planes: thinner columns near the places, as where regions have failed.
-static CwStatus thin_tight(CwMeshRun *run, int attempt) {
-  CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    if (skeleton->tight_count == 0) continue;
-    double at[3];
-    for (int k = 0; k < 3; k++) at[k] = 1e3 * skeleton->tight[0][k];
-    CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
-               "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it, after %d attempts "
-               "with thinner layers",
-               run->domain[d].name, at[0], at[1], at[2], ATTEMPTS);
-    if (run->rank == 0) {
-      cw_log_warn("%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it; tried again "
-                  "with thinner layers there",
-                  run->domain[d].name, at[0], at[1], at[2]);
-    }
-    CW_TRY(start_thinning(run, d));
-    for (int32_t i = 0; i < skeleton->tight_count; i++) {
-      CwRegionFailure place = {.failed = 1};
-      memcpy(place.at, skeleton->tight[i], sizeof place.at);
-      cw_region_failure_thin(skeleton, -1, &place, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
-    }
-    thin_alike(skeleton, run->most_height[d]);
-  }
-  run->retries++;
-done:
-  return status;
-}
-
-// Where regions have failed: thinner columns near the places, more of them and thinner ones with each attempt. Out of
-// attempts: fails for the first region.
-static CwStatus thin_columns(CwMeshRun *run, int attempt) {
-  CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
-      const CwRegionFailure *failure = &run->summary[d][r].failure;
-      char place[160] = "no place is known";
-      if (!failure->failed) continue;
-      if (!failure->everywhere) {
-        snprintf(place, sizeof place, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, 1e3 * failure->at[0],
-                 1e3 * failure->at[1], 1e3 * failure->at[2]);
-      }
-      CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
-                 "%s region %d, %s: not filled after %d attempts with thinner layers: %s; its boundary is in "
-                 "%s/mesh/failed-%s-%04d.vtk",
-                 run->domain[d].name, r + 1, place, ATTEMPTS, failure->message, run->run_path, run->domain[d].name, r + 1);
-      if (run->rank == 0) {
-        cw_log_warn("%s region %d, %s: %s; tried again with thinner layers there", run->domain[d].name, r + 1, place,
-                    failure->message);
-      }
-      CW_TRY(start_thinning(run, d));
-      cw_region_failure_thin(skeleton, r, failure, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
-    }
-    if (run->most_height[d]) thin_alike(skeleton, run->most_height[d]);
-  }
-  run->retries++;
-done:
-  return status;
-}
-
 // Sets the factor of the tetrahedra to what the last pass made of them.
 static void learn_tets(CwMeshRun *run) {
   double made = 0, integral = 0;
@@ -452,13 +364,6 @@ done:
   return status;
 }
 
-static void end_thinning(CwMeshRun *run) {
-  for (int d = 0; d < run->domains.count; d++) {
-    free(run->most_height[d]);
-    run->most_height[d] = NULL;
-  }
-}
-
 // One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal, the
 // impeller is meshed whole; surfaces and regions that fail are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
@@ -467,13 +372,13 @@ static CwStatus mesh_pass(CwMeshRun *run) {
   for (int attempt = 0;;) {
     status = mesh_surfaces(run, &tight);
     if (status == CW_RETRY) {
-      end_thinning(run); // the walls will be others
+      cw_end_thinning(run); // the walls will be others
       CW_TRY(cw_mesh_plan_whole(run));
       continue;
     }
     CW_TRY(status);
     if (tight > 0) {
-      CW_TRY(thin_tight(run, attempt++));
+      CW_TRY(cw_thin_tight(run, attempt++));
       continue;
     }
     CW_TRY(refine_interfaces(run));
@@ -481,10 +386,10 @@ static CwStatus mesh_pass(CwMeshRun *run) {
     for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
     CW_TRY(mesh_regions(run, &failed));
     if (!failed) break;
-    CW_TRY(thin_columns(run, attempt++));
+    CW_TRY(cw_thin_columns(run, attempt++));
   }
 done:
-  end_thinning(run);
+  cw_end_thinning(run);
   return status;
 }
 
