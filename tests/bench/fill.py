@@ -35,6 +35,7 @@ def compile_program(build, folder):
     subprocess.run(["mpicc", "-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", f"-I{SOURCE}",
                     str(SOURCE / "tests/bench/fill.c"), "-o", str(program),
                     str(build / "mesher/libcutwater_mesher_room.a"),
+                    str(build / "pipeline/mesh/libcutwater_mesh_files.a"),
                     str(build / "pipeline/libcutwater_pipeline.a"), "-ltet", *flags, "-lgmp", "-lmpfr",
                     "-lstdc++", "-lm"], check=True)
     return program
