@@ -17,6 +17,7 @@ enum {
   ANGLES = 120         // places tried for half-planes in one pitch
 };
 static const double UNEVEN = 20; // what a slice too much or too little costs
+static const double FAIR = 0.1;  // how far slices may be off the mean at no cost
 // Where regions are more than EVEN off their mean, numbers of regions in a pitch beside the wanted one are tried.
 enum { NUMBERS = 4 };
 static const int32_t BESIDE[NUMBERS] = {0, 1, -1, 2};
@@ -96,24 +97,6 @@ static CwStatus find_axis(Fan *fan) {
   return CW_OK;
 }
 
-// The plane across the axis: as little as can be before it, for that is meshed whole.
-static CwStatus place_root(Fan *fan) {
-  CwPlan *plan = fan->plan;
-  double best = INFINITY, all = fan->along.below[CW_PROFILE_BINS];
-  plan->node[0].parent = -1;
-  for (int i = 1; i < STATIONS; i++) {
-    double place = fan->nose + (fan->high - fan->nose) * i / STATIONS, worst;
-    double before = cw_profile_below(&fan->along, place), score = before * (fan->count - 1) / all;
-    if (!(before > 0 && before < all) || score >= best) continue;
-    score += judge_across(fan, place, &worst);
-    if (score >= best) continue;
-    best = score;
-    plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
-    plan->worst_angle[0] = worst;
-  }
-  return best < INFINITY ? CW_OK : CW_FAIL(CW_RETRY, "no plane across the axis fits");
-}
-
 // Divides the side of the pipe into slices of about equal work: planes 1 .. slices - 1 in a chain from node 0 outwards.
 static void place_slices(Fan *fan, int32_t slices) {
   CwPlan *plan = fan->plan;
@@ -144,6 +127,45 @@ static void place_slices(Fan *fan, int32_t slices) {
     inner = outer;
   }
   plan->node_count = plan->region_count = slices;
+}
+
+static int32_t slices_beside(double pipe, double pitch, int32_t regions) {
+  return (int32_t)fmax(1, floor(pipe / pitch * regions + 0.5));
+}
+
+// How far the work of a slice, or of a region in one pitch, is off the mean, at most.
+static double slices_off(const Fan *fan, double pitch, int32_t slices, int32_t regions) {
+  double mean = fan->along.below[CW_PROFILE_BINS] / (slices + fan->count * regions), most = fabs(pitch / regions / mean - 1);
+  for (int32_t s = 0; s < slices; s++) most = fmax(most, fabs(fan->plan->predicted_cells[s] / mean - 1));
+  return most;
+}
+
+// The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and slices
+// that are as large as the regions of a pitch (0: as they come).
+static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
+  CwPlan *plan = fan->plan;
+  double best = INFINITY, all = fan->along.below[CW_PROFILE_BINS], chosen = 0;
+  for (int i = 1; i < STATIONS; i++) {
+    double place = fan->nose + (fan->high - fan->nose) * i / STATIONS;
+    double before = cw_profile_below(&fan->along, place), score = before * (fan->count - 1) / all;
+    if (!(before > 0 && before < all) || score >= best) continue;
+    plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
+    score += judge_across(fan, place, &plan->worst_angle[0]);
+    if (regions > 0 && score < best) {
+      double pitch = (all - before) / fan->count;
+      int32_t count = slices_beside(before, pitch, regions);
+      place_slices(fan, count);
+      score += UNEVEN * fmax(0, slices_off(fan, pitch, count, regions) - FAIR);
+    }
+    if (score < best) best = score, chosen = place;
+  }
+  if (best == INFINITY) return CW_FAIL(CW_RETRY, "no plane across the axis fits");
+  double before = cw_profile_below(&fan->along, chosen);
+  plan->node[0] = (CwPlanNode){across(fan, chosen), -1, {-1, 1}};
+  judge_across(fan, chosen, &plan->worst_angle[0]);
+  *slices = slices_beside(before, (all - before) / fan->count, regions);
+  place_slices(fan, *slices);
+  return CW_OK;
 }
 
 typedef struct {
@@ -265,16 +287,20 @@ static void turn_wedges(const Fan *fan, int wedges) {
   }
 }
 
-// The plan with so many slices and regions in one pitch; node 0 is placed.
-static CwStatus divide(Fan *fan, CwPlanModel *model, double work, const CwPlanPart *wheel, int32_t slices, int32_t regions) {
+// The plan with so many regions in one pitch.
+static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, int32_t regions) {
   CwStatus status = CW_OK;
+  CwPlanPart wheel = {0};
+  int32_t slices;
   int wedges = fan->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
-  model->mean_work = work / (slices + fan->count * regions);
-  place_slices(fan, slices);
-  CW_TRY(place_fan(fan, wheel, wedges));
-  CW_TRY(divide_wedges(fan, wheel, wedges, wheel->work / fan->count / regions));
+  CW_TRY(place_root(fan, regions, &slices));
+  CW_TRY(cw_plan_part_clip(model, whole, &fan->plan->node[0].plane, 1, &wheel));
+  model->mean_work = whole->work / (slices + fan->count * regions);
+  CW_TRY(place_fan(fan, &wheel, wedges));
+  CW_TRY(divide_wedges(fan, &wheel, wedges, wheel.work / fan->count / regions));
   turn_wedges(fan, wedges);
 done:
+  cw_plan_part_free(&wheel);
   return status;
 }
 
@@ -309,10 +335,6 @@ done:
   return status;
 }
 
-static int32_t slices_beside(double pipe, double pitch, int32_t regions) {
-  return (int32_t)fmax(1, floor(pipe / pitch * regions + 0.5));
-}
-
 // The number of regions in one pitch with which, and the slices beside, all come near the asked number, all about as large.
 static int32_t choose_number(double pipe, double pitch, int32_t count, int32_t asked) {
   int32_t chosen = 1;
@@ -332,11 +354,12 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
                           const CwPlanOptions *options, int32_t count, CwPlan *plan) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
-  CwPlanPart whole = {0}, wheel = {0};
+  CwPlanPart whole = {0};
   CwPlan tried = {0};
   Fan fan = {.model = &model, .plan = &tried, .count = count};
   size_t room = 2 * (size_t)options->region_count + 4 * (size_t)count;
   double least = INFINITY;
+  int32_t slices;
   CW_TRY(new_plan(room, plan));
   CW_TRY(new_plan(room, &tried));
   CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
@@ -344,21 +367,19 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CW_TRY(find_axis(&fan));
   CwPlane along = across(&fan, 0);
   cw_plan_profile(&model, &whole, along.normal, &fan.along);
-  CW_TRY(place_root(&fan));
-  CW_TRY(cw_plan_part_clip(&model, &whole, &tried.node[0].plane, 1, &wheel));
-  double pipe = whole.work - wheel.work, pitch = wheel.work / count;
+  CW_TRY(place_root(&fan, 0, &slices));
+  double pipe = cw_profile_below(&fan.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
   int32_t number = choose_number(pipe, pitch, count, options->region_count);
   for (int k = 0; k < NUMBERS && least > EVEN; k++) {
     int32_t regions = number + BESIDE[k];
     if (regions < 1 || abs(BESIDE[k]) > BESIDE_MOST * number) continue;
-    CW_TRY(divide(&fan, &model, whole.work, &wheel, slices_beside(pipe, pitch, regions), regions));
+    CW_TRY(divide(&fan, &model, &whole, regions));
     double uneven = unevenness(&tried);
     if (uneven >= least) continue;
     least = uneven;
     copy_plan(&tried, room, plan);
   }
 done:
-  cw_plan_part_free(&wheel);
   cw_plan_part_free(&whole);
   cw_plan_model_free(&model);
   cw_plan_free(&tried);

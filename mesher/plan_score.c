@@ -19,7 +19,7 @@ enum {
   SHARED_LEAST = 6000, // pieces and samples of a part whose directions are worth sharing among the ranks
   LINES_JUDGED = 200, // candidates whose lines are looked at, best first
   SMALL_PART = 8,     // regions to come of a part for which other planes are tried
-  TRIES = 3           // of them
+  TRIES = 4           // of them
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                       // shifts until they are twice as wide
