@@ -8,13 +8,22 @@
 
 #include "mesher/quality.h"
 
-// One side of one cell's face. Faces with the same points stand together after sorting by (bucket of least
-// point, rest).
+// One side of one face, seen from a cell or listed as boundary. Sides lie in buckets by their least point.
 typedef struct {
   int32_t rest[3]; // the other points, ascending; the third of a triangle is -1
   int32_t cell;    // cell of the region, or -1 - listed face
   int8_t turn;     // direction of the face: which of the rest follows, and which precedes, the least point
 } Side;
+
+// What is known of a face within its bucket, kept at the first of its sides.
+enum { FACE_SINGLE, FACE_INNER, FACE_OTHER };
+
+// The sides of a bucket find each other in a small hash table, which the next bucket uses again.
+typedef struct {
+  int32_t *slot;  // place in the bucket of a face's first side, or -1
+  int32_t *first; // by place in the bucket: the first side of the same face
+  uint8_t *face;  // by place in the bucket, of first sides
+} Match;
 
 static const int tet_face[4][4] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
 static const int pyramid_face[5][4] = {
@@ -55,52 +64,52 @@ static CwStatus fail_at_points(const CwRegionMesh *r, const char *what, int coun
                  r->region, what, (long long)cell, mean[0], mean[1], mean[2], fault);
 }
 
-// The face in the form that sorting compares; returns its least point.
-static int32_t side_of(int count, const int32_t *point, int64_t cell, Side *side) {
-  int least = 0;
-  for (int k = 1; k < count; k++) {
-    if (point[k] < point[least])
-      least = k;
+static inline void order_two(uint64_t *a, uint64_t *b) {
+  uint64_t low = *a < *b ? *a : *b, high = *a < *b ? *b : *a;
+  *a = low;
+  *b = high;
+}
+
+// Fills *side. Without branches, which no processor could foresee: points are ordered with their places in the lowest
+// bits.
+static inline void side_of(int count, const int32_t *point, int64_t cell, Side *side) {
+  uint64_t p[4];
+  for (int k = 0; k < count; k++)
+    p[k] = (uint64_t)(uint32_t)point[k] << 2 | (uint64_t)k;
+  order_two(&p[0], &p[1]);
+  if (count == 4) {
+    order_two(&p[2], &p[3]);
+    order_two(&p[0], &p[2]);
+    order_two(&p[1], &p[3]);
+  } else {
+    order_two(&p[0], &p[2]);
   }
-  int32_t follow[3] = {-1, -1, -1};
-  for (int k = 1; k < count; k++)
-    follow[k - 1] = point[(least + k) % count];
-  int place[3] = {0, 1, 2}; // place[k]: which of follow stands at rest[k]
-  for (int i = 1; i < count - 1; i++) {
-    for (int j = i; j > 0 && follow[place[j]] < follow[place[j - 1]]; j--) {
-      int swap = place[j];
-      place[j] = place[j - 1];
-      place[j - 1] = swap;
-    }
-  }
+  order_two(&p[1], &p[2]);
+  int least = (int)(p[0] & 3), follow = (least + 1) % count, precede = (least + count - 1) % count;
   int first = 0, last = 0;
-  for (int k = 0; k < count - 1; k++) {
-    side->rest[k] = follow[place[k]];
-    if (place[k] == 0)
-      first = k;
-    if (place[k] == count - 2)
-      last = k;
+  for (int k = 1; k < count; k++) {
+    int place = (int)(p[k] & 3);
+    side->rest[k - 1] = (int32_t)(p[k] >> 2);
+    first += (k - 1) * (place == follow);
+    last += (k - 1) * (place == precede);
   }
   if (count == 3)
     side->rest[2] = -1;
   side->cell = (int32_t)cell;
   side->turn = (int8_t)(4 * first + last);
-  return point[least];
 }
 
-static int compare_rest(const Side *a, const Side *b) {
-  for (int k = 0; k < 3; k++) {
-    if (a->rest[k] != b->rest[k])
-      return a->rest[k] < b->rest[k] ? -1 : 1;
-  }
-  return 0;
+// Both of one bucket.
+static inline int same_face(const Side *a, const Side *b) {
+  return a->rest[0] == b->rest[0] && a->rest[1] == b->rest[1] && a->rest[2] == b->rest[2];
 }
 
 static int compare_sides(const void *left, const void *right) {
   const Side *a = left, *b = right;
-  int order = compare_rest(a, b);
-  if (order)
-    return order;
+  for (int k = 0; k < 3; k++) {
+    if (a->rest[k] != b->rest[k])
+      return a->rest[k] < b->rest[k] ? -1 : 1;
+  }
   return a->cell < b->cell ? 1 : a->cell > b->cell ? -1 : 0; // cells before listed faces
 }
 
@@ -108,43 +117,45 @@ static int opposite_turn(int turn) {
   return 4 * (turn % 4) + turn / 4;
 }
 
-static int all_below(int count, const int32_t *point, int32_t end) {
-  int below = 1;
-  for (int k = 0; k < count; k++)
-    below &= point[k] < end;
-  return below;
+// Counts a side into its bucket (`side` NULL) or puts it there, if all its points are below `end`.
+static inline void add_side(int count, const int32_t *point, int64_t cell, int32_t end, int64_t *start, Side *side) {
+  int32_t least = point[0], greatest = point[0];
+  for (int k = 1; k < count; k++) {
+    least = point[k] < least ? point[k] : least;
+    greatest = point[k] > greatest ? point[k] : greatest;
+  }
+  if (greatest >= end)
+    return;
+  int64_t at = start[least]++;
+  if (side)
+    side_of(count, point, cell, &side[at]);
 }
 
-// Calls for every face with all its points below `end`: all sides of cells, then all listed faces. With `side`
-// NULL only counts buckets.
-static void visit_sides(const CwRegionMesh *r, int32_t end, int64_t *start, Side *side) {
-  int64_t cells = cell_count(r);
-  Side one;
-  for (int64_t c = 0; c < cells; c++) {
-    const int32_t *corner;
-    int corners = cell_corners(r, c, &corner);
-    const int(*face)[4] = corners == 4 ? tet_face : corners == 5 ? pyramid_face : prism_face;
-    for (int f = 0; f < (corners == 4 ? 4 : 5); f++) {
-      int32_t point[4];
-      int count = face[f][3] < 0 ? 3 : 4;
-      for (int k = 0; k < count; k++)
-        point[k] = corner[face[f][k]];
-      if (!all_below(count, point, end))
-        continue;
-      int64_t at = start[side_of(count, point, c, &one)]++;
-      if (side)
-        side[at] = one;
-    }
+static inline void add_cell_sides(const int32_t *corner, const int (*face)[4], int faces, int64_t cell, int32_t end,
+                                  int64_t *start, Side *side) {
+  for (int f = 0; f < faces; f++) {
+    const int *at = face[f];
+    if (at[3] < 0)
+      add_side(3, (int32_t[3]){corner[at[0]], corner[at[1]], corner[at[2]]}, cell, end, start, side);
+    else
+      add_side(4, (int32_t[4]){corner[at[0]], corner[at[1]], corner[at[2]], corner[at[3]]}, cell, end, start, side);
   }
-  for (int64_t k = 0; k < (int64_t)r->triangle_count + r->quad_count; k++) {
-    int quad = k >= r->triangle_count;
-    const int32_t *point = quad ? r->quad[k - r->triangle_count] : r->triangle[k];
-    if (!all_below(quad ? 4 : 3, point, end))
-      continue;
-    int64_t at = start[side_of(quad ? 4 : 3, point, -1 - k, &one)]++;
-    if (side)
-      side[at] = one;
-  }
+}
+
+// Every face with all its points below `end`: all sides of cells, then all listed faces. With `side` NULL only counts
+// buckets.
+static void add_sides(const CwRegionMesh *r, int32_t end, int64_t *start, Side *side) {
+  int64_t cell = 0;
+  for (int32_t k = 0; k < r->tetrahedron_count; k++)
+    add_cell_sides(r->tetrahedron[k], tet_face, 4, cell++, end, start, side);
+  for (int32_t k = 0; k < r->pyramid_count; k++)
+    add_cell_sides(r->pyramid[k], pyramid_face, 5, cell++, end, start, side);
+  for (int32_t k = 0; k < r->prism_count; k++)
+    add_cell_sides(r->prism[k], prism_face, 5, cell++, end, start, side);
+  for (int32_t k = 0; k < r->triangle_count; k++)
+    add_side(3, r->triangle[k], -1 - k, end, start, side);
+  for (int32_t k = 0; k < r->quad_count; k++)
+    add_side(4, r->quad[k], -1 - ((int64_t)r->triangle_count + k), end, start, side);
 }
 
 static uint64_t mixed(uint64_t h, uint64_t v) { // finaliser of splitmix64
@@ -222,37 +233,83 @@ static CwStatus check_face(const CwRegionMesh *r, int32_t least, int count, cons
   return status;
 }
 
-// All faces with all their points below `end`.
+// Bits of the table for so many sides: at least two places for each.
+static int table_bits(int64_t count) {
+  int bits = 1;
+  while (count > (int64_t)1 << (bits - 1))
+    bits++;
+  return bits;
+}
+
+// Drops from a bucket the faces with one cell on each side and no more: most of all, and nothing is wrong with them.
+// The sides of the others move to its front; returns their number.
+static int32_t drop_inner_faces(const Match *m, int32_t count, Side *side) {
+  int bits = table_bits(count);
+  uint32_t mask = ((uint32_t)1 << bits) - 1;
+  memset(m->slot, -1, ((size_t)mask + 1) * sizeof *m->slot);
+  for (int32_t i = 0; i < count; i++) {
+    uint64_t key = (uint64_t)(uint32_t)side[i].rest[0] << 32 | (uint32_t)side[i].rest[1];
+    key = (key ^ (uint64_t)(uint32_t)side[i].rest[2] << 16) * 0x9e3779b97f4a7c15ull;
+    uint32_t at = (uint32_t)(key >> (64 - bits));
+    while (m->slot[at] >= 0 && !same_face(&side[m->slot[at]], &side[i]))
+      at = (at + 1) & mask;
+    if (m->slot[at] < 0) {
+      m->slot[at] = m->first[i] = i;
+      m->face[i] = FACE_SINGLE;
+      continue;
+    }
+    int32_t first = m->first[i] = m->slot[at];
+    int inner = side[first].cell >= 0 && side[i].cell >= 0 && side[i].turn == opposite_turn(side[first].turn);
+    m->face[first] = m->face[first] == FACE_SINGLE && inner ? FACE_INNER : FACE_OTHER;
+  }
+  int32_t left = 0;
+  for (int32_t i = 0; i < count; i++) {
+    if (m->face[m->first[i]] != FACE_INNER)
+      side[left++] = side[i];
+  }
+  return left;
+}
+
+// All faces with all their points below `end`: a counting sort of their sides by least point, then each bucket by
+// itself.
 static CwStatus check_faces(const CwRegionMesh *r, int32_t end, CwQuality *quality) {
   CwStatus status = CW_OK;
   int64_t *start = NULL;
-  Side *side = NULL;
+  Side *sides = NULL;
+  Match m = {0};
   CW_NEW(start, (int64_t)end + 1);
-  visit_sides(r, end, start, NULL);
-  int64_t total = 0;
+  add_sides(r, end, start, NULL);
+  int64_t total = 0, most = 0;
   for (int32_t p = 0; p <= end; p++) {
     int64_t here = start[p];
+    most = here > most ? here : most;
     start[p] = total;
     total += here;
   }
-  CW_NEW(side, total);
-  visit_sides(r, end, start, side);
+  CW_NEW_UNSET(sides, total);
+  CW_NEW_UNSET(m.slot, (int64_t)1 << table_bits(most));
+  CW_NEW_UNSET(m.first, most);
+  CW_NEW_UNSET(m.face, most);
+  add_sides(r, end, start, sides);
   // Filling moved each start to the end of its bucket.
   int64_t from = 0;
-  for (int32_t p = 0; p < end; p++) {
-    int64_t to = start[p];
-    if (to - from > 1)
-      qsort(side + from, (size_t)(to - from), sizeof *side, compare_sides);
-    while (from < to) {
-      int64_t next = from + 1;
-      while (next < to && compare_rest(&side[from], &side[next]) == 0)
+  for (int32_t p = 0; p < end; from = start[p++]) {
+    Side *side = sides + from;
+    int32_t left = drop_inner_faces(&m, (int32_t)(start[p] - from), side);
+    if (left > 1)
+      qsort(side, (size_t)left, sizeof *side, compare_sides);
+    for (int32_t at = 0, next; at < left; at = next) {
+      next = at + 1;
+      while (next < left && same_face(&side[at], &side[next]))
         next++;
-      CW_TRY(check_face(r, p, (int)(next - from), &side[from], quality));
-      from = next;
+      CW_TRY(check_face(r, p, next - at, &side[at], quality));
     }
   }
 done:
-  free(side);
+  free(m.slot);
+  free(m.first);
+  free(m.face);
+  free(sides);
   free(start);
   return status;
 }

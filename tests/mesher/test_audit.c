@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
 
@@ -100,6 +101,26 @@ static void face_of_three_cells(void **state) {
   fails_with(&r, "belongs to more than two cells");
 }
 
+// Two cells fit on both sides of a triangle; a third and a fourth do not, whichever two of them would make a pair.
+static void cells_above_and_below_one_face(void **state) {
+  double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {0, 0, -3}, {0, 0, 6}, {0, 0, -6}};
+  int32_t cells[4][4] = {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}, {0, 2, 1, 6}};
+  int64_t shared_id[7] = {0, 1, 2, 3, 4, 5, 6};
+  static const char *const fault[5] = {NULL, NULL, NULL,
+                                       "triangle of cell 2 at (1000, 1000, 0) mm belongs to more than two cells",
+                                       "triangle of cell 3 at (1000, 1000, 0) mm belongs to more than two cells"};
+  for (int count = 1; count <= 4; count++) {
+    CwRegionMesh r = {.domain = "rotor", .region = 3, .x = points, .tetrahedron = cells, .shared_id = shared_id};
+    CwQuality q;
+    r.tetrahedron_count = count;
+    r.point_count = r.shared_count = 3 + count;
+    if (fault[count])
+      fails_with(&r, fault[count]);
+    else
+      assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  }
+}
+
 static void two_cells_on_one_side(void **state) {
   CwRegionMesh r = prism_and_tet();
   memcpy(tet[1], (int32_t[4]){3, 4, 5, 7}, sizeof tet[1]);
@@ -141,6 +162,82 @@ static void open_face_is_allowed_only_on_dividing_planes(void **state) {
   r.x[5][2] = x;
   assert_int_equal(cw_audit_region(&r, &q), CW_OK);
   assert_true(q.open_faces == sum);
+}
+
+// The same mesh with the corners of its cells and faces named from another one on.
+static void corners_may_be_turned(void **state) {
+  for (int way = 0; way < 12 * 3 * 4; way++) {
+    CwRegionMesh r = prism_and_tet();
+    CwQuality q;
+    // Even permutations of four: one of four corners first, the other three turned.
+    static const int even[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+    int turn = way % 3, first = way / 3 % 4, prism_turn = way / 12 % 3, face_turn = way / 36;
+    static const int32_t corner[4] = {3, 4, 5, 6};
+    tet[0][0] = corner[even[first][0]];
+    for (int k = 0; k < 3; k++) {
+      tet[0][1 + k] = corner[even[first][1 + (k + turn) % 3]];
+      prism[0][k] = (k + prism_turn) % 3;
+      prism[0][3 + k] = 3 + (k + prism_turn) % 3;
+    }
+    for (int f = 0; f < r.triangle_count; f++) {
+      int32_t was[3];
+      memcpy(was, triangle[f], sizeof was);
+      for (int k = 0; k < 3; k++)
+        triangle[f][k] = was[(k + face_turn) % 3];
+    }
+    for (int f = 0; f < r.quad_count; f++) {
+      int32_t was[4];
+      memcpy(was, quad[f], sizeof was);
+      for (int k = 0; k < 4; k++)
+        quad[f][k] = was[(k + face_turn) % 4];
+    }
+    assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+    NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
+  }
+}
+
+// A ring of tetrahedra about one edge: every one of its faces but one for each has that edge's first point.
+static void many_faces_at_one_point(void **state) {
+  enum { RING = 200 };
+  static double points[RING + 2][3];
+  static int32_t cells[RING][4], faces[2 * RING][3], patches[2 * RING], of_cell[2 * RING];
+  points[0][2] = -1.0;
+  points[1][2] = 1.0;
+  for (int k = 0; k < RING; k++) {
+    double angle = 2.0 * 3.14159265358979323846 * k / RING;
+    int32_t a = 2 + k, b = 2 + (k + 1) % RING;
+    points[a][0] = cos(angle), points[a][1] = sin(angle);
+    memcpy(cells[k], (int32_t[4]){0, a, b, 1}, sizeof cells[k]);
+    memcpy(faces[2 * k], (int32_t[3]){0, b, a}, sizeof faces[0]);
+    memcpy(faces[2 * k + 1], (int32_t[3]){a, b, 1}, sizeof faces[0]);
+    of_cell[2 * k] = of_cell[2 * k + 1] = k;
+  }
+  CwRegionMesh r = {.domain = "rotor", .region = 3, .point_count = RING + 2, .x = points};
+  r.tetrahedron_count = RING, r.tetrahedron = cells;
+  r.triangle_count = 2 * RING, r.triangle = faces, r.triangle_patch = patches, r.triangle_cell = of_cell;
+  CwQuality q;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  for (int k = 0; k < 2 * RING; k++) {
+    const int last = 2 * RING - 1;
+    char fault[60];
+    int32_t kept[3];
+    snprintf(fault, sizeof fault, "triangle of cell %d at ", k / 2);
+    of_cell[k] = (k / 2 + 1) % RING;
+    fails_with(&r, fault);
+    assert_non_null(strstr(cw_fail_message(), "with the wrong cell"));
+    memcpy(kept, faces[k], sizeof kept);
+    memcpy(faces[k], faces[last], sizeof kept);
+    of_cell[k] = of_cell[last];
+    r.triangle_count = last; // all but this one
+    fails_with(&r, fault);
+    assert_non_null(strstr(cw_fail_message(), "is open"));
+    memcpy(faces[k], kept, sizeof kept);
+    of_cell[k] = k / 2;
+    r.triangle_count = 2 * RING;
+  }
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  r.tetrahedron_count = RING - 1; // its faces are listed, and two of its neighbours' are open
+  fails_with(&r, "triangle of cell 0 at (333.333, 0, 0) mm is open");
 }
 
 // A copy has the sum of a whole audit, from the faces on dividing planes alone, and its cells are looked at.
@@ -218,8 +315,11 @@ int main(void) {
       cmocka_unit_test(single_tetrahedron),
       cmocka_unit_test(inverted_cells_are_named_with_their_place),
       cmocka_unit_test(face_of_three_cells),
+      cmocka_unit_test(cells_above_and_below_one_face),
       cmocka_unit_test(two_cells_on_one_side),
       cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
+      cmocka_unit_test(corners_may_be_turned),
+      cmocka_unit_test(many_faces_at_one_point),
       cmocka_unit_test(copies_are_audited_by_what_is_their_own),
       cmocka_unit_test(wrong_lists_are_found),
       cmocka_unit_test(points_and_indices_are_checked),
