@@ -191,7 +191,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
                         double tet_factor, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
-  double regions = ceil(cells / cells_per_region(table));
+  double regions = fmax(ceil(cells / cells_per_region(table)), table->mesh.least_regions);
   double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
   CW_NEW(least, cw_cad_patch_count(domain->cad));
@@ -200,7 +200,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
     thickness[p] = domain->patch_layers[p].thickness;
     least[p] = cw_column_height_least(domain->patch_layers[p].first_height, table->walls.layer_count);
   }
-  CwPlanOptions options = {.region_count = (int32_t)fmax(regions, table->mesh.least_regions),
+  CwPlanOptions options = {.region_count = (int32_t)regions + domain->more_regions,
                            .thickness = thickness,
                            .least_thickness = least,
                            .tallest = CW_TALLEST_COLUMN,

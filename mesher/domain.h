@@ -38,6 +38,7 @@ typedef struct {
   CwLayerSample *layer_sample;                // what the layers take of it: one for each background triangle of a wall
   int32_t layer_sample_count;
   double layer_share;                         // of that, what graded columns take; known with the walls
+  int32_t more_regions;                       // than the number of cells asks for: plans given up
   CwPlan plan;
   CwSkeleton skeleton;
   CwColumnHeights heights;

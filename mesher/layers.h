@@ -62,12 +62,10 @@ typedef struct {
   int32_t thinned_count; // columns below 0.99 of the target
 } CwLayers;
 
-// Fails with CW_ERR_MESH (place in mm) where no valid envelope is found: the wall crosses itself, an edge or
-// a guide leaves no
-// direction that sees all faces, or 40 rounds of repair do not do; with CW_ERR_INPUT on wrong input
-// (triangles without area,
-// points without triangles, heights not above 0). Every column has a height > 0. Equal input gives equal
-// bits.
+// Fails with CW_ERR_MESH (place in mm) where no valid envelope is found: the wall crosses itself, an edge leaves no
+// direction that sees all faces, or 40 rounds of repair do not do; with CW_RETRY, on all ranks, where a guide leaves none;
+// with CW_ERR_INPUT on wrong input (triangles without area, points without triangles, heights not above 0). Every column
+// has a height > 0. Equal input gives equal bits.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers);
 void cw_layers_free(CwLayers *layers);
 

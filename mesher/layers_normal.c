@@ -3,6 +3,8 @@
 
 #include "mesher/layers_inner.h"
 
+static const double LEAST_COSINE = 0.05; // of a column to the normals of the faces around
+
 // What keeps the best candidate direction.
 typedef struct {
   int count;
@@ -154,10 +156,10 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
   int count = cw_layers_distinct_normals(work, v, normal), guides = in->guide_count ? in->guide_count[v] : 0;
   double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
-  CW_REQUIRE(c > 0.05, CW_ERR_MESH,
+  CW_REQUIRE(c > LEAST_COSINE, CW_ERR_MESH,
              "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
-             "least 0.05 needed): the wall is folded or has an edge too sharp there",
-             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
+             "least %.2f needed): the wall is folded or has an edge too sharp there",
+             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c, LEAST_COSINE);
   made->normal_cos = c;
   if (c < 0.92) {
     double most = -1;
@@ -172,12 +174,7 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   memcpy(made->base, g, sizeof made->base);
   made->base_cos = c;
   if (guides == 0) goto done;
-  c = cw_layers_most_normal(count, (const double (*)[3])normal, guides, in->guide_normal[v], made->base);
-  CW_REQUIRE(c > 0.05, CW_ERR_MESH,
-             "layers: no column inside the cap or dividing plane at (%.4f, %.4f, %.4f) mm leaves the wall (best "
-             "cosine %.3f, at least 0.05 needed): it is nearly tangent to the wall there",
-             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c);
-  made->base_cos = c;
+  made->base_cos = cw_layers_most_normal(count, (const double (*)[3])normal, guides, in->guide_normal[v], made->base);
 done:
   return status;
 }
@@ -188,6 +185,12 @@ CwStatus cw_layers_normals(CwLayerWork *work) {
   CW_NEW(made, work->n);
   CW_TRY(cw_share("layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
+    const double *x = work->in->x[v];
+    // Not in a block: all ranks fail alike, and may go on with other planes.
+    CW_REQUIRE(made[v].base_cos > LEAST_COSINE, CW_RETRY,
+               "layers: no column inside the cap or dividing plane at (%.4f, %.4f, %.4f) mm leaves the wall (best "
+               "cosine %.3f, at least %.2f needed): it is nearly tangent to the wall there",
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, made[v].base_cos, LEAST_COSINE);
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].base, sizeof made[v].base);
     memcpy(work->along[v], made[v].along, sizeof made[v].along);

@@ -9,6 +9,8 @@
 #include "mesher/run_step.h"
 #include "pipeline/log.h"
 
+enum { PLANS_MORE = 3 }; // of a domain whose layers do not fit its plan
+
 // Background triangulations and exact volumes, face by face.
 static CwStatus measure_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
@@ -130,17 +132,11 @@ done:
   return status;
 }
 
-// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
-static CwStatus plan_whole(CwMeshRun *run, int d) {
+// Plans a domain anew, at the scale and factors of the first plan: a run that goes on from a later pass plans alike.
+static CwStatus plan_anew(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
   double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
-  const char *reason = cw_fail_message();
-  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name,
-         reason[0] ? reason : "as in the run that this one goes on from");
-  cw_fail_clear();
   cw_domain_clear(&run->domain[d]);
-  cw_symmetry_free(&run->domain[d].symmetry);
-  run->whole = 1;
   run->prism_factor = run->planned_prism_factor;
   run->tet_factor = run->planned_tet_factor;
   cw_mesh_set_scale(run, run->planned_scale);
@@ -148,6 +144,21 @@ static CwStatus plan_whole(CwMeshRun *run, int d) {
   run->prism_factor = prism_factor;
   run->tet_factor = tet_factor;
   cw_mesh_set_scale(run, scale);
+done:
+  return status;
+}
+
+// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
+static CwStatus plan_whole(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  const char *reason = cw_fail_message();
+  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name,
+         reason[0] ? reason : "as in the run that this one goes on from");
+  cw_fail_clear();
+  cw_domain_clear(&run->domain[d]); // what hangs on the symmetry goes first
+  cw_symmetry_free(&run->domain[d].symmetry);
+  run->whole = 1;
+  CW_TRY(plan_anew(run, d));
 done:
   return status;
 }
@@ -173,6 +184,22 @@ static void log_plan(const CwMeshRun *run, int d) {
   }
   cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
          domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+}
+
+CwStatus cw_mesh_plan_again(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &run->domain[d];
+  char reason[1000];
+  snprintf(reason, sizeof reason, "%s", cw_fail_message());
+  CW_REQUIRE(domain->more_regions < PLANS_MORE, CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason, PLANS_MORE);
+  cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
+  cw_fail_clear();
+  domain->more_regions++;
+  run->retries++;
+  CW_TRY(plan_anew(run, d));
+  log_plan(run, d);
+done:
+  return status;
 }
 
 CwStatus cw_mesh_plan(CwMeshRun *run) {

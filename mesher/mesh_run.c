@@ -152,8 +152,8 @@ done:
   return status;
 }
 
-// All ranks work on one domain after the other. CW_RETRY where a symmetric one has no symmetric layers.
-static CwStatus grow_layers(CwMeshRun *run) {
+// All ranks work on one domain after the other. CW_RETRY where one, *unfit, has no layers that fit its symmetry or plan.
+static CwStatus grow_layers(CwMeshRun *run, int *unfit) {
   CwStatus status = CW_OK;
   double started = cw_seconds();
   for (int d = 0; d < run->domains.count; d++) {
@@ -161,6 +161,7 @@ static CwStatus grow_layers(CwMeshRun *run) {
     cw_progress_start("layers", domain->skeleton.wall_triangle_count, "wall faces");
     status = cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target);
     if (status == CW_OK) cw_progress(domain->skeleton.wall_triangle_count);
+    if (status == CW_RETRY) *unfit = d;
     cw_progress_end();
     CW_TRY(status);
   }
@@ -354,26 +355,29 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
-// CW_RETRY where a symmetric domain does not come out symmetric.
-static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight) {
+// CW_RETRY where a symmetric domain does not come out symmetric, or the layers of one, *unfit (else -1), do not fit its plan.
+static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight, int *unfit) {
   CwStatus status = CW_OK;
+  *unfit = -1;
   CW_TRY(mesh_walls(run));
-  CW_TRY(grow_layers(run));
+  CW_TRY(grow_layers(run, unfit));
   CW_TRY(mesh_inner(run, tight));
 done:
   return status;
 }
 
 // One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal, the
-// impeller is meshed whole; surfaces and regions that fail are tried again with thinner layers.
+// impeller is meshed whole; a domain with a plane that no column leaves a wall on gets other planes; surfaces and regions
+// that fail are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
   int32_t failed = 0, tight = 0;
+  int unfit;
   for (int attempt = 0;;) {
-    status = mesh_surfaces(run, &tight);
+    status = mesh_surfaces(run, &tight, &unfit);
     if (status == CW_RETRY) {
       cw_end_thinning(run); // the walls will be others
-      CW_TRY(cw_mesh_plan_whole(run));
+      CW_TRY(unfit < 0 || run->domain[unfit].symmetry ? cw_mesh_plan_whole(run) : cw_mesh_plan_again(run, unfit));
       continue;
     }
     CW_TRY(status);
@@ -411,10 +415,11 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   solve_scale(run);
   run->prism_factor = prisms_per_layer(run->scale) * run->table->walls.layer_count;
   run->tet_factor = tets_per_volume(run->scale);
-  CW_TRY(cw_mesh_plan(run));
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
   cw_pass_state_read(run->run_path, fingerprint, &state);
+  for (int d = 0; d < run->domains.count; d++) run->domain[d].more_regions = state.more_regions[d];
+  CW_TRY(cw_mesh_plan(run));
   if (state.pass > 1) {
     run->prism_factor = state.prism_factor;
     run->tet_factor = state.tet_factor;
@@ -436,7 +441,8 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     // As many digits as the file keeps, so that a run that goes on from it has the same bits.
     run->prism_factor = rounded(run->prism_factor);
     run->tet_factor = rounded(run->tet_factor);
-    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole};
+    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole, {0}};
+    for (int d = 0; d < run->domains.count; d++) state.more_regions[d] = run->domain[d].more_regions;
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
     for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
     solve_scale(run);

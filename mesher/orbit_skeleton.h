@@ -16,7 +16,8 @@ CwStatus cw_orbit_copy_curve(CwSkeleton *skeleton, int32_t first, const int32_t 
 CwStatus cw_orbit_outlines(CwSkeleton *skeleton);
 
 // The layers of the whole wall `input` of a skeleton with orbits: grown over the first of each orbit with what stands
-// near them, copied, and checked as copied. Collective. CW_RETRY, on all ranks, where no symmetric front is found.
+// near them, copied, and checked as copied. Collective. CW_RETRY, on all ranks, where no symmetric front is found
+// or no column leaves the wall on a plane.
 CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers);
 
 // Makes the wall triangles that are copies anew, from those that they are copies of.

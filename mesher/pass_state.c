@@ -66,7 +66,10 @@ void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassSta
   double prisms = json_number_value(json_object_get(file, "prism_factor"));
   double tets = json_number_value(json_object_get(file, "tet_factor"));
   if (of && !strcmp(of, fingerprint) && pass > 1 && prisms > 0 && tets > 0) {
-    *state = (CwPassState){(int)pass, prisms, tets, json_is_true(json_object_get(file, "whole"))};
+    *state = (CwPassState){(int)pass, prisms, tets, json_is_true(json_object_get(file, "whole")), {0}};
+    for (size_t d = 0; d < CW_DOMAINS_MOST; d++) {
+      state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
+    }
   }
   json_decref(file);
 }
@@ -74,8 +77,10 @@ void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassSta
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
   CwStatus status = CW_OK;
   char path[PATH_SIZE];
-  json_t *file = json_pack("{s:s, s:i, s:f, s:f, s:b}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
-                           state->prism_factor, "tet_factor", state->tet_factor, "whole", state->whole);
+  json_t *more = json_array(), *file = NULL;
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
+  file = json_pack("{s:s, s:i, s:f, s:f, s:b, s:o}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
+                   state->prism_factor, "tet_factor", state->tet_factor, "whole", state->whole, "more_regions", more);
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
   CW_TRY(cw_json_write(file, path));

@@ -10,6 +10,7 @@ typedef struct {
   int pass;                        // the pass to run, from 1
   double prism_factor, tet_factor; // cells per unit of the integrals, as learned
   int whole;                       // 1: the symmetry of the impeller was given up
+  int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
 } CwPassState;
 
 // Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.

@@ -16,6 +16,7 @@ static const double SAME_LINE = 1, APART = 3;
 static const double SAME_POINT = 1e-9;  // m
 static const double LEANING = 0.55;     // cosine of a line to a wall's normal: columns that lean more are lower
 static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
+static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
 static const double HOLLOW_WALL = 0.8;   // share of the layers that a line through them leaves behind where the wall bends
 static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
@@ -160,7 +161,7 @@ typedef struct {
   double cosine;    // between the line and the wall's normal
 } End;
 
-static double judge_end(const Line *line, const CwPlanPart *part, End *end) {
+static double judge_end(const Line *line, const CwPlanPart *part, End *end, Lines *lines) {
   const CwPlanModel *model = line->model;
   double x[3];
   if (end->triangle < 0) return 0; // left to the crossings
@@ -170,6 +171,7 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end) {
   end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
   end->layers = thickness / fmax(end->cosine, LEANING);
   if (thickness == 0) return cramped;
+  if (end->cosine < TANGENT) lines->impossible = 1;
   cramped = fmax(cramped, shortage(end->cosine, LEANING_MOST, LEANING));
   return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
 }
@@ -187,8 +189,8 @@ static double wanted_of(const Line *line, const End *end, double place, int32_t 
 static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *to, Lines *lines) {
   const CwPlanModel *model = line->model;
   double run = to->place - from->place, beside = 0;
-  double cramped = judge_end(line, part, from);
-  cramped = fmax(cramped, judge_end(line, part, to));
+  double cramped = judge_end(line, part, from, lines);
+  cramped = fmax(cramped, judge_end(line, part, to, lines));
   double taken = from->layers + to->layers;
   if (run < taken) lines->impossible = 1;
   if (lines->impossible) return;

@@ -95,7 +95,7 @@ CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
 // Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front. Collective: all ranks work on
-// it and have the same result. CW_RETRY where no symmetric front is found.
+// it and have the same result. CW_RETRY, on all ranks, where no symmetric front is found or no column leaves the wall on a plane.
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.

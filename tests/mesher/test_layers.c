@@ -302,6 +302,25 @@ static void slanted_caps(void **state) {
   }
 }
 
+static int plane_with_normal(const void *context, const double x[3], double normal[2][3]) {
+  if (fabs(x[0] - 0.005) > 1e-9 || x[2] > 1e-9 || fabs(x[1] - 0.005) > 1e-9) return 0;
+  memcpy(normal[0], context, sizeof normal[0]);
+  return 1;
+}
+
+// A plane that nearly touches the floor of a box holds no column: other planes are wanted. One that stands up does.
+static void guide_along_wall(void **state) {
+  const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01}, cosine[2] = {0.04, 0.6};
+  for (int i = 0; i < 2; i++) {
+    const double normal[3] = {cosine[i], 0, sqrt(1 - cosine[i] * cosine[i])};
+    Case c = {.target = 0.6 * MM, .guide = plane_with_normal, .guide_context = normal};
+    surface_box(&c.wall, low, high, 1 * MM, 63, 0);
+    assert_int_equal(case_make(&c), i == 0 ? CW_RETRY : CW_OK);
+    if (i == 0) assert_non_null(strstr(cw_fail_message(), "(5.0000, 5.0000, 0.0000) mm"));
+    case_free(&c);
+  }
+}
+
 static void failures(void **state) {
   Case c = {.target = 0.6 * MM};
   const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01}, low2[3] = {0.0052, 0.0052, 0.0052};
@@ -357,6 +376,7 @@ int main(void) {
       cmocka_unit_test(thin_gap),            cmocka_unit_test(gap_to_cap),        cmocka_unit_test(gradation),
       cmocka_unit_test(pipe_between_caps),   cmocka_unit_test(plane_through_box), cmocka_unit_test(failures),
       cmocka_unit_test(same_each_time),      cmocka_unit_test(slanted_caps),      cmocka_unit_test(hollow),
+      cmocka_unit_test(guide_along_wall),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
