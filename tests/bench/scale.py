@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""scale.py [CELLS ...] [--ranks 2] [--kill] [--judge] [--work DIR] [--bin build/bin] [--case cases/paper/case.yaml]
+
+Whole runs at growing numbers of cells (8M 20M unless others are given), one after the other: cells made and how far from
+those asked, seconds and memory of each stage, balance and least dihedral angle. With --kill the mesher is run once more
+in a folder of its own, all its ranks are killed (SIGKILL) when half of the regions are whole, it is called again, and its files
+must have the same bytes as those of the run that nobody killed. With --judge cgnscheck and OpenFOAM's checkMesh
+(-allGeometry -allTopology) look at what was written; checkMesh takes about 1 GB per million cells.
+
+Every run is removed before the next one begins; 145 million cells take 60 GB of disk in --work (the system's folder for
+temporary files unless given)."""
+import argparse
+import hashlib
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+MPIRUN = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n"]
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "WM_PROJECT_DIR": "/usr/share/openfoam"}
+
+
+def command(options, stage, run, cells):
+    line = [options.bin / f"cutwater-{stage}", "--case", options.case, "--run", run]
+    if stage in ("mesh", "export"):
+        line = MPIRUN + [options.ranks] + line + ["--cells", cells]
+    return [str(word) for word in line]
+
+
+def execute(line, folder=None):
+    """What a command says; ends the benchmark where it fails."""
+    result = subprocess.run([str(word) for word in line], cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
+    if result.returncode:
+        sys.exit(f"scale: {' '.join(str(word) for word in line)}:\n{result.stdout[-2000:]}")
+    return result.stdout
+
+
+def record(run, stage):
+    return json.loads((run / stage / "record.json").read_text())
+
+
+def digests(mesh):
+    """SHA-256 of the files that are the mesh, by name; a record tells of times too."""
+    found = {}
+    for path in sorted(mesh.iterdir()):
+        if path.name != "record.json":
+            with path.open("rb") as file:
+                found[path.name] = hashlib.file_digest(file, "sha256").hexdigest()
+    return found
+
+
+def table_row(run, cells):
+    mesh, export = record(run, "mesh"), record(run, "export")
+    results = mesh["results"]
+    domains = results["domains"]
+
+    def of_domains(key, form):
+        return " / ".join(form.format(domain[key]) for domain in domains)
+
+    balance = " / ".join(f"{d['region_balance_least']:.2f}-{d['region_balance']:.2f}" for d in domains)
+    print(f"{cells:>8}{results['cells']:>13,}{results['passes']:>7}{mesh['seconds']:>9.1f}{export['seconds']:>9.1f}"
+          f"{mesh['peak_memory_bytes'] / 2**30:>9.2f}{export['peak_memory_bytes'] / 2**30:>9.2f}"
+          f"  {of_domains('regions', '{}'):>11} {balance:>23} {of_domains('least_dihedral_deg', '{:.1f}'):>14}"
+          f" {of_domains('tetrahedron_aspect_mean', '{:.2f}'):>14}", flush=True)
+    steps = {}
+    for step in mesh["steps"]:
+        steps[step["name"]] = steps.get(step["name"], 0) + step["seconds"]
+    print("         mesher, s: " + ", ".join(f"{name} {seconds:.1f}" for name, seconds in steps.items() if seconds >= 0.1),
+          flush=True)
+
+
+def kill_half_way(options, run, cells, regions):
+    """Seconds until all ranks were killed, regions that were whole then, seconds of the second call."""
+    began = time.monotonic()
+    process = subprocess.Popen(command(options, "mesh", run, cells), env=ENVIRONMENT, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL, start_new_session=True)
+    while len(list((run / "mesh").glob("*.h5"))) < regions // 2:
+        if process.poll() is not None:
+            sys.exit("scale: the run ended before it could be killed")
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    killed = time.monotonic()
+    time.sleep(2)  # ranks end when they see their mpirun gone
+    whole = len(list((run / "mesh").glob("*.h5")))
+    again = time.monotonic()
+    execute(command(options, "mesh", run, cells))
+    return killed - began, whole, time.monotonic() - again
+
+
+def judge(run):
+    """Prints what cgnscheck and checkMesh say."""
+    text = execute(["cgnscheck", run / "export/pump.cgns"])
+    print(f"         cgnscheck: {len(re.findall('ERROR', text))} errors, {len(re.findall('WARNING', text))} warnings")
+    text = execute(["checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam"])
+    told = re.findall(r"^ *\*+.*|.*non-orthogonality Max.*|Max skewness.*|Mesh OK.*|Failed \d+ mesh checks.*", text, re.M)
+    print("\n".join(f"         checkMesh: {line.strip()}" for line in told), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cells", nargs="*", default=["8M", "20M"])
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--kill", action="store_true")
+    parser.add_argument("--judge", action="store_true")
+    parser.add_argument("--work", type=Path)
+    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
+    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
+    options = parser.parse_args()
+    print(f"{options.ranks} ranks on {os.cpu_count()} cores; seconds of the mesher and the exporter, peak memory of all ranks "
+          "in GiB; regions, cells of a region over their mean, least dihedral angle in degrees, mean aspect: rotor / stator")
+    print(f"{'asked':>8}{'made':>13}{'passes':>7}{'mesher':>9}{'export':>9}{'mesher':>9}{'export':>9}  {'regions':>11} "
+          f"{'balance':>23} {'least dihedral':>14} {'aspect':>14}")
+    for cells in options.cells:
+        with tempfile.TemporaryDirectory(dir=options.work) as name:
+            run = Path(name) / "run"
+            for stage in ("geometry", "mesh", "export"):
+                execute(command(options, stage, run, cells))
+            table_row(run, cells)
+            if options.judge:
+                judge(run)
+            if options.kill:
+                unkilled = digests(run / "mesh")
+                regions = sum(domain["regions"] for domain in record(run, "mesh")["results"]["domains"])
+                shutil.rmtree(run / "export")
+                shutil.rmtree(run / "mesh")
+                first, whole, again = kill_half_way(options, run, cells, regions)
+                same = digests(run / "mesh") == unkilled
+                print(f"         killed after {first:.1f} s with {whole} of {regions} regions whole; called again {again:.1f} s: "
+                      + ("the same bytes" if same else "OTHER BYTES"), flush=True)
+                if not same:
+                    sys.exit(1)
+
+
+main()
