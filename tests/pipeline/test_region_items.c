@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 
+#include "pipeline/mesh/region_read.h"
+
 static char path[] = "/tmp/cutwater-region-XXXXXX";
 static double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 static int64_t shared_id[1] = {8};
@@ -62,20 +64,6 @@ static int remove_file(void **state) {
   return unlink(path);
 }
 
-static void free_all(CwRegionData *data) {
-  free(data->points);
-  free(data->shared_id);
-  free(data->tetrahedra);
-  free(data->pyramids);
-  free(data->prisms);
-  free(data->triangles);
-  free(data->triangle_patch);
-  free(data->triangle_cell);
-  free(data->quads);
-  free(data->quad_patch);
-  free(data->quad_cell);
-}
-
 static void the_surface_comes_without_the_cells(void **state) {
   CwRegionData data = {.point_count = -1, .triangle_count = -1, .quad_count = -1};
   hid_t file = -1;
@@ -92,7 +80,7 @@ static void the_surface_comes_without_the_cells(void **state) {
   assert_int_equal(cw_region_items_check(path, CW_REGION_SURFACE, 3, 0, &data), CW_OK);
   assert_int_equal(cw_region_items_check(path, CW_REGION_SURFACE, 2, 0, &data), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "dataset 'triangle_patch': entry 0 is 2; allowed 0 to 1"));
-  free_all(&data);
+  cw_mesh_region_free(&data);
   H5Fclose(file);
 }
 
@@ -103,7 +91,7 @@ static void counts_that_are_asked_must_be_met(void **state) {
   assert_int_equal(cw_region_items_open(path, &file), CW_OK);
   assert_int_equal(cw_region_items_read(file, path, CW_REGION_WHOLE, &data), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "dataset 'tetrahedra' has 1 rows; it must have 2"));
-  free_all(&data);
+  cw_mesh_region_free(&data);
   H5Fclose(file);
 }
 
