@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/mix.h"
 #include "mesher/quality.h"
 
 // One side of one face, seen from a cell or listed as boundary. Sides lie in buckets by their least point.
@@ -158,11 +159,8 @@ static void add_sides(const CwRegionMesh *r, int32_t end, int64_t *start, Side *
     add_side(4, r->quad[k], -1 - ((int64_t)r->triangle_count + k), end, start, side);
 }
 
-static uint64_t mixed(uint64_t h, uint64_t v) { // finaliser of splitmix64
-  h = (h ^ v) + 0x9e3779b97f4a7c15ull;
-  h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9ull;
-  h = (h ^ h >> 27) * 0x94d049bb133111ebull;
-  return h ^ h >> 31;
+static uint64_t mixed(uint64_t h, uint64_t v) {
+  return cw_mix((h ^ v) + CW_MIX_STEP);
 }
 
 // The hash of an open face on a dividing plane, negative where its cell sees it the other way round.

@@ -4,6 +4,7 @@
 #ifndef CUTWATER_MESHER_BOX_TREE_H
 #define CUTWATER_MESHER_BOX_TREE_H
 
+#include <math.h>
 #include <stdint.h>
 
 #include "pipeline/status.h"
@@ -37,6 +38,15 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
 // Visits the items of every leaf whose box the ray x + s g, 0 <= s <= *far, meets; the visitor may lower *far.
 void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
                      void *context);
+
+static inline CwBox cw_box_of_triangle(const double a[3], const double b[3], const double c[3]) {
+  CwBox box;
+  for (int k = 0; k < 3; k++) {
+    box.low[k] = fmin(a[k], fmin(b[k], c[k]));
+    box.high[k] = fmax(a[k], fmax(b[k], c[k]));
+  }
+  return box;
+}
 
 static inline int cw_boxes_meet(const CwBox *a, const CwBox *b) {
   for (int k = 0; k < 3; k++) {

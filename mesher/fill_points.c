@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/fill_columns.h"
+#include "mesher/mix.h"
 #include "mesher/vec.h"
 
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
@@ -380,10 +381,7 @@ done:
 }
 
 static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alone
-  uint64_t z = key + 0x9e3779b97f4a7c15ull * (uint64_t)(axis + 1);
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebull;
-  z ^= z >> 31;
+  uint64_t z = cw_mix(key + CW_MIX_STEP * (uint64_t)(axis + 1));
   return (double)(z >> 11) * 0x1p-52 - 1.0;
 }
 

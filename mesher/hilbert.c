@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/mix.h"
+
 enum { BITS = 13, ROUND_BITS = 5, DIGIT = 11, DIGITS = (3 * BITS + ROUND_BITS + DIGIT - 1) / DIGIT };
 
 typedef struct {
@@ -45,10 +47,7 @@ uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
 
 // Every point stays with probability 7/8 for the last round, every other one for the round before, and so on.
 static int round_of(uint64_t number, int rounds) {
-  uint64_t z = number + 0x9e3779b97f4a7c15ull;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebull;
-  z ^= z >> 31;
+  uint64_t z = cw_mix(number + CW_MIX_STEP);
   int round = rounds - 1;
   while (round > 0 && (z & 7) == 0) {
     round--;

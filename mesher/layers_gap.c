@@ -13,13 +13,9 @@ static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) 
 
 static CwStatus find_box(void *context, int32_t f, void *out) {
   const CwLayerWork *work = context;
-  CwBox *box = out;
   const double *corner[3];
   corners(work->in, f, corner);
-  for (int k = 0; k < 3; k++) {
-    box->low[k] = fmin(corner[0][k], fmin(corner[1][k], corner[2][k]));
-    box->high[k] = fmax(corner[0][k], fmax(corner[1][k], corner[2][k]));
-  }
+  *(CwBox *)out = cw_box_of_triangle(corner[0], corner[1], corner[2]);
   return CW_OK;
 }
 

@@ -96,14 +96,20 @@ done:
   return status;
 }
 
+// Two edges of a wall triangle and its area vector, of twice its area, into the domain: the input's points out of it.
+static void area_vector(const CwLayerInput *in, int32_t f, double e1[3], double e2[3], double vector[3]) {
+  const int32_t *corner = in->triangle[f];
+  sub3(in->x[corner[1]], in->x[corner[0]], e1);
+  sub3(in->x[corner[2]], in->x[corner[0]], e2);
+  cross3(e2, e1, vector);
+}
+
 static CwStatus find_normal(void *context, int32_t f, void *out) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = ((const CwLayerWork *)context)->in;
   const int32_t *corner = in->triangle[f];
   double e1[3], e2[3], *normal = out;
-  sub3(in->x[corner[1]], in->x[corner[0]], e1);
-  sub3(in->x[corner[2]], in->x[corner[0]], e2);
-  cross3(e2, e1, normal); // the input's normal points out of the domain
+  area_vector(in, f, e1, e2, normal);
   CW_REQUIRE(unit3(normal) > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
              "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
              in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
@@ -112,11 +118,8 @@ done:
 }
 
 static double twice_area(const CwLayerInput *in, int32_t f) {
-  const int32_t *corner = in->triangle[f];
   double e1[3], e2[3], normal[3];
-  sub3(in->x[corner[1]], in->x[corner[0]], e1);
-  sub3(in->x[corner[2]], in->x[corner[0]], e2);
-  cross3(e2, e1, normal);
+  area_vector(in, f, e1, e2, normal);
   return length3(normal);
 }
 

@@ -241,11 +241,7 @@ static CwStatus sort_triangles(CwPlanModel *model) {
   CW_NEW(box, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     const int32_t *corner = background->triangle[t];
-    for (int k = 0; k < 3; k++) {
-      double a = background->x[corner[0]][k], b = background->x[corner[1]][k], c = background->x[corner[2]][k];
-      box[t].low[k] = fmin(fmin(a, b), c);
-      box[t].high[k] = fmax(fmax(a, b), c);
-    }
+    box[t] = cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
   }
   CW_TRY(cw_box_tree_make(background->triangle_count, box, &model->triangles));
 done:

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+#include "mesher/tet_work.h"
 
 typedef struct {
   int32_t key, value;
@@ -91,7 +91,7 @@ CwStatus cw_tet_patch_take(const CwDelaunay *whole, int32_t t, int32_t count, in
       mesh->tet[k].neighbour[i] = next < 0 ? -1 : 4 * next + old->neighbour[i] % 4;
     }
     for (int i = 0; i < 12; i++) {
-      if (mesh->tet[k].neighbour[i / 3] < 0) mesh->source[mesh->tet[k].corner[tet_face[i / 3][i % 3]]] = 0;
+      if (mesh->tet[k].neighbour[i / 3] < 0) mesh->source[mesh->tet[k].corner[cw_tet_face[i / 3][i % 3]]] = 0;
     }
   }
 done:
@@ -107,7 +107,7 @@ typedef struct {
 } Side;
 
 static Side side_of(const int32_t corner[4], int i, int32_t outside) {
-  Side s = {{corner[tet_face[i][0]], corner[tet_face[i][1]], corner[tet_face[i][2]]}, outside};
+  Side s = {{corner[cw_tet_face[i][0]], corner[cw_tet_face[i][1]], corner[cw_tet_face[i][2]]}, outside};
   for (int k = 0; k < 3; k++) {
     int m = k == 1; // compares 0-1, 1-2, 0-1
     int32_t low = s.corner[m], high = s.corner[m + 1];

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/mix.h"
 #include "mesher/tet_patch.h"
 #include "mesher/tet_work.h"
 
@@ -38,13 +39,10 @@ typedef struct {
   int32_t tries; // left
 } Search;
 
-// G. Steele, D. Lea and C. Flood, Fast splittable pseudorandom number generators, 2014. In [0, 1).
+// In [0, 1).
 static double next_random(Search *s) {
-  uint64_t z = s->random += 0x9e3779b97f4a7c15ull;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebull;
-  z ^= z >> 31;
-  return (double)(z >> 11) * 0x1p-53;
+  s->random += CW_MIX_STEP;
+  return (double)(cw_mix(s->random) >> 11) * 0x1p-53;
 }
 
 static int32_t choose(Search *s, int32_t count) { return (int32_t)(next_random(s) * count); }
