@@ -246,7 +246,6 @@ CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes) {
   }
   if (status == CW_OK) goto done;
   cw_plan_free(&domain->plan);
-  if (status == CW_ERR_MESH) status = CW_RETRY; // a half-plane grazes something; planes of the other kind may not
 done:
   cw_orbit_free(&orbits);
   cw_network_free(&network);

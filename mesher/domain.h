@@ -79,7 +79,7 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
 CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
 
 // Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
-// cw_skeleton_wall_curves.
+// cw_skeleton_wall_curves. CW_RETRY, on all ranks, where a plane grazes something (cw_network_make).
 CwStatus cw_domain_start(CwDomain *domain);
 
 // First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume. Collective.

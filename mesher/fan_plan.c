@@ -314,17 +314,6 @@ static double unevenness(const CwPlan *plan) {
   return most;
 }
 
-static void copy_plan(const CwPlan *from, size_t room, CwPlan *to) {
-  CwPlan kept = *to;
-  *to = *from;
-  to->node = kept.node;
-  to->worst_angle = kept.worst_angle;
-  to->predicted_cells = kept.predicted_cells;
-  memcpy(to->node, from->node, room * sizeof *to->node);
-  memcpy(to->worst_angle, from->worst_angle, room * sizeof *to->worst_angle);
-  memcpy(to->predicted_cells, from->predicted_cells, room * sizeof *to->predicted_cells);
-}
-
 static CwStatus new_plan(size_t room, CwPlan *plan) {
   CwStatus status = CW_OK;
   memset(plan, 0, sizeof *plan);
@@ -376,8 +365,10 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
     CW_TRY(divide(&fan, &model, &whole, regions));
     double uneven = unevenness(&tried);
     if (uneven >= least) continue;
+    CwPlan better = tried;
+    tried = *plan;
+    *plan = better;
     least = uneven;
-    copy_plan(&tried, room, plan);
   }
 done:
   cw_plan_part_free(&whole);

@@ -42,6 +42,7 @@ typedef struct {
   // A guided vertex may have wall on both sides (dividing plane) or on one (rim).
   const int32_t *guide_count;         // 0, 1, 2 for each vertex; may be NULL: all free
   const double (*guide_normal)[2][3]; // unit normals of the surfaces that hold the column
+  const uint8_t *guide_stays;         // of each vertex: held by a cap, which is there in any plan; may be NULL: none
   // Puts a moved vertex back onto its guides (a cylinder, say); may be NULL.
   void (*snap)(const void *context, int32_t vertex, double x[3]);
   const void *snap_context;
@@ -63,7 +64,7 @@ typedef struct {
 } CwLayers;
 
 // Fails with CW_ERR_MESH (place in mm) where no valid envelope is found: the wall crosses itself, an edge leaves no
-// direction that sees all faces, or 40 rounds of repair do not do; with CW_RETRY, on all ranks, where a guide leaves none;
+// direction that sees all faces, or 40 rounds of repair do not do, or a guide that stays leaves none; with CW_RETRY, on all ranks, where another one leaves none;
 // with CW_ERR_INPUT on wrong input (triangles without area, points without triangles, heights not above 0). Every column
 // has a height > 0. Equal input gives equal bits.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers);

@@ -85,7 +85,7 @@ void cw_layers_work_free(CwLayerWork *work);
 double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
                              double g[3]);
 // Directions and creases of all vertices. Collective. CW_ERR_MESH where the faces around a vertex see no
-// common direction, CW_RETRY on all ranks where its guides hold none.
+// common direction or a guide that stays holds none, CW_RETRY on all ranks where other guides hold none.
 CwStatus cw_layers_normals(CwLayerWork *work);
 // Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
 enum { CW_LAYER_NORMALS = 48 };

@@ -186,11 +186,12 @@ CwStatus cw_layers_normals(CwLayerWork *work) {
   CW_TRY(cw_share("layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
     const double *x = work->in->x[v];
-    // Not in a block: all ranks fail alike, and may go on with other planes.
-    CW_REQUIRE(made[v].base_cos > LEAST_COSINE, CW_RETRY,
-               "layers: no column inside the cap or dividing plane at (%.4f, %.4f, %.4f) mm leaves the wall (best "
+    int stays = work->in->guide_stays && work->in->guide_stays[v];
+    // Not in a block: all ranks fail alike, and may go on with other planes, but not with other caps.
+    CW_REQUIRE(made[v].base_cos > LEAST_COSINE, stays ? CW_ERR_MESH : CW_RETRY,
+               "layers: no column inside the %s at (%.4f, %.4f, %.4f) mm leaves the wall (best "
                "cosine %.3f, at least %.2f needed): it is nearly tangent to the wall there",
-               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, made[v].base_cos, LEAST_COSINE);
+               stays ? "cap" : "dividing plane", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, made[v].base_cos, LEAST_COSINE);
     memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
     memcpy(work->base[v], made[v].base, sizeof made[v].base);
     memcpy(work->along[v], made[v].along, sizeof made[v].along);

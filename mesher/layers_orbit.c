@@ -24,6 +24,7 @@ typedef struct {
   int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
   double (*x)[3], *target, (*guide_normal)[2][3];
   int32_t (*triangle)[3], *guide_count;
+  uint8_t *guide_stays;
 } Part;
 
 static void part_free(Part *part) {
@@ -35,6 +36,7 @@ static void part_free(Part *part) {
   free(part->guide_normal);
   free(part->triangle);
   free(part->guide_count);
+  free(part->guide_stays);
 }
 
 static void snap(const void *context, int32_t vertex, double x[3]) {
@@ -137,12 +139,14 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
   CW_NEW(part->target, points);
   CW_NEW(part->guide_count, points);
   CW_NEW(part->guide_normal, points);
+  CW_NEW(part->guide_stays, points);
   for (int32_t i = 0; i < points; i++) {
     int32_t v = part->global[i];
     memcpy(part->x[i], whole->x[v], sizeof *part->x);
     part->target[i] = whole->target[v];
     part->guide_count[i] = whole->guide_count[v];
     memcpy(part->guide_normal[i], whole->guide_normal[v], sizeof *part->guide_normal);
+    part->guide_stays[i] = whole->guide_stays[v];
   }
   part->in = *whole;
   part->in.point_count = points;
@@ -152,6 +156,7 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
   part->in.target = part->target;
   part->in.guide_count = part->guide_count;
   part->in.guide_normal = (const double(*)[2][3])part->guide_normal;
+  part->in.guide_stays = part->guide_stays;
   part->in.snap = snap;
   part->in.snap_context = part;
 done:

@@ -9,7 +9,7 @@
 #include "mesher/run_step.h"
 #include "pipeline/log.h"
 
-enum { PLANS_MORE = 3 }; // of a domain whose layers do not fit its plan
+enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
 
 // Background triangulations and exact volumes, face by face.
 static CwStatus measure_domains(CwMeshRun *run) {

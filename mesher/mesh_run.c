@@ -91,10 +91,15 @@ done:
   return status;
 }
 
-// Skeletons with all wall curves, those along interfaces divided alike on both sides.
-static CwStatus start_walls(CwMeshRun *run) {
+// Skeletons with all wall curves, those along interfaces divided alike on both sides. CW_RETRY where the plan of a domain,
+// *unfit, cuts no curves.
+static CwStatus start_walls(CwMeshRun *run, int *unfit) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_start(&run->domain[d]));
+  for (int d = 0; d < run->domains.count; d++) {
+    status = cw_domain_start(&run->domain[d]);
+    if (status == CW_RETRY) *unfit = d;
+    CW_TRY(status);
+  }
   for (int i = 0; i < run->domains.interface_count; i++) {
     const CwDomainInterface *between = &run->domains.interface[i];
     CW_TRY(cw_couple_rims(&run->domain[between->domain[0]].skeleton, between->patch[0],
@@ -107,7 +112,7 @@ done:
 
 // Walls of all domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
 // is asked.
-static CwStatus mesh_walls(CwMeshRun *run) {
+static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
   CwStatus status = CW_OK;
   int again = 0; // the same walls, for thinner layers
   CwResults results = {0};
@@ -120,7 +125,7 @@ static CwStatus mesh_walls(CwMeshRun *run) {
     int64_t triangles = 0;
     double integral = 0;
     cw_ledger_part("curves of the walls");
-    CW_TRY(start_walls(run));
+    CW_TRY(start_walls(run, unfit));
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
     cw_ledger_part("walls merged");
@@ -355,11 +360,12 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
-// CW_RETRY where a symmetric domain does not come out symmetric, or the layers of one, *unfit (else -1), do not fit its plan.
+// CW_RETRY where a symmetric domain does not come out symmetric, or the plan of one, *unfit (else -1), fits neither walls nor
+// layers.
 static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight, int *unfit) {
   CwStatus status = CW_OK;
   *unfit = -1;
-  CW_TRY(mesh_walls(run));
+  CW_TRY(mesh_walls(run, unfit));
   CW_TRY(grow_layers(run, unfit));
   CW_TRY(mesh_inner(run, tight));
 done:
@@ -367,8 +373,8 @@ done:
 }
 
 // One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal, the
-// impeller is meshed whole; a domain with a plane that no column leaves a wall on gets other planes; surfaces and regions
-// that fail are tried again with thinner layers.
+// impeller is meshed whole; a domain with a plane that grazes a wall, or on which no column leaves one, gets other planes;
+// surfaces and regions that fail are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
   int32_t failed = 0, tight = 0;

@@ -51,8 +51,8 @@ typedef struct {
   CwCurve *curve;
 } CwNetwork;
 
-// Builds corners and curves (not yet discretised). Fails with CW_ERR_MESH where a plane touches a face or an edge in a
-// way that cannot be resolved, with the place in mm.
+// Builds corners and curves (not yet discretised). CW_RETRY where a plane touches a face or an edge in a way that cannot be
+// resolved, with the place in mm: other planes may not.
 CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
                          const CwPlan *plan, CwNetwork *network);
 void cw_network_free(CwNetwork *network);

@@ -25,6 +25,16 @@ static int face_is_wall(const CwCad *cad, int face) {
   return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
 }
 
+static CwStatus fine_new(CwCurve *curve, int32_t count) {
+  CwStatus status = CW_OK;
+  curve->fine_count = count;
+  CW_NEW(curve->fine_x, count);
+  CW_NEW(curve->fine_parameter, count);
+done:
+  if (status != CW_OK) free(curve->fine_x);
+  return status;
+}
+
 // The pieces of one CAD edge between its ends and the planes that cross it.
 static CwStatus add_edge(CwNetwork *network, int32_t edge, Place *place) {
   CwStatus status = CW_OK;
@@ -47,10 +57,8 @@ static CwStatus add_edge(CwNetwork *network, int32_t edge, Place *place) {
                      .edge = edge,
                      .face = {face[0], face[1]},
                      .plane = {-1, -1},
-                     .wall = face_is_wall(cad, face[0]) || face_is_wall(cad, face[1]),
-                     .fine_count = EDGE_FINE};
-    CW_NEW(curve.fine_x, EDGE_FINE);
-    CW_NEW(curve.fine_parameter, EDGE_FINE);
+                     .wall = face_is_wall(cad, face[0]) || face_is_wall(cad, face[1])};
+    CW_TRY(fine_new(&curve, EDGE_FINE));
     for (int i = 0; i < EDGE_FINE; i++) {
       double t = place[p].t + (place[p + 1].t - place[p].t) * i / (EDGE_FINE - 1);
       curve.fine_parameter[i][0] = t;
@@ -107,10 +115,8 @@ static CwStatus add_line(CwNetwork *network, const CwInside *inside, int32_t abo
                      .corner = {place[p].corner, place[p + 1].corner},
                      .edge = -1,
                      .face = {-1, -1},
-                     .plane = {above, below},
-                     .fine_count = LINE_FINE};
-    CW_NEW(curve.fine_x, LINE_FINE);
-    CW_NEW(curve.fine_parameter, LINE_FINE);
+                     .plane = {above, below}};
+    CW_TRY(fine_new(&curve, LINE_FINE));
     for (int i = 0; i < LINE_FINE; i++) cw_lerp(a, b, (double)i / (LINE_FINE - 1), curve.fine_x[i]);
     CW_TRY(cw_network_add_curve(network, &curve));
   }

@@ -135,7 +135,7 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
     double distance = nearest_sample(cad, e, guess, &t);
     if (distance < best) best = distance, corner->edge = e, corner->t = t;
   }
-  CW_REQUIRE(corner->edge >= 0, CW_ERR_MESH, "no CAD edge between faces %s and %s at (%.3f, %.3f, %.3f) mm",
+  CW_REQUIRE(corner->edge >= 0, CW_RETRY, "no CAD edge between faces %s and %s at (%.3f, %.3f, %.3f) mm",
              cw_cad_face_name(cad, f), cw_cad_face_name(cad, g), 1e3 * guess[0], 1e3 * guess[1], 1e3 * guess[2]);
   cw_cad_edge_range(cad, corner->edge, range);
   double distance = INFINITY;
@@ -148,7 +148,7 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
     corner->t = fmin(fmax(corner->t - distance / slope, range[0]), range[1]);
   }
   double length = cw_distance(background->x[found->crossing[2 * key].a], background->x[found->crossing[2 * key].b]);
-  CW_REQUIRE(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + 1e-4, CW_ERR_MESH,
+  CW_REQUIRE(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + 1e-4, CW_RETRY,
              "dividing plane %d grazes the edge between faces %s and %s at (%.3f, %.3f, %.3f) mm", node,
              cw_cad_face_name(cad, f), cw_cad_face_name(cad, g), 1e3 * guess[0], 1e3 * guess[1], 1e3 * guess[2]);
 done:
@@ -182,7 +182,7 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
     } else {
       crossing_on_face(found, key, triangle, uv, x);
       double left = cw_face_onto_plane(cad, face, found->plane, uv, x);
-      CW_REQUIRE(left < FOUND, CW_ERR_MESH, "dividing plane %d grazes face %s at (%.3f, %.3f, %.3f) mm", node,
+      CW_REQUIRE(left < FOUND, CW_RETRY, "dividing plane %d grazes face %s at (%.3f, %.3f, %.3f) mm", node,
                  cw_cad_face_name(cad, face), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
     }
     trace->count++;
@@ -223,7 +223,7 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       Split split = {.place = i + s, .plane = q};
       for (int k = 0; k < 2; k++) split.uv[k] = trace->uv[i][k] + s * (trace->uv[i + 1][k] - trace->uv[i][k]);
       double left = cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.uv, split.x);
-      CW_REQUIRE(left < FOUND, CW_ERR_MESH, "dividing planes %d and %d meet too flatly on face %s near (%.3f, %.3f, %.3f) mm",
+      CW_REQUIRE(left < FOUND, CW_RETRY, "dividing planes %d and %d meet too flatly on face %s near (%.3f, %.3f, %.3f) mm",
                  node, q, cw_cad_face_name(network->cad, trace->face), 1e3 * trace->x[i][0], 1e3 * trace->x[i][1],
                  1e3 * trace->x[i][2]);
       int32_t skip[1] = {node};

@@ -154,7 +154,7 @@ done:
 
 // What holds the columns on rims and cuts.
 static CwStatus make_guides(const CwSkeleton *skeleton, const CwBackground *background, int32_t *guide_count,
-                            double (*guide_normal)[2][3], double (*uv)[2]) {
+                            double (*guide_normal)[2][3], uint8_t *guide_stays, double (*uv)[2]) {
   CwStatus status = CW_OK;
   int32_t faces = cw_cad_face_count(skeleton->cad);
   CapCorners *corners = NULL;
@@ -167,7 +167,7 @@ static CwStatus make_guides(const CwSkeleton *skeleton, const CwBackground *back
       cw_copy(skeleton->plan->node[guide.index].plane.normal, guide_normal[v][0]);
     } else if (guide.kind == CW_GUIDE_CAP) {
       CapCorners *cap = &corners[guide.index];
-      guide_count[v] = 1;
+      guide_count[v] = guide_stays[v] = 1;
       if (!cap->x) CW_TRY(collect_corners(background, guide.index, cap));
       cap_start(cap, x, uv[v]);
       cap_normal(skeleton->cad, guide.index, x, uv[v], guide_normal[v][0]);
@@ -192,6 +192,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   int32_t n = skeleton->wall_count, caps = 0;
   int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
   double(*guide_normal)[2][3] = NULL;
+  uint8_t *guide_stays = NULL;
   Snap snapping = {skeleton, NULL};
   CwLayers layers = {0};
   CwFlipMesh mesh = {.triangle = skeleton->wall_triangle};
@@ -199,9 +200,10 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   CW_TRY(unfold_wall(skeleton, &mesh));
   CW_NEW(guide_count, n);
   CW_NEW(guide_normal, n);
+  CW_NEW(guide_stays, n);
   CW_NEW(snapping.uv, n);
   cw_ledger_part("layers: guides");
-  CW_TRY(make_guides(skeleton, background, guide_count, guide_normal, snapping.uv));
+  CW_TRY(make_guides(skeleton, background, guide_count, guide_normal, guide_stays, snapping.uv));
   CW_NEW(cap_triangle, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     if (cw_face_is_wall(skeleton->cad, background->face[t])) continue;
@@ -214,6 +216,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
                         .target = target,
                         .guide_count = guide_count,
                         .guide_normal = (const double(*)[2][3])guide_normal,
+                        .guide_stays = guide_stays,
                         .snap = snap,
                         .snap_context = &snapping,
                         .obstacle_point_count = background->point_count,
@@ -232,6 +235,7 @@ done:
   cw_layers_free(&layers);
   free(guide_count);
   free(guide_normal);
+  free(guide_stays);
   free(snapping.uv);
   free(cap_triangle);
   return status;

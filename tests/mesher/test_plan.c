@@ -14,6 +14,7 @@
 
 #include "mesher/domain.h"
 #include "mesher/domain_table.h"
+#include "mesher/mesh_plan.h"
 #include "mesher/network.h"
 #include "mesher/plan_model.h"
 #include "mesher/vec.h"
@@ -224,6 +225,31 @@ static void packed_plans_come_back_whole(void **state) {
   cw_plan_free(&copy);
 }
 
+// Planned anew, a domain has one region more, other planes and the scale of before; three times, then the run ends.
+static void plans_that_do_not_fit_give_way(void **state) {
+  CwMeshRun run = {.table = &table, .domains = domains, .prism_factor = 2 * prism_factor, .tet_factor = 2 * TET_FACTOR,
+                   .planned_prism_factor = prism_factor, .planned_tet_factor = TET_FACTOR, .planned_scale = 2};
+  memcpy(run.domain, domain, sizeof domain);
+  cw_mesh_set_scale(&run, 2);
+  table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
+  cw_mesh_set_scale(&run, 1.7);
+  check(cw_mesh_plan_again(&run, 1));
+  CwPlane first = run.domain[1].plan.node[0].plane;
+  assert_int_equal(run.domain[1].plan.region_count, 7);
+  check(cw_mesh_plan_again(&run, 1));
+  assert_int_equal(run.domain[1].plan.region_count, 8);
+  assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
+  check(cw_mesh_plan_again(&run, 1));
+  assert_int_equal(run.domain[1].plan.region_count, 9);
+  assert_true(run.scale == 1.7 && run.prism_factor == 2 * prism_factor && run.tet_factor == 2 * TET_FACTOR);
+  assert_true(cw_size_scale(domain[1].size) == 1.7);
+  assert_int_equal(CW_FAIL(CW_RETRY, "dividing plane 3 grazes a face"), CW_RETRY);
+  assert_int_equal(cw_mesh_plan_again(&run, 1), CW_ERR_MESH);
+  assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans");
+  cw_fail_clear();
+  cw_plan_free(&run.domain[1].plan);
+}
+
 // Layers on a face at x, m; 0 on caps.
 static double layers_at(const CwDomain *of, int face, const double x[3]) {
   int patch = cw_cad_face_patch(of->cad, face);
@@ -323,6 +349,7 @@ int main(int argc, char **argv) {
       cmocka_unit_test(dozens_of_regions_too),
       cmocka_unit_test(planes_keep_clear_of_edges_and_layers),
       cmocka_unit_test(two_plans_are_the_same),
+      cmocka_unit_test(plans_that_do_not_fit_give_way),
       cmocka_unit_test(packed_plans_come_back_whole),
   };
   const struct CMUnitTest many[] = {cmocka_unit_test(hundreds_of_regions_can_be_had)};
