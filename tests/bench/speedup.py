@@ -3,6 +3,7 @@
 """Table 2 of the paper again: time, speed-up and parallel efficiency of the mesher.
 
   tests/bench/speedup.py [--cells 2M] [--repeat 1] [--case FILE] [--bin build/bin] [--ranks 6 12 ...] [--record FILE]
+    [--gmsh [del3d | hxt] | --gmsh-seconds S]
 
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs on
@@ -14,13 +15,18 @@ ranks, measured and modelled, and --check tell how far it holds here.
 --check RANKS runs the mesher on so many ranks, more than there are cores too, and sets the processor seconds of the
 longest rank beside the model, step by step. --cells-per-region takes the place of the case's.
 
+`efficiency` is that against the mesher itself on one rank. The paper's T1, though, is the time of serial Gmsh for as many
+cells, so that a mesher faster than Gmsh has more than 100 % of it on few cores. --gmsh measures that T1 here: processor
+seconds of gmsh's own steps, without reading the STEP file and writing, on one core, on the same solids for as many
+tetrahedra as the run has cells, by its Delaunay mesher unless `hxt` is named; `by paper` is the efficiency T1 / (N TN)
+with it. Gmsh makes tetrahedra of one size and no layers. --gmsh-seconds gives a T1 that is known.
+
 `waiting` is the efficiency if regions waited for the fills of their smaller-numbered neighbours, as section 2.3 reads,
 in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring."""
 
 import argparse
 import heapq
 import json
-import os
 import pathlib
 import re
 import shutil
@@ -29,9 +35,9 @@ import sys
 import tempfile
 import time
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+from programs import ENVIRONMENT, SOURCE, gmsh, gmsh_first_size, size_for
+
 PAPER = {6: 81.13, 12: 75.92, 18: 60.94, 24: 51.04}  # efficiency, %
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 TASKS = " (tasks)"
 
 
@@ -147,21 +153,44 @@ class Model:
         return sum(self.steps_at(ranks, waiting).values()) + sum(self.parts_of_all.values())
 
 
-def print_table(model, ranks_asked, measured):
+def serial_gmsh(arguments, cells):
+    """Processor seconds of gmsh on one core for about so many tetrahedra; its size is looked for with an eighth of them."""
+    with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
+        folder = pathlib.Path(name)
+        geometry, runs = folder / "geometry", []
+        subprocess.run([arguments.bin / "cutwater-geometry", "--case", arguments.case, "--run", folder], check=True,
+                       stderr=subprocess.DEVNULL)
+
+        def make(size):
+            runs.append(gmsh(geometry / "pump.step", size, arguments.gmsh, folder))
+            return runs[-1].tetrahedra
+
+        few = size_for(cells / 8, gmsh_first_size(geometry, cells / 8), 3, 0.05, make)
+        size_for(cells, few / 2, 3, 0.1, make)
+        run = runs[-1]
+    seconds = sum(run.steps.values())
+    print(f"gmsh -algo {arguments.gmsh} -nt 1: {run.tetrahedra:,} tetrahedra in {seconds:.1f} processor seconds "
+          f"({run.processor:.1f} with reading), {run.peak / 2**30:.1f} GiB")
+    return seconds
+
+
+def print_table(model, ranks_asked, measured, serial):
+    """`serial`: processor seconds of serial gmsh, or None."""
     record = model.record["results"]
     regions = sum(domain["regions"] for domain in record["domains"])
     print(f"{record['cells']:,} cells in {regions} regions, {record['passes']} passes; colours "
           f"{', '.join(str(domain['colours']) for domain in record['domains'])}; were fills to wait, chains of "
           f"{depth(model.before)} regions")
-    print("ranks   seconds  speed-up  efficiency %  paper %  waiting %")
+    print("ranks   seconds  speed-up  efficiency %  waiting %  by paper %  paper %")
     for ranks, seconds in measured.items():
         print(f"{ranks:5d}  {seconds:8.2f}  {measured[1] / seconds:8.2f}  {100 * measured[1] / seconds / ranks:12.2f}"
-              f"{'':20s}  measured")
+              f"{'':33s}  measured")
     for ranks in [2] + ranks_asked:
         seconds, waiting = model.total(ranks), model.total(ranks, True)
         paper = f"{PAPER[ranks]:7.2f}" if ranks in PAPER else "      -"
+        by_paper = f"{100 * serial / seconds / ranks:10.1f}" if serial else "         -"
         print(f"{ranks:5d}  {seconds:8.2f}  {model.one / seconds:8.2f}  {100 * model.one / seconds / ranks:12.2f}  "
-              f"{paper}  {100 * model.total(1, True) / waiting / ranks:9.2f}  model")
+              f"{100 * model.total(1, True) / waiting / ranks:9.2f}  {by_paper}  {paper}  model")
 
 
 def print_losses(model, ranks_asked):
@@ -205,6 +234,8 @@ def main():
     parser.add_argument("--record", type=pathlib.Path)
     parser.add_argument("--check", type=int)
     parser.add_argument("--cells-per-region")
+    parser.add_argument("--gmsh", nargs="?", const="del3d", choices=["del3d", "hxt"])
+    parser.add_argument("--gmsh-seconds", type=float)
     arguments = parser.parse_args()
     measured, check = {}, None
     if arguments.record:
@@ -226,7 +257,10 @@ def main():
                 check = mesh(arguments, pathlib.Path(run) / "geometry", arguments.check)[1]
         measured = {1: min(seconds for seconds, _ in ones), 2: min(seconds for seconds, _ in twos)}
         model = Model(ones)
-    print_table(model, arguments.ranks, measured)
+    serial = arguments.gmsh_seconds
+    if arguments.gmsh:
+        serial = serial_gmsh(arguments, model.record["results"]["cells"])
+    print_table(model, arguments.ranks, measured, serial)
     print_losses(model, [ranks for ranks in arguments.ranks if ranks <= 96])
     if check:
         print_check(model, check)

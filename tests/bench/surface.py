@@ -9,26 +9,14 @@ curvature. Cutwater's rate is that of its step `surface`, passes that correct th
 import argparse
 import json
 import math
-import os
-import re
 import statistics
 import struct
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+from programs import SOURCE, execute, gmsh, size_for
+
 NEAR = 0.1  # of the number of triangles, between the two
-
-
-def execute(*line):
-    result = subprocess.run([str(word) for word in line], env=ENVIRONMENT, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, text=True)
-    if result.returncode:
-        sys.exit(f"surface: {' '.join(str(word) for word in line)}:\n{result.stdout[-2000:]}")
-    return result.stdout
 
 
 def cutwater(options, run):
@@ -43,18 +31,21 @@ def cutwater(options, run):
 
 def shape(options, run):
     """Least, 1 % (of the worst patch) and mean of the least angles of our triangles on walls."""
-    rows = [line.split() for line in execute(options.bin / "surface_shape", run / "geometry", run / "mesh").splitlines()[1:]]
+    said = execute(options.bin / "surface_shape", run / "geometry", run / "mesh").text
+    rows = [line.split() for line in said.splitlines()[1:]]
     count = sum(int(row[2]) for row in rows)
     return (min(float(row[3]) for row in rows), sum(float(row[4]) * int(row[2]) for row in rows) / count,
             sum(float(row[5]) * int(row[2]) for row in rows) / count)
 
 
-def gmsh(algorithm, step, size, folder):
-    """Seconds of gmsh's 2D step and the least angles of its triangles, sorted."""
-    mesh = folder / "gmsh.msh"
-    text = execute("gmsh", "-2", "-nt", 1, "-algo", algorithm, "-clmax", f"{size:.6g}", "-clcurv", 18, step,
-                   "-format", "msh22", "-bin", "-o", mesh)
-    seconds = float(re.search(r"Done meshing 2D \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)", text).group(1))
+def walls(step, size, algorithm, folder):
+    """gmsh's triangles; their mesh in gmsh.msh."""
+    return gmsh(step, size, algorithm, folder, dimension=2, mesh=folder / "gmsh.msh",
+                more=("-clcurv", 18, "-format", "msh22"))
+
+
+def least_angles(mesh):
+    """The least angles of the triangles of a binary MSH 2.2 file, sorted, degrees."""
     data = mesh.read_bytes()
     at = data.index(b"$Nodes\n") + 7
     end = data.index(b"\n", at)
@@ -72,7 +63,7 @@ def gmsh(algorithm, step, size, folder):
             angles += [least_angle([nodes[n] for n in struct.unpack_from("<iii", data, at + i * size_of + 4 * (1 + tags))])
                        for i in range(number)]
         at += number * size_of
-    return seconds, sorted(angles)
+    return sorted(angles)
 
 
 def least_angle(x):
@@ -84,17 +75,6 @@ def least_angle(x):
         cosine = sum(a * b for a, b in zip(u, v)) / math.sqrt(sum(a * a for a in u) * sum(b * b for b in v))
         least = min(least, math.degrees(math.acos(max(-1.0, min(1.0, cosine)))))
     return least
-
-
-def gmsh_size(step, triangles, folder):
-    """The size at which gmsh makes about this many triangles."""
-    size = 1.0
-    for _ in range(8):
-        made = len(gmsh("del2d", step, size, folder)[1])
-        if abs(made / triangles - 1) <= NEAR:
-            return size
-        size *= math.sqrt(made / triangles)
-    sys.exit(f"surface: no size of gmsh gives {triangles} triangles")
 
 
 def main():
@@ -117,11 +97,13 @@ def main():
             seconds, made, counts["cutwater"] = cutwater(options, run)
             rates["cutwater"].append(made / seconds)
             shapes["cutwater"] = shapes.get("cutwater") or shape(options, run)
-            size = size or gmsh_size(step, counts["cutwater"], folder)
+            size = size or size_for(counts["cutwater"], 1.0, 2, NEAR,
+                                    lambda size: walls(step, size, "del2d", folder).triangles)
             for algorithm in ("front2d", "del2d"):
-                seconds, angles = gmsh(algorithm, step, size, folder)
-                counts[algorithm] = len(angles)
-                rates[algorithm].append(len(angles) / seconds)
+                made = walls(step, size, algorithm, folder)
+                angles = least_angles(folder / "gmsh.msh")
+                counts[algorithm] = made.triangles
+                rates[algorithm].append(made.triangles / made.steps["meshing 2D"])
                 shapes[algorithm] = (angles[0], angles[len(angles) // 100], sum(angles) / len(angles))
     print(f"{'':10s} {'triangles':>10s} {'per second':>11s} {'least':>6s} {'1 %':>6s} {'mean':>6s}")
     for name, title in (("cutwater", "cutwater"), ("front2d", "frontal"), ("del2d", "Delaunay")):
