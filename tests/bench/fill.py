@@ -14,8 +14,6 @@ processes at once (cores 2, the mean of both), which share the memory. gmsh choo
 tetrahedra. The last column is our rate over that of the way.
 """
 import argparse
-import os
-import re
 import shutil
 import subprocess
 import sys
@@ -23,7 +21,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
+from programs import SOURCE, execute, gmsh_steps
+
 HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} "
         f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
 
@@ -51,36 +50,31 @@ def run_ours(program, way, surface, growth):
 
 
 def run_gmsh(folder, surface, shells, *options):
+    """gmsh within a surface of so many closed parts: the run, and the file of its mesh, if it made one."""
     mesh = folder / "gmsh.msh"
     script = folder / "gmsh.geo"
     loops = "".join(f"Surface Loop({k}) = {{{k}}};\n" for k in range(1, shells + 1))
     numbers = ", ".join(str(k) for k in range(1, shells + 1))
     script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n')
     mesh.unlink(missing_ok=True)
-    child = subprocess.Popen(["gmsh", *options, "-nt", "1", "-format", "msh2", "-o", str(mesh), str(script)],
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    text = child.stdout.read()
-    _, status, use = os.wait4(child.pid, 0)
-    child.returncode = status
-    return text, use.ru_maxrss * 1024, mesh
+    return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False), mesh
 
 
 def fill_by_gmsh(program, surface, shells, algorithm):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        _, before, _ = run_gmsh(folder, surface, shells, "-2")
-        text, peak, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm)
-        # HXT improves within its own time, the older Delaunay mesher after it.
-        done = r"Done (?:meshing 3D|optimizing mesh) \(Wall [\d.e-]+s, CPU ([\d.e-]+)s\)"
-        seconds = re.findall(done, text)
-        if not seconds or not mesh.exists():
+        before, _ = run_gmsh(folder, surface, shells, "-2")
+        run, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm)
+        steps = gmsh_steps(run.text)
+        if "meshing 3D" not in steps or not mesh.exists():
             return "failed"
         words = subprocess.run([str(program), "quality", str(mesh)], check=True, capture_output=True,
                                text=True).stdout.split()
     tets = int(words[1])
     if tets == 0:
         return "failed"
-    return [int(words[0]), tets, sum(map(float, seconds)), max(0, peak - before) / tets,
+    seconds = steps["meshing 3D"] + steps.get("optimizing mesh", 0)
+    return [int(words[0]), tets, seconds, max(0, run.peak - before.peak) / tets,
             *map(float, words[2:6])]
 
 

@@ -23,10 +23,7 @@ import tempfile
 import time
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
-MPIRUN = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n"]
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-               "WM_PROJECT_DIR": "/usr/share/openfoam"}
+from programs import ENVIRONMENT, MPIRUN, SOURCE, execute
 
 
 def command(options, stage, run, cells):
@@ -34,15 +31,6 @@ def command(options, stage, run, cells):
     if stage in ("mesh", "export"):
         line = MPIRUN + [options.ranks] + line + ["--cells", cells]
     return [str(word) for word in line]
-
-
-def execute(line, folder=None):
-    """What a command says; ends the benchmark where it fails."""
-    result = subprocess.run([str(word) for word in line], cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, text=True)
-    if result.returncode:
-        sys.exit(f"scale: {' '.join(str(word) for word in line)}:\n{result.stdout[-2000:]}")
-    return result.stdout
 
 
 def record(run, stage):
@@ -94,15 +82,15 @@ def kill_half_way(options, run, cells, regions):
     time.sleep(2)  # ranks end when they see their mpirun gone
     whole = len(list((run / "mesh").glob("*.h5")))
     again = time.monotonic()
-    execute(command(options, "mesh", run, cells))
+    execute(*command(options, "mesh", run, cells))
     return killed - began, whole, time.monotonic() - again
 
 
 def judge(run):
     """Prints what cgnscheck and checkMesh say."""
-    text = execute(["cgnscheck", run / "export/pump.cgns"])
+    text = execute("cgnscheck", run / "export/pump.cgns").text
     print(f"         cgnscheck: {len(re.findall('ERROR', text))} errors, {len(re.findall('WARNING', text))} warnings")
-    text = execute(["checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam"])
+    text = execute("checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam").text
     told = re.findall(r"^ *\*+.*|.*non-orthogonality Max.*|Max skewness.*|Mesh OK.*|Failed \d+ mesh checks.*", text, re.M)
     print("\n".join(f"         checkMesh: {line.strip()}" for line in told), flush=True)
 
@@ -125,7 +113,7 @@ def main():
         with tempfile.TemporaryDirectory(dir=options.work) as name:
             run = Path(name) / "run"
             for stage in ("geometry", "mesh", "export"):
-                execute(command(options, stage, run, cells))
+                execute(*command(options, stage, run, cells))
             table_row(run, cells)
             if options.judge:
                 judge(run)

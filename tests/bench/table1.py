@@ -10,13 +10,12 @@ dividing plane, `apart` the others. Fails where the mean ratio of those beside i
 others by more than 5 %, or that of the mesh by region numbers worse than that of the serial one by more than 2 %."""
 import argparse
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from fill import SOURCE, compile_program, run_gmsh
-from speedup import ENVIRONMENT
+from fill import compile_program, run_gmsh
+from programs import SOURCE, execute
 
 CLASSES = ["1-1.5", "1.5-2", "2-3", "3-4", "4-5", "5-7", "7-10", ">10"]
 PAPER = {"paper, serial (Gmsh)": ([4.5, 43.3, 32.2, 8.5, 7.3, 3.5, 0.7], 2.90, 8.6),
@@ -25,18 +24,10 @@ PAPER = {"paper, serial (Gmsh)": ([4.5, 43.3, 32.2, 8.5, 7.3, 3.5, 0.7], 2.90, 8
 DOMAINS = ("rotor", "stator")
 
 
-def run(words):
-    done = subprocess.run([str(word) for word in words], env=ENVIRONMENT, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode:
-        sys.exit(f"table1: {' '.join(map(str, words))}:\n{done.stdout[-2000:]}")
-    return done.stdout
-
-
 def shapes(program, files):
     """By group: number, shares of the classes in %, mean and greatest aspect, angles, mean ratio mean and least."""
     result = {}
-    for line in run([program, "shape", *files]).splitlines():
+    for line in execute(program, "shape", *files).text.splitlines():
         name, *words = line.split()
         count = int(words[0])
         result[name] = (count, [100 * int(word) / max(count, 1) for word in words[1:9]], *map(float, words[9:]))
@@ -54,8 +45,8 @@ def print_row(title, row):
 def mesh(options, case, folder, geometry, ranks):
     folder.mkdir()
     shutil.copytree(geometry, folder / "geometry")
-    run(["mpirun", "-q", "--oversubscribe", "-n", ranks, options.build / "bin/cutwater-mesh", "--case", case, "--run",
-         folder, "--cells", options.cells])
+    execute("mpirun", "-q", "--oversubscribe", "-n", ranks, options.build / "bin/cutwater-mesh", "--case", case, "--run",
+            folder, "--cells", options.cells)
     return folder / "mesh"
 
 
@@ -76,7 +67,7 @@ def main():
         case = folder / "serial.yaml"
         serially = "\nmesh:\n  least_regions: 1\n  cells_per_region: 4000000\n  periodic_impeller: false\n"
         case.write_text(text.replace("\nmesh:\n", serially, 1))
-        run([options.build / "bin/cutwater-geometry", "--case", options.case, "--run", folder / "first"])
+        execute(options.build / "bin/cutwater-geometry", "--case", options.case, "--run", folder / "first")
         serial = mesh(options, case, folder / "serial", folder / "first/geometry", 1)
         numbered = mesh(options, options.case, folder / "numbered", folder / "first/geometry", 2)
         print(f"{'':26s} {'tets':>9s} " + " ".join(f"{label:>6s}" for label in CLASSES) +
@@ -94,10 +85,10 @@ def main():
             print_row(f"{domain}, {len(many)} regions", found[domain][1]["all"])
             print_row("  beside dividing planes", found[domain][1]["beside"])
             print_row("  apart from them", found[domain][1]["apart"])
-            run([program, "region", one[0], folder / "surface.msh"])
-            output, _, made = run_gmsh(folder, folder / "surface.msh", 1, "-3", "-algo", options.algorithm)
+            execute(program, "region", one[0], folder / "surface.msh")
+            run, made = run_gmsh(folder, folder / "surface.msh", 1, "-3", "-algo", options.algorithm)
             if not made.exists():
-                sys.exit(f"table1: Gmsh failed on the {domain}:\n{output[-1000:]}")
+                sys.exit(f"table1: Gmsh failed on the {domain}:\n{run.text[-1000:]}")
             print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
             all_of, by_region = found[domain]
             for label, here, there, most in (("beside dividing planes against the others", by_region["beside"],

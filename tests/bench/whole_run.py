@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """whole_run.py [--cells 1M] [--ranks 2] [--repeat 3] [--bin build/bin] [--case cases/paper/case.yaml]
 
