@@ -9,6 +9,7 @@
 #include "mesher/layers.h"
 #include "mesher/share.h"
 #include "mesher/vec.h"
+#include "mesher/vertex_heap.h"
 
 static const double TALLER_COLUMN = 3.25; // of the wanted length, where the last layer would else be below LOW_LAST
 static const double TALLEST_AT_BEND = 2;  // the same and that of all where the wall bends: there columns crowd
@@ -57,72 +58,12 @@ double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, doubl
                                              CW_TALLEST_COLUMN, TALLER_COLUMN));
 }
 
-// Whether all corners are turned copies, which get the heights of their first.
-static int is_copy(const CwSkeleton *skeleton, const int32_t corner[3]) {
-  const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  return cw_orbit_node_turns(orbits, corner[0]) > 0 && cw_orbit_node_turns(orbits, corner[1]) > 0 &&
-         cw_orbit_node_turns(orbits, corner[2]) > 0;
-}
-
-// Unit normal of a triangle; zero where it is a copy.
-static CwStatus find_normal(void *context, int32_t t, void *out) {
-  const CwSkeleton *skeleton = context;
-  const int32_t *corner = skeleton->wall_triangle[t];
-  double u[3], v[3], *normal = out;
-  if (is_copy(skeleton, corner)) return CW_OK;
-  cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
-  cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
-  cw_cross(u, v, normal);
-  cw_unit(normal);
-  return CW_OK;
-}
-
-static int is_zero(const double normal[3]) {
-  return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
-}
-
-// Of all vertices but turned copies. Collective.
-static CwStatus find_bends(const CwSkeleton *skeleton, Bend **bend) {
-  CwStatus status = CW_OK;
-  double(*normal)[3] = NULL;
-  CW_NEW(*bend, skeleton->wall_count);
-  CW_NEW(normal, skeleton->wall_triangle_count);
-  CW_TRY(cw_share("heights: normals", skeleton->wall_triangle_count, sizeof *normal, find_normal, (void *)skeleton,
-                  normal));
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    const int32_t *corner = skeleton->wall_triangle[t];
-    for (int k = 0; k < 3 && !is_zero(normal[t]); k++) {
-      for (int c = 0; c < 3; c++) (*bend)[corner[k]].normal[c] += normal[t][c];
-    }
-  }
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    (*bend)[v].cosine = 1, (*bend)[v].rise = -1;
-    cw_unit((*bend)[v].normal);
-  }
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    const int32_t *corner = skeleton->wall_triangle[t];
-    for (int k = 0; k < 3 && !is_zero(normal[t]); k++) {
-      Bend *at = &(*bend)[corner[k]], *next = &(*bend)[corner[(k + 1) % 3]];
-      double edge[3], cosine = cw_dot(normal[t], at->normal);
-      if (cosine < at->cosine) at->cosine = cosine;
-      cw_sub(skeleton->wall_x[corner[k]], skeleton->wall_x[corner[(k + 1) % 3]], edge);
-      cw_unit(edge);
-      double rise = cw_dot(edge, at->normal), other = -cw_dot(edge, next->normal);
-      if (rise > at->rise) at->rise = rise;
-      if (other > next->rise) next->rise = other;
-    }
-  }
-done:
-  free(normal);
-  return status;
-}
-
 // What the tasks below read.
 typedef struct {
   const CwSkeleton *skeleton;
+  const CwIncident *around;
   const CwColumnHeights *heights;
   const CwLayerTarget *layers; // of each CAD face
-  const Bend *bend;
   const double *graded; // heights
 } Columns;
 
@@ -130,78 +71,147 @@ static double size_at(const CwSkeleton *skeleton, const double x[3]) {
   return skeleton->size_at(skeleton->size, x);
 }
 
-// The height of a column that is fair by the cells around it. The tetrahedron on it stands at the end of the column,
-// where the size is another than at the wall: the height is reckoned twice. Nowhere grow sizes faster than heights.
-// Turned copies get that of their first: the size field is symmetric only to within its grid.
+// Unit normal of a triangle, out of the domain.
+static void find_normal(const CwSkeleton *skeleton, const int32_t corner[3], double normal[3]) {
+  double u[3], v[3];
+  cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+  cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+static Bend bend_at(const CwSkeleton *skeleton, const CwIncident *around, int32_t v) {
+  Bend bend = {.cosine = 1, .rise = -1};
+  const double *x = skeleton->wall_x[v];
+  for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+    double normal[3];
+    find_normal(skeleton, skeleton->wall_triangle[around->triangle[i]], normal);
+    for (int c = 0; c < 3; c++) bend.normal[c] += normal[c];
+  }
+  cw_unit(bend.normal);
+  for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+    const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
+    double normal[3], edge[3];
+    find_normal(skeleton, corner, normal);
+    bend.cosine = fmin(bend.cosine, cw_dot(normal, bend.normal));
+    for (int k = 0; k < 3; k++) {
+      if (corner[k] == v) continue;
+      cw_sub(x, skeleton->wall_x[corner[k]], edge);
+      cw_unit(edge);
+      bend.rise = fmax(bend.rise, cw_dot(edge, bend.normal));
+    }
+  }
+  return bend;
+}
+
+// The height of a column that is fair by the cells around it, or the target where that is less. The tetrahedron on it
+// stands at the end of the column, where the size is another than at the wall: the height is reckoned twice. Nowhere grow
+// sizes faster than heights. Turned copies get that of their first: the size field is symmetric only to within its grid.
 static CwStatus find_fair(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   const CwSkeleton *skeleton = columns->skeleton;
   const CwColumnHeights *heights = columns->heights;
-  const Bend *bend = &columns->bend[v];
   const double *x = skeleton->wall_x[v];
-  int bent = bend->cosine < BEND;
-  double last = bent && bend->rise > HOLLOW ? LAST_IN_HOLLOW * bend->cosine : LAST_LAYER, height = 0;
   if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
+  Bend bend = bend_at(skeleton, columns->around, v);
+  int bent = bend.cosine < BEND;
+  double last = bent && bend.rise > HOLLOW ? LAST_IN_HOLLOW * bend.cosine : LAST_LAYER, height = 0;
   double size = size_at(skeleton, x);
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
-    for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend->normal[k];
+    for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend.normal[k];
     double above = fmin(fmax(size, size_at(skeleton, end)), size + HEIGHT_SLOPE * height);
     height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last,
                          bent ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, bent ? TALLEST_AT_BEND : TALLER_COLUMN);
   }
-  *(double *)out = height;
+  *(double *)out = fmin(heights->target[v], height);
   return CW_OK;
 }
 
-// Lowers the values at wall vertices until they change by no more than `slope` per distance along any edge: over all
-// triangles, forth and back by turns; after the first time over those alone where something has changed since.
-static CwStatus grade(const CwSkeleton *skeleton, double slope, double *value) {
+typedef struct {
+  const CwSkeleton *skeleton;
+  const CwIncident *around;
+  double slope;
+  double *value;
+} Grading;
+
+// The most that the value at w may be beside v, if that is less than it is; else 0.
+static double most_beside(const Grading *grading, int32_t v, int32_t w) {
+  double rise = grading->value[w] - grading->value[v], slope = grading->slope, edge[3];
+  if (rise <= 0) return 0;
+  cw_sub(grading->skeleton->wall_x[v], grading->skeleton->wall_x[w], edge);
+  double square = cw_dot(edge, edge);
+  if (rise * rise < 0.99 * slope * slope * square) return 0; // most edges, without a root
+  double most = grading->value[v] + slope * sqrt(square);
+  return grading->value[w] > most ? most : 0;
+}
+
+// Whether an edge from v to the next corner of a triangle is too steep. Every edge is such a one from one of its ends.
+static CwStatus find_steep(void *context, int32_t v, void *out) {
+  const Grading *grading = context;
+  uint8_t *steep = out;
+  for (int32_t i = grading->around->start[v]; i < grading->around->start[v + 1] && !*steep; i++) {
+    const int32_t *corner = grading->skeleton->wall_triangle[grading->around->triangle[i]];
+    int32_t next = corner[corner[0] == v ? 1 : corner[1] == v ? 2 : 0];
+    *steep = most_beside(grading, v, next) > 0 || most_beside(grading, next, v) > 0;
+  }
+  return CW_OK;
+}
+
+// Lowers the values at wall vertices, all above 0, until they change by no more than `slope` per distance along any edge,
+// from the lowest on. Collective.
+static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
   CwStatus status = CW_OK;
-  int32_t *changed = NULL; // the sweep in which each vertex was lowered last
-  CW_NEW(changed, skeleton->wall_count);
-  for (int32_t sweep = 1, lowered = 1; lowered; sweep++) {
-    lowered = 0;
-    for (int32_t i = 0; i < skeleton->wall_triangle_count; i++) {
-      const int32_t *corner = skeleton->wall_triangle[sweep % 2 ? i : skeleton->wall_triangle_count - 1 - i];
-      int32_t last = changed[corner[0]] > changed[corner[1]] ? changed[corner[0]] : changed[corner[1]];
-      if (changed[corner[2]] > last) last = changed[corner[2]];
-      if (sweep > 1 && last < sweep - 1) continue;
+  Grading grading = {skeleton, around, slope, value};
+  CwHeap heap = {0};
+  uint8_t *steep = NULL;
+  CW_NEW(steep, skeleton->wall_count);
+  CW_TRY(cw_share("heights: steep", skeleton->wall_count, sizeof *steep, find_steep, &grading, steep));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    for (int32_t i = around->start[v]; steep[v] && i < around->start[v + 1]; i++) {
+      const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
+      for (int k = 0; k < 3; k++) CW_TRY(cw_heap_push(&heap, value[corner[k]], corner[k]));
+    }
+  }
+  while (heap.count) {
+    CwHeapItem least = cw_heap_pop(&heap);
+    int32_t v = least.v;
+    if (least.key > value[v]) continue; // it was lowered since
+    for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+      const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
       for (int k = 0; k < 3; k++) {
-        int32_t a = corner[k], b = corner[(k + 1) % 3];
-        if (value[a] == value[b]) continue;
-        int32_t low = value[a] < value[b] ? a : b, high = low == a ? b : a;
-        double edge[3], rise = value[high] - value[low];
-        cw_sub(skeleton->wall_x[a], skeleton->wall_x[b], edge);
-        if (rise * rise < 0.99 * slope * slope * cw_dot(edge, edge)) continue; // most edges, without a root
-        double most = value[low] + slope * cw_distance(skeleton->wall_x[a], skeleton->wall_x[b]);
-        if (value[high] <= most) continue;
-        value[high] = most;
-        changed[high] = sweep;
-        lowered = 1;
+        double most = corner[k] == v ? 0 : most_beside(&grading, v, corner[k]);
+        if (most <= 0) continue;
+        value[corner[k]] = most;
+        CW_TRY(cw_heap_push(&heap, most, corner[k]));
       }
     }
   }
 done:
-  free(changed);
+  cw_heap_free(&heap);
+  free(steep);
   return status;
 }
 
 // The finer one holds where patches meet; away from there the first height grows no faster than columns whose layers
 // grow a little can.
-static CwStatus take_asked(const CwSkeleton *skeleton, const CwLayerTarget *layers, CwColumnHeights *heights) {
+static CwStatus take_asked(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
+                           CwColumnHeights *heights) {
   CwStatus status = CW_OK;
-  for (int32_t v = 0; v < skeleton->wall_count; v++) heights->first_height[v] = heights->target[v] = INFINITY;
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    const CwLayerTarget *asked = &layers[skeleton->wall_face[t]];
-    for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      heights->first_height[v] = fmin(heights->first_height[v], asked->first_height);
-      heights->target[v] = fmin(heights->target[v], asked->thickness);
-      heights->growth[v] = fmax(heights->growth[v], asked->growth);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY};
+    int32_t before = -1;
+    for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+      int32_t face = skeleton->wall_face[around->triangle[i]];
+      if (face == before) continue;
+      before = face;
+      of.first_height = fmin(of.first_height, layers[face].first_height);
+      of.thickness = fmin(of.thickness, layers[face].thickness);
+      of.growth = fmax(of.growth, layers[face].growth);
     }
+    heights->first_height[v] = of.first_height, heights->target[v] = of.thickness, heights->growth[v] = of.growth;
   }
-  CW_TRY(grade(skeleton, HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
+  CW_TRY(grade(skeleton, around, HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
                heights->first_height));
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     const double *x = skeleton->wall_x[v];
@@ -223,26 +233,23 @@ static void turn_copies(const CwSkeletonOrbits *orbits, int32_t count, CwColumnH
   }
 }
 
-CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwLayerTarget *layers, int layer_count,
-                                CwColumnHeights *heights) {
+CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
+                                int layer_count, CwColumnHeights *heights) {
   CwStatus status = CW_OK;
-  Bend *bend = NULL;
   double *fair = NULL;
   *heights = (CwColumnHeights){.layer_count = layer_count};
   CW_NEW(heights->first_height, skeleton->wall_count);
   CW_NEW(heights->growth, skeleton->wall_count);
   CW_NEW(heights->target, skeleton->wall_count);
   CW_NEW(fair, skeleton->wall_count);
-  CW_TRY(take_asked(skeleton, layers, heights));
-  CW_TRY(find_bends(skeleton, &bend));
-  Columns columns = {.skeleton = skeleton, .heights = heights, .bend = bend};
+  CW_TRY(take_asked(skeleton, around, layers, heights));
+  Columns columns = {.skeleton = skeleton, .around = around, .heights = heights};
   CW_TRY(cw_share("heights: fair ones", skeleton->wall_count, sizeof *fair, find_fair, &columns, fair));
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    if (cw_orbit_node_turns(&skeleton->orbits, v) == 0) heights->target[v] = fmin(heights->target[v], fair[v]);
-  }
+  free(heights->target);
+  heights->target = fair;
+  fair = NULL;
   turn_copies(&skeleton->orbits, skeleton->wall_count, heights);
 done:
-  free(bend);
   free(fair);
   return status;
 }
@@ -272,7 +279,7 @@ static CwStatus find_taken(void *context, int32_t t, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton,
+CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
                                  const CwLayerTarget *layers, double *share) {
   CwStatus status = CW_OK;
   double *graded = NULL;
@@ -280,7 +287,7 @@ CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleto
   CW_NEW(graded, skeleton->wall_count);
   CW_NEW(of, skeleton->wall_triangle_count);
   memcpy(graded, heights->target, (size_t)skeleton->wall_count * sizeof *graded);
-  CW_TRY(grade(skeleton, HEIGHT_SLOPE, graded));
+  CW_TRY(grade(skeleton, around, HEIGHT_SLOPE, graded));
   Columns columns = {.skeleton = skeleton, .heights = heights, .layers = layers, .graded = graded};
   CW_TRY(cw_share("heights: volume", skeleton->wall_triangle_count, sizeof *of, find_taken, &columns, of));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
@@ -296,14 +303,18 @@ done:
 
 CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
+  CwIncident around = {0};
+  CW_TRY(cw_incident_make(skeleton->wall_count, skeleton->wall_triangle_count,
+                          (const int32_t(*)[3])skeleton->wall_triangle, &around));
   CW_NEW(heights->room, skeleton->wall_count);
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     int thinned = skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
     heights->room[v] = thinned ? skeleton->height[v]
                                : cw_layer_thickness(heights->first_height[v], heights->layer_count, heights->growth[v]);
   }
-  CW_TRY(grade(skeleton, HEIGHT_SLOPE, heights->room));
+  CW_TRY(grade(skeleton, &around, HEIGHT_SLOPE, heights->room));
 done:
+  cw_incident_free(&around);
   return status;
 }
 

@@ -8,6 +8,7 @@
 #ifndef CUTWATER_MESHER_COLUMN_HEIGHTS_H
 #define CUTWATER_MESHER_COLUMN_HEIGHTS_H
 
+#include "mesher/incident.h"
 #include "mesher/layer_ratio.h"
 #include "mesher/skeleton.h"
 #include "mesher/wall_targets.h"
@@ -29,17 +30,18 @@ double cw_column_height_least(double first, int layer_count);
 // Height of a column over a flat wall where edges are `size` long, m.
 double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size);
 
-// Sets first heights, growths and targets of all wall vertices; layers: of each CAD face. Turned copies get those of
-// their first. Collective. Fails with CW_ERR_MESH where a vertex has no triangle.
-CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwLayerTarget *layers, int layer_count,
-                                CwColumnHeights *heights);
+// Sets first heights, growths and targets of all wall vertices; layers: of each CAD face; around: the wall's
+// triangles. Turned copies get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has no triangle.
+CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
+                                int layer_count, CwColumnHeights *heights);
 
 // Of the volume (counted in cells) that flat walls would give the layers, the share that columns take once their
 // heights are graded. Collective.
-CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton,
+CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
                                  const CwLayerTarget *layers, double *share);
 
 // Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them.
+// Collective.
 CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton);
 
 // What the heights allow the layers over each wall triangle of a region, in the order of its file; caller frees.

@@ -269,13 +269,18 @@ done:
 
 CwStatus cw_domain_targets(CwDomain *domain) {
   CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
   CwLayerTarget *layers = NULL; // of each face
+  CwIncident around = {0};
   int faces = cw_cad_face_count(domain->cad);
   CW_NEW(layers, faces);
   for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
-  CW_TRY(cw_column_heights_make(&domain->skeleton, layers, domain->layer_count, &domain->heights));
-  CW_TRY(cw_column_heights_share(&domain->heights, &domain->skeleton, layers, &domain->layer_share));
+  CW_TRY(cw_incident_make(skeleton->wall_count, skeleton->wall_triangle_count,
+                          (const int32_t(*)[3])skeleton->wall_triangle, &around));
+  CW_TRY(cw_column_heights_make(skeleton, &around, layers, domain->layer_count, &domain->heights));
+  CW_TRY(cw_column_heights_share(&domain->heights, skeleton, &around, layers, &domain->layer_share));
 done:
+  cw_incident_free(&around);
   free(layers);
   return status;
 }

@@ -10,6 +10,7 @@
 #include "mesher/box_tree.h"
 #include "mesher/layers.h"
 #include "mesher/share.h"
+#include "mesher/vertex_heap.h"
 
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
 
@@ -112,19 +113,6 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 CwStatus cw_layers_limit_by_hollow(CwLayerWork *work);
 // Lowers heights until |dt| <= 0.3 length along every edge. lowered: vertices lowered since that last held; NULL: any.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
-
-// layers_heap.c: vertices by key, smallest first, ties by number.
-typedef struct {
-  double key;
-  int32_t v;
-} CwHeapItem;
-typedef struct {
-  CwHeapItem *item;
-  size_t count, capacity;
-} CwHeap;
-CwStatus cw_heap_push(CwHeap *heap, double key, int32_t v);
-CwHeapItem cw_heap_pop(CwHeap *heap);
-void cw_heap_free(CwHeap *heap);
 
 // layers_crossing.c: pairs of triangles that cross; kinds are 0 front, 1 wall, 2 caps.
 typedef struct {

@@ -22,6 +22,7 @@ typedef struct {
   double height[MOST];
   uint8_t reason[MOST];
   double size;
+  CwIncident around;
 } Wall;
 
 static double constant(const void *size, const double x[3]) {
@@ -39,6 +40,12 @@ static void make_wall(Wall *wall, double size, int points, double (*x)[3], int t
                                 .wall_triangle_count = triangles, .wall_triangle = triangle, .wall_face = face,
                                 .wall_source = wall->source, .region_wall_start = wall->region_start,
                                 .region_wall = wall->region_wall, .height = wall->height, .reason = wall->reason};
+  assert_int_equal(cw_incident_make(points, triangles, (const int32_t(*)[3])triangle, &wall->around), CW_OK);
+}
+
+static void free_wall(Wall *wall, CwColumnHeights *heights) {
+  cw_incident_free(&wall->around);
+  cw_column_heights_free(heights);
 }
 
 // The unit square, its diagonal from corner 0 to corner 2.
@@ -81,7 +88,7 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   Wall wall;
   CwColumnHeights heights = {0};
   make_wall(&wall, 10, 8, x, 6, triangle, face);
-  assert_int_equal(cw_column_heights_make(&wall.skeleton, layers, 3, &heights), CW_OK);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, layers, 3, &heights), CW_OK);
   // Three layers that grow by 1.1 are 3.31 times the first, and heights rise by 0.3.
   for (int v = 0; v < 4; v++) NEAR(heights.first_height[v], 0.1);
   for (int v = 4; v < 8; v++) NEAR(heights.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1));
@@ -89,7 +96,7 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   // Growth of the face that has most, thickness of the one that has least.
   for (int v = 0; v < 4; v++) NEAR(heights.target[v], 0.7);
   NEAR(heights.target[4], heights.first_height[4] * 4.75);
-  cw_column_heights_free(&heights);
+  free_wall(&wall, &heights);
 }
 
 // A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below a hollow.
@@ -103,9 +110,9 @@ static double roof_height(double size, int fluid_above) {
     triangle[t][1] = triangle[t][2], triangle[t][2] = swap;
   }
   make_wall(&wall, size, 5, x, 4, triangle, face);
-  assert_int_equal(cw_column_heights_make(&wall.skeleton, &DOUBLING, 3, &heights), CW_OK);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_OK);
   double height = heights.target[0];
-  cw_column_heights_free(&heights);
+  free_wall(&wall, &heights);
   return height;
 }
 
@@ -122,8 +129,8 @@ static void a_vertex_without_triangle_is_an_error(void **state) {
   Wall wall;
   CwColumnHeights heights = {0};
   make_wall(&wall, 10, 4, x, 1, square, square_face);
-  assert_int_equal(cw_column_heights_make(&wall.skeleton, &DOUBLING, 3, &heights), CW_ERR_MESH);
-  cw_column_heights_free(&heights);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_ERR_MESH);
+  free_wall(&wall, &heights);
 }
 
 static void the_share_of_graded_columns(void **state) {
@@ -132,13 +139,13 @@ static void the_share_of_graded_columns(void **state) {
   CwColumnHeights heights = {0};
   double share = 0;
   make_wall(&wall, 10, 4, square_x, 2, square, square_face);
-  assert_int_equal(cw_column_heights_make(&wall.skeleton, &layers, 2, &heights), CW_OK);
-  assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &layers, &share), CW_OK);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &layers, 2, &heights), CW_OK);
+  assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &wall.around, &layers, &share), CW_OK);
   NEAR(share, 1);
   heights.target[0] = 1; // its neighbours come down to 1.3, the corner over the diagonal to 1 + 0.3 sqrt(2)
-  assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &layers, &share), CW_OK);
+  assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &wall.around, &layers, &share), CW_OK);
   NEAR(share, (1 + 1.3 + 1 + 0.3 * sqrt(2)) / 3 / 2);
-  cw_column_heights_free(&heights);
+  free_wall(&wall, &heights);
 }
 
 static void room_and_what_it_allows(void **state) {
@@ -146,7 +153,7 @@ static void room_and_what_it_allows(void **state) {
   CwColumnHeights heights = {0};
   CwRatioWall *ratio = NULL;
   make_wall(&wall, 10, 4, square_x, 2, square, square_face);
-  assert_int_equal(cw_column_heights_make(&wall.skeleton, &DOUBLING, 3, &heights), CW_OK);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_OK);
   wall.reason[1] = CW_LAYER_GAP, wall.height[1] = 6.8;
   wall.reason[3] = CW_LAYER_GRADATION, wall.height[3] = 5;
   assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
@@ -168,7 +175,7 @@ static void room_and_what_it_allows(void **state) {
   NEAR(ratio[1].last, (last[0] + last[2] + last[3]) / 3);
   NEAR(ratio[1].first, 1);
   free(ratio);
-  cw_column_heights_free(&heights);
+  free_wall(&wall, &heights);
 }
 
 int main(void) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <stdlib.h>
+#include "mesher/vertex_heap.h"
 
-#include "mesher/layers_inner.h"
+#include <stdlib.h>
+#include <string.h>
 
 static int before(CwHeapItem a, CwHeapItem b) { return a.key < b.key || (a.key == b.key && a.v < b.v); }
 
