@@ -203,7 +203,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   CwTetImproved improved;
   CwFillInput away = *input;
   away.inner = nullptr;
-  away.open_count = 0;
+  away.open_count = away.row_count = 0;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
   CW_TRY(cw_boundary_check_crossing(input)); // TetGen loses memory over such boundaries, or aborts

@@ -6,32 +6,23 @@
 #include <string.h>
 
 #include "mesher/fill_columns.h"
+#include "mesher/fill_reach.h"
+#include "mesher/fill_row.h"
 #include "mesher/mix.h"
 #include "mesher/vec.h"
 
 // Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
 static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
-static const double distance_factor = 0.5; // of h, or of a triangle's edges if shorter: least distance to it
-static const double sphere_factor = 1.0; // of the radius of a triangle's smallest circumscribed sphere
 static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
 static const double coarse = 2.2;        // cells of lists, over wanted cells
 enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9, SEEN = 13 };
 
-typedef struct {
-  float low[3], high[3]; // box of all places that the triangle can forbid, rounded outward
-} Box;
-
-typedef struct {
-  double centre[3], square; // equatorial sphere
-  double edge;              // of the triangle, root of the mean square
-} Ball;
-
 // A cell of the octree that is not cut for the sake of the boundary any more.
 typedef struct {
   int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
-  int32_t list_count;   // triangles that reach it, from list; 0: all of it is inside
+  int32_t list_count;   // items that reach it, from list; 0: all of it is inside
   int64_t list;
-  int clear;  // no triangle is in it
+  int clear;  // no item is in it
   int counts; // its centre is inside: its leaves count for the fit of the spacing
 } Cell;
 
@@ -40,11 +31,20 @@ typedef struct {
   int32_t cell, level;
 } Place;
 
+// Of the row, where it is chosen.
+typedef struct {
+  CwRowPlace place;
+  int32_t cell; // that it lies in, or -1
+  int chosen;
+} RowPoint;
+
+// Items: the triangles of the boundary, then the places of the row.
 typedef struct {
   const CwFillInput *input;
   CwColumns *columns;
-  Box *box;
-  Ball *ball;
+  CwReachBox *box;   // of each item
+  CwReachBall *ball; // of each triangle
+  RowPoint *row;
   double origin[3], unit; // finest cell, m
   double fit;             // factor on the wanted spacing
   double clearance;       // factor on the distances to the boundary
@@ -89,93 +89,47 @@ static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
   const CwFillInput *input = tree->input;
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
-  double u[3], v[3], mean[3], square = 0.0;
+  double u[3], v[3], normal[3], mean[3], h;
   for (int i = 0; i < 3; i++)
     mean[i] = (a[i] + b[i] + c[i]) / 3.0;
-  double h;
   CW_TRY(wanted_size(input, mean, &h));
+  cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, &tree->box[t], &tree->ball[t]);
   cw_sub(b, a, u);
   cw_sub(c, a, v);
-  double uu = cw_dot(u, u), vv = cw_dot(v, v), uv = cw_dot(u, v), det = uu * vv - uv * uv;
-  double p = 1.0 / 3.0, q = 1.0 / 3.0;
-  if (det > 5e-13 * uu * vv) {
-    p = 0.5 * vv * (uu - uv) / det;
-    q = 0.5 * uu * (vv - uv) / det;
-  }
-  Ball *ball = &tree->ball[t];
-  for (int i = 0; i < 3; i++) {
-    double d = p * u[i] + q * v[i];
-    ball->centre[i] = a[i] + d;
-    square += d * d;
-  }
-  ball->edge = sqrt(2.0 * (uu + vv - uv) / 3.0);
-  // The sphere of a needle would reach far: it is no use to keep points out of all of it.
-  square = fmin(square, fmax(fmax(uu, vv), uu + vv - 2.0 * uv));
-  double factor = tree->clearance * sphere_factor, radius = factor * sqrt(square);
-  double margin = tree->clearance * distance_factor * fmin(1.3 * fmax(h, size_at(input, a)), ball->edge);
-  ball->square = factor * factor * square;
-  for (int i = 0; i < 3; i++) {
-    double low = fmin(ball->centre[i] - radius, fmin(fmin(a[i], b[i]), c[i]) - margin);
-    double high = fmax(ball->centre[i] + radius, fmax(fmax(a[i], b[i]), c[i]) + margin);
-    tree->box[t].low[i] = nextafterf((float)low, -INFINITY);
-    tree->box[t].high[i] = nextafterf((float)high, INFINITY);
-  }
-  double here = sqrt(fmax(det, 0.0));
+  cw_cross(u, v, normal);
+  double here = cw_norm(normal);
   *area += here;
   *weight += here * log(h);
 done:
   return status;
 }
 
-// Square of the distance of x to a triangle: over its inside by the normal, else by its three edges.
-static double distance_square(const double x[3], const double a[3], const double b[3], const double c[3]) {
-  double u[3], v[3], w[3];
-  cw_sub(b, a, u);
-  cw_sub(c, a, v);
-  cw_sub(x, a, w);
-  double uu = cw_dot(u, u), uv = cw_dot(u, v), vv = cw_dot(v, v), wu = cw_dot(w, u), wv = cw_dot(w, v);
-  double det = uu * vv - uv * uv, s = vv * wu - uv * wv, t = uu * wv - uv * wu;
-  if (s >= 0.0 && t >= 0.0 && s + t <= det && det > 0.0) {
-    double d[3];
-    for (int i = 0; i < 3; i++)
-      d[i] = w[i] - (s * u[i] + t * v[i]) / det;
-    return cw_dot(d, d);
-  }
-  const double *corner[3] = {a, b, c};
-  double least = INFINITY;
-  for (int k = 0; k < 3; k++) {
-    double e[3], f[3];
-    cw_sub(corner[(k + 1) % 3], corner[k], e);
-    cw_sub(x, corner[k], f);
-    double ee = cw_dot(e, e), along = ee > 0.0 ? cw_dot(e, f) / ee : 0.0;
-    along = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
-    for (int i = 0; i < 3; i++)
-      f[i] -= along * e[i];
-    double square = cw_dot(f, f);
-    if (square < least)
-      least = square;
-  }
-  return least;
+static double distance_square(const double a[3], const double b[3]) {
+  double d[3];
+  cw_sub(a, b, d);
+  return cw_dot(d, d);
 }
 
-static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3]) {
+// Whether an item of the cell keeps a point of the lattice, or of the row, away from x.
+static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3], int of_row) {
   const CwFillInput *input = tree->input;
-  double h = tree->clearance * size_at(input, x);
+  double h = tree->clearance * size_at(input, x), apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
   for (int32_t k = 0; k < cell->list_count; k++) {
     int32_t t = tree->list[cell->list + k];
-    const Box *box = &tree->box[t];
-    if ((p[0] < box->low[0]) | (p[0] > box->high[0]) | (p[1] < box->low[1]) | (p[1] > box->high[1]) |
-        (p[2] < box->low[2]) | (p[2] > box->high[2]))
+    if (!cw_reach_holds(&tree->box[t], p))
       continue;
-    int open = t >= input->triangle_count - input->open_count;
-    const Ball *ball = &tree->ball[t];
-    double d[3], edge = tree->clearance * ball->edge, nearest = distance_factor * (edge < h ? edge : h);
-    cw_sub(x, ball->centre, d);
-    if (!open && cw_dot(d, d) < ball->square)
-      return 1;
+    if (t >= input->triangle_count) {
+      const RowPoint *point = &tree->row[t - input->triangle_count];
+      double nearest = apart * point->place.spacing;
+      if (point->chosen && distance_square(x, point->place.x) < nearest * nearest)
+        return 1;
+      continue;
+    }
+    int open = !of_row && t >= input->triangle_count - input->open_count;
     const int32_t *q = input->triangle[t];
-    if (distance_square(x, input->x[q[0]], input->x[q[1]], input->x[q[2]]) < nearest * nearest)
+    if ((!open && cw_reach_in_ball(&tree->ball[t], x)) ||
+        cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], &tree->ball[t], h, tree->clearance, x))
       return 1;
   }
   return 0;
@@ -204,7 +158,7 @@ static void child_of(const int32_t at[3], int level, int child, int32_t corner[3
     corner[i] = at[i] + ((child >> i & 1) << (level - 1));
 }
 
-// Whether no triangle reaches into the box of a cell, as far as their own boxes tell. They keep no distance here, as
+// Whether no item reaches into the box of a cell, as far as their own boxes tell. They keep no distance here, as
 // those in the tree do.
 static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
   const CwFillInput *input = tree->input;
@@ -214,8 +168,10 @@ static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t li
     high[i] = tree->origin[i] + tree->unit * (at[i] + (1 << level));
   }
   for (int32_t k = 0; k < list_count; k++) {
-    const int32_t *q = input->triangle[tree->list[list + k]];
-    const double *a = input->x[q[0]], *b = input->x[q[1]], *c = input->x[q[2]];
+    int32_t t = tree->list[list + k], of_row = t - input->triangle_count;
+    const int32_t *q = of_row < 0 ? input->triangle[t] : NULL;
+    const double *a = q ? input->x[q[0]] : tree->row[of_row].place.x, *b = q ? input->x[q[1]] : a;
+    const double *c = q ? input->x[q[2]] : a;
     int apart = 0;
     for (int i = 0; i < 3; i++)
       apart |= ((a[i] < low[i]) & (b[i] < low[i]) & (c[i] < low[i])) |
@@ -226,7 +182,7 @@ static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t li
   return 1;
 }
 
-// Cuts down to coarse cells; the list of the cell's triangles stands at the end of tree->list. *kept: it is
+// Cuts down to coarse cells; the list of the cell's items stands at the end of tree->list. *kept: it is
 // in use there.
 static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
                            int *kept) {
@@ -259,7 +215,7 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
     ROOM(tree->list, tree->list_space, from + list_count);
     for (int32_t k = 0; k < list_count; k++) {
       int32_t t = tree->list[list + k];
-      const Box *b = &tree->box[t];
+      const CwReachBox *b = &tree->box[t];
       tree->list[from + count] = t;
       count += (b->low[0] <= high[0]) & (b->high[0] >= low[0]) & (b->low[1] <= high[1]) &
                (b->high[1] >= low[1]) & (b->low[2] <= high[2]) & (b->high[2] >= low[2]);
@@ -385,23 +341,59 @@ static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alon
   return (double)(z >> 11) * 0x1p-52 - 1.0;
 }
 
+// Which cell each place of the row lies in.
+static void find_cells(Tree *tree) {
+  int32_t first = tree->input->triangle_count;
+  for (int32_t c = 0; c < tree->cell_count; c++) {
+    const Cell *cell = &tree->cell[c];
+    for (int32_t k = 0; k < cell->list_count; k++) {
+      int32_t p = tree->list[cell->list + k] - first;
+      int within = p >= 0;
+      for (int i = 0; i < 3 && within; i++) {
+        double at = floor((tree->row[p].place.x[i] - tree->origin[i]) / tree->unit) - cell->at[i];
+        within = at >= 0.0 && at < (double)(1 << cell->level);
+      }
+      if (within)
+        tree->row[p].cell = c;
+    }
+  }
+}
+
+// Of the places of the row, one after the other, those that are inside and that neither the boundary nor those chosen
+// before forbid.
+static CwStatus choose_row(Tree *tree, int32_t *chosen) {
+  CwStatus status = CW_OK;
+  *chosen = 0;
+  find_cells(tree);
+  for (int32_t p = 0; p < tree->input->row_count; p++) {
+    RowPoint *point = &tree->row[p];
+    if (point->cell < 0 || is_forbidden(tree, &tree->cell[point->cell], point->place.x, 1))
+      continue;
+    CW_TRY(test_inside(tree, point->place.x, &point->chosen));
+    *chosen += point->chosen;
+  }
+done:
+  return status;
+}
+
 // Of all places, each once, those that are inside and not forbidden. A line along z is cut once for all its
-// places: near the boundary, where the jitter would make a difference, they are forbidden.
+// places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
 static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   double(*points)[3] = NULL;
   CwLatticeSite *sites = NULL;
   const double *z = NULL;
   int64_t unique = 0;
-  int32_t kept = 0, crossings = 0;
+  int32_t kept = 0, crossings = 0, chosen;
   uint64_t cut = ~0ull;
+  CW_TRY(choose_row(tree, &chosen));
   for (int64_t k = 0; k < tree->place_count; k++)
     unique += k == 0 || tree->place[k].key != tree->place[k - 1].key;
   CW_REQUIRE(unique < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
-  CW_NEW(points, unique);
+  CW_NEW(points, unique + chosen);
   if (site)
-    CW_NEW(sites, unique);
+    CW_NEW(sites, unique + chosen);
   for (int64_t k = 0; k < tree->place_count; k++) {
     const Place *place = &tree->place[k];
     if (k && place->key == place[-1].key)
@@ -422,12 +414,19 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSi
       int inside = 0;
       for (int32_t c = 0; c < crossings; c++)
         inside ^= z[c] > fixed[2];
-      if (!inside || is_forbidden(tree, cell, p))
+      if (!inside || is_forbidden(tree, cell, p, 0))
         continue;
     }
     if (site)
       sites[kept] = (CwLatticeSite){place->key, place->level, cell->clear};
     memcpy(points[kept++], p, sizeof p);
+  }
+  for (int32_t p = 0; p < tree->input->row_count; p++) {
+    if (!tree->row[p].chosen)
+      continue;
+    if (site)
+      sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
+    memcpy(points[kept++], tree->row[p].place.x, sizeof *points);
   }
   *count = kept;
   *x = points;
@@ -453,9 +452,11 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   if (site)
     *site = NULL;
   CW_TRY(cw_columns_make(input, &tree->columns));
-  CW_NEW(tree->box, input->triangle_count);
+  int32_t items = input->triangle_count + input->row_count;
+  CW_NEW(tree->box, items);
   CW_NEW(tree->ball, input->triangle_count);
-  ROOM(tree->list, tree->list_space, input->triangle_count);
+  CW_NEW(tree->row, input->row_count);
+  ROOM(tree->list, tree->list_space, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     tree->list[tree->list_count++] = t;
     CW_TRY(reach_of(tree, t, &area, &weight));
@@ -464,6 +465,12 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
       low[k % 3] = value < low[k % 3] ? value : low[k % 3];
       high[k % 3] = value > high[k % 3] ? value : high[k % 3];
     }
+  }
+  for (int32_t p = 0; p < input->row_count; p++) {
+    tree->row[p] = (RowPoint){cw_row_place(input, input->triangle_count - input->row_count + p), -1, 0};
+    tree->box[input->triangle_count + p] =
+        cw_reach_box(tree->row[p].place.x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * tree->row[p].place.spacing);
+    tree->list[tree->list_count++] = input->triangle_count + p;
   }
   for (int i = 0; i < 3; i++)
     extent = fmax(extent, high[i] - low[i]);
@@ -478,7 +485,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   for (int i = 0; i < 3; i++) {
     tree->origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->unit * (double)(1 << (above + below));
   }
-  CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, input->triangle_count, &kept));
+  CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items, &kept));
   CW_TRY(fit_spacing(tree));
   CW_NEW(tree->seen, 1 << SEEN);
   memset(tree->seen, 0xff, sizeof *tree->seen << SEEN);
@@ -488,6 +495,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
 done:
   free(tree->box);
   free(tree->ball);
+  free(tree->row);
   free(tree->cell);
   free(tree->list);
   free(tree->place);

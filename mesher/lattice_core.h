@@ -20,6 +20,9 @@ typedef struct {
   int32_t clear;  // 1: the boundary has no part in the cell
 } CwLatticeSite;
 
+// Points beside the lattice have keys from here on, above those of all places, and are not clear.
+#define CW_LATTICE_NO_PLACE ((uint64_t)1 << 63)
+
 static inline uint64_t cw_lattice_key(const int32_t at[3]) { // x, y, z
   return (uint64_t)at[1] << 42 | (uint64_t)at[0] << 21 | (uint64_t)at[2];
 }
@@ -43,7 +46,8 @@ typedef struct {
   int32_t (*face)[3]; // between the core and the rest, normal out of the core
 } CwLatticeCore;
 
-// The core of the lattice that has these points, which ascend by their keys. Every tetrahedron of the core,
+// The core of the lattice that has these points, which ascend by their keys; points beside the lattice lie in no clear
+// cell. Every tetrahedron of the core,
 // and of the lattice round each point of its skin, has an empty sphere among all points and those of the boundary,
 // with room: it is in each Delaunay mesh of them. The faces of the core's surface are therefore in each Delaunay
 // mesh of all points but the deep ones. Holds where points are moved by less than a hundredth of their cell, too.

@@ -81,5 +81,6 @@ CwFillInput cw_region_fill_input(const CwSkeleton *skeleton, const CwRegionBound
                        .triangle = (const int32_t(*)[3])boundary->triangle,
                        .size = skeleton->size_at,
                        .size_context = skeleton->size,
-                       .name = name};
+                       .name = name,
+                       .row_count = boundary->interface_count};
 }

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "mesher/fill_points.h"
+#include "mesher/fill_row.h"
 #include "mesher/vec.h"
 #include "closed_surfaces.h"
 
@@ -168,6 +169,44 @@ static void equal_bits_twice_and_no_duplicates(void **unused) {
   surface_free(&s);
 }
 
+// Over the top of a box, whose triangles come last: one for about two triangles, apart from one another, and points of
+// the lattice apart from them. No clear cell holds one.
+static void row_stands_over_the_last_triangles(void **unused) {
+  enum { N = 10 };
+  Surface s = {0};
+  double(*x)[3], edge = 0.002, h = 0.0023, nearest = INFINITY;
+  CwLatticeSite *site;
+  int32_t count, row = 0;
+  surface_add_box(&s, origin, (double[3]){N * edge, N * edge, N * edge}, (int[3]){N, N, N}, 1);
+  Field field = {h, 0, 0};
+  CwFillInput input = input_of(&s, &field);
+  input.row_count = 2 * N * N;
+  double spacing = sqrt(h * sqrt(4.0 / 3.0) * edge); // the root of the mean square of 1, 1 and sqrt(2)
+  assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, &site), CW_OK);
+  for (int32_t p = 0; p < count; p++) {
+    assert_true(p == 0 || site[p].key > site[p - 1].key);
+    row += site[p].key >= CW_LATTICE_NO_PLACE;
+  }
+  assert_true(row > 0.35 * input.row_count && row < 0.6 * input.row_count);
+  for (int32_t p = count - row; p < count; p++) {
+    NEAR(x[p][2], N * edge - 0.75 * spacing, 1e-12);
+    for (int32_t q = 0; q < p; q++) {
+      double apart = q < count - row ? CW_ROW_CLEAR : CW_ROW_APART, distance = cw_distance(x[p], x[q]);
+      assert_true(distance > apart * spacing * (1 - 1e-12));
+      nearest = fmin(nearest, q < count - row ? distance : INFINITY);
+      if (q < count - row && site[q].clear && (site[q].key >> site[q].level & 1)) { // a centre
+        int within = 1;
+        for (int i = 0; i < 3; i++) within &= fabs(x[p][i] - x[q][i]) < 0.49 * 1.122462 * h;
+        assert_false(within);
+      }
+    }
+  }
+  assert_true(nearest < spacing);
+  free(x);
+  free(site);
+  surface_free(&s);
+}
+
 static void wrong_size_field_is_an_error(void **unused) {
   Surface s = {0};
   double(*x)[3];
@@ -208,6 +247,7 @@ int main(void) {
       cmocka_unit_test(graded_ball),
       cmocka_unit_test(clearance_keeps_points_away),
       cmocka_unit_test(equal_bits_twice_and_no_duplicates),
+      cmocka_unit_test(row_stands_over_the_last_triangles),
       cmocka_unit_test(wrong_size_field_is_an_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,12 +23,13 @@ typedef struct {
   CwLatticeSite *site;
 } Ball;
 
-// With inner points of one size.
-static void make_ball(Ball *ball) {
+// With inner points of one size, and a row of them over all of its triangles where `row`.
+static void make_ball(Ball *ball, int row) {
   memset(ball, 0, sizeof *ball);
   ball->size = 0.0035;
   surface_add_sphere(&ball->surface, (double[3]){0, 0, 0}, 0.05, 4, 1);
   ball->input = fill_input(&ball->surface, &ball->size);
+  ball->input.row_count = row ? ball->surface.triangle_count : 0;
   assert_int_equal(cw_fill_points(&ball->input, 1.0, &ball->count, &ball->x, &ball->site), CW_OK);
   ball->input.inner = (const double(*)[3])ball->x;
   ball->input.inner_count = ball->count;
@@ -51,7 +52,7 @@ static void carved_mesh_and_core_fit(void **unused) {
   CwDelaunay mesh;
   int32_t count, open = 0;
   double(*x)[3], whole = 0.0, left = 0.0, of_core = 0.0;
-  make_ball(&ball);
+  make_ball(&ball, 0);
   assert_int_equal(cw_kernel_core_make(&ball.input, ball.count, (const double(*)[3])ball.x, ball.site, &core, &count, &x),
                    CW_OK);
   assert_true(core.deep_count > ball.count / 8);
@@ -87,11 +88,11 @@ static void carved_mesh_and_core_fit(void **unused) {
 }
 
 // The fill is sound with the core and without it, of nearly as many tetrahedra, and the same volume and least angle.
-static void fills_with_and_without(void **unused) {
+static void fill_with_and_without(int row) {
   Ball ball;
   CwFill fill[2];
   double volume[2] = {0.0, 0.0}, least[2] = {180.0, 180.0};
-  make_ball(&ball);
+  make_ball(&ball, row);
   for (int k = 0; k < 2; k++) {
     ball.input.inner_site = k ? ball.site : NULL;
     assert_int_equal(cw_kernel_fill(&ball.input, &fill[k]), CW_OK);
@@ -116,10 +117,15 @@ static void fills_with_and_without(void **unused) {
   free_ball(&ball);
 }
 
+static void fills_with_and_without(void **unused) { fill_with_and_without(0); }
+
+static void fills_with_and_without_under_a_row(void **unused) { fill_with_and_without(1); }
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(carved_mesh_and_core_fit),
       cmocka_unit_test(fills_with_and_without),
+      cmocka_unit_test(fills_with_and_without_under_a_row),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
