@@ -44,9 +44,9 @@ static CwPlane across(const Fan *fan, double place) {
 
 // What a plane across the axis costs.
 static double judge_across(const Fan *fan, double place, double *worst) {
-  int bin = cw_profile_bin(&fan->along, place);
-  *worst = fan->along.worst[bin];
-  return cw_plan_place_cost(&fan->along, bin);
+  CwPlanPlace found = cw_profile_at(&fan->along, cw_profile_bin(&fan->along, place));
+  *worst = found.worst;
+  return cw_plan_place_cost(found);
 }
 
 static CwPlane half_plane(double angle) {
@@ -54,23 +54,14 @@ static CwPlane half_plane(double angle) {
 }
 
 // What a half-plane through `wheel`, the part beyond the plane across the axis, costs.
-static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double angle, double *cost, double *worst) {
-  CwStatus status = CW_OK;
+static Judged judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double angle) {
   CwPlan *plan = fan->plan;
-  CwPlanPart half = {0};
-  CwPlanProfile profile;
   CwPlane plane = half_plane(angle);
   plan->node[plan->fan_first].plane = plane;
   CwPlane end = cw_fan_end(plan, plan->fan_first);
-  CW_TRY(cw_plan_part_clip(fan->model, wheel, &end, 1, &half));
-  cw_plan_profile(fan->model, &half, plane.normal, &profile);
-  int bin = cw_profile_bin(&profile, 0);
-  *worst = profile.worst[bin];
-  *cost = cw_plan_place_cost(&profile, bin);
-  *cost += cw_plan_lines(fan->model, plan, plan->fan_first, &half, &plane, INFINITY);
-done:
-  cw_plan_part_free(&half);
-  return status;
+  CwPlanPlace place = cw_plan_place(fan->model, wheel, &plane, &end);
+  double lines = cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY);
+  return (Judged){cw_plan_place_cost(place) + lines, place.worst};
 }
 
 // Finds which side of the domain has fluid on the axis; CW_RETRY where both or none have it.
@@ -170,7 +161,7 @@ static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
 
 typedef struct {
   const Fan *fan;
-  const CwPlanPart *wheel;
+  const CwPlanPart *part;
 } Wheel;
 
 static CwStatus judge_angle(void *context, int32_t i, void **bytes, int64_t *size) {
@@ -178,13 +169,10 @@ static CwStatus judge_angle(void *context, int32_t i, void **bytes, int64_t *siz
   const Wheel *wheel = context;
   Judged *made = NULL;
   CW_NEW(made, 1);
-  double angle = 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES;
-  CW_TRY(judge_half_plane(wheel->fan, wheel->wheel, angle, &made->cost, &made->worst));
+  *made = judge_half_plane(wheel->fan, wheel->part, 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES);
   *bytes = made;
   *size = sizeof *made;
-  made = NULL;
 done:
-  free(made);
   return status;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/share.h"
 #include "mesher/vec.h"
 
 enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
@@ -274,7 +275,22 @@ done:
   return status;
 }
 
-// Of the samples of the size field every n-th: planes need no finer picture.
+// Predicted tetrahedra of a sample.
+typedef struct {
+  const CwPlanModel *model;
+  double tet_factor;
+} Samples;
+
+static CwStatus find_work(void *context, int32_t i, void *out) {
+  const Samples *samples = context;
+  const CwPlanModel *model = samples->model;
+  double h = cw_size_at(model->size, model->sample_x[i]);
+  CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest);
+  if (wall.distance >= wall.thickness) *(double *)out = samples->tet_factor * model->sample_volume[i] / (h * h * h);
+  return CW_OK;
+}
+
+// Of the samples of the size field every n-th: planes need no finer picture. Collective.
 static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   int32_t all = 0;
@@ -287,11 +303,11 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   }
   CW_NEW(model->sample_work, model->sample_count);
   for (int32_t i = 0; i < model->sample_count; i++) {
-    double h = cw_size_at(model->size, model->sample_x[i]);
-    model->sample_spacing = fmax(model->sample_spacing, cbrt(model->sample_volume[i]));
-    CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest);
-    if (wall.distance >= wall.thickness) model->sample_work[i] = options->tet_factor * model->sample_volume[i] / (h * h * h);
+    model->sample_spacing = fmax(model->sample_spacing, model->sample_volume[i]);
   }
+  model->sample_spacing = cbrt(model->sample_spacing);
+  Samples samples = {model, options->tet_factor};
+  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *model->sample_work, find_work, &samples, model->sample_work));
 done:
   return status;
 }

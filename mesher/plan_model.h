@@ -55,6 +55,7 @@ typedef struct {
 // True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge);
 
+// Collective: what takes long is shared among the ranks.
 CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
                             const CwSize *size, const CwPlanOptions *options, CwPlanModel *model);
 void cw_plan_model_free(CwPlanModel *model);

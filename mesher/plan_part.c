@@ -21,10 +21,11 @@ static double polygon_area(int32_t corners, const double (*corner)[3]) {
 
 static CwStatus pieces_new(CwPieces *pieces, int32_t count, size_t corners) {
   CwStatus status = CW_OK;
-  CW_NEW(pieces->start, count + 1);
-  CW_NEW(pieces->triangle, count);
-  CW_NEW(pieces->work, count);
-  CW_NEW(pieces->corner, corners);
+  CW_NEW_UNSET(pieces->start, (size_t)count + 1);
+  CW_NEW_UNSET(pieces->triangle, count);
+  CW_NEW_UNSET(pieces->work, count);
+  CW_NEW_UNSET(pieces->corner, corners);
+  pieces->start[0] = 0;
 done:
   return status;
 }
@@ -82,10 +83,10 @@ CwStatus cw_plan_part_whole(const CwPlanModel *model, CwPlanPart *part) {
     for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], corner[k]);
     piece_add(model, &part->pieces, t, 3, (const double(*)[3])corner);
   }
-  CW_NEW(part->sample, model->sample_count);
+  CW_NEW_UNSET(part->sample, model->sample_count);
   part->sample_count = model->sample_count;
   for (int32_t i = 0; i < model->sample_count; i++) part->sample[i] = i;
-  CW_NEW(part->edge, model->edge_count);
+  CW_NEW_UNSET(part->edge, model->edge_count);
   part->edge_count = model->edge_count;
   for (int32_t i = 0; i < model->edge_count; i++) part->edge[i] = i;
   part_measure(model, part);
@@ -100,12 +101,12 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
   CwPlane side = other ? cw_plane_flipped(plane) : *plane;
   memset(part, 0, sizeof *part);
   CW_TRY(pieces_clip(model, &whole->pieces, &side, &part->pieces));
-  CW_NEW(part->sample, whole->sample_count);
+  CW_NEW_UNSET(part->sample, whole->sample_count);
   for (int32_t i = 0; i < whole->sample_count; i++) {
     int positive = cw_plane_distance(plane, model->sample_x[whole->sample[i]]) > 0;
     if (positive == other) part->sample[part->sample_count++] = whole->sample[i];
   }
-  CW_NEW(part->edge, whole->edge_count);
+  CW_NEW_UNSET(part->edge, whole->edge_count);
   for (int32_t i = 0; i < whole->edge_count; i++) {
     int32_t e = whole->edge[i];
     if (cw_plane_distance(&side, model->edge_x[e]) <= model->edge_room[e]) part->edge[part->edge_count++] = e;

@@ -78,17 +78,25 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
   for (int b = 0; b < CW_PROFILE_BINS; b++) profile->worst[b] = sqrt(fmax(0, 1 - steepest[b]));
 }
 
+// Whether a plane with normal n runs along the edge at one of its points, or comes near its end.
+static int may_graze(const CwPlanModel *model, int32_t e, const double n[3]) {
+  return model->edge_end[e] || fabs(cw_dot(n, model->edge_tangent[e])) < ALONG_EDGE;
+}
+
+// Full weight within half of the room, then less and less.
+static double nearness(double off, double room) {
+  return fmin(fmax(2 * (1 - off / room), 0), 1);
+}
+
 static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const double n[3], CwPlanProfile *profile) {
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    if (!model->edge_end[e] && fabs(cw_dot(n, model->edge_tangent[e])) >= ALONG_EDGE) continue;
+    if (!may_graze(model, e, n)) continue;
     double place = cw_dot(n, model->edge_x[e]), room = model->edge_room[e];
     if (place + room < profile->low || place - room > profile->low + CW_PROFILE_BINS * profile->width) continue;
     int last = cw_profile_bin(profile, place + room);
     for (int b = cw_profile_bin(profile, place - room); b <= last; b++) {
-      // Full weight within half of the room, then less and less.
-      double off = fabs(profile->low + (b + 0.5) * profile->width - place);
-      double near = fmin(fmax(2 * (1 - off / room), 0), 1);
+      double near = nearness(fabs(profile->low + (b + 0.5) * profile->width - place), room);
       profile->grazed[b] += (model->edge_end[e] ? END_WEIGHT : 1) * near;
       if (model->edge_sharp[e] && near > profile->cut[b]) profile->cut[b] = near;
     }
@@ -144,4 +152,40 @@ void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const dou
   add_pieces(model, part, direction, work, profile);
   add_edges(model, part, direction, profile);
   for (int b = 0; b < CW_PROFILE_BINS; b++) profile->below[b + 1] = profile->below[b] + fmax(work[b], 0);
+}
+
+CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin) {
+  return (CwPlanPlace){profile->worst[bin], profile->grazed[bin], profile->cut[bin]};
+}
+
+CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
+  const CwPieces *pieces = &part->pieces;
+  CwPlanPlace place = {0};
+  double steepest = 0;
+  for (int32_t i = 0; i < pieces->count; i++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
+      double distance = cw_plane_distance(plane, pieces->corner[c]);
+      low = distance < low ? distance : low;
+      high = distance > high ? distance : high;
+    }
+    int32_t t = pieces->triangle[i];
+    double dot = cw_dot(plane->normal, model->normal[t]), layers = CW_LAYER_ROOM * model->thickness[t] * dot;
+    if (low - fmax(layers, 0) > 0 || high - fmin(layers, 0) <= 0 || dot * dot <= steepest) continue;
+    int within = end == NULL;
+    for (int32_t c = pieces->start[i]; c < pieces->start[i + 1] && !within; c++) {
+      within = cw_plane_distance(end, pieces->corner[c]) > 0;
+    }
+    if (within) steepest = dot * dot;
+  }
+  place.worst = sqrt(fmax(0, 1 - steepest));
+  for (int32_t i = 0; i < part->edge_count; i++) {
+    int32_t e = part->edge[i];
+    double room = model->edge_room[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
+    if (near == 0 || !may_graze(model, e, plane->normal)) continue;
+    if (end && cw_plane_distance(end, model->edge_x[e]) < -room) continue;
+    place.grazed += (model->edge_end[e] ? END_WEIGHT : 1) * near;
+    if (model->edge_sharp[e]) place.cut = fmax(place.cut, near);
+  }
+  return place;
 }

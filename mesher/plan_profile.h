@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // One part of the domain seen along one direction: for every place along it the work below, the area of the section,
-// the sharpest wall and the CAD edges that a plane there would graze. One pass over the part serves all offsets.
+// the sharpest wall and the CAD edges that a plane there would graze. One pass over the part serves all offsets. Of one
+// plane alone the same is had for less.
 #ifndef CUTWATER_MESHER_PLAN_PROFILE_H
 #define CUTWATER_MESHER_PLAN_PROFILE_H
 
@@ -26,5 +27,14 @@ double cw_profile_below(const CwPlanProfile *profile, double place);
 double cw_profile_place(const CwPlanProfile *profile, double cells);
 
 int cw_profile_bin(const CwPlanProfile *profile, double place);
+
+// What a plane meets: as in a bin of the profile.
+typedef struct {
+  double worst, grazed, cut;
+} CwPlanPlace;
+
+// Of one plane, where it lies on the positive side of `end` (NULL: everywhere).
+CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
+CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin);
 
 #endif

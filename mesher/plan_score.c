@@ -16,7 +16,7 @@ enum {
   COARSE = 3, COARSE_LEANING = 2, // of so many directions one is looked along at first
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
   SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
-  SHARED_LEAST = 6000, // pieces and samples of a part whose directions are worth sharing among the ranks
+  SHARED_LEAST = 40000, // pieces and samples, over all directions looked along, that are worth sharing among the ranks
   LINES_JUDGED = 200, // candidates whose lines are looked at, best first
   SMALL_PART = 8,     // regions to come of a part for which other planes are tried
   TRIES = 4           // of them
@@ -59,9 +59,8 @@ static void direction_of(int32_t d, double direction[3]) {
   direction[2] = d == DIRECTIONS ? 1 : sin(tilt);
 }
 
-double cw_plan_place_cost(const CwPlanProfile *profile, int bin) {
-  double grazed = profile->grazed[bin];
-  return cw_plan_sharpness(profile->worst[bin]) + fmin(0.17 * grazed, 3) + 0.007 * grazed + CUT_LAYERS * profile->cut[bin];
+double cw_plan_place_cost(CwPlanPlace place) {
+  return cw_plan_sharpness(place.worst) + fmin(0.17 * place.grazed, 3) + 0.007 * place.grazed + CUT_LAYERS * place.cut;
 }
 
 // All but the lines.
@@ -73,7 +72,7 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   double load = fmax(fabs(cells / (below * model->mean_work) - 1),
                      fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
   return 6 * load + 60 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
-         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(profile, bin);
+         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(cw_profile_at(profile, bin));
 }
 
 // Numbers of regions to try below the plane: about half of them, and of three one or two.
@@ -117,24 +116,6 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
   return count;
 }
 
-// Least sqrt(1 - (n.m)^2) over the wall pieces that the plane crosses, they or their layers: 1 where it stands normal to
-// all of them.
-static double plane_to_wall(const CwPlanModel *model, const CwPieces *pieces, const CwPlane *plane) {
-  double worst = 1;
-  for (int32_t i = 0; i < pieces->count; i++) {
-    int32_t t = pieces->triangle[i];
-    double dot = cw_dot(plane->normal, model->normal[t]), layers = CW_LAYER_ROOM * model->thickness[t] * dot;
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
-      double distance = cw_plane_distance(plane, pieces->corner[c]);
-      low = fmin(low, distance - fmax(layers, 0));
-      high = fmax(high, distance - fmin(layers, 0));
-    }
-    if (low <= 0 && high > 0) worst = fmin(worst, sqrt(fmax(0, 1 - dot * dot)));
-  }
-  return worst;
-}
-
 // Directions to look along.
 typedef struct {
   const CwPlanModel *model;
@@ -154,13 +135,13 @@ done:
   return status;
 }
 
-// The candidates of all directions, in their order; large parts are shared among the ranks.
+// The candidates of all directions, in their order; where there is much to look at it is shared among the ranks.
 static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
   CwStatus status = CW_OK;
   void **bytes = NULL;
   int64_t *size = NULL;
   *count = 0;
-  if (look->part->pieces.count + look->part->sample_count < SHARED_LEAST) {
+  if ((int64_t)look->count * (look->part->pieces.count + look->part->sample_count) < SHARED_LEAST) {
     for (int32_t i = 0; i < look->count; i++) {
       *count += add_candidates(look->model, look->part, look->regions, look->direction[i], candidate + *count);
     }
@@ -339,7 +320,7 @@ static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPa
   *worst = by->score;
   plan->node[node].plane = by->plane;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
-  plan->worst_angle[node] = plane_to_wall(model, &part->pieces, &by->plane);
+  plan->worst_angle[node] = cw_plan_place(model, part, &by->plane, NULL).worst;
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
   for (int s = 0; s < 2 && *worst < limit; s++) {
     double below;

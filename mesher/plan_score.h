@@ -6,8 +6,8 @@
 #include "mesher/plan_lines.h"
 #include "mesher/plan_profile.h"
 
-// What a place costs by the sharpest wall and the edges there.
-double cw_plan_place_cost(const CwPlanProfile *profile, int bin);
+// What a plane costs by the sharpest wall that it meets and the edges there.
+double cw_plan_place_cost(CwPlanPlace place);
 
 // Divides `part` into at most `regions` leaves on side `side` of node `parent` (-1: the whole domain);
 // what no plane will do for stays whole. Nodes and regions are appended to the plan, which has room for them.
