@@ -187,8 +187,7 @@ static double cells_per_region(const CwCase *table) {
   return fmax(LEAST_REGION_CELLS, (double)table->mesh.cells / MOST_REGIONS);
 }
 
-CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
-                        double tet_factor, void **bytes, int64_t *byte_count) {
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = fmax(ceil(cells / cells_per_region(table)), table->mesh.least_regions);
@@ -210,7 +209,9 @@ CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cell
                                                domain->symmetry->count, &plan)
                             : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
   CW_TRY(status);
-  CW_TRY(cw_plan_pack(&plan, bytes, byte_count));
+  cw_plan_free(&domain->plan);
+  domain->plan = plan;
+  plan = (CwPlan){0};
 done:
   cw_plan_free(&plan);
   free(thickness);
@@ -231,12 +232,10 @@ static int fixed_faces_fit(const CwDomain *domain) {
   return 1;
 }
 
-CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes) {
+CwStatus cw_domain_try_plan(CwDomain *domain) {
   CwStatus status = CW_OK;
   CwNetwork network = {0};
   CwSkeletonOrbits orbits = {.symmetry = domain->symmetry};
-  cw_plan_free(&domain->plan);
-  CW_TRY(cw_plan_unpack(bytes, &domain->plan));
   if (!domain->symmetry) goto done;
   if (fixed_faces_fit(domain)) {
     status = cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &network);

@@ -68,15 +68,12 @@ CwStatus cw_domain_take_size(CwDomain *domain, void *const *bytes); // collectiv
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
-// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. The plan comes
-// packed (cw_plan_unpack). Collective: all ranks look along some of the directions each, and have the same plan. With a
-// symmetry it is a fan, where one can be had.
-CwStatus cw_domain_plan(const CwDomain *domain, const CwCase *table, double cells, double prism_factor,
-                        double tet_factor, void **bytes, int64_t *byte_count);
+// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective: the
+// ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan, where one can be had.
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor);
 
-// Takes up a plan. CW_RETRY, and nothing taken, where the domain has a symmetry and the plan or the curves that it cuts
-// have not.
-CwStatus cw_domain_take_plan(CwDomain *domain, const void *bytes);
+// CW_RETRY, and no plan is left, where the domain has a symmetry and the plan or the curves that it cuts have not.
+CwStatus cw_domain_try_plan(CwDomain *domain);
 
 // Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
 // cw_skeleton_wall_curves. CW_RETRY, on all ranks, where a plane grazes something (cw_network_make).

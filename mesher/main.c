@@ -28,10 +28,10 @@ int main(int argc, char **argv) {
   run.run_path = args.run_path;
   CW_TRY(cw_record_start("mesh", &run.record));
   CW_TRY(cw_mesh_run(&run));
-  json_t *parts = NULL, *tasks = NULL;
-  CW_TRY(cw_ledger_json(&parts, &tasks));
-  CW_TRY(cw_record_json(run.record, "every_rank", parts));
-  CW_TRY(cw_record_json(run.record, "tasks", tasks));
+  json_t *account = NULL, *sides = NULL;
+  CW_TRY(cw_ledger_json(&account, &sides));
+  CW_TRY(cw_record_json(run.record, "together", account));
+  CW_TRY(cw_record_json(run.record, "side_by_side", sides));
   long long mine = cw_peak_memory_bytes(), all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
   if (run.rank == 0) {

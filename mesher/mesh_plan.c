@@ -7,9 +7,11 @@
 
 #include "mesher/ledger.h"
 #include "mesher/run_step.h"
+#include "mesher/sides.h"
 #include "pipeline/log.h"
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
+static const double OWN_PLAN = 0.2; // of the work on a plan, what every rank does for itself
 
 // Background triangulations and exact volumes, face by face.
 static CwStatus measure_domains(CwMeshRun *run) {
@@ -117,18 +119,15 @@ done:
   return status;
 }
 
-// All ranks plan a domain together. CW_RETRY where it has a symmetry and the plan cannot have it.
+// CW_RETRY where it has a symmetry and the plan cannot have it. Collective.
 static CwStatus plan_domain(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
-  void *bytes = NULL;
-  int64_t size;
+  CwDomain *domain = &run->domain[d];
   cw_ledger_part("planes weighed");
-  CW_TRY(cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor,
-                        &bytes, &size));
-  cw_ledger_part("plan taken up");
-  CW_TRY(cw_domain_take_plan(&run->domain[d], bytes));
+  CW_TRY(cw_domain_plan(domain, run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor));
+  cw_ledger_part("plan tried");
+  CW_TRY(cw_domain_try_plan(domain));
 done:
-  free(bytes);
   return status;
 }
 
@@ -202,18 +201,44 @@ done:
   return status;
 }
 
-CwStatus cw_mesh_plan(CwMeshRun *run) {
+static CwStatus plan_side(void *context, int32_t d) {
+  return plan_domain(context, d);
+}
+
+static CwStatus hand_plan(void *context, const CwSideHand *hand) {
   CwStatus status = CW_OK;
-  double started = cw_seconds();
+  CwMeshRun *run = context;
+  CwPlan *plan = &run->domain[hand->side].plan;
+  void *bytes = NULL;
+  int64_t size = 0;
+  if (hand->mine) CW_TRY(cw_plan_pack(plan, &bytes, &size));
+  cw_side_give(hand, &size, sizeof size);
+  if (!hand->mine) {
+    bytes = malloc((size_t)size);
+    CW_REQUIRE(bytes, CW_ERR_MEMORY, "out of memory: plan of %lld bytes", (long long)size);
+  }
+  cw_side_give(hand, bytes, size);
+  if (!hand->mine) CW_TRY(cw_plan_unpack(bytes, plan));
+done:
+  free(bytes);
+  return status;
+}
+
+CwStatus cw_mesh_plan(CwMeshRun *run) {
+  CwStatus status = CW_OK, outcome[CW_DOMAINS_MOST];
+  double started = cw_seconds(), cost[CW_DOMAINS_MOST];
   run->planned_prism_factor = run->prism_factor;
   run->planned_tet_factor = run->tet_factor;
   run->planned_scale = run->scale;
+  for (int d = 0; d < run->domains.count; d++) cost[d] = run->domain[d].background.triangle_count;
+  CwSides sides = {.step = "decomposition", .count = run->domains.count, .cost = cost, .own = OWN_PLAN, .run = plan_side,
+                   .hand = hand_plan, .context = run};
+  cw_progress_start("decomposition", run->domains.count, "domains");
+  CW_TRY(cw_sides_run(&sides, outcome));
+  cw_progress(run->domains.count);
+  cw_progress_end();
   for (int d = 0; d < run->domains.count; d++) {
-    cw_progress_start("decomposition", 1, "domains");
-    status = plan_domain(run, d);
-    cw_progress_end();
-    if (status == CW_RETRY) status = plan_whole(run, d);
-    CW_TRY(status);
+    if (outcome[d] == CW_RETRY) CW_TRY(plan_whole(run, d));
     log_plan(run, d);
   }
   if (run->rank == 0) {

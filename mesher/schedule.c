@@ -14,18 +14,36 @@
 enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
 enum { CHUNK = 1 << 26 }; // bytes of one broadcast: counts of MPI are int
 
-// As MPI itself, once per process. The counters stand on rank 0; all ranks add to them without its help.
+// As MPI itself, once per process. The counters of a team stand on its first rank; all its ranks add to them without help
+// of that one.
 static struct {
   int rank, ranks;
   MPI_Win window;
   int64_t *slot;
 } world = {.rank = 0, .ranks = 1};
 
-static int64_t counter_add(int slot, int64_t amount) {
+// The ranks that work together now.
+static struct {
+  int rank, ranks, first; // first: its first rank's number among all
+  MPI_Comm comm;
+} team = {.rank = 0, .ranks = 1};
+
+static int64_t add_on(int rank, int slot, int64_t amount) {
   int64_t before = 0;
-  MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, 0, slot, MPI_SUM, world.window);
-  MPI_Win_flush(0, world.window);
+  MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, rank, slot, MPI_SUM, world.window);
+  MPI_Win_flush(rank, world.window);
   return before;
+}
+
+static int64_t counter_add(int slot, int64_t amount) {
+  return add_on(team.first, slot, amount);
+}
+
+static void join_all(void) {
+  team.rank = world.rank;
+  team.ranks = world.ranks;
+  team.first = 0;
+  team.comm = MPI_COMM_WORLD;
 }
 
 static void sleep_seconds(double seconds) {
@@ -38,7 +56,7 @@ static void quiet_barrier(int progress) {
   MPI_Request request;
   int done = 0;
   double pause = 2e-5;
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  MPI_Ibarrier(team.comm, &request);
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
     sleep_seconds(pause);
     if (pause < 2e-3)
@@ -55,13 +73,13 @@ CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
              "MPI cannot be started");
   MPI_Comm_rank(MPI_COMM_WORLD, &world.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &world.ranks);
+  join_all();
   if (world.ranks > 1) {
-    MPI_Aint bytes = world.rank == 0 ? SLOT_COUNT * (MPI_Aint)sizeof(int64_t) : 0;
+    MPI_Aint bytes = SLOT_COUNT * (MPI_Aint)sizeof(int64_t);
     CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot,
                                 &world.window) == MPI_SUCCESS,
                CW_ERR_LIBRARY, "MPI gives no shared counter");
-    if (world.rank == 0)
-      memset(world.slot, 0, (size_t)bytes);
+    memset(world.slot, 0, (size_t)bytes);
     MPI_Barrier(MPI_COMM_WORLD);
     MPI_Win_lock_all(MPI_MODE_NOCHECK, world.window);
   }
@@ -84,13 +102,14 @@ void cw_mpi_end(void) {
   MPI_Finalize();
   world.rank = 0;
   world.ranks = 1;
+  join_all();
 }
 
 int cw_mpi_fail(CwStatus status) {
   if (world.ranks == 1)
     return cw_log_error(status);
   // The second to fail leaves the line to the first, and time to print it.
-  if (counter_add(SLOT_FAILED, 1) > 0)
+  if (add_on(0, SLOT_FAILED, 1) > 0)
     sleep_seconds(5.0);
   int code = cw_log_error(status);
   MPI_Abort(MPI_COMM_WORLD, code);
@@ -99,6 +118,40 @@ int cw_mpi_fail(CwStatus status) {
 
 void cw_mpi_most(int32_t count, double *value) {
   if (world.ranks > 1) MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+}
+
+static void broadcast(void *bytes, int64_t size, int owner) {
+  for (int64_t at = 0; at < size; at += CHUNK) {
+    int64_t left = size - at;
+    MPI_Bcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, owner, team.comm);
+  }
+}
+
+void cw_mpi_split(int number) {
+  quiet_barrier(0);
+  MPI_Comm_split(MPI_COMM_WORLD, number, world.rank, &team.comm);
+  MPI_Comm_rank(team.comm, &team.rank);
+  MPI_Comm_size(team.comm, &team.ranks);
+  team.first = world.rank;
+  MPI_Bcast(&team.first, 1, MPI_INT, 0, team.comm);
+}
+
+void cw_mpi_join(void) {
+  MPI_Comm_free(&team.comm);
+  join_all();
+  quiet_barrier(0);
+}
+
+int cw_mpi_rank(void) {
+  return world.rank;
+}
+
+int cw_mpi_ranks(void) {
+  return world.ranks;
+}
+
+void cw_mpi_broadcast(void *bytes, int64_t size, int from) {
+  if (world.ranks > 1) broadcast(bytes, size, from);
 }
 
 typedef struct {
@@ -113,20 +166,13 @@ static int compare_cost(const void *left, const void *right) {
   return a->task < b->task ? -1 : 1;
 }
 
-static void broadcast(void *bytes, int64_t size, int owner) {
-  for (int64_t at = 0; at < size; at += CHUNK) {
-    int64_t left = size - at;
-    MPI_Bcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, owner, MPI_COMM_WORLD);
-  }
-}
-
 // Every rank gets every result. The results of one rank go as one message: thousands of small tasks, few
 // broadcasts.
 static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   char *pack = NULL;
-  MPI_Allreduce(MPI_IN_PLACE, size, count, MPI_INT64_T, MPI_MAX, MPI_COMM_WORLD);
-  for (int rank = 0; rank < world.ranks; rank++) {
+  MPI_Allreduce(MPI_IN_PLACE, size, count, MPI_INT64_T, MPI_MAX, team.comm);
+  for (int rank = 0; rank < team.ranks; rank++) {
     int64_t total = 0, at = 0;
     for (int32_t task = 0; task < count; task++) {
       if (owner[task] == rank)
@@ -136,7 +182,7 @@ static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes
       continue;
     pack = malloc((size_t)total);
     CW_REQUIRE(pack, CW_ERR_MEMORY, "out of memory: %lld bytes of results", (long long)total);
-    for (int32_t task = 0; rank == world.rank && task < count; task++) {
+    for (int32_t task = 0; rank == team.rank && task < count; task++) {
       if (owner[task] != rank || size[task] == 0)
         continue;
       memcpy(pack + at, bytes[task], (size_t)size[task]);
@@ -144,7 +190,7 @@ static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes
     }
     broadcast(pack, total, rank);
     at = 0;
-    for (int32_t task = 0; rank != world.rank && task < count; task++) {
+    for (int32_t task = 0; rank != team.rank && task < count; task++) {
       if (owner[task] != rank || size[task] == 0)
         continue;
       bytes[task] = malloc((size_t)size[task]);
@@ -175,10 +221,10 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     owner[task] = -1;
   }
   qsort(order, (size_t)schedule->count, sizeof *order, compare_cost);
-  if (world.ranks > 1) {
+  if (team.ranks > 1) {
     // All have left the last run before the counters start again, and none starts before they have.
     quiet_barrier(0);
-    if (world.rank == 0) {
+    if (team.rank == 0) {
       counter_add(SLOT_NEXT, -counter_add(SLOT_NEXT, 0));
       counter_add(SLOT_DONE, -counter_add(SLOT_DONE, 0));
     }
@@ -186,7 +232,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   }
   if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
   for (;;) {
-    int64_t place = world.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
+    int64_t place = team.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
     if (place >= schedule->count)
       break;
     int32_t task = order[place].task;
@@ -196,20 +242,20 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
     time[task] = cw_processor_seconds() - start;
     own += time[task];
-    owner[task] = world.rank;
+    owner[task] = team.rank;
     if (bytes)
       bytes[task] = result;
     else
       free(result);
     if (size)
       size[task] = result_size;
-    finished = world.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
+    finished = team.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
     if (schedule->unit) cw_progress(finished);
   }
-  if (world.ranks > 1) {
-    quiet_barrier(world.rank == 0 && schedule->unit);
-    MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, MPI_COMM_WORLD);
-    MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  if (team.ranks > 1) {
+    quiet_barrier(team.rank == 0 && schedule->unit);
+    MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, team.comm);
+    MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, team.comm);
     if (schedule->gather)
       CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }

@@ -44,7 +44,19 @@ void cw_mpi_end(void);
 // status for main().
 int cw_mpi_fail(CwStatus status);
 
-// The greatest of all ranks, for each of `count` values. Collective.
+// This rank and how many there are, 0 of 1 without cw_mpi_start.
+int cw_mpi_rank(void);
+int cw_mpi_ranks(void);
+
+// Splits the ranks into teams: until they join again schedules run over the ranks that gave the same number, which get
+// results from one another alone. Collective over all ranks, as is cw_mpi_join; a rank that waits there sleeps.
+void cw_mpi_split(int number);
+void cw_mpi_join(void);
+
+// `size` bytes of the rank `from` to the others. Collective over all ranks.
+void cw_mpi_broadcast(void *bytes, int64_t size, int from);
+
+// The greatest of all ranks, for each of `count` values. Collective over all ranks.
 void cw_mpi_most(int32_t count, double *value);
 
 // Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start there is one rank.

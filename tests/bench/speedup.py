@@ -9,8 +9,9 @@
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs on
 the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost first,
 each rank takes the next task when it is free; a schedule starts when the one before has ended on all ranks). What no task
-accounts for is done by every rank and gains nothing. The model knows no network and no shared memory bus; the row of 2
-ranks, measured and modelled, and --check tell how far it holds here.
+accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are grouped as the
+mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row of 2 ranks,
+measured and modelled, and --check tell how far it holds here.
 
 --check RANKS runs the mesher on so many ranks, more than there are cores too, and sets the processor seconds of the
 longest rank beside the model, step by step. --cells-per-region takes the place of the case's.
@@ -39,6 +40,7 @@ from programs import ENVIRONMENT, SOURCE, gmsh, gmsh_first_size, size_for
 
 PAPER = {6: 81.13, 12: 75.92, 18: 60.94, 24: 51.04}  # efficiency, %
 TASKS = " (tasks)"
+LEAST_RANKS = 2  # of a group
 
 
 def case_with(arguments, folder):
@@ -63,6 +65,25 @@ def mesh(arguments, geometry, ranks):
                        stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         seconds = time.monotonic() - begun
         return seconds, json.loads((pathlib.Path(run) / "mesh/record.json").read_text())
+
+
+def group_sides(cost, own, ranks):
+    """The groups of sides, each with its ranks: the mesher's own rule (cw_sides_group)."""
+    best, least = None, None
+    for groups in range(1, max(2, min(len(cost), ranks // LEAST_RANKS) + 1)):
+        sides, work = [[] for _ in range(groups)], [0.0] * groups
+        for side in sorted(range(len(cost)), key=lambda side: -cost[side]):
+            group = work.index(min(work))
+            sides[group].append(side)
+            work[group] += cost[side]
+        ranks_of = [LEAST_RANKS] * groups if groups > 1 else [ranks]
+        while sum(ranks_of) < ranks:
+            longest = max(range(groups), key=lambda group: work[group] / ranks_of[group])
+            ranks_of[longest] += 1
+        seconds = max(work[group] * (own + (1 - own) / ranks_of[group]) for group in range(groups))
+        if best is None or seconds < least:
+            best, least = list(zip(sides, ranks_of)), seconds
+    return best
 
 
 def replay(tasks, ranks):
@@ -122,35 +143,71 @@ def depth(before):
     return max(map(of, range(len(before))))
 
 
+def add(seconds, more):
+    for name, value in more.items():
+        seconds[name] = seconds.get(name, 0) + value
+
+
+class Account:
+    """What ranks do together: seconds of what every rank does, by part, and the lists of tasks (cost, seconds); the least of
+    several runs."""
+
+    def __init__(self, several):
+        self.parts, self.steps = {}, []
+        for runs in zip(*(account["tasks"] for account in several)):
+            assert len({step["step"] for step in runs}) == 1
+            times = [min(values) for values in zip(*(step["task_seconds"] for step in runs))]
+            self.steps.append((runs[0]["step"], list(zip(runs[0]["task_cost"] or [0] * len(times), times))))
+        for runs in zip(*(account["every_rank"] for account in several)):
+            assert len({part["part"] for part in runs}) == 1
+            add(self.parts, {runs[0]["part"]: min(part["seconds"] for part in runs)})
+
+    def seconds(self, ranks, before=None):
+        """By name. before: of the regions, which wait for them (smaller_neighbours)."""
+        seconds = dict(self.parts)
+        for name, tasks in self.steps:
+            if before and name == "region rule":
+                continue
+            waits = before and name == "regions"
+            add(seconds, {name + TASKS: replay_waiting(tasks, before, ranks) if waits else replay(tasks, ranks)})
+        return seconds
+
+
+def longest_groups(sides, ranks, seconds_of):
+    """Seconds by name of the group that takes longest, of all steps that go on side by side. sides: as in the record;
+    seconds_of(step, side, ranks): by name, of one side."""
+    seconds = {}
+    for step, entry in enumerate(sides):
+        groups = []
+        for members, ranks_of in group_sides([side["cost"] for side in entry["side"]], entry["own"], ranks):
+            groups.append({})
+            for side in members:
+                add(groups[-1], seconds_of(step, side, ranks_of))
+        add(seconds, max(groups, key=lambda group: sum(group.values())))
+    return seconds
+
+
 class Model:
-    """The run on one rank: seconds of what every rank does, by part, and the steps' tasks (cost, seconds)."""
+    """The run on one rank: what all ranks do together, and side by side."""
 
     def __init__(self, runs):
-        records = [record for _, record in runs]
-        self.record = records[0]
-        self.steps, self.parts_of_all = [], {}
-        for several in zip(*(record["results"]["tasks"] for record in records)):
-            assert len({step["step"] for step in several}) == 1
-            times = [min(values) for values in zip(*(step["task_seconds"] for step in several))]
-            self.steps.append((several[0]["step"], list(zip(several[0]["task_cost"] or [0] * len(times), times))))
-        for several in zip(*(record["results"]["every_rank"] for record in records)):
-            assert len({part["part"] for part in several}) == 1
-            self.parts_of_all[several[0]["part"]] = min(part["seconds"] for part in several)
+        results = [record["results"] for _, record in runs]
+        self.record = runs[0][1]
+        self.together = Account([result["together"] for result in results])
+        self.sides = results[0]["side_by_side"]
+        self.accounts = [[Account(sides) for sides in zip(*(step["side"] for step in several))]
+                         for several in zip(*(result["side_by_side"] for result in results))]
         self.before = smaller_neighbours(self.record)
         self.one = self.total(1)
 
-    def steps_at(self, ranks, waiting=False):
-        """Seconds of the tasks by the name of the step."""
-        parts = {}
-        for name, tasks in self.steps:
-            if waiting and name == "region rule":
-                continue
-            seconds = replay_waiting(tasks, self.before, ranks) if waiting and name == "regions" else replay(tasks, ranks)
-            parts[name] = parts.get(name, 0) + seconds
-        return parts
+    def seconds(self, ranks, waiting=False):
+        """By name: parts, and steps with " (tasks)"."""
+        seconds = self.together.seconds(ranks, self.before if waiting else None)
+        add(seconds, longest_groups(self.sides, ranks, lambda step, side, of: self.accounts[step][side].seconds(of)))
+        return seconds
 
     def total(self, ranks, waiting=False):
-        return sum(self.steps_at(ranks, waiting).values()) + sum(self.parts_of_all.values())
+        return sum(self.seconds(ranks, waiting).values())
 
 
 def serial_gmsh(arguments, cells):
@@ -195,33 +252,39 @@ def print_table(model, ranks_asked, measured, serial):
 
 def print_losses(model, ranks_asked):
     """What stands in the way: seconds of each step beyond its share, in % of the time of all."""
-    one = {name: (seconds, True) for name, seconds in model.parts_of_all.items() if seconds >= 5e-4 * model.one}
-    one.update({name + TASKS: (seconds, False) for name, seconds in model.steps_at(1).items()})
     print("\nloss of efficiency, % (model)")
     print(f"{'':34s} {'1 rank, s':>9s} " + " ".join(f"{ranks:6d}" for ranks in ranks_asked))
-    at = {ranks: model.steps_at(ranks) for ranks in ranks_asked}
-    totals = {ranks: model.total(ranks) for ranks in ranks_asked}
-    for name, (seconds, by_all) in sorted(one.items(), key=lambda item: -item[1][0]):
-        losses = [100 * ((seconds if by_all else at[ranks][name.removesuffix(TASKS)]) - seconds / ranks) / totals[ranks]
-                  for ranks in ranks_asked]
+    at = {ranks: model.seconds(ranks) for ranks in ranks_asked}
+    for name, seconds in sorted(model.seconds(1).items(), key=lambda item: -item[1]):
+        if seconds < 5e-4 * model.one:
+            continue
+        losses = [100 * (at[ranks].get(name, 0) - seconds / ranks) / sum(at[ranks].values()) for ranks in ranks_asked]
         print(f"{name:34s} {seconds:9.2f} " + " ".join(f"{loss:6.1f}" for loss in losses))
 
 
+def most_of(account):
+    """Processor seconds of the rank with most, by name."""
+    seconds = {}
+    for part in account["every_rank"]:
+        add(seconds, {part["part"]: part["most"]})
+    for step in account["tasks"]:
+        add(seconds, {step["step"] + TASKS: step["most"]})
+    return seconds
+
+
 def print_check(model, record):
-    """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by schedule.
-    Such a run may have more ranks than cores: a rank that waits sleeps."""
-    ranks = record["results"]["ranks"]
-    most = {}
-    for step in record["results"]["tasks"]:
-        most[step["step"]] = most.get(step["step"], 0) + step["most"]
-    rows = [(name + TASKS, seconds, most.get(name, 0)) for name, seconds in model.steps_at(ranks).items()]
-    here = {part["part"]: part["most"] for part in record["results"]["every_rank"]}
-    rows += [(name, seconds, here.get(name, 0)) for name, seconds in model.parts_of_all.items()]
+    """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by schedule,
+    side by side those of the longest group. Such a run may have more ranks than cores: a rank that waits sleeps."""
+    results = record["results"]
+    ranks, sides = results["ranks"], results["side_by_side"]
+    modelled, measured = model.seconds(ranks), most_of(results["together"])
+    add(measured, longest_groups(sides, ranks, lambda step, side, of: most_of(sides[step]["side"][side])))
     print(f"\nthe longest rank of {ranks}, processor seconds         model  measured")
-    for name, modelled, found in sorted(rows, key=lambda row: -row[1]):
-        if max(modelled, found) >= 1e-3 * model.one:
-            print(f"{name:50s} {modelled:9.2f} {found:9.2f}")
-    print(f"{'all':50s} {sum(row[1] for row in rows):9.2f} {sum(row[2] for row in rows):9.2f}")
+    for name in sorted({**modelled, **measured}, key=lambda name: -modelled.get(name, 0)):
+        row = modelled.get(name, 0), measured.get(name, 0)
+        if max(row) >= 1e-3 * model.one:
+            print(f"{name:50s} {row[0]:9.2f} {row[1]:9.2f}")
+    print(f"{'all':50s} {sum(modelled.values()):9.2f} {sum(measured.values()):9.2f}")
 
 
 def main():

@@ -2,6 +2,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
 
@@ -38,7 +39,7 @@ static const json_t *find(const json_t *array, const char *key, const char *name
 static void time_goes_to_tasks_and_parts(void **state) {
   (void)state;
   double begun = cw_processor_seconds(), sum = 0;
-  json_t *parts, *tasks, *part;
+  json_t *account, *sides, *part;
   cw_ledger_part("before");
   const double cost[3] = {1, 3, 2};
   CwSchedule schedule = {.step = "step", .count = 3, .cost = cost, .run = task};
@@ -46,7 +47,9 @@ static void time_goes_to_tasks_and_parts(void **state) {
   work(0.03); // schedules leave the part as it was
   assert_string_equal(cw_ledger_part("after"), "before");
   work(0.01);
-  assert_int_equal(cw_ledger_json(&parts, &tasks), CW_OK);
+  assert_int_equal(cw_ledger_json(&account, &sides), CW_OK);
+  const json_t *parts = json_object_get(account, "every_rank"), *tasks = json_object_get(account, "tasks");
+  assert_int_equal(json_array_size(sides), 0);
   double all = cw_processor_seconds() - begun;
   assert_int_equal(json_array_size(tasks), 1);
   const json_t *step = find(tasks, "step", "step"), *seconds = json_object_get(step, "task_seconds");
@@ -61,12 +64,55 @@ static void time_goes_to_tasks_and_parts(void **state) {
     if (strcmp(json_string_value(json_object_get(part, "part")), "start")) sum += number(part, "seconds");
   }
   assert_true(sum + number(step, "most") <= all + 1e-4); // nothing counts twice
-  json_decref(parts);
-  json_decref(tasks);
+  json_decref(account);
+  json_decref(sides);
+  cw_ledger_free();
+}
+
+static const double COST[2] = {5, 7};
+
+// What is spent on a side is the side's alone; its account can be packed and taken up by a process that was on another.
+static void sides_have_their_own_accounts(void **state) {
+  (void)state;
+  json_t *account, *sides;
+  char *bytes;
+  int64_t size;
+  CwSchedule schedule = {.step = "step", .count = 2, .cost = COST, .run = task};
+  cw_ledger_part("together");
+  assert_int_equal(cw_ledger_sides("sides", 2, COST, 0.25), CW_OK);
+  cw_ledger_side(1);
+  cw_ledger_part("alone");
+  work(0.03);
+  assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_OK);
+  cw_ledger_side(-1);
+  assert_int_equal(cw_ledger_pack_side(1, &bytes, &size), CW_OK);
+  assert_int_equal(cw_ledger_take_side(0, bytes, size), CW_OK);
+  free(bytes);
+  assert_string_equal(cw_ledger_part("after"), "together");
+  assert_int_equal(cw_ledger_json(&account, &sides), CW_OK);
+  assert_null(find(json_object_get(account, "every_rank"), "part", "alone"));
+  assert_int_equal(json_array_size(json_object_get(account, "tasks")), 0);
+  const json_t *step = find(sides, "step", "sides"), *side = json_object_get(step, "side");
+  assert_float_equal(number(step, "own"), 0.25, 0);
+  assert_int_equal(json_array_size(side), 2);
+  for (size_t s = 0; s < 2; s++) {
+    const json_t *of = json_array_get(side, s), *alone = find(json_object_get(of, "every_rank"), "part", "alone"),
+                 *list = find(json_object_get(of, "tasks"), "step", "step");
+    assert_float_equal(number(of, "cost"), COST[s], 0);
+    assert_int_equal(json_array_size(json_object_get(list, "task_seconds")), 2);
+    assert_float_equal(json_number_value(json_array_get(json_object_get(list, "task_cost"), 1)), 7, 0);
+    assert_true(json_number_value(json_array_get(json_object_get(list, "task_seconds"), 1)) >= 0.06 - 1e-5);
+    assert_true(number(alone, "most") >= (s ? 0.03 - 1e-5 : 0));
+    assert_true(number(list, "most") >= (s ? 0.08 - 1e-5 : 0)); // who takes an account has spent nothing on it
+    assert_true(s || number(alone, "most") + number(list, "most") == 0);
+  }
+  json_decref(account);
+  json_decref(sides);
   cw_ledger_free();
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(time_goes_to_tasks_and_parts)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(time_goes_to_tasks_and_parts),
+                                     cmocka_unit_test(sides_have_their_own_accounts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

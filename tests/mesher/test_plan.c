@@ -90,14 +90,12 @@ static double cells_at(const CwDomain *of, double scale) {
 // A plan of so many regions, of so many cells each or more.
 static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *plan) {
   double scale = 1.1;
-  void *bytes;
-  int64_t size;
   while (cells_at(of, scale) < each * regions) scale *= 0.99;
   cw_size_set_scale(of->size, scale);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
-  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, TET_FACTOR, &bytes, &size));
-  check(cw_plan_unpack(bytes, plan));
-  free(bytes);
+  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, TET_FACTOR));
+  *plan = of->plan;
+  of->plan = (CwPlan){0};
 }
 
 static void make_plan(CwDomain *of, int32_t regions, CwPlan *plan) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Started alone this is the test; under mpirun it is one rank of the run that a test asks for.
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -8,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 #include <cmocka.h>
 
+#include "launch.h"
 #include "mesher/schedule.h"
 #include "pipeline/log.h"
 
@@ -109,31 +108,6 @@ static int be_a_rank(int argc, char **argv) {
   return wrong != 0;
 }
 
-// Starts ranks of this program; gives all they print and mpirun's exit status.
-static int launch(int ranks, const char *mode, char *output, size_t output_size) {
-  char command[4300], self[4000] = {0};
-  assert_true(readlink("/proc/self/exe", self, sizeof self - 1) > 0);
-  snprintf(command, sizeof command, "mpirun -q --oversubscribe -n %d '%s' %s 2>&1", ranks, self, mode);
-  FILE *pipe = popen(command, "r");
-  assert_non_null(pipe);
-  size_t used = 0, got;
-  while ((got = fread(output + used, 1, output_size - 1 - used, pipe)) > 0)
-    used += got;
-  output[used] = '\0';
-  int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-static int sum_of(const char *output, const char *key, int *lines) {
-  int sum = 0;
-  *lines = 0;
-  for (const char *at = strstr(output, key); at; at = strstr(at + 1, key)) {
-    sum += atoi(at + strlen(key));
-    ++*lines;
-  }
-  return sum;
-}
-
 static char output[100000];
 
 static void every_task_runs_once_and_all_get_all(void **state) {
@@ -157,13 +131,6 @@ static double now(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int count_lines_with(const char *text, const char *key) {
-  int count = 0;
-  for (const char *at = strstr(text, key); at; at = strstr(at + 1, key))
-    count++;
-  return count;
 }
 
 static void failing_task_ends_the_run_with_one_line(void **state) {
@@ -230,10 +197,8 @@ static void one_rank_gives_the_failure_back(void **state) {
 }
 
 int main(int argc, char **argv) {
-  if (getenv("OMPI_COMM_WORLD_SIZE") && argc > 1)
+  if (launched(argc))
     return be_a_rank(argc, argv);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   cw_log_open("test", NULL, 0, 0);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_rank_runs_largest_first),

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A test that starts itself under mpirun: alone it is the test, there it is one rank of the run that a test asks for.
+#ifndef CUTWATER_TESTS_MESHER_LAUNCH_H
+#define CUTWATER_TESTS_MESHER_LAUNCH_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+// Whether this process is such a rank.
+static inline int launched(int argc) {
+  return getenv("OMPI_COMM_WORLD_SIZE") && argc > 1;
+}
+
+// Starts ranks of this program; gives all they print and mpirun's exit status, -1 where it has none.
+static inline int launch(int ranks, const char *mode, char *output, size_t output_size) {
+  char command[4300], self[4000] = {0};
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  if (readlink("/proc/self/exe", self, sizeof self - 1) <= 0) return -1;
+  snprintf(command, sizeof command, "mpirun -q --oversubscribe -n %d '%s' %s 2>&1", ranks, self, mode);
+  FILE *pipe = popen(command, "r");
+  if (!pipe) return -1;
+  size_t used = 0, got;
+  while ((got = fread(output + used, 1, output_size - 1 - used, pipe)) > 0) used += got;
+  output[used] = '\0';
+  int status = pclose(pipe);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// The sum of the numbers that follow `key`, and how often it stands there.
+static inline int sum_of(const char *output, const char *key, int *lines) {
+  int sum = 0;
+  *lines = 0;
+  for (const char *at = strstr(output, key); at; at = strstr(at + 1, key)) {
+    sum += atoi(at + strlen(key));
+    ++*lines;
+  }
+  return sum;
+}
+
+static inline int count_lines_with(const char *text, const char *key) {
+  int lines;
+  sum_of(text, key, &lines);
+  return lines;
+}
+
+#endif
