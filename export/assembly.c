@@ -5,14 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "export/cell.h"
 #include "pipeline/log.h"
+#include "pipeline/mesh/cell.h"
 
 static const double ROUNDING = 1e-12; // m
 
+// A face on a dividing plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end of
+// a triangle; `reversed` if the outward normal runs the other way.
+typedef struct {
+  int64_t loop[4];
+  int32_t region; // into CwMesh.regions
+  int32_t slot;   // place among the open faces of its region
+  int32_t cell;   // of the region
+  int32_t reversed;
+} OpenFace;
+
 // What one rank collects over its regions.
 typedef struct {
-  CwOpenFace *open;
+  OpenFace *open;
   int64_t open_count, open_room;
   CwInterfaceFace *interface[CW_DOMAINS_MOST][2];
   int64_t interface_count[CW_DOMAINS_MOST][2], interface_room[CW_DOMAINS_MOST][2];
@@ -157,28 +167,41 @@ done:
   return status;
 }
 
+static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, int32_t ref) {
+  OpenFace face = {.region = region, .slot = slot, .cell = ref / CW_CELL_FACES, .loop = {-1, -1, -1, -1}};
+  int32_t nodes[4];
+  int64_t wide[4];
+  int order[4], count = cw_cell_face(data, face.cell, ref % CW_CELL_FACES, nodes);
+  for (int k = 0; k < count; ++k)
+    wide[k] = data->shared_id[nodes[k]];
+  face.reversed = cw_face_loop(wide, count, order);
+  for (int k = 0; k < count; ++k)
+    face.loop[k] = wide[order[k]];
+  return face;
+}
+
 static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
   CwRegionData data = {0};
-  CwOpenFace *open = NULL;
-  int32_t count = 0;
+  int32_t *open = NULL, count = 0;
   int64_t triangles, quads;
   CW_TRY(cw_mesh_region_read(mesh, region, CW_REGION_WHOLE, &data));
-  CW_TRY(cw_region_open_faces(mesh, region, &data, &open, &count));
+  CW_TRY(cw_region_open_faces(mesh->regions[region].path, CW_ERR_INPUT, &data, 1, &open, &count));
   collect_points(&data, c);
   CW_TRY(collect_patches(mesh, region, &data, a, c));
   // Each face of a cell is one of two at an inner face, or lies on a patch or a dividing plane.
   triangles = 4 * (int64_t)(data.tetrahedron_count + data.pyramid_count) + 2 * (int64_t)data.prism_count;
   triangles -= data.triangle_count;
   quads = data.pyramid_count + 3 * (int64_t)data.prism_count - data.quad_count;
-  for (int32_t i = 0; i < count; ++i)
-    --*(open[i].loop[3] < 0 ? &triangles : &quads);
+  CW_TRY(reserve((void **)&c->open, &c->open_room, c->open_count, count, sizeof *c->open));
+  for (int32_t i = 0; i < count; ++i) {
+    OpenFace *face = &c->open[c->open_count++];
+    *face = open_face(region, &data, i, open[i]);
+    --*(face->loop[3] < 0 ? &triangles : &quads);
+  }
   a->places[region].inner_triangles = triangles / 2;
   a->places[region].inner_quads = quads / 2;
   c->open_counts[region] = count;
-  CW_TRY(reserve((void **)&c->open, &c->open_room, c->open_count, count, sizeof *c->open));
-  memcpy(c->open + c->open_count, open, (size_t)count * sizeof *open);
-  c->open_count += count;
 done:
   free(open);
   cw_mesh_region_free(&data);
@@ -238,7 +261,7 @@ done:
 }
 
 static int compare_open_faces(const void *left, const void *right) {
-  const CwOpenFace *x = left, *y = right;
+  const OpenFace *x = left, *y = right;
   for (int i = 0; i < 4; ++i)
     if (x->loop[i] != y->loop[i])
       return x->loop[i] < y->loop[i] ? -1 : 1;
@@ -246,7 +269,7 @@ static int compare_open_faces(const void *left, const void *right) {
                                 : (x->slot > y->slot) - (x->slot < y->slot);
 }
 
-static CwStatus fail_at_open_face(const CwAssembly *a, const CwOpenFace *face, const char *what) {
+static CwStatus fail_at_open_face(const CwAssembly *a, const OpenFace *face, const char *what) {
   double x[3] = {0};
   int count = face->loop[3] < 0 ? 3 : 4;
   const CwMeshRegion *line = &a->mesh->regions[face->region];
@@ -258,20 +281,20 @@ static CwStatus fail_at_open_face(const CwAssembly *a, const CwOpenFace *face, c
 }
 
 // Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.
-static CwStatus pair_open_faces(CwAssembly *a, CwOpenFace *open, int64_t count) {
+static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
   CwStatus status = CW_OK;
   qsort(open, (size_t)count, sizeof *open, compare_open_faces);
   for (int64_t i = 0; i < count; i += 2) {
-    const CwOpenFace *x = &open[i], *y = &open[i + 1];
+    const OpenFace *x = &open[i], *y = &open[i + 1];
     if (i + 1 == count || memcmp(x->loop, y->loop, sizeof x->loop) != 0)
       CW_TRY(fail_at_open_face(a, x, "has no partner in another region"));
     if (i + 2 < count && memcmp(x->loop, open[i + 2].loop, sizeof x->loop) == 0)
       CW_TRY(fail_at_open_face(a, x, "is shared by more than two cells"));
     if (x->reversed == y->reversed)
       CW_TRY(fail_at_open_face(a, x, "has both of its cells on the same side"));
-    const CwOpenFace *sides[2] = {x, y};
+    const OpenFace *sides[2] = {x, y};
     for (int s = 0; s < 2; ++s) {
-      const CwOpenFace *here = sides[s], *there = sides[1 - s];
+      const OpenFace *here = sides[s], *there = sides[1 - s];
       CwRegionPlace *place = &a->places[here->region];
       int64_t mine = place->cell + here->cell, other = a->places[there->region].cell + there->cell;
       a->across[place->open + here->slot] = other;
@@ -285,13 +308,13 @@ done:
 
 static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
-  CwOpenFace *all = NULL;
+  OpenFace *all = NULL;
   int64_t total = 0;
   CW_NEW(a->across, a->open_count);
   CW_TRY(cw_ranks_gather(ranks, c->open, c->open_count, sizeof *all, (void **)&all, &total));
   // A stable split by domain, as each numbers its shared points from 0.
   if (ranks->rank == 0) {
-    CwOpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
+    OpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
     if (!split)
       status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on dividing planes", (long long)total);
     for (int d = 0; d < a->mesh->domain_count && status == CW_OK; ++d) {

@@ -5,9 +5,9 @@
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
-#include "pipeline/mesh/region_read.h"
 #include "export/ranks.h"
-#include "export/region_faces.h"
+#include "pipeline/mesh/region_faces.h"
+#include "pipeline/mesh/region_read.h"
 
 // Where a region begins in the numbering of its domain, all 0-based, and what it adds.
 typedef struct {

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "export/cell.h"
+#include "pipeline/mesh/cell.h"
 
 static const char *const file_names[CW_FOAM_FILES] = {"points", "faces", "owner", "neighbour", "cellZones"};
 static const char *const file_classes[CW_FOAM_FILES] = {"vectorField", "faceCompactList", "labelList", "labelList",

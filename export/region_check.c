@@ -4,18 +4,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "export/cell.h"
+#include "pipeline/mesh/cell.h"
 
 static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionVolume *volume) {
   CwStatus status = CW_OK;
   *volume = (CwRegionVolume){0, INFINITY};
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
-    double one = cw_cell_volume(data, cell);
+    const double *x[6];
+    int count;
+    const int32_t *nodes = cw_cell_nodes(data, cell, &count);
+    for (int i = 0; i < count; ++i)
+      x[i] = data->points[nodes[i]];
+    double one = cw_cell_volume(count, x);
     if (!(one > 0)) {
-      double x[3];
-      cw_cell_centre(data, cell, x);
+      double centre[3];
+      cw_cell_centre(data, cell, centre);
       CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
-                 path, cell, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e9 * one);
+                 path, cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * one);
     }
     volume->sum += one;
     volume->least = one < volume->least ? one : volume->least;
@@ -51,7 +56,7 @@ CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *da
   const char *path = a->mesh->regions[region].path;
   int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
   CW_TRY(check_volumes(path, data, volume));
-  CW_TRY(cw_region_faces(a->mesh, region, data, faces));
+  CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, faces));
   CW_TRY(check_points(path, data));
   CW_REQUIRE(faces->inner_triangles == place->inner_triangles && faces->inner_quads == place->inner_quads &&
                  faces->open_count == open,

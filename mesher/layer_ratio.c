@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "mesher/quality.h"
+#include "pipeline/mesh/cell.h"
 #include "mesher/vec.h"
 
 const double cw_ratio_ends[CW_RATIO_BINS - 1] = {0.25, 0.5, 0.75, 1, 1.25, 1.5, 2};

@@ -77,33 +77,6 @@ void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
   shape->dihedral_greatest = flat ? 180.0 : acos(fmax(least, -1.0)) * degrees;
 }
 
-// Outward faces of the three shapes; the last of a triangle is -1.
-static const int tet_face[4][4] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
-static const int pyramid_face[5][4] = {
-    {0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
-static const int prism_face[5][4] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
-
-double cw_cell_volume(int count, const double *const *x) {
-  const int(*face)[4] = count == 4 ? tet_face : count == 5 ? pyramid_face : prism_face;
-  int faces = count == 4 ? 4 : 5;
-  double six = 0.0;
-  if (count == 4)
-    return cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0;
-  for (int f = 0; f < faces; f++) {
-    const int *p = face[f];
-    if (p[3] < 0) {
-      six += cw_tet_volume6(x[0], x[p[0]], x[p[1]], x[p[2]]);
-      continue;
-    }
-    double mean[3];
-    for (int i = 0; i < 3; i++)
-      mean[i] = 0.25 * (x[p[0]][i] + x[p[1]][i] + x[p[2]][i] + x[p[3]][i]);
-    for (int k = 0; k < 4; k++)
-      six += cw_tet_volume6(x[0], x[p[k]], x[p[(k + 1) % 4]], mean);
-  }
-  return six / 6.0;
-}
-
 double cw_prism_scaled_jacobian(const double *const x[6]) {
   double least = INFINITY;
   for (int corner = 0; corner < 6; corner++) {

@@ -21,11 +21,6 @@ double cw_tet_volume6(const double a[3], const double b[3], const double c[3], c
 double cw_tet_volume6_error(const double a[3], const double b[3], const double c[3], const double d[3]);
 void cw_tet_shape(const double *const x[4], CwTetShape *shape);
 
-// Signed volume of a cell with `count` corners (4 tetrahedron, 5 pyramid, 6 prism; CGNS order, the prism with
-// 4, 5, 6 over 1, 2, 3 and positive upwards), m3. A quadrilateral face is the fan of four triangles about its
-// mean point, which both of its cells see alike, so that volumes of cells add up to the volume enclosed.
-double cw_cell_volume(int count, const double *const *x);
-
 // Least over the six corners of a prism of the triple product of its unit edges, over that of the right prism
 // on an equilateral triangle: 1 is best, not above 0 is inverted at a corner.
 double cw_prism_scaled_jacobian(const double *const x[6]);

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "pipeline/mesh/region_items.h"
 
 static CwStatus write_attribute(hid_t file, const char *name, hid_t type, const void *data) {
   CwStatus status = CW_OK;
@@ -34,8 +33,7 @@ static CwStatus write_text(hid_t file, const char *name, const char *text) {
   return status;
 }
 
-// The arrays of a region as its file has them, and back. Both point to the same memory.
-static CwRegionData data_of(const CwRegionMesh *r) {
+CwRegionData cw_region_data(const CwRegionMesh *r) {
   return (CwRegionData){.point_count = r->point_count,
                         .shared_count = r->shared_count,
                         .tetrahedron_count = r->tetrahedron_count,
@@ -56,6 +54,7 @@ static CwRegionData data_of(const CwRegionMesh *r) {
                         .quad_cell = r->quad_cell};
 }
 
+// The other way round.
 static void take_data(const CwRegionData *data, CwRegionMesh *r) {
   r->point_count = data->point_count;
   r->shared_count = data->shared_count;
@@ -79,7 +78,7 @@ static void take_data(const CwRegionData *data, CwRegionMesh *r) {
 
 static CwStatus write_items(hid_t file, const CwRegionMesh *r) {
   CwStatus status = CW_OK;
-  const CwRegionData data = data_of(r);
+  const CwRegionData data = cw_region_data(r);
   CW_TRY(write_integer(file, "format", CW_REGION_FORMAT));
   CW_TRY(write_text(file, "domain", r->domain));
   CW_TRY(write_integer(file, "region", r->region));

@@ -9,6 +9,7 @@
 #include "pipeline/status.h"
 
 #include "mesher/fill.h"
+#include "pipeline/mesh/region_items.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -37,6 +38,8 @@ CwStatus cw_region_write(const char *path, const CwRegionMesh *region);
 CwStatus cw_region_read(const char *path, CwRegionMesh *region);
 // True where `path` is a whole region file with this fingerprint. Never fails.
 int cw_region_is_current(const char *path, const char *fingerprint);
+// The arrays of a region as its file has them, in the same memory.
+CwRegionData cw_region_data(const CwRegionMesh *region);
 void cw_region_free(CwRegionMesh *region);
 
 #ifdef __cplusplus

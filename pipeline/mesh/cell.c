@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "export/cell.h"
+#include "pipeline/mesh/cell.h"
 
 #include <string.h>
 
@@ -63,33 +63,38 @@ void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]) 
   face_mean((const double(*)[3])region->points, nodes, count, centre);
 }
 
-static inline double tetrahedron_volume(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  double area[3] = {0};
-  add_triangle(a, b, c, area);
-  return (area[0] * (d[0] - a[0]) + area[1] * (d[1] - a[1]) + area[2] * (d[2] - a[2])) / 3;
+// Six times the volume of the tetrahedron that a triangle makes with `o`.
+static inline double six_volumes(const double o[3], const double a[3], const double b[3], const double c[3]) {
+  double u[3], v[3], w[3];
+  for (int k = 0; k < 3; ++k) {
+    u[k] = a[k] - o[k];
+    v[k] = b[k] - o[k];
+    w[k] = c[k] - o[k];
+  }
+  return (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2];
 }
 
-double cw_cell_volume(const CwRegionData *region, int32_t cell) {
-  const double(*points)[3] = (const double(*)[3])region->points;
-  int count;
-  double centre[3], volume = 0;
-  const int32_t *corner = cw_cell_nodes(region, cell, &count);
+double cw_cell_volume(int count, const double *const *x) {
+  const double *o = x[0];
+  double six = 0;
   if (count == 4)
-    return tetrahedron_volume(points[corner[0]], points[corner[1]], points[corner[2]], points[corner[3]]);
-  cw_cell_centre(region, cell, centre);
+    return six_volumes(o, x[1], x[2], x[3]) / 6;
   const signed char(*face)[4] = cw_cell_face_table(count);
   for (int f = 0; f < CW_CELL_FACES; ++f) {
-    const double *a = points[corner[face[f][0]]], *b = points[corner[face[f][1]]], *c = points[corner[face[f][2]]];
+    const double *a = x[face[f][0]], *b = x[face[f][1]], *c = x[face[f][2]];
     if (face[f][3] < 0) {
-      volume -= tetrahedron_volume(a, b, c, centre);
+      six += six_volumes(o, a, b, c);
       continue;
     }
-    const double *d = points[corner[face[f][3]]];
-    double mean[3];
-    for (int k = 0; k < 3; ++k)
-      mean[k] = (a[k] + b[k] + c[k] + d[k]) / 4;
-    volume -= tetrahedron_volume(a, b, mean, centre) + tetrahedron_volume(b, c, mean, centre) +
-              tetrahedron_volume(c, d, mean, centre) + tetrahedron_volume(d, a, mean, centre);
+    // The four triangles about the mean m have a x b + b x c + c x d + d x a = (c - a) x (d - b) in common.
+    const double *d = x[face[f][3]];
+    double u[3], v[3], m[3];
+    for (int k = 0; k < 3; ++k) {
+      u[k] = c[k] - a[k];
+      v[k] = d[k] - b[k];
+      m[k] = (a[k] + b[k] + c[k] + d[k]) / 4 - o[k];
+    }
+    six += (u[1] * v[2] - u[2] * v[1]) * m[0] + (u[2] * v[0] - u[0] * v[2]) * m[1] + (u[0] * v[1] - u[1] * v[0]) * m[2];
   }
-  return volume;
+  return six / 6;
 }

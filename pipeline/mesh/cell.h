@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The cells of a region seen alike: nodes, faces and volume of the cell with a given number.
-#ifndef CUTWATER_EXPORT_CELL_H
-#define CUTWATER_EXPORT_CELL_H
+#ifndef CUTWATER_PIPELINE_MESH_CELL_H
+#define CUTWATER_PIPELINE_MESH_CELL_H
 
-#include "pipeline/mesh/region_read.h"
+#include "pipeline/mesh/region_items.h"
 
 enum { CW_CELL_FACES = 5 }; // the most a cell has
 
@@ -21,11 +21,6 @@ static inline const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t c
   return region->prisms[cell - region->pyramid_count];
 }
 
-// Faces of a cell with so many nodes: 4, 5, 5.
-static inline int cw_cell_face_count(int node_count) {
-  return node_count == 4 ? 4 : 5;
-}
-
 // The corners of each face, as cw_cell_face() has them; -1 at the end of a triangle.
 const signed char (*cw_cell_face_table(int node_count))[4];
 
@@ -36,9 +31,9 @@ int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nod
 // that both cells at a face and both sides of a sum see the same surface.
 void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, double area[3]);
 
-// Volume of a cell in m3 by the divergence theorem over its faces as cw_face_area() takes them: the volumes
-// of all cells add up to that of the domain without gaps.
-double cw_cell_volume(const CwRegionData *region, int32_t cell);
+// Signed volume in m3 of a cell with so many nodes at `x`, by the divergence theorem over its faces as cw_face_area()
+// takes them: volumes of cells add up to the volume enclosed, without gaps.
+double cw_cell_volume(int count, const double *const *x);
 
 // Mean of the nodes, m.
 void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "export/region_faces.h"
+#include "pipeline/mesh/region_faces.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "export/cell.h"
+#include "pipeline/mesh/cell.h"
 
 // One side of a face: seen from a cell (ref = CW_CELL_FACES * cell + face) or from a boundary face (ref below
 // zero: -1 - place, triangles first, then quadrilaterals). The smallest node is known from the bucket; `key`
@@ -18,8 +18,8 @@ typedef struct {
 // Faces in the making. Sides lie in buckets by their smallest node; those of a bucket find each other in a small
 // hash table, which the next bucket uses again.
 typedef struct {
-  const CwMesh *mesh;
-  int region;
+  const char *name;
+  CwStatus fault;
   const CwRegionData *data;
   int32_t end;          // faces with all their nodes below it are matched
   int64_t *start;       // of the buckets by node
@@ -31,7 +31,7 @@ typedef struct {
   int32_t open_count;
 } Match;
 
-int cw_face_loop(const int64_t *nodes, int count, int64_t loop[4]) {
+int cw_face_loop(const int64_t *nodes, int count, int order[4]) {
   int first = 0;
   for (int i = 1; i < count; ++i)
     if (nodes[i] < nodes[first])
@@ -39,9 +39,7 @@ int cw_face_loop(const int64_t *nodes, int count, int64_t loop[4]) {
   int64_t next = nodes[(first + 1) % count], last = nodes[(first + count - 1) % count];
   int reversed = last < next;
   for (int i = 0; i < count; ++i)
-    loop[i] = nodes[(first + (reversed ? count - i : i)) % count];
-  if (count == 3)
-    loop[3] = -1;
+    order[i] = (first + (reversed ? count - i : i)) % count;
   return reversed;
 }
 
@@ -102,14 +100,18 @@ static inline int same_face(const Side *a, const Side *b) {
 }
 
 static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
-  int32_t nodes[4];
-  int count = side_nodes(m->data, ref, nodes);
+  const CwRegionData *data = m->data;
+  int32_t nodes[4], place = -1 - ref;
+  int count = side_nodes(data, ref, nodes);
   double centre[3] = {0};
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < count; ++i)
-      centre[k] += 1e3 * m->data->points[nodes[i]][k] / count;
-  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm %s", m->mesh->regions[m->region].path, centre[0],
-                 centre[1], centre[2], what);
+      centre[k] += 1e3 * data->points[nodes[i]][k] / count;
+  int32_t cell = ref >= 0     ? ref / CW_CELL_FACES
+                 : count == 3 ? data->triangle_cell[place]
+                              : data->quad_cell[place - data->triangle_count];
+  return CW_FAIL(m->fault, "%s: %s of cell %d at (%.6g, %.6g, %.6g) mm %s", m->name,
+                 count == 3 ? "triangle" : "quadrilateral", cell, centre[0], centre[1], centre[2], what);
 }
 
 // Counts a side (`sides` NULL) or puts it into its bucket, if all its nodes lie below `end`.
@@ -196,9 +198,9 @@ static CwStatus take_boundary_face(const Match *m, const Side *bound, const Side
     place -= data->triangle_count;
   int32_t said = is_quad ? data->quad_cell[place] : data->triangle_cell[place];
   if (bound->key != of_cell->key)
-    CW_TRY(fail_at_face(m, bound->ref, "on a patch has its normal into the domain"));
+    CW_TRY(fail_at_face(m, of_cell->ref, "is listed as boundary with its normal into the domain"));
   if (said != of_cell->ref / CW_CELL_FACES)
-    CW_TRY(fail_at_face(m, bound->ref, "on a patch names a cell it does not belong to"));
+    CW_TRY(fail_at_face(m, of_cell->ref, "is listed as boundary with the wrong cell"));
   if (m->faces) {
     m->faces->across[of_cell->ref] = CW_ACROSS_PATCH;
     (is_quad ? m->faces->quad_face : m->faces->triangle_face)[place] = of_cell->ref;
@@ -211,11 +213,11 @@ done:
 static inline CwStatus take_pair(const Match *m, const Side *first, const Side *second) {
   CwRegionFaces *faces = m->faces;
   if (second->ref < 0)
-    return fail_at_face(m, first->ref, "is listed twice as a boundary face");
+    return fail_at_face(m, first->ref, "is listed as boundary more than once");
   if (first->ref < 0)
     return take_boundary_face(m, first, second);
   if (first->key == second->key)
-    return fail_at_face(m, first->ref, "has both of its cells on the same side");
+    return fail_at_face(m, first->ref, "has both of its cells on one side");
   if (faces) {
     faces->across[first->ref] = second->ref / CW_CELL_FACES;
     faces->across[second->ref] = first->ref / CW_CELL_FACES;
@@ -229,10 +231,10 @@ static CwStatus take_single(Match *m, const Side *side) {
   CwStatus status = CW_OK;
   int32_t nodes[4];
   if (side->ref < 0)
-    CW_TRY(fail_at_face(m, side->ref, "on a patch is not the face of any cell"));
+    CW_TRY(fail_at_face(m, side->ref, "is listed as boundary but is no face of a cell"));
   for (int i = 0, count = side_nodes(m->data, side->ref, nodes); i < count; ++i)
     if (nodes[i] >= m->data->shared_count)
-      CW_TRY(fail_at_face(m, side->ref, "has one cell only and lies neither on a patch nor on a dividing plane"));
+      CW_TRY(fail_at_face(m, side->ref, "is open: not listed as boundary and not on a dividing plane"));
   if (m->faces)
     m->faces->across[side->ref] = CW_ACROSS_OPEN;
   else
@@ -268,7 +270,7 @@ static CwStatus match_bucket(Match *m, const Side *side, int32_t count) {
       continue;
     }
     if (m->met[first])
-      CW_TRY(fail_at_face(m, side[first].ref, "is shared by more than two cells or boundary faces"));
+      CW_TRY(fail_at_face(m, side[i].ref, "belongs to more than two cells or boundary faces"));
     m->met[first] = 1;
     alone -= 2;
     CW_TRY(take_pair(m, &side[first], &side[i]));
@@ -288,8 +290,8 @@ static CwStatus match_all(Match *m) {
   const CwRegionData *data = m->data;
   int64_t most = 0;
   CW_REQUIRE((int64_t)CW_CELL_FACES * cw_region_cell_count(data) + data->triangle_count + data->quad_count <= INT32_MAX,
-             CW_ERR_INPUT, "%s: %d cells; a region may have %d", m->mesh->regions[m->region].path,
-             cw_region_cell_count(data), INT32_MAX / CW_CELL_FACES);
+             m->fault, "%s: %d cells; a region may have %d", m->name, cw_region_cell_count(data),
+             INT32_MAX / CW_CELL_FACES);
   CW_NEW(m->start, (size_t)m->end + 2);
   add_sides(data, m->end, m->start, NULL);
   for (int32_t p = 0; p < m->end; ++p) {
@@ -312,9 +314,9 @@ done:
   return status;
 }
 
-CwStatus cw_region_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwRegionFaces *faces) {
+CwStatus cw_region_faces(const char *name, CwStatus fault, const CwRegionData *data, CwRegionFaces *faces) {
   CwStatus status = CW_OK;
-  Match m = {.mesh = mesh, .region = region, .data = data, .end = data->point_count, .faces = faces};
+  Match m = {.name = name, .fault = fault, .data = data, .end = data->point_count, .faces = faces};
   size_t cell_faces = (size_t)CW_CELL_FACES * (size_t)cw_region_cell_count(data);
   CW_NEW_UNSET(faces->across, cell_faces);
   CW_NEW_UNSET(faces->triangle_face, data->triangle_count);
@@ -331,27 +333,13 @@ static int compare_refs(const void *left, const void *right) {
   return (a > b) - (a < b);
 }
 
-CwStatus cw_region_open_faces(const CwMesh *mesh, int region, const CwRegionData *data, CwOpenFace **open,
-                              int32_t *count) {
-  CwStatus status = CW_OK;
-  Match m = {.mesh = mesh, .region = region, .data = data, .end = data->shared_count};
-  CW_TRY(match_all(&m));
-  qsort(m.open, (size_t)m.open_count, sizeof *m.open, compare_refs);
-  CW_NEW(*open, m.open_count);
-  for (int32_t i = 0; i < m.open_count; ++i) {
-    CwOpenFace *face = &(*open)[i];
-    int32_t nodes[4];
-    int64_t wide[4];
-    int n = side_nodes(data, m.open[i], nodes);
-    for (int k = 0; k < n; ++k)
-      wide[k] = data->shared_id[nodes[k]];
-    face->reversed = cw_face_loop(wide, n, face->loop);
-    face->region = region;
-    face->cell = m.open[i] / CW_CELL_FACES;
-    face->slot = i;
-  }
+CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionData *data, int only_shared,
+                              int32_t **open, int32_t *count) {
+  Match m = {.name = name, .fault = fault, .data = data, .end = only_shared ? data->shared_count : data->point_count};
+  CwStatus status = match_all(&m);
+  if (status == CW_OK)
+    qsort(m.open, (size_t)m.open_count, sizeof *m.open, compare_refs);
+  *open = m.open;
   *count = m.open_count;
-done:
-  free(m.open);
   return status;
 }
