@@ -175,6 +175,12 @@ done:
 // Every one of `count` indices must lie in [0, limit).
 static CwStatus check_indices(const char *path, const char *name, const int32_t *index, int64_t count, int64_t limit) {
   CwStatus status = CW_OK;
+  // All at once first: the highest bit tells whether one is negative or beyond the last.
+  uint32_t outside = 0, last = (uint32_t)limit - 1;
+  for (int64_t i = 0; i < count && limit > 0; ++i)
+    outside |= (uint32_t)index[i] | (last - (uint32_t)index[i]);
+  if (count == 0 || (limit > 0 && outside >> 31 == 0))
+    return CW_OK;
   for (int64_t i = 0; i < count; ++i)
     CW_REQUIRE(index[i] >= 0 && index[i] < limit, CW_ERR_INPUT, "%s: dataset '%s': entry %lld is %d; allowed 0 to %lld",
                path, name, (long long)i, index[i], (long long)limit - 1);
