@@ -146,14 +146,13 @@ static double most_beside(const Grading *grading, int32_t v, int32_t w) {
   return grading->value[w] > most ? most : 0;
 }
 
-// Whether an edge from v to the next corner of a triangle is too steep. Every edge is such a one from one of its ends.
+// Whether a vertex beside v is too high.
 static CwStatus find_steep(void *context, int32_t v, void *out) {
   const Grading *grading = context;
   uint8_t *steep = out;
   for (int32_t i = grading->around->start[v]; i < grading->around->start[v + 1] && !*steep; i++) {
     const int32_t *corner = grading->skeleton->wall_triangle[grading->around->triangle[i]];
-    int32_t next = corner[corner[0] == v ? 1 : corner[1] == v ? 2 : 0];
-    *steep = most_beside(grading, v, next) > 0 || most_beside(grading, next, v) > 0;
+    for (int k = 0; k < 3; k++) *steep |= corner[k] != v && most_beside(grading, v, corner[k]) > 0;
   }
   return CW_OK;
 }
@@ -168,10 +167,7 @@ static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, doub
   CW_NEW(steep, skeleton->wall_count);
   CW_TRY(cw_share("heights: steep", skeleton->wall_count, sizeof *steep, find_steep, &grading, steep));
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    for (int32_t i = around->start[v]; steep[v] && i < around->start[v + 1]; i++) {
-      const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
-      for (int k = 0; k < 3; k++) CW_TRY(cw_heap_push(&heap, value[corner[k]], corner[k]));
-    }
+    if (steep[v]) CW_TRY(cw_heap_push(&heap, value[v], v));
   }
   while (heap.count) {
     CwHeapItem least = cw_heap_pop(&heap);

@@ -13,36 +13,26 @@
 #include "mesher/layers_fan.h"
 #include "mesher/schedule.h"
 
-static const double REACH = 6;         // the fan ends at this many heights from its crease
-
 // Displacement of v without any fan, m.
 static void plain(const CwLayerWork *work, int32_t v, const double direction[3], double cosine, double d[3]) {
   double c = fmax(cosine, cw_layers_floor(work, v));
   for (int k = 0; k < 3; k++) d[k] = work->t[v] * direction[k] / c;
 }
 
-// Whether the column of v is given, and then its displacement relative to an undisturbed neighbour.
-static int is_source(const CwLayerWork *work, int32_t v, CwFanReach *reach, CwFanSource *source) {
+static int is_source(const CwLayerWork *work, int32_t v) {
   int guided = work->in->guide_count && work->in->guide_count[v] > 0;
-  double cosine;
-  if (work->crease[v] == CW_CREASE_CONCAVE) {
-    plain(work, v, work->base[v], work->base_cos[v], source->u);
-    cosine = work->base_cos[v];
-  } else if (guided && dot3(work->base[v], work->normal[v]) < 0.985) {
-    double undisturbed[3];
-    plain(work, v, work->base[v], work->base_cos[v], source->u);
-    plain(work, v, work->normal[v], work->normal_cos[v], undisturbed);
-    sub3(source->u, undisturbed, source->u);
-    cosine = dot3(work->base[v], work->normal[v]);
-  } else {
-    return 0;
-  }
-  cosine = fmin(fmax(cosine, CW_FAN_LEAST_COSINE), 1);
-  source->vertex = v;
-  reach->opening = sqrt(1 - cosine * cosine) / cosine;
-  reach->height = work->t[v];
-  reach->distance = 0;
-  return 1;
+  return work->crease[v] == CW_CREASE_CONCAVE || (guided && dot3(work->base[v], work->normal[v]) < 0.985);
+}
+
+// Sets the height of a source and its displacement relative to an undisturbed neighbour.
+static void raise_source(const CwLayerWork *work, CwFanSource *source) {
+  int32_t v = source->vertex;
+  source->height = work->t[v];
+  plain(work, v, work->base[v], work->base_cos[v], source->u);
+  if (work->crease[v] == CW_CREASE_CONCAVE) return;
+  double undisturbed[3];
+  plain(work, v, work->normal[v], work->normal_cos[v], undisturbed);
+  sub3(source->u, undisturbed, source->u);
 }
 
 // The one direction in which the column of a source may still lean: along its concave edge, or along the
@@ -56,110 +46,90 @@ static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]
   unit3(line);
 }
 
-// The front of the distances.
-typedef struct {
-  CwFans *fans;
-  CwHeap heap;
-} Spread;
-
-// v has its distance: lists it and offers its neighbours a way through it.
-static CwStatus settle(Spread *spread, int32_t v) {
+static CwStatus find_sources(CwFans *fans) {
   CwStatus status = CW_OK;
-  CwFans *fans = spread->fans;
   const CwLayerWork *work = fans->work;
-  const CwFanReach *at = &fans->reach[v];
-  const CwFanSource *source = &fans->source[at->source];
-  if (source->vertex != v || length3(source->line) > 0) fans->order[fans->count++] = v;
-  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-    int32_t w = work->near[k];
-    double distance = at->distance + distance3(work->in->x[v], work->in->x[w]);
-    if (distance >= fans->reach[w].distance || distance > REACH * at->height) continue;
-    fans->reach[w] = *at;
-    fans->reach[w].distance = distance;
-    CW_TRY(cw_heap_push(&spread->heap, distance, w));
+  for (int32_t v = 0; v < work->n; v++) fans->source_count += is_source(work, v);
+  CW_NEW(fans->source, fans->source_count);
+  fans->source_count = 0;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (!is_source(work, v)) continue;
+    CwFanSource *source = &fans->source[fans->source_count++];
+    double cosine = work->crease[v] == CW_CREASE_CONCAVE ? work->base_cos[v] : dot3(work->base[v], work->normal[v]);
+    cosine = fmin(fmax(cosine, CW_FAN_LEAST_COSINE), 1);
+    source->vertex = v;
+    source->opening = sqrt(1 - cosine * cosine) / cosine;
+    sliding_direction(work, v, source->line);
+    raise_source(work, source);
   }
 done:
   return status;
 }
 
-// Distances from the sources along edges; lists the vertices in reach in order of distance.
-static CwStatus find_reach(CwFans *fans) {
+static CwStatus fans_make(CwLayerWork *work) {
   CwStatus status = CW_OK;
-  const CwLayerWork *work = fans->work;
-  Spread spread = {.fans = fans};
-  int32_t sources = 0;
-  for (int32_t v = 0; v < work->n; v++) {
-    CwFanSource *source = &fans->source[sources];
-    fans->reach[v] = (CwFanReach){.distance = INFINITY, .source = -1};
-    if (!is_source(work, v, &fans->reach[v], source)) continue;
-    sliding_direction(work, v, source->line);
-    fans->reach[v].source = sources++;
+  CwFans *fans = NULL;
+  CW_NEW(work->fans, 1);
+  fans = work->fans;
+  fans->work = work;
+  CW_NEW(fans->reach, work->n);
+  CW_NEW(fans->local, work->n);
+  CW_NEW(fans->member, work->n);
+  CW_NEW(fans->place, work->n);
+  CW_NEW(fans->lean_t, work->n);
+  CW_TRY(find_sources(fans));
+  CW_TRY(cw_fan_find_reach(fans));
+  for (int32_t i = 0; i < work->n; i++) {
+    int32_t v = work->curve[i], source = fans->reach[v].source;
+    int leans = source >= 0 && (fans->source[source].vertex != v || length3(fans->source[source].line) > 0);
+    fans->place[v] = leans ? fans->count : -1;
+    if (leans) fans->member[fans->count++] = v;
   }
-  for (int32_t i = 0; i < sources; i++) CW_TRY(settle(&spread, fans->source[i].vertex)); // nothing is nearer
-  while (spread.heap.count) {
-    CwHeapItem least = cw_heap_pop(&spread.heap);
-    if (least.key == fans->reach[least.v].distance) CW_TRY(settle(&spread, least.v)); // else a nearer way was found
-  }
+  fans->block_count = (fans->count + CW_FAN_BLOCK - 1) / CW_FAN_BLOCK;
 done:
-  cw_heap_free(&spread.heap);
   return status;
+}
+
+static void leans_free(int32_t blocks, void **lean) {
+  for (int32_t b = 0; lean && b < blocks; b++) free(lean[b]);
+  free(lean);
+}
+
+void cw_fans_free(CwFans **fans) {
+  if (!*fans) return;
+  leans_free((*fans)->block_count, (*fans)->lean);
+  free((*fans)->source);
+  free((*fans)->reach);
+  free((*fans)->local);
+  free((*fans)->member);
+  free((*fans)->place);
+  free((*fans)->lean_t);
+  free(*fans);
+  *fans = NULL;
 }
 
 CwStatus cw_layers_fan(CwLayerWork *work) {
   CwStatus status = CW_OK;
-  CwFans fans = {.work = work};
-  int32_t blocks = 0, made = 0;
   int64_t *size = NULL;
   void **bytes = NULL;
-  CW_NEW(fans.reach, work->n);
-  CW_NEW(fans.source, work->n);
-  CW_NEW(fans.local, work->n);
-  CW_NEW(fans.order, work->n);
-  CW_NEW(fans.place, work->n);
-  CW_NEW(fans.member, work->n);
-  CW_NEW(fans.block, work->n);
-  CW_TRY(find_reach(&fans));
-  for (int32_t v = 0; v < work->n; v++) fans.place[v] = fans.block[v] = -1;
-  for (int32_t i = 0; i < fans.count; i++) fans.place[fans.order[i]] = i;
-  for (int32_t i = 0; i < work->n; i++) {
-    int32_t v = work->curve[i];
-    if (fans.place[v] < 0) continue;
-    fans.block[v] = made / CW_FAN_BLOCK;
-    fans.member[made++] = v;
-  }
-  blocks = (fans.count + CW_FAN_BLOCK - 1) / CW_FAN_BLOCK;
-  CW_NEW(bytes, blocks);
-  CW_NEW(size, blocks);
-  CwSchedule schedule = {.step = "layers: fans", .count = blocks, .run = cw_fan_solve_block,
-                         .context = &fans, .gather = 1};
+  if (!work->fans) CW_TRY(fans_make(work));
+  CwFans *fans = work->fans;
+  for (int32_t i = 0; i < fans->source_count; i++) raise_source(work, &fans->source[i]);
+  CW_NEW(bytes, fans->block_count);
+  CW_NEW(size, fans->block_count);
+  CwSchedule schedule = {.step = "layers: fans", .count = fans->block_count, .run = cw_fan_solve_block, .context = fans,
+                         .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  if (!work->lean) {
-    CW_NEW(work->lean, work->n);
-    CW_NEW(work->lean_t, work->n);
+  for (int32_t v = 0; v < work->n; v++) fans->lean_t[v] = fans->reach[v].source >= 0 ? work->t[v] : -1;
+  for (int32_t i = 0; i < fans->count; i++) {
+    const CwLean *lean = (const CwLean *)bytes[i / CW_FAN_BLOCK] + i % CW_FAN_BLOCK;
+    if (lean->changed) memcpy(work->column[fans->member[i]], lean->column, sizeof lean->column);
   }
-  for (int32_t v = 0; v < work->n; v++) {
-    int was_held = work->lean_t[v] > 0;
-    work->lean_t[v] = fans.reach[v].source >= 0 ? work->t[v] : -1;
-    if (was_held && work->lean_t[v] < 0) cw_layers_upright(work, v, work->column[v]);
-  }
-  for (int32_t b = 0; b < blocks; b++) {
-    const CwLean *lean_of = bytes[b];
-    for (int32_t k = 0; k < cw_fan_block_size(&fans, b); k++) {
-      int32_t v = fans.member[b * CW_FAN_BLOCK + k];
-      work->lean[v] = lean_of[k];
-      if (work->lean[v].changed) memcpy(work->column[v], work->lean[v].column, sizeof work->column[v]);
-    }
-  }
+  leans_free(fans->block_count, fans->lean);
+  fans->lean = bytes;
+  bytes = NULL;
 done:
-  for (int32_t b = 0; bytes && b < blocks; b++) free(bytes[b]);
-  free(bytes);
+  if (bytes) leans_free(fans->block_count, bytes);
   free(size);
-  free(fans.reach);
-  free(fans.source);
-  free(fans.local);
-  free(fans.order);
-  free(fans.place);
-  free(fans.member);
-  free(fans.block);
   return status;
 }

@@ -52,10 +52,11 @@ static int32_t source_of(const CwFans *fans, int32_t v) {
 
 static FanAt fan_at(const CwFans *fans, int32_t v) {
   const CwFanReach *reach = &fans->reach[v];
-  FanAt at = {.distance = reach->distance, .opening = reach->opening, .height = reach->height, .widen = 1,
-              .source = source_of(fans, v)};
-  if (at.source != v) return at;
+  FanAt at = {.distance = reach->distance, .widen = 1, .source = -1};
+  if (reach->source < 0) return at;
   const CwFanSource *source = &fans->source[reach->source];
+  at.opening = source->opening, at.height = source->height, at.source = source->vertex;
+  if (at.source != v) return at;
   memcpy(at.u, source->u, sizeof at.u);
   memcpy(at.given, source->u, sizeof at.given);
   memcpy(at.line, source->line, sizeof at.line);
@@ -111,9 +112,9 @@ static void part_free(Part *part) {
   free(part->triangle);
 }
 
-static int by_number(const void *p, const void *q) {
-  int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
-  return (a > b) - (a < b);
+static int by_distance(const void *p, const void *q) {
+  const CwHeapItem *a = p, *b = q;
+  return a->key != b->key ? (a->key > b->key) - (a->key < b->key) : (a->v > b->v) - (a->v < b->v);
 }
 
 int32_t cw_fan_block_size(const CwFans *fans, int32_t block) {
@@ -126,6 +127,7 @@ static CwStatus gather_members(const CwFans *fans, int32_t block, Part *part) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = fans->work;
   int32_t capacity = 2 * cw_fan_block_size(fans, block), ring = 0;
+  CwHeapItem *order = NULL;
   CW_NEW(part->member, capacity);
   for (int32_t i = 0; i < cw_fan_block_size(fans, block); i++) {
     int32_t v = fans->member[block * CW_FAN_BLOCK + i];
@@ -152,10 +154,14 @@ static CwStatus gather_members(const CwFans *fans, int32_t block, Part *part) {
       }
     }
   }
-  for (int32_t i = 0; i < part->count; i++) part->member[i] = fans->place[part->member[i]];
-  qsort(part->member, (size_t)part->count, sizeof *part->member, by_number);
-  for (int32_t i = 0; i < part->count; i++) part->member[i] = fans->order[part->member[i]];
+  CW_NEW(order, part->count);
+  for (int32_t i = 0; i < part->count; i++) {
+    order[i] = (CwHeapItem){fans->reach[part->member[i]].distance, part->member[i]};
+  }
+  qsort(order, (size_t)part->count, sizeof *order, by_distance);
+  for (int32_t i = 0; i < part->count; i++) part->member[i] = order[i].v;
 done:
+  free(order);
   return status;
 }
 
@@ -347,11 +353,12 @@ static int32_t widen(Part *part) {
 }
 
 // Whether the heights on and around v are those of the last fan.
-static int is_settled(const CwLayerWork *work, int32_t v) {
-  if (!work->lean || work->lean_t[v] != work->t[v]) return 0;
+static int is_settled(const CwFans *fans, int32_t v) {
+  const CwLayerWork *work = fans->work;
+  if (fans->lean_t[v] != work->t[v]) return 0;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
-    if (work->lean_t[w] >= 0 && work->lean_t[w] != work->t[w]) return 0;
+    if (fans->lean_t[w] >= 0 && fans->lean_t[w] != work->t[w]) return 0;
   }
   return 1;
 }
@@ -359,8 +366,8 @@ static int is_settled(const CwLayerWork *work, int32_t v) {
 // Whether v has a neighbour in another block.
 static int is_between(const CwFans *fans, int32_t v) {
   for (int32_t k = fans->work->near_start[v]; k < fans->work->near_start[v + 1]; k++) {
-    int32_t other = fans->block[fans->work->near[k]];
-    if (other >= 0 && other != fans->block[v]) return 1;
+    int32_t other = fans->place[fans->work->near[k]];
+    if (other >= 0 && other / CW_FAN_BLOCK != fans->place[v] / CW_FAN_BLOCK) return 1;
   }
   return 0;
 }
@@ -371,16 +378,17 @@ static void start(const CwFans *fans, Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   int32_t v = vertex_of(part, i);
   FanAt *at = &part->fan[i];
-  if (fans->block[v] < 0) { // out of reach, or wholly given
+  int32_t place = fans->place[v];
+  if (place < 0) { // out of reach, or wholly given
     cw_layers_upright(work, v, part->column[i]);
     set_end(part, i);
     return;
   }
-  if (work->lean && work->lean_t[v] > 0) {
-    const CwLean *last = &work->lean[v];
+  if (fans->lean) {
+    const CwLean *last = (const CwLean *)fans->lean[place / CW_FAN_BLOCK] + place % CW_FAN_BLOCK;
     at->widen = last->widen;
-    for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / work->lean_t[v];
-    if (is_settled(work, v)) {
+    for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / fans->lean_t[v];
+    if (is_settled(fans, v)) {
       memcpy(part->column[i], last->column, sizeof last->column);
       if (i < part->count) part->changed[i] = 0, part->stirred[i] = (uint8_t)is_between(fans, v);
       set_end(part, i);

@@ -14,12 +14,6 @@
 
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
 
-// A column as the fan leaves it: its displacement relative to an undisturbed neighbour, and how far the fan was widened.
-typedef struct {
-  double column[3], u[3], widen;
-  int32_t changed;                     // by the last fan
-} CwLean;
-
 // All normals point into the fluid. A column is t[v] * column[v]: `column` is the displacement for a unit
 // normal height.
 typedef struct {
@@ -39,8 +33,7 @@ typedef struct {
   double *t;                           // height, m
   double *most;                        // the target, or less in a hollow: no height is greater, m
   int32_t *curve;                      // all vertices along a curve through space: near in the list, near in space
-  CwLean *lean;                        // what the last fan made of each vertex in its reach; NULL before the first
-  double *lean_t;                      // the heights it was made for; negative out of its reach
+  struct CwFans *fans;                 // layers_fan.h; NULL before the first fan
   uint8_t *reason;                     // CwLayerReason
 } CwLayerWork;
 
@@ -103,6 +96,7 @@ void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 // layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. The first time it sets every
 // column, later those that the change of heights concerns. Collective.
 CwStatus cw_layers_fan(CwLayerWork *work);
+void cw_fans_free(struct CwFans **fans);
 
 // layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`. Collective.
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);

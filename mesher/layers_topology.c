@@ -227,7 +227,6 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->most);
   free(work->reason);
   free(work->curve);
-  free(work->lean);
-  free(work->lean_t);
+  cw_fans_free(&work->fans);
   memset(work, 0, sizeof *work);
 }
