@@ -5,13 +5,14 @@
 
 Use, from the top of the source:
   tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...]
-    [--growth G] [--repeat N] [--cores N ...] [--delaunay]
+    [--growth G] [--repeat N] [--cores N ...] [--delaunay] [--equal]
 Surfaces are a ring (0.26 m across) with six blade-shaped voids, for each edge length in m, and the inner
 boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Sizes grow from the surface by G a
 length, 0.15 by default; gmsh follows its own rule. Seconds are user time of one core, the
 least of N runs in turn; memory is the peak less what stood before. Each way runs alone (cores 1) and as two
 processes at once (cores 2, the mean of both), which share the memory. gmsh chooses its own number of
-tetrahedra. The last column is our rate over that of the way.
+tetrahedra; with --equal HXT fills rings a second time with a largest size that gives it as many as the
+kernel has. The last column is our rate over that of the way.
 """
 import argparse
 import shutil
@@ -21,7 +22,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from programs import SOURCE, execute, gmsh_steps
+from programs import SOURCE, execute, gmsh_steps, size_for
 
 HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} "
         f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
@@ -60,11 +61,11 @@ def run_gmsh(folder, surface, shells, *options):
     return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False), mesh
 
 
-def fill_by_gmsh(program, surface, shells, algorithm):
+def fill_by_gmsh(program, surface, shells, algorithm, *more):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         before, _ = run_gmsh(folder, surface, shells, "-2")
-        run, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm)
+        run, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm, *more)
         steps = gmsh_steps(run.text)
         if "meshing 3D" not in steps or not mesh.exists():
             return "failed"
@@ -88,13 +89,28 @@ def at_once(way, cores):
     return [sum(column) / cores for column in zip(*rows)]
 
 
-def compare(program, title, surface, shells, words, delaunay):
+def hxt_size(program, surface, shells, edge, tets):
+    """The largest size, m, with which HXT makes so many tetrahedra."""
+    def make(size):
+        row = fill_by_gmsh(program, surface, shells, "hxt", "-clmax", size)
+        if isinstance(row, str):
+            sys.exit(f"fill: HXT with sizes up to {size} m: {row}")
+        return row[1]
+
+    return size_for(tets, edge / 2, 3, 0.05, make)
+
+
+def compare(program, title, surface, shells, words, delaunay, edge=None):
+    """`edge`: that of the surface, m, where HXT is to make as many tetrahedra too."""
     ways = [("kernel", lambda: run_ours(program, "kernel", surface, words.growth)),
             ("tetgen", lambda: run_ours(program, "tetgen", surface, words.growth))]
     if shutil.which("gmsh"):
         ways.append(("hxt", lambda: fill_by_gmsh(program, surface, shells, "hxt")))
         if delaunay:
             ways.append(("delaunay", lambda: fill_by_gmsh(program, surface, shells, "del3d")))
+    if edge:
+        size = hxt_size(program, surface, shells, edge, run_ours(program, "kernel", surface, words.growth)[1])
+        ways.append(("hxt, =", lambda: fill_by_gmsh(program, surface, shells, "hxt", "-clmax", size)))
     best = {}
     for _ in range(words.repeat):
         for cores in words.cores:
@@ -129,6 +145,7 @@ def main():
     parser.add_argument("--repeat", type=int, default=1)
     parser.add_argument("--cores", type=int, nargs="*", default=[1, 2])
     parser.add_argument("--delaunay", action="store_true", help="gmsh's Delaunay mesher on the first surface")
+    parser.add_argument("--equal", action="store_true", help="HXT with as many tetrahedra as the kernel, too")
     words = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -138,7 +155,7 @@ def main():
         first = True
         for edge in words.ring:
             subprocess.run([str(program), "ring", str(edge), str(surface)], check=True)
-            compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first)
+            compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first, edge if words.equal else None)
             first = False
         for run in words.run:
             for region in sorted((run / "mesh").glob("*.h5")):

@@ -62,7 +62,7 @@ def size_for(wanted, size, dimension, near, make):
     """The size at which make(size) counts `wanted` elements, but for a share of `near`."""
     for _ in range(8):
         made = make(size)
-        print(f"{Path(sys.argv[0]).stem}: gmsh -clmax {size:.4g} mm makes {made:,} elements", file=sys.stderr)
+        print(f"{Path(sys.argv[0]).stem}: gmsh -clmax {size:.4g} makes {made:,} elements", file=sys.stderr)
         if abs(made / wanted - 1) <= near:
             return size
         size *= (made / wanted) ** (1 / dimension)
