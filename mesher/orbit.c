@@ -56,10 +56,6 @@ int32_t cw_orbit_face(const CwSkeletonOrbits *orbits, int32_t face, int32_t turn
   return orbits->symmetry ? cw_orbits_turned(&orbits->symmetry->face, face, turns) : face;
 }
 
-int cw_orbit_face_is_first(const CwSkeletonOrbits *orbits, int32_t face) {
-  return !orbits->symmetry || orbits->symmetry->face.first[face] == face;
-}
-
 void cw_orbit_point(const CwSkeletonOrbits *orbits, int32_t turns, const double x[3], double turned[3]) {
   cw_symmetry_turn(orbits->symmetry ? orbits->symmetry->count : 1, turns, x, turned);
 }

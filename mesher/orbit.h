@@ -38,7 +38,6 @@ static inline int32_t cw_orbit_turns(const CwSkeletonOrbits *orbits, const CwOrb
 }
 int32_t cw_orbit_face_copies(const CwSkeletonOrbits *orbits, int32_t face);
 int32_t cw_orbit_face(const CwSkeletonOrbits *orbits, int32_t face, int32_t turns);
-int cw_orbit_face_is_first(const CwSkeletonOrbits *orbits, int32_t face);
 void cw_orbit_point(const CwSkeletonOrbits *orbits, int32_t turns, const double x[3], double turned[3]);
 int32_t cw_orbit_region(const CwSkeletonOrbits *orbits, const CwPlan *plan, int32_t region, int32_t turns);
 int32_t cw_orbit_region_first(const CwSkeletonOrbits *orbits, const CwPlan *plan, int32_t region);

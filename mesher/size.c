@@ -251,10 +251,6 @@ void cw_size_set_scale(CwSize *size, double scale) {
   size->scale = scale;
 }
 
-double cw_size_scale(const CwSize *size) {
-  return size->scale;
-}
-
 // The least share of the wanted length that rims are granted.
 static double least_at_rims(const CwSize *field) {
   double asked = field->rim_asks / field->scale;

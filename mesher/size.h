@@ -48,7 +48,6 @@ CwStatus cw_size_unpack(const void *bytes, CwSize **size);
 
 // The factor in front of the whole field; 1 after cw_size_make.
 void cw_size_set_scale(CwSize *size, double scale);
-double cw_size_scale(const CwSize *size);
 
 // Edge length at x, m. Fast (trilinear); any x. Signature fits CwSizeAt of patch_mesh.h and fill.h, with the
 // field as context.

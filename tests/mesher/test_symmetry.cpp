@@ -282,7 +282,7 @@ static void fill_the_tank(bool divided) {
   check(cw_orbit_network(&skeleton.network, &skeleton.orbits));
   check(cw_skeleton_wall_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
-    if (!cw_orbit_face_is_first(&orbits, f)) continue;
+    if (orbits.symmetry->face.first[f] != f) continue;
     if (cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
   }
   check(cw_skeleton_merge_walls(&skeleton, walls.data()));
@@ -291,7 +291,7 @@ static void fill_the_tank(bool divided) {
   check(cw_skeleton_grow(&skeleton, &tank.background, target.data()));
   check(cw_skeleton_free_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
-    if (!cw_orbit_face_is_first(&orbits, f)) continue;
+    if (orbits.symmetry->face.first[f] != f) continue;
     if (!cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }
   assert_int_equal(skeleton.outline_count, divided ? 30 : 10);
