@@ -10,8 +10,8 @@
 
 static const double ROUNDING = 1e-12; // m
 
-// A face on a dividing plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end of
-// a triangle; `reversed` if the outward normal runs the other way.
+// A face on a dividing plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end
+// of a triangle; `reversed` if the outward normal runs the other way.
 typedef struct {
   int64_t loop[4];
   int32_t region; // into CwMesh.regions

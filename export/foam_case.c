@@ -74,10 +74,11 @@ static void put_wall_velocity(FILE *out, const CwMeshPatch *patch, const Start *
   else if (cw_patch_rotates(patch)) // MRF puts the velocity of the turning wall in its place
     fprintf(out, "        type            fixedValue;\n        value           uniform (0 0 0);\n");
   else if (cw_patch_is_shaft(patch))
-    fprintf(out,
-            "        type            rotatingWallVelocity;\n        origin          (0 0 0);\n"
-            "        axis            (0 0 1);\n        omega           %.9g;\n        value           uniform (0 0 0);\n",
-            start->table->operating_point.speed);
+    fprintf(
+        out,
+        "        type            rotatingWallVelocity;\n        origin          (0 0 0);\n"
+        "        axis            (0 0 1);\n        omega           %.9g;\n        value           uniform (0 0 0);\n",
+        start->table->operating_point.speed);
   else
     fprintf(out, "        type            noSlip;\n");
 }

@@ -257,11 +257,11 @@ static CwStatus check_ends(const CwAssembly *a, int number, double tolerance, co
   const int *patch = a->mesh->interfaces[number].patch;
   const CwInterfaceSide *s = in->sides;
   for (int k = in->is_flat ? 0 : 1; k < 2; ++k)
-    CW_REQUIRE(fabs(s[0].least[k] - s[1].least[k]) <= tolerance && fabs(s[0].most[k] - s[1].most[k]) <= tolerance,
-               CW_ERR_INPUT, "the interface reaches from %s = %.6g to %.6g mm on patch '%s', but from %.6g to %.6g mm on '%s'",
-               in->is_flat ? (k ? "v" : "u") : "z", 1e3 * s[0].least[k], 1e3 * s[0].most[k],
-               a->mesh->patches[patch[0]].name, 1e3 * s[1].least[k], 1e3 * s[1].most[k],
-               a->mesh->patches[patch[1]].name);
+    CW_REQUIRE(
+        fabs(s[0].least[k] - s[1].least[k]) <= tolerance && fabs(s[0].most[k] - s[1].most[k]) <= tolerance,
+        CW_ERR_INPUT, "the interface reaches from %s = %.6g to %.6g mm on patch '%s', but from %.6g to %.6g mm on '%s'",
+        in->is_flat ? (k ? "v" : "u") : "z", 1e3 * s[0].least[k], 1e3 * s[0].most[k], a->mesh->patches[patch[0]].name,
+        1e3 * s[1].least[k], 1e3 * s[1].most[k], a->mesh->patches[patch[1]].name);
 done:
   return status;
 }

@@ -73,8 +73,8 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
          "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);
   remark(remarks, d->passage_area_reversal > 1e-3,
-         "the passage's area goes from %.0f mm2 in the eye to %.0f mm2 at D2, but steps back by %.1f %% on its way: change "
-         "axial_length_mm or the poles of hub and shroud, or leave them out",
+         "the passage's area goes from %.0f mm2 in the eye to %.0f mm2 at D2, but steps back by %.1f %% on its way: "
+         "change axial_length_mm or the poles of hub and shroud, or leave them out",
          d->passage_area_eye * 1e6, d->passage_area_outlet * 1e6, 100 * d->passage_area_reversal);
   remark(
       remarks, d->shroud_bend_radius < 0.6 * d->inlet_passage_width,

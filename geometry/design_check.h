@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Compares a design with both families of correlations and with usual limits, and says where they disagree. Nothing here is an
-// error: the case's table is the law.
+// Compares a design with both families of correlations and with usual limits, and says where they disagree. Nothing
+// here is an error: the case's table is the law.
 #ifndef CUTWATER_GEOMETRY_DESIGN_CHECK_H
 #define CUTWATER_GEOMETRY_DESIGN_CHECK_H
 

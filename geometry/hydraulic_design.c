@@ -124,19 +124,20 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
 }
 
-// The leading edge on the shroud: outside the eye at low specific speed, and drawn into it above nq = 25, where the wheel
-// turns mixed-flow and the blades would else become too short.
+// The leading edge on the shroud: outside the eye at low specific speed, and drawn into it above nq = 25, where the
+// wheel turns mixed-flow and the blades would else become too short.
 static void leading_edge_shroud(const CwImpellerTable *given, CwDesign *design) {
   const double share = 0.635 - 0.105 * fmin(1, fmax(0, (design->specific_speed_nq - 25) / 35));
   TAKE(leading_edge_radius_shroud, given->leading_edge_radius_shroud, share * design->inlet_diameter,
        share < 0.635 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
 }
 
-// On the hub: where a line square to the flow leads to from the shroud, but not so near to the axis that the blade would
-// stand too steep there. The passage's height is that of the line.
+// On the hub: where a line square to the flow leads to from the shroud, but not so near to the axis that the blade
+// would stand too steep there. The passage's height is that of the line.
 static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
   CwMeridianCurve hub, shroud;
-  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub, &shroud);
+  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub,
+                    &shroud);
   const CwPassageStation edge = cw_meridian_passage_at(&hub, &shroud, design->leading_edge_radius_shroud);
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
        fmax(edge.hub[0], fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
@@ -246,8 +247,8 @@ done:
   return status;
 }
 
-// Everything up to the predicted head, with the given outlet diameter and outlet blade angle or NAN for each. The walls of
-// the meridian are shaped anew where `shape` is set, and else keep their shares.
+// Everything up to the predicted head, with the given outlet diameter and outlet blade angle or NAN for each. The walls
+// of the meridian are shaped anew where `shape` is set, and else keep their shares.
 static CwStatus impeller(const CwCase *table, double outlet_diameter, double fixed, int shape, CwMeridian *meridian,
                          CwDesign *design) {
   CwStatus status = CW_OK;

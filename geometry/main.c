@@ -50,8 +50,8 @@ static void show_rotor(const CwDesign *design, const CwMeasuredRotor *rotor) {
   cw_log("measured: wrap %.3f deg, D1 %.4f, D2 %.4f, b2 %.4f mm", rotor->wrap_angle / degree,
          rotor->inlet_diameter * 1e3, rotor->outlet_diameter * 1e3, rotor->outlet_width * 1e3);
   if (design->root_fillet_radius > 0)
-    cw_log("measured: root fillets of %.2f mm meet hub and shroud within %.2f deg of tangency", design->root_fillet_radius * 1e3,
-           fabs(180 - least));
+    cw_log("measured: root fillets of %.2f mm meet hub and shroud within %.2f deg of tangency",
+           design->root_fillet_radius * 1e3, fabs(180 - least));
   else
     cw_log("measured: blade to hub %.1f deg, blade to shroud %.1f deg at the least", rotor->hub_crease.angle / degree,
            rotor->shroud_crease.angle / degree);
@@ -74,7 +74,8 @@ static void show_measured(const CwDesign *design, const CwPump *pump, const CwMe
   for (int i = 0; i < pump->count; i++)
     show_solid(pump->solid[i], &measured->solid[i]);
   cw_log("measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
-         100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1), rotor->kink.angle / degree);
+         100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1),
+         rotor->kink.angle / degree);
   show_rotor(design, rotor);
   cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides",
          stator->base_diameter * 1e3, stator->inlet_width * 1e3, rotor->interface_radius * 1e3,

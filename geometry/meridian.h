@@ -49,15 +49,15 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length);
 // The arc length at t.
 double cw_meridian_length(const CwMeridianCurve *curve, double t);
 
-// The poles of hub and shroud, without their lengths, for the shares of cw_meridian_shape(): of the eye's height at which the
-// hub's third pole lies, of the axial length at which the shroud's second lies before its end, of r2 - r1 at which its third
-// lies outside the eye.
+// The poles of hub and shroud, without their lengths, for the shares of cw_meridian_shape(): of the eye's height at
+// which the hub's third pole lies, of the axial length at which the shroud's second lies before its end, of r2 - r1 at
+// which its third lies outside the eye.
 void cw_meridian_walls(const CwDesign *design, double hub_radial, double shroud_axial, double shroud_radial,
                        CwMeridianCurve *hub, CwMeridianCurve *shroud);
 
 // Makes the section of a design. Reads D1, D2, b2, the hub, the shaft, the axial length, the poles' shares, the leading
-// edge radii, the interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on its
-// curve.
+// edge radii, the interface radius and the pipe. Fails with CW_ERR_DESIGN where a leading edge radius does not lie on
+// its curve.
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian);
 
 // Point M_s(q) = (1 - s) H(q) + s S(q) with hub H and shroud S by arc length from the leading (q = 0) to the

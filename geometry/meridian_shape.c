@@ -32,16 +32,17 @@ static double bending(const CwMeridianCurve *curve, double *sharpest) {
   return sum;
 }
 
-// The walls' bending, and penalties where the area steps back or grows (falls) by less than a tenth of its mean pace, and
-// where a wall bends with a radius of less than LEAST_BEND of the passage's height at the leading edge. The latter is linear:
-// it holds the bound where that can be met, and gives nothing else up for it where it cannot.
+// The walls' bending, and penalties where the area steps back or grows (falls) by less than a tenth of its mean pace,
+// and where a wall bends with a radius of less than LEAST_BEND of the passage's height at the leading edge. The latter
+// is linear: it holds the bound where that can be met, and gives nothing else up for it where it cannot.
 static double cost(const Problem *problem, const double at[SHARES]) {
   const CwDesign *design = problem->design;
   CwMeridianCurve hub, shroud;
   CwPassageStation station[STATIONS];
   double share[SHARES], outside = 0, back = 0, sharpest = 0;
   for (int i = 0; i < SHARES; i++) {
-    share[i] = cw_case_given(problem->given[i]) ? problem->given[i] : fmin(largest_share[i], fmax(least_share[i], at[i]));
+    share[i] =
+        cw_case_given(problem->given[i]) ? problem->given[i] : fmin(largest_share[i], fmax(least_share[i], at[i]));
     outside += pow(at[i] - share[i], 2);
   }
   cw_meridian_walls(design, share[0], share[1], share[2], &hub, &shroud);
@@ -89,7 +90,8 @@ static double descend(const Problem *problem, double best[SHARES]) {
     for (int k = 0; k < SHARES; k++)
       mirrored[k] = 2 * centre[k] - worst[k];
     const double mirrored_value = cost(problem, mirrored);
-    // Further out where the mirrored corner is the best, else back towards the centre where it is no better than others.
+    // Further out where the mirrored corner is the best, else back towards the centre where it is no better than
+    // others.
     const double reach = mirrored_value < value[0] ? 2 : mirrored_value < value[SHARES] ? 0.5 : -0.5;
     double further_value = HUGE_VAL;
     if (mirrored_value < value[0] || mirrored_value >= value[SHARES - 1]) {

@@ -46,10 +46,10 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
   CW_TRY(cw_meridian_make(design, &m));
   CW_TRY(cw_blade_section(design, &m, 0.5, &section));
   CW_TRY(cw_picture_begin(&picture, path, 2 * centre, 2 * centre + 40));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Blades at mid-span, seen %s (against +z); wrap %.1f, beta1 %.1f, beta2 %.1f deg",
-                  design->rotation == CW_ROTATION_CLOCKWISE ? "from the suction side" : "from the drive",
-                  design->wrap_angle * 180 / M_PI, design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
+  cw_picture_text(
+      &picture, CW_TEXT_LEFT, 20, 28, "Blades at mid-span, seen %s (against +z); wrap %.1f, beta1 %.1f, beta2 %.1f deg",
+      design->rotation == CW_ROTATION_CLOCKWISE ? "from the suction side" : "from the drive",
+      design->wrap_angle * 180 / M_PI, design->inlet_blade_angle * 180 / M_PI, design->outlet_blade_angle * 180 / M_PI);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->interface_radius);
   cw_picture_circle(&picture, CW_STROKE_THIN, centre, centre + 20, scale * design->inlet_diameter / 2);
   for (int kind = 0; kind < (design->splitter_start > 0 ? 2 : 1); kind++) {

@@ -26,7 +26,8 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
 // w along the blade, as it would be without slip, with the same u and c_m; the gap between both apexes is the slip.
 static void without_slip(CwPicture *picture, double left, double base, double scale, const CwTriangle *t) {
   const double c_u = t->u - t->c_m / tan(t->blade_angle);
-  const double x1 = left + scale * t->u, xa = left + scale * t->c_u, xb = left + scale * c_u, ya = base - scale * t->c_m;
+  const double x1 = left + scale * t->u, xa = left + scale * t->c_u, xb = left + scale * c_u,
+               ya = base - scale * t->c_m;
   cw_picture_segment(picture, CW_STROKE_AXIS, x1, base, xb, ya);
   cw_picture_segment(picture, CW_STROKE_AXIS, xa, ya, xb, ya);
   cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (xa + xb), ya - 8, "slip %.2f", c_u - t->c_u);

@@ -147,8 +147,9 @@ private:
     // The cylinder's angles count from a little before the arc, in the arc's own sense.
     const gp_Pnt centre = rod.circle->Location();
     const gp_Dir from(gp_Vec(centre, rod.circle->Value(rod.first - U_MARGIN)));
-    builder.face(new Geom_CylindricalSurface(gp_Ax3(centre, rod.circle->Axis().Direction(), from), rod.circle->Radius()),
-                 {rod.edge[0], line[rod.end], rod.edge[1], line[rod.start]}, patch);
+    builder.face(
+        new Geom_CylindricalSurface(gp_Ax3(centre, rod.circle->Axis().Direction(), from), rod.circle->Radius()),
+        {rod.edge[0], line[rod.end], rod.edge[1], line[rod.start]}, patch);
   }
 };
 

@@ -65,7 +65,8 @@ done:
 
 CwStatus cw_pump_build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwPump *pump) {
   CwStatus status = CW_OK;
-  static const CwPipeZoneNames suction = {"suction", "inlet_pipe", "hub_shaft_pipe", "suction_to_rotor", "rotor_to_suction"};
+  static const CwPipeZoneNames suction = {"suction", "inlet_pipe", "hub_shaft_pipe", "suction_to_rotor",
+                                          "rotor_to_suction"};
   static const CwPipeZoneNames discharge = {"discharge", "outlet_pipe", "", "discharge_to_stator",
                                             "stator_to_discharge"};
   CwDesign cut = *design;

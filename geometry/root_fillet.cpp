@@ -178,7 +178,8 @@ void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBlade
       bevel.feet(shape->bevel, true, &suction, true, shape->has_trailing ? &trailing : &pressure,
                  !shape->has_trailing);
     if (shape->has_trailing)
-      trailing.feet(shape->trailing, design->trailing_edge != CW_EDGE_ROUNDED, shape->has_bevel ? &bevel : &suction, true, &pressure, true);
+      trailing.feet(shape->trailing, design->trailing_edge != CW_EDGE_ROUNDED, shape->has_bevel ? &bevel : &suction,
+                    true, &pressure, true);
   }
   check_room(design, meridian, shape);
 }

@@ -296,7 +296,8 @@ void Rotor::wall_edges(Blade &b) {
     b.e_inlet = slanted_line(from, to, b.shaft, b.inlet);
   }
   const double ri = design->interface_radius, half = design->outlet_width / 2;
-  const double low[3] = {ri, turn + s.theta_corner[CW_SHROUD], -half}, high[3] = {ri, turn + s.theta_corner[CW_HUB], half};
+  const double low[3] = {ri, turn + s.theta_corner[CW_SHROUD], -half},
+               high[3] = {ri, turn + s.theta_corner[CW_HUB], half};
   b.x_out = slanted_line(low, high, b.out[CW_SHROUD], b.out[CW_HUB]);
 }
 

@@ -78,7 +78,8 @@ void check_sizes(const CwSolid &stator) {
       if (length >= LEAST_EDGE)
         continue;
       const gp_Pnt p = BRep_Tool::Pnt(TopExp::FirstVertex(edge));
-      snprintf(text, sizeof text, "an edge of face %s at (%.1f, %.1f, %.1f) mm is %.3g mm long; allowed: at least %g mm",
+      snprintf(text, sizeof text,
+               "an edge of face %s at (%.1f, %.1f, %.1f) mm is %.3g mm long; allowed: at least %g mm",
                face.name.c_str(), p.X(), p.Y(), p.Z(), length, LEAST_EDGE);
       throw std::runtime_error(text);
     }

@@ -121,8 +121,8 @@ typedef struct {
   double total_thickness;    // m, the target of a column; NAN: that of all walls
 } CwWallGroup;
 
-// Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one for
-// all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
+// Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one
+// for all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
 typedef struct {
   int layer_count;
   double growth_ratio;       // the largest

@@ -204,7 +204,8 @@ const CwCaseKey cw_case_keys[] = {
     {"mesh", "least_regions", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 1000, 4, NULL, AT(mesh.least_regions),
      "least number of regions of a domain; with 1 and few cells a domain is not divided"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
-           "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen alone"),
+           "what makes the tetrahedra: the project's own Delaunay kernel, with TetGen where it cannot, or TetGen "
+           "alone"),
     CHOICE("mesh", "periodic_impeller", truths, 1, mesh.periodic_impeller,
            "true: one of the equal passages of the impeller is meshed and turned for the others; false: all at once"),
     REAL_DEFAULT("mesh", "gradation", "", 0.05, 1, 0.25, mesh.gradation,

@@ -24,9 +24,9 @@ typedef struct {
 CwStatus cw_region_faces(const char *name, CwStatus fault, const CwRegionData *data, CwRegionFaces *faces);
 void cw_region_faces_free(CwRegionFaces *faces);
 
-// The open faces alone, each as CW_CELL_FACES * cell + face, ascending, into new memory. Fails alike; where `only_shared`,
-// faces of shared points alone are looked at, so that it takes a small part of the time and what others have wrong is not
-// seen.
+// The open faces alone, each as CW_CELL_FACES * cell + face, ascending, into new memory. Fails alike; where
+// `only_shared`, faces of shared points alone are looked at, so that it takes a small part of the time and what others
+// have wrong is not seen.
 CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionData *data, int only_shared,
                               int32_t **open, int32_t *count);
 

@@ -75,7 +75,8 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
                         cw_json_real(data->design, "leading_edge_radius_shroud_m"));
   for (int i = 0; i < 4; i++) {
     value[i] = cw_json_real(data->design, keys[i]);
-    CW_REQUIRE(value[i] > 0, CW_ERR_INPUT, "%s/geometry/design.json: '%s' must be a number above 0", data->run, keys[i]);
+    CW_REQUIRE(value[i] > 0, CW_ERR_INPUT, "%s/geometry/design.json: '%s' must be a number above 0", data->run,
+               keys[i]);
   }
   *sizes = (CwPumpSizes){.blade_count = (int)value[0] + (splitters > 0 ? (int)splitters : 0),
                          .leading_radius = leading > 0 ? 1.1 * leading : INFINITY,

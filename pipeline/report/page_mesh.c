@@ -466,7 +466,8 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       page);
   layer_rows(page, data, list, 8, thickness_cells);
   fputs("</table>\n<p>The last layer is fair where it is 0.5 to 1.5 times as high as the tetrahedron on it. That is in "
-        "reach where the first height, number of layers and growth ratio of the case allow it and no gap forbids it.</p>\n"
+        "reach where the first height, number of layers and growth ratio of the case allow it and no gap forbids "
+        "it.</p>\n"
         "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
         "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
         "<th class=\"n\">Last layer<br>fair</th><th class=\"n\">In<br>reach</th><th class=\"n\">Fair<br>of these</th>"

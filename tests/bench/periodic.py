@@ -70,8 +70,8 @@ def main():
         for step in record["steps"]:
             steps[step["name"]] = steps.get(step["name"], 0) + step["seconds"]
         rotor, stator = record["results"]["domains"]
-        print(f"{way:8s} {record['results']['cells']:9,d} {seconds:6.2f} {steps['layers']:8.2f} {rotor_seconds(record):16.2f}"
-              f" {sum(region['seconds'] for region in stator['region_list']):17.2f}"
+        print(f"{way:8s} {record['results']['cells']:9,d} {seconds:6.2f} {steps['layers']:8.2f} "
+              f"{rotor_seconds(record):16.2f} {sum(region['seconds'] for region in stator['region_list']):17.2f}"
               f" {rotor['least_dihedral_deg']:36.1f}")
     return 0
 

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """scale.py [CELLS ...] [--ranks 2] [--kill] [--judge] [--work DIR] [--bin build/bin] [--case cases/paper/case.yaml]
 
-Whole runs at growing numbers of cells (8M 20M unless others are given), one after the other: cells made and how far from
-those asked, seconds and memory of each stage, balance and least dihedral angle. With --kill the mesher is run once more
-in a folder of its own, all its ranks are killed (SIGKILL) when half of the regions are whole, it is called again, and its files
-must have the same bytes as those of the run that nobody killed. With --judge cgnscheck and OpenFOAM's checkMesh
-(-allGeometry -allTopology) look at what was written; checkMesh takes about 1 GB per million cells.
+Whole runs at growing numbers of cells (8M 20M unless others are given), one after the other: cells made and how far
+from those asked, seconds and memory of each stage, balance and least dihedral angle. With --kill the mesher is run once
+more in a folder of its own, all its ranks are killed (SIGKILL) when half of the regions are whole, it is called again,
+and its files must have the same bytes as those of the run that nobody killed. With --judge cgnscheck and OpenFOAM's
+checkMesh (-allGeometry -allTopology) look at what was written; checkMesh takes about 1 GB per million cells.
 
 Every run is removed before the next one begins; 145 million cells take 60 GB of disk in --work (the system's folder for
 temporary files unless given)."""
@@ -63,8 +63,8 @@ def table_row(run, cells):
     steps = {}
     for step in mesh["steps"]:
         steps[step["name"]] = steps.get(step["name"], 0) + step["seconds"]
-    print("         mesher, s: " + ", ".join(f"{name} {seconds:.1f}" for name, seconds in steps.items() if seconds >= 0.1),
-          flush=True)
+    long = [f"{name} {seconds:.1f}" for name, seconds in steps.items() if seconds >= 0.1]
+    print("         mesher, s: " + ", ".join(long), flush=True)
 
 
 def kill_half_way(options, run, cells, regions):
@@ -91,7 +91,8 @@ def judge(run):
     text = execute("cgnscheck", run / "export/pump.cgns").text
     print(f"         cgnscheck: {len(re.findall('ERROR', text))} errors, {len(re.findall('WARNING', text))} warnings")
     text = execute("checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam").text
-    told = re.findall(r"^ *\*+.*|.*non-orthogonality Max.*|Max skewness.*|Mesh OK.*|Failed \d+ mesh checks.*", text, re.M)
+    told = re.findall(r"^ *\*+.*|.*non-orthogonality Max.*|Max skewness.*|Mesh OK.*|Failed \d+ mesh checks.*", text,
+                      re.M)
     print("\n".join(f"         checkMesh: {line.strip()}" for line in told), flush=True)
 
 
@@ -105,8 +106,9 @@ def main():
     parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
     parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
     options = parser.parse_args()
-    print(f"{options.ranks} ranks on {os.cpu_count()} cores; seconds of the mesher and the exporter, peak memory of all ranks "
-          "in GiB; regions, cells of a region over their mean, least dihedral angle in degrees, mean aspect: rotor / stator")
+    print(f"{options.ranks} ranks on {os.cpu_count()} cores; seconds of the mesher and the exporter, peak memory of "
+          "all ranks in GiB; regions, cells of a region over their mean, least dihedral angle in degrees, mean aspect: "
+          "rotor / stator")
     print(f"{'asked':>8}{'made':>13}{'passes':>7}{'mesher':>9}{'export':>9}{'mesher':>9}{'export':>9}  {'regions':>11} "
           f"{'balance':>23} {'least dihedral':>14} {'aspect':>14}")
     for cells in options.cells:
@@ -124,8 +126,8 @@ def main():
                 shutil.rmtree(run / "mesh")
                 first, whole, again = kill_half_way(options, run, cells, regions)
                 same = digests(run / "mesh") == unkilled
-                print(f"         killed after {first:.1f} s with {whole} of {regions} regions whole; called again {again:.1f} s: "
-                      + ("the same bytes" if same else "OTHER BYTES"), flush=True)
+                print(f"         killed after {first:.1f} s with {whole} of {regions} regions whole; called again "
+                      f"{again:.1f} s: " + ("the same bytes" if same else "OTHER BYTES"), flush=True)
                 if not same:
                     sys.exit(1)
 

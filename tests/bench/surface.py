@@ -60,8 +60,8 @@ def least_angles(mesh):
         size_of = 4 * (1 + tags + corners[kind])
         at += 12
         if kind == 2:
-            angles += [least_angle([nodes[n] for n in struct.unpack_from("<iii", data, at + i * size_of + 4 * (1 + tags))])
-                       for i in range(number)]
+            places = (at + i * size_of + 4 * (1 + tags) for i in range(number))
+            angles += [least_angle([nodes[n] for n in struct.unpack_from("<iii", data, place)]) for place in places]
         at += number * size_of
     return sorted(angles)
 
@@ -108,7 +108,8 @@ def main():
     print(f"{'':10s} {'triangles':>10s} {'per second':>11s} {'least':>6s} {'1 %':>6s} {'mean':>6s}")
     for name, title in (("cutwater", "cutwater"), ("front2d", "frontal"), ("del2d", "Delaunay")):
         least, low, mean = shapes[name]
-        print(f"{title:10s} {counts[name]:10,d} {statistics.median(rates[name]):11,.0f} {least:6.1f} {low:6.1f} {mean:6.1f}")
+        print(f"{title:10s} {counts[name]:10,d} {statistics.median(rates[name]):11,.0f} {least:6.1f} {low:6.1f} "
+              f"{mean:6.1f}")
 
 
 if __name__ == "__main__":

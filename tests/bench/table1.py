@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 from fill import compile_program, run_gmsh
-from programs import SOURCE, execute
+from programs import MPIRUN, SOURCE, execute
 
 CLASSES = ["1-1.5", "1.5-2", "2-3", "3-4", "4-5", "5-7", "7-10", ">10"]
 PAPER = {"paper, serial (Gmsh)": ([4.5, 43.3, 32.2, 8.5, 7.3, 3.5, 0.7], 2.90, 8.6),
@@ -45,8 +45,8 @@ def print_row(title, row):
 def mesh(options, case, folder, geometry, ranks):
     folder.mkdir()
     shutil.copytree(geometry, folder / "geometry")
-    execute("mpirun", "-q", "--oversubscribe", "-n", ranks, options.build / "bin/cutwater-mesh", "--case", case, "--run",
-            folder, "--cells", options.cells)
+    execute(*MPIRUN, ranks, options.build / "bin/cutwater-mesh", "--case", case, "--run", folder, "--cells",
+            options.cells)
     return folder / "mesh"
 
 
@@ -91,9 +91,9 @@ def main():
                 sys.exit(f"table1: Gmsh failed on the {domain}:\n{run.text[-1000:]}")
             print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
             all_of, by_region = found[domain]
-            for label, here, there, most in (("beside dividing planes against the others", by_region["beside"],
-                                              by_region["apart"], 0.05),
-                                             ("by region numbers against the serial mesh", by_region["all"], all_of, 0.02)):
+            comparisons = (("beside dividing planes against the others", by_region["beside"], by_region["apart"], 0.05),
+                           ("by region numbers against the serial mesh", by_region["all"], all_of, 0.02))
+            for label, here, there, most in comparisons:
                 aspect, ratio = here[2] / there[2] - 1, 1 - here[6] / there[6]
                 print(f"  {label}: mean aspect {100 * aspect:+.2f} %, mean ratio {-100 * ratio:+.2f} %")
                 if ratio > most:

@@ -60,7 +60,8 @@ def main():
         whole = sum(stages.values())
         parts = ", ".join(f"{stage} {value:.1f}" for stage, value in stages.items())
         print(f"{number:<4}{'cutwater, whole run':<20}{made:>12,}{whole:>10.1f}{made / whole:>10,.0f}  {parts}")
-        print(f"{number:<4}{'gmsh -algo hxt':<20}{other.tetrahedra:>12,}{other.wall:>10.1f}{other.tetrahedra / other.wall:>10,.0f}")
+        print(f"{number:<4}{'gmsh -algo hxt':<20}{other.tetrahedra:>12,}{other.wall:>10.1f}"
+              f"{other.tetrahedra / other.wall:>10,.0f}")
     ratios = [(made / sum(stages.values())) / (other.tetrahedra / other.wall)
               for (stages, made), other in zip(ours, theirs)]
     print(f"cutwater against gmsh, cells a second: {statistics.median(ratios):.2f} times (median of {len(ratios)}; "

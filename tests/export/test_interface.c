@@ -219,7 +219,8 @@ static void discs_of_different_size_are_told(void **state) {
   for (int64_t i = 0; i < p.sums[1].triangles; ++i)
     for (int c = 0; c < 3; ++c)
       for (int k = 0; k < 3; ++k)
-        p.assembly.interface[1][1][i].nodes[c][k] += 0.03 * (p.assembly.interface[1][1][i].nodes[c][k] - (k == 2) * 0.3);
+        p.assembly.interface[1][1][i].nodes[c][k] +=
+            0.03 * (p.assembly.interface[1][1][i].nodes[c][k] - (k == 2) * 0.3);
   assert_int_equal(cw_interface_make(&p.assembly, 1, RADIUS, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "'rotor_interface', but from -103 to 103 mm"));
   cw_interface_free(&interface);

@@ -94,11 +94,13 @@ static void bevel(void **state) {
   // Curvature of the side and of the cylinder makes a little difference to the flat triangle.
   near_to(hypot(dm, (end - begin.theta) * x[0]), facet, 0.05 * facet);
   // The balanced facet is as long as what is left of the cut.
-  const double balanced = cw_blade_usual_bevel(CW_EDGE_BEVELLED, 2e-3, 36 * degree), leg = balanced / (2 * sin(18 * degree));
+  const double balanced = cw_blade_usual_bevel(CW_EDGE_BEVELLED, 2e-3, 36 * degree),
+               leg = balanced / (2 * sin(18 * degree));
   near_to(2e-3 / sin(36 * degree) - leg, balanced, 1e-15);
 }
 
-// Of blades without thickness the width is the pitch, r dtheta sin beta, where that is least; a splitter takes its share.
+// Of blades without thickness the width is the pitch, r dtheta sin beta, where that is least; a splitter takes its
+// share.
 static void clearance(void **state) {
   CwDesign thin = design;
   thin.leading_edge_thickness = thin.blade_thickness = thin.trailing_edge_thickness = 1e-7;

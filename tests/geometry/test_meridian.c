@@ -52,7 +52,8 @@ static void ends_of_the_blade(void **state) {
   }
 }
 
-// The area at the blade's ends: pi D2 b2 at D2, where both walls are radial, and square to the flow at the leading edge.
+// The area at the blade's ends: pi D2 b2 at D2, where both walls are radial, and square to the flow at the leading
+// edge.
 static void areas(void **state) {
   near_to(cw_meridian_area(&meridian, 1), M_PI * 0.2 * 0.008, 4e-6); // the hub is not quite flat at D2
   double h[2], c[2], a[2], b[2];
@@ -60,7 +61,8 @@ static void areas(void **state) {
   cw_meridian_blade_point(&meridian, 1, 0, c, NULL);
   cw_meridian_blade_point(&meridian, 0.5, 0, a, NULL);
   cw_meridian_blade_point(&meridian, 0.5, 1e-6, b, NULL);
-  const double along = ((c[0] - h[0]) * (b[0] - a[0]) + (c[1] - h[1]) * (b[1] - a[1])) / hypot(b[0] - a[0], b[1] - a[1]);
+  const double along =
+      ((c[0] - h[0]) * (b[0] - a[0]) + (c[1] - h[1]) * (b[1] - a[1])) / hypot(b[0] - a[0], b[1] - a[1]);
   const double width = sqrt(pow(c[0] - h[0], 2) + pow(c[1] - h[1], 2) - along * along);
   near_to(cw_meridian_area(&meridian, 0), M_PI * (h[0] + c[0]) * width, 1e-9);
 }

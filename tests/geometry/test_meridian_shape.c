@@ -25,7 +25,8 @@ static int setup(void **state) {
 static double reversal_of(const CwDesign *design) {
   CwMeridianCurve hub, shroud;
   CwPassageStation station[COUNT];
-  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub, &shroud);
+  cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub,
+                    &shroud);
   cw_meridian_passage(&hub, &shroud, design->outlet_diameter / 2, COUNT, station);
   return cw_passage_reversal(station, COUNT);
 }
@@ -45,10 +46,11 @@ static double bending_of(const CwDesign *design, const double share[3]) {
   return sum;
 }
 
-// From low to high specific speed, of both families, the area grows all the way from the eye to D2, and the shroud bends
-// gently.
+// From low to high specific speed, of both families, the area grows all the way from the eye to D2, and the shroud
+// bends gently.
 static void area_is_monotone(void **state) {
-  static const double duty[][2] = {{30, 20}, {40, 20}, {25, 10}, {60, 12}, {200, 15}, {300, 13.5}}; // m3/h, m at 1450 rpm
+  static const double duty[][2] = {{30, 20}, {40, 20},  {25, 10},
+                                   {60, 12}, {200, 15}, {300, 13.5}}; // m3/h, m at 1450 rpm
   assert_true(reversal_of(&paper_design) == 0 && paper_design.passage_area_reversal == 0);
   for (int i = 0; i < 12; i++) {
     CwCase table;
@@ -111,7 +113,8 @@ static void given_poles_are_kept(void **state) {
   table.impeller.shroud_pole_axial = 0.431;
   table.impeller.shroud_pole_radial = 0.022;
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
-  assert_true(design.hub_pole_radial == 1.471 && design.shroud_pole_axial == 0.431 && design.shroud_pole_radial == 0.022);
+  assert_true(design.hub_pole_radial == 1.471 && design.shroud_pole_axial == 0.431 &&
+              design.shroud_pole_radial == 0.022);
   assert_true(design.passage_area_reversal > 0.04);
   table.impeller.shroud_pole_axial = table.impeller.shroud_pole_radial = NAN;
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);

@@ -101,7 +101,8 @@ static void check_zones(CwCase table) {
   const double d1 = design.inlet_diameter, dn = design.discharge_diameter;
   assert_float_equal(measure(zones.solid[3]).volume,
                      M_PI / 4 * dn * dn * (design.discharge_pipe_length - 0.25 * dn), 1e-9 * dn);
-  assert_true(measure(zones.solid[2]).volume < M_PI / 4 * d1 * d1 * (design.suction_pipe_length - 0.25 * d1) * 1.000001);
+  assert_true(measure(zones.solid[2]).volume <
+              M_PI / 4 * d1 * d1 * (design.suction_pipe_length - 0.25 * d1) * 1.000001);
   for (int i = 0; i < 3; i++) {
     const CwPumpInterface *between = &zones.interface[i];
     int found[2] = {-1, -1};

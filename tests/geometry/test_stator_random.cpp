@@ -84,7 +84,8 @@ static double shortest_edge(const CwSolid *solid) {
     double first, last, length = 0;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last);
     for (int k = 0; k < 200; k++)
-      length += curve->Value(first + (last - first) * k / 200).Distance(curve->Value(first + (last - first) * (k + 1) / 200));
+      length +=
+          curve->Value(first + (last - first) * k / 200).Distance(curve->Value(first + (last - first) * (k + 1) / 200));
     least = std::min(least, length);
   }
   return least;

@@ -125,7 +125,8 @@ static void print_pairs(const CwCad *cad, const char *name, Probe *probe, int co
   for (int first = 0, next; first < count; first = next) {
     double gap[2 * RAYS];
     int tets = probe[first].tetrahedra;
-    for (next = first; next < count && probe[next].from == probe[first].from && probe[next].to == probe[first].to; next++) {
+    for (next = first; next < count && probe[next].from == probe[first].from && probe[next].to == probe[first].to;
+         next++) {
       gap[next - first] = probe[next].gap;
       if (probe[next].tetrahedra < tets) tets = probe[next].tetrahedra;
     }

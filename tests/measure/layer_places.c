@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Measures the layers of a finished run at places that are hard for them. Prints for each: wall triangles with their
-// centre near it, share of them with all layers (%), share with their first height within 10 % (%), least scaled Jacobian
-// of their prisms, least thickness (mm). Writes a section through the cells there to FOLDER/layers_PLACE.svg.
+// centre near it, share of them with all layers (%), share with their first height within 10 % (%), least scaled
+// Jacobian of their prisms, least thickness (mm). Writes a section through the cells there to FOLDER/layers_PLACE.svg.
 // Use: layer_places GEOMETRY_DIR MESH_DIR FOLDER
 #include <jansson.h>
 #include <math.h>
@@ -16,7 +16,8 @@
 
 typedef enum { ACROSS_EDGE, MERIDIAN, NORMAL_TO_AXIS } Section;
 
-// The points that two patches have in common; all of one patch where both are the same; its bends where the second is "".
+// The points that two patches have in common; all of one patch where both are the same; its bends where the second is
+// "".
 typedef struct {
   const char *name, *domain, *patch, *other;
   double reach, half; // m: of the columns from the points; half the width of the picture
@@ -124,8 +125,8 @@ static double height_over(const CwRegionMesh *mesh, int32_t triangle, int32_t pr
   return least;
 }
 
-static void measure_region(const CwRegionMesh *mesh, const Points *points, double reach, int layers, const double *first,
-                           Figures *figures) {
+static void measure_region(const CwRegionMesh *mesh, const Points *points, double reach, int layers,
+                           const double *first, Figures *figures) {
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     if (!(first[mesh->triangle_patch[t]] > 0)) continue; // no wall
     double centre[3] = {0};
@@ -224,7 +225,8 @@ static void draw_cell(FILE *file, const CwRegionMesh *mesh, const int32_t *corne
   fprintf(file, "z\" fill=\"%s\"/>\n", colour);
 }
 
-static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points *points, int layers, const char *folder) {
+static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points *points, int layers,
+                     const char *folder) {
   CwStatus status = CW_OK;
   static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   static const int prism_edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};

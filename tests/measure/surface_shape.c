@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Measures the surface mesh of a finished run against the exact geometry. Prints for each patch: triangles, least,
-// 1 % and mean of their least angles (degrees), triangles below 20 degrees, greatest distance of a node from the surfaces
-// of the patch (m). Use: surface_shape GEOMETRY_DIR MESH_DIR
+// 1 % and mean of their least angles (degrees), triangles below 20 degrees, greatest distance of a node from the
+// surfaces of the patch (m). Use: surface_shape GEOMETRY_DIR MESH_DIR
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

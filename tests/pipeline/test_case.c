@@ -113,10 +113,8 @@ static const BadCase bad_cases[] = {
     {8, "  blade_cuont: 6",
      "8:3: impeller.blade_cuont: unknown key; allowed: the keys of docs/case-reference.md, the nearest is "
      "blade_count"},
-    {19,
-     "mseh:", "19:1: mseh: unknown key; allowed: the keys of docs/case-reference.md, the nearest is mesh"},
-    {20, "  layer_count: 5",
-     "20:3: mesh.layer_count: unknown key here; allowed: the key layer_count in section walls"},
+    {19, "mseh:", "19:1: mseh: unknown key; allowed: the keys of docs/case-reference.md, the nearest is mesh"},
+    {20, "  layer_count: 5", "20:3: mesh.layer_count: unknown key here; allowed: the key layer_count in section walls"},
     {20, "  name: x", "20:3: mesh.name: unknown key here; allowed: the key name in the top of the file"},
     {1, "name: test\ncells: 5", "2:1: cells: unknown key here; allowed: the key cells in section mesh"},
     {20, "  <<: {cells: 5}",
@@ -124,8 +122,7 @@ static const BadCase bad_cases[] = {
     {8, "  blade_count: 6\n  : 7",
      "8:16: impeller.(nothing): the key is empty; allowed: the keys of docs/case-reference.md"},
     // Wrong types.
-    {8, "  blade_count: six",
-     "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: six", "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 3 to 9"},
     {8, "  blade_count: 6.5",
      "8:16: impeller.blade_count: 6.5 is not a whole number; allowed: a whole number from 3 to 9"},
     {20, "  cells: 1e6",
@@ -133,8 +130,8 @@ static const BadCase bad_cases[] = {
     {11, "  outlet_width_mm: \"8\"",
      "11:20: impeller.outlet_width_mm: 8 is text, not a number (it stands in quotes); allowed: 0.5 to 1000 "
      "mm"},
-    {11,
-     "  outlet_width_mm:", "11:3: impeller.outlet_width_mm: (nothing) is no value (leave the key out for its default); allowed: "
+    {11, "  outlet_width_mm:",
+     "11:3: impeller.outlet_width_mm: (nothing) is no value (leave the key out for its default); allowed: "
      "0.5 to 1000 mm"},
     {12, "  wrap_angle_deg: ~",
      "12:19: impeller.wrap_angle_deg: ~ is no value (leave the key out for its default); allowed: 20 to 300 "
@@ -151,8 +148,7 @@ static const BadCase bad_cases[] = {
      "7:13: impeller.priority: warp is not one of the choices; allowed: wrap, head, beta or auto"},
     {7, "  priority: Wrap",
      "7:13: impeller.priority: Wrap is not one of the choices; allowed: wrap, head, beta or auto"},
-    {16, "walls:\n  y_plus_at: 1",
-     "17:14: walls.y_plus_at: 1 is not one of the choices; allowed: node or cell_centre"},
+    {16, "walls:\n  y_plus_at: 1", "17:14: walls.y_plus_at: 1 is not one of the choices; allowed: node or cell_centre"},
     {1, "name: my/pump",
      "1:7: name: my/pump is not a name that files and solvers take; allowed: 1 to 32 letters, digits, _ and "
      "-, a "
@@ -166,17 +162,12 @@ static const BadCase bad_cases[] = {
      "32 "
      "letters, digits, _ and -, a letter first"},
     // Numbers that are none.
-    {4, "  head_m: .nan",
-     "4:11: operating_point.head_m: .nan is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: .nan", "4:11: operating_point.head_m: .nan is not a finite number; allowed: 0.1 to 1000 m"},
     {4, "  head_m: nan", "4:11: operating_point.head_m: nan is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: -.inf",
-     "4:11: operating_point.head_m: -.inf is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 1e999",
-     "4:11: operating_point.head_m: 1e999 is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 0x10",
-     "4:11: operating_point.head_m: 0x10 is not a decimal number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 0o17",
-     "4:11: operating_point.head_m: 0o17 is not a decimal number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: -.inf", "4:11: operating_point.head_m: -.inf is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 1e999", "4:11: operating_point.head_m: 1e999 is not a finite number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 0x10", "4:11: operating_point.head_m: 0x10 is not a decimal number; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: 0o17", "4:11: operating_point.head_m: 0o17 is not a decimal number; allowed: 0.1 to 1000 m"},
     {4, "  head_m: 010", "4:11: operating_point.head_m: 010 has a leading zero; allowed: 0.1 to 1000 m"},
     {4, "  head_m: 10,5",
      "4:11: operating_point.head_m: 10,5 has a comma (decimals follow a point); allowed: 0.1 to 1000 m"},
@@ -193,10 +184,8 @@ static const BadCase bad_cases[] = {
      "0.1 to 1000 "
      "m"},
     // Out of range, at both ends.
-    {8, "  blade_count: 2",
-     "8:16: impeller.blade_count: 2 is out of range; allowed: a whole number from 3 to 9"},
-    {8, "  blade_count: 10",
-     "8:16: impeller.blade_count: 10 is out of range; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: 2", "8:16: impeller.blade_count: 2 is out of range; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: 10", "8:16: impeller.blade_count: 10 is out of range; allowed: a whole number from 3 to 9"},
     {8, "  blade_count: 99999999999999999999",
      "8:16: impeller.blade_count: 99999999999999999999 is out of range; allowed: a whole number from 3 to 9"},
     {10, "  outlet_diameter_mm: -200",
@@ -204,10 +193,8 @@ static const BadCase bad_cases[] = {
     {10, "  outlet_diameter_mm: 0.2",
      "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 5000 mm"},
     {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2"},
-    {17, "  layer_count: 0",
-     "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
-    {20, "  cells: 9999",
-     "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000"},
+    {17, "  layer_count: 0", "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
+    {20, "  cells: 9999", "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000"},
     // Missing.
     {1, "", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
     {5, "", "2:1: operating_point.speed_rpm: the key is missing; allowed: 10 to 100000 rpm"},
@@ -215,8 +202,7 @@ static const BadCase bad_cases[] = {
     {9, "  inlet_diameter_mm: 74\n  inlet_diameter_mm: 75",
      "10:3: impeller.inlet_diameter_mm: given twice, first in line 9; allowed: once"},
     {20, "  cells: 1000000\nname: again", "21:1: name: given twice, first in line 1; allowed: once"},
-    {20, "  cells: 1000000\nwalls:\n  roughness_um: 1",
-     "21:1: walls: given twice, first in line 16; allowed: once"},
+    {20, "  cells: 1000000\nwalls:\n  roughness_um: 1", "21:1: walls: given twice, first in line 16; allowed: once"},
     // Sections that are none.
     {19, "mesh: 5\nwalls2:",
      "19:7: mesh: 5 is not a mapping; allowed: the section's keys, one a line, indented below "
@@ -224,8 +210,7 @@ static const BadCase bad_cases[] = {
     {19, "mesh: [1]\nwalls2:",
      "19:7: mesh: a list is not a mapping; allowed: the section's keys, one a line, indented "
      "below it"},
-    {20, "",
-     "19:1: mesh: (nothing) is not a mapping; allowed: the section's keys, one a line, indented below it"},
+    {20, "", "19:1: mesh: (nothing) is not a mapping; allowed: the section's keys, one a line, indented below it"},
     {20, "  [a, b]: 5", "20:3: mesh: a key is a list; allowed: a plain word"},
     {1, "{a: 1}: 5", "1:1: case file: a key is a mapping; allowed: a plain word"},
     // No YAML.
@@ -245,8 +230,7 @@ static const BadCase bad_cases[] = {
      "4:13: case file: it is not YAML, invalid nested block mapping on the same line; allowed: one \"key: "
      "value\" a "
      "line, sections indented by blanks"},
-    {20, "  cells: 1000000\n---\nname: second",
-     "21:1: case file: a second document begins; allowed: one document"},
+    {20, "  cells: 1000000\n---\nname: second", "21:1: case file: a second document begins; allowed: one document"},
     // Not text.
     {1,
      "name: te\xff"

@@ -39,7 +39,8 @@ static void volumes_of_the_three_shapes(void **state) {
   // A bent quadrilateral is the fan about its mean point, from both sides: what one prism gains the other loses.
   const double bent[3] = {2, 3, 6};
   const double *one[6] = {p[0], p[1], p[2], p[4], p[5], bent}, *two[6] = {p[0], p[2], p[3], p[4], bent, p[7]};
-  // By hand: the box, and on its top two triangles that rise to 1 at the corner: 3 * 1/3 each; the outer sides stay flat.
+  // By hand: the box, and on its top two triangles that rise to 1 at the corner: 3 * 1/3 each; the outer sides stay
+  // flat.
   assert_float_equal(cw_cell_volume(6, one) + cw_cell_volume(6, two), 30.0 + 2.0, 1e-13);
 }
 

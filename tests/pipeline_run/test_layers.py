@@ -5,8 +5,8 @@ import unittest
 
 from cutwater import BIN, RUN, execute
 
-# Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves 1 mm
-# for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
+# Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves
+# 1 mm for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
 FIRST = {"trailing_edge": 90, "trailing_edge_hub": 90, "trailing_edge_shroud": 90, "tongue": 90}
 THICKNESS = {"neck": 0.9, "step": 0.9, "tongue": 0.9, "volute_corner": 0.9}  # mm, least; 0.6 is five layers at 0.7
 PLACES = {"trailing_edge", "trailing_edge_hub", "trailing_edge_shroud", "neck", "step", "tongue", "volute_corner"}
