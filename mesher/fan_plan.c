@@ -13,11 +13,10 @@
 enum {
   AXIS_SAMPLES = 400,
   STATIONS = 80,   // places tried for the plane across the axis
-  SLICE_PLACES = 1000, // for planes between slices
+  STEPS = 24,      // of equal work in a slice, where planes between slices may stand
+  WINDOW = 3,      // slices to either side of its even place in which such a plane is looked for
   ANGLES = 120         // places tried for half-planes in one pitch
 };
-static const double UNEVEN = 20; // what a slice too much or too little costs
-static const double FAIR = 0.1;  // how far slices may be off the mean at no cost
 // Where regions are more than EVEN off their mean, numbers of regions in a pitch beside the wanted one are tried.
 enum { NUMBERS = 4 };
 static const int32_t BESIDE[NUMBERS] = {0, 1, -1, 2};
@@ -31,6 +30,7 @@ typedef struct {
   const CwPlanModel *model;
   CwPlan *plan;
   int32_t count;
+  int32_t slices_most;
   double up;              // 1: z grows from pipe to impeller, -1: it falls
   double low, nose, high; // along up * z: ends of the domain, end of the fluid on the axis, m
   CwPlanProfile along;    // the domain along up * z
@@ -88,52 +88,78 @@ static CwStatus find_axis(Fan *fan) {
   return CW_OK;
 }
 
-// Divides the side of the pipe into slices of about equal work: planes 1 .. slices - 1 in a chain from node 0 outwards.
-static void place_slices(Fan *fan, int32_t slices) {
-  CwPlan *plan = fan->plan;
-  double top = plan->node[0].plane.offset, all = cw_profile_below(&fan->along, top), from = top, inner = all;
-  plan->node[0].child[0] = -1; // with one slice alone
-  for (int32_t i = 1; i < slices; i++) {
-    double best = INFINITY, chosen = from;
-    plan->node[i].parent = i - 1;
-    for (int s = 1; s < SLICE_PLACES; s++) {
-      double place = top + (fan->low - top) * s / SLICE_PLACES, worst;
-      if (place >= from) continue;
-      double share = cw_profile_below(&fan->along, place) / all * slices; // in slices; wanted: slices - i
-      double score = UNEVEN * fabs(share - (slices - i));
-      if (score >= best) continue;
-      score += judge_across(fan, place, &worst);
-      if (score >= best) continue;
-      best = score;
-      chosen = place;
-      plan->worst_angle[i] = worst;
-    }
-    plan->node[i] = (CwPlanNode){across(fan, chosen), i - 1, {-1, -1 - (slices - i)}};
-    plan->node[i - 1].child[0] = i;
-    from = chosen;
-  }
+// The side of the pipe in steps of equal work, from node 0 outwards.
+static double step_place(const Fan *fan, int32_t slices, int32_t step) {
+  double all = cw_profile_below(&fan->along, fan->plan->node[0].plane.offset);
+  return cw_profile_place(&fan->along, all * (1 - (double)step / (slices * STEPS)));
+}
+
+// Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn the
+// best way to every step. Returns what they cost.
+static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t *step, double *cost) {
+  CwStatus status = CW_OK;
+  int32_t steps = slices * STEPS, *from = NULL; // of each plane and step, the step of the plane before
+  double *least = NULL, *place_cost = NULL, *uneven = NULL, worst;
+  double all = cw_profile_below(&fan->along, fan->plan->node[0].plane.offset);
+  CW_NEW(from, (slices + 1) * (steps + 1));
+  CW_NEW(least, (slices + 1) * (steps + 1));
+  CW_NEW(place_cost, steps + 1);
+  CW_NEW(uneven, steps + 1);
+  for (int32_t s = 1; s <= steps; s++) uneven[s] = cw_plan_unevenness(all * s / steps, mean, 1);
+  for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(fan, step_place(fan, slices, s), &worst);
+  for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
+  least[0] = 0;
   for (int32_t i = 1; i <= slices; i++) {
-    double outer = i < slices ? cw_profile_below(&fan->along, plan->node[i].plane.offset) : 0;
-    plan->predicted_cells[slices - i] = inner - outer;
-    inner = outer;
+    double *now = least + i * (steps + 1), *before = now - (steps + 1);
+    int32_t first = (i - WINDOW) * STEPS, last = i < slices ? (i + WINDOW) * STEPS : steps;
+    for (int32_t s = i < slices ? (first > i ? first : i) : steps; s <= last && s <= steps; s++) {
+      for (int32_t b = s - 1; b >= 0 && b >= s - 2 * STEPS; b--) {
+        double sum = before[b] + uneven[s - b] + place_cost[s];
+        if (sum < now[s]) now[s] = sum, from[i * (steps + 1) + s] = b;
+      }
+    }
+  }
+  *cost = least[slices * (steps + 1) + steps];
+  for (int32_t i = slices, s = steps; i > 0; i--) step[i] = s, s = from[i * (steps + 1) + s];
+done:
+  free(from);
+  free(least);
+  free(place_cost);
+  free(uneven);
+  return status;
+}
+
+// Divides the side of the pipe into slices of about `mean` work: planes 1 .. slices - 1 in a chain from node 0 outwards.
+static CwStatus place_slices(Fan *fan, int32_t slices, double mean, double *cost) {
+  CwStatus status = CW_OK;
+  CwPlan *plan = fan->plan;
+  int32_t *step = NULL;
+  double all = cw_profile_below(&fan->along, plan->node[0].plane.offset);
+  CW_NEW(step, slices + 1);
+  CW_TRY(find_slices(fan, slices, mean, step, cost));
+  plan->node[0].child[0] = -1; // with one slice alone
+  for (int32_t i = 1; i <= slices; i++) {
+    plan->predicted_cells[slices - i] = all * (step[i] - step[i - 1]) / (slices * STEPS);
+    if (i == slices) break;
+    CwPlane plane = across(fan, step_place(fan, slices, step[i]));
+    plan->node[i] = (CwPlanNode){plane, i - 1, {-1, -1 - (slices - i)}};
+    plan->node[i - 1].child[0] = i;
+    judge_across(fan, plane.offset, &plan->worst_angle[i]);
   }
   plan->node_count = plan->region_count = slices;
+done:
+  free(step);
+  return status;
 }
 
 static int32_t slices_beside(double pipe, double pitch, int32_t regions) {
   return (int32_t)fmax(1, floor(pipe / pitch * regions + 0.5));
 }
 
-// How far the work of a slice, or of a region in one pitch, is off the mean, at most.
-static double slices_off(const Fan *fan, double pitch, int32_t slices, int32_t regions) {
-  double mean = fan->along.below[CW_PROFILE_BINS] / (slices + fan->count * regions), most = fabs(pitch / regions / mean - 1);
-  for (int32_t s = 0; s < slices; s++) most = fmax(most, fabs(fan->plan->predicted_cells[s] / mean - 1));
-  return most;
-}
-
 // The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and slices
 // that are as large as the regions of a pitch (0: as they come).
 static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
+  CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
   double best = INFINITY, all = fan->along.below[CW_PROFILE_BINS], chosen = 0;
   for (int i = 1; i < STATIONS; i++) {
@@ -143,20 +169,23 @@ static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
     plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
     score += judge_across(fan, place, &plan->worst_angle[0]);
     if (regions > 0 && score < best) {
-      double pitch = (all - before) / fan->count;
+      double pitch = (all - before) / fan->count, cost;
       int32_t count = slices_beside(before, pitch, regions);
-      place_slices(fan, count);
-      score += UNEVEN * fmax(0, slices_off(fan, pitch, count, regions) - FAIR);
+      if (count > fan->slices_most) continue;
+      double mean = all / (count + fan->count * regions);
+      CW_TRY(place_slices(fan, count, mean, &cost));
+      score += cost + cw_plan_unevenness(pitch, regions * mean, regions);
     }
     if (score < best) best = score, chosen = place;
   }
-  if (best == INFINITY) return CW_FAIL(CW_RETRY, "no plane across the axis fits");
-  double before = cw_profile_below(&fan->along, chosen);
+  CW_REQUIRE(best < INFINITY, CW_RETRY, "no plane across the axis fits");
+  double before = cw_profile_below(&fan->along, chosen), cost;
   plan->node[0] = (CwPlanNode){across(fan, chosen), -1, {-1, 1}};
   judge_across(fan, chosen, &plan->worst_angle[0]);
   *slices = slices_beside(before, (all - before) / fan->count, regions);
-  place_slices(fan, *slices);
-  return CW_OK;
+  CW_TRY(place_slices(fan, *slices, regions > 0 ? all / (*slices + fan->count * regions) : before, &cost));
+done:
+  return status;
 }
 
 typedef struct {
@@ -333,7 +362,7 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
   CwPlan tried = {0};
-  Fan fan = {.model = &model, .plan = &tried, .count = count};
+  Fan fan = {.model = &model, .plan = &tried, .count = count, .slices_most = options->region_count};
   size_t room = 2 * (size_t)options->region_count + 4 * (size_t)count;
   double least = INFINITY;
   int32_t slices;

@@ -5,27 +5,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/plan_directions.h"
 #include "mesher/schedule.h"
 #include "mesher/vec.h"
 
 enum {
-  DIRECTIONS = 120,  // planes parallel to the axis, every 1.5 degrees
-  TILTS = 2,         // planes that lean, for parts that no upright one divides well
-  AROUND = 36,       // of each tilt, every 10 degrees
-  ALL_DIRECTIONS = DIRECTIONS + 1 + AROUND * TILTS, // along the axis too
-  COARSE = 3, COARSE_LEANING = 2, // of so many directions one is looked along at first
+  COARSE = 3,        // of so many upright directions one is looked along at first
+  COARSE_TURN = 13, COARSE_TILT = 4, LEANING = 2, // of leaning ones: every 13th turn at tilts of 4 and 8 to either side
+  STEP = 4,          // turns and half as many tilts: first steps from the best plane where it does not do well
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
   SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
   SHARED_LEAST = 40000, // pieces and samples, over all directions looked along, that are worth sharing among the ranks
   LINES_JUDGED = 200, // candidates whose lines are looked at, best first
-  SMALL_PART = 8,     // regions to come of a part for which other planes are tried
-  TRIES = 4           // of them
+  SMALL_PART = 12,    // regions to come of a part for which other planes are tried
+  TRIES = 6           // of them
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                       // shifts until they are twice as wide
-static const double TILT[TILTS] = {0.35, 0.8};         // rad
-static const double WELL = 4;                        // score of a plane that will do
-static const double BALANCE_MOST = 0.1;              // share of a region's work past which a plane is hardly wanted
+static const double WELL = 3;                        // score of a plane that will do
+static const double OFF_MOST = 0.1;                  // share of a region's work past which a plane is hardly wanted
+static const double OFF_LIMIT = 0.14;                // and past which it is not
 static const double CUT_LAYERS = 4;                  // what a plane through the layers along an edge costs
 static const double BAD = 5;                         // score of a plane for which others are tried
 static const double WHOLE = 20;                      // what a part costs that has to stay whole
@@ -46,21 +45,13 @@ static int by_score(const void *a, const void *b) {
   return (p->below > q->below) - (p->below < q->below);
 }
 
-static void direction_of(int32_t d, double direction[3]) {
-  // A small odd turn keeps the fan of planes off the symmetry planes of the CAD.
-  double angle = M_PI * (d + 0.37) / DIRECTIONS, tilt = 0;
-  if (d > DIRECTIONS) {
-    int32_t leaning = d - DIRECTIONS - 1;
-    angle = 2 * M_PI * (leaning % AROUND + 0.37) / AROUND;
-    tilt = TILT[leaning / AROUND];
-  }
-  direction[0] = d == DIRECTIONS ? 0 : cos(tilt) * cos(angle);
-  direction[1] = d == DIRECTIONS ? 0 : cos(tilt) * sin(angle);
-  direction[2] = d == DIRECTIONS ? 1 : sin(tilt);
-}
-
 double cw_plan_place_cost(CwPlanPlace place) {
   return cw_plan_sharpness(place.worst) + fmin(0.17 * place.grazed, 3) + 0.007 * place.grazed + CUT_LAYERS * place.cut;
+}
+
+double cw_plan_unevenness(double work, double wanted, int32_t regions) {
+  double off = fabs(work / wanted - 1);
+  return 6 * off + 60 * fmax(0, off - OFF_MOST / sqrt(sqrt(regions))) + 60 * fmax(0, off - OFF_LIMIT);
 }
 
 // All but the lines.
@@ -69,9 +60,9 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   int bin = cw_profile_bin(profile, offset);
   double cells = cw_profile_below(profile, offset), all = profile->below[CW_PROFILE_BINS];
   // Against the mean of the whole domain: what one plane leaves uneven the next ones do not hide.
-  double load = fmax(fabs(cells / (below * model->mean_work) - 1),
-                     fabs((all - cells) / ((regions - below) * model->mean_work) - 1));
-  return 6 * load + 60 * fmax(0, load - BALANCE_MOST) + 0.5 * fabs(2.0 * below / regions - 1) +
+  double uneven = fmax(cw_plan_unevenness(cells, below * model->mean_work, below),
+                       cw_plan_unevenness(all - cells, (regions - below) * model->mean_work, regions - below));
+  return uneven + 0.5 * fabs(2.0 * below / regions - 1) +
          0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(cw_profile_at(profile, bin));
 }
 
@@ -93,7 +84,7 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
   CwPlanProfile profile;
   double direction[3];
   int32_t split[SPLITS_MOST], splits = splits_of(regions, split), count = 0;
-  direction_of(d, direction);
+  cw_direction(d, direction);
   cw_plan_profile(model, part, direction, &profile);
   double all = profile.below[CW_PROFILE_BINS], shift = SHIFT[regions <= 3 ? 0 : regions <= 8 ? 1 : 2];
   if (!(profile.width > 0) || !(all > 0)) return 0;
@@ -108,7 +99,7 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
     }
     // Through the axis a plane is normal to hub and shroud.
     double share = cw_profile_below(&profile, 0) / all;
-    if (d >= DIRECTIONS || fabs(share * regions - split[i]) > 0.2 * smaller * regions) continue;
+    if (!cw_direction_is_upright(d) || fabs(share * regions - split[i]) > 0.2 * smaller * regions) continue;
     Candidate *made = &candidate[count++];
     *made = (Candidate){.direction = d, .below = split[i]};
     made->score = score_of(model, part, &profile, regions, made->below, made->offset);
@@ -120,7 +111,7 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
 typedef struct {
   const CwPlanModel *model;
   const CwPlanPart *part;
-  int32_t regions, count, direction[ALL_DIRECTIONS];
+  int32_t regions, count, direction[CW_DIRECTIONS];
 } Directions;
 
 static CwStatus look_along(void *context, int32_t task, void **bytes, int64_t *size) {
@@ -175,7 +166,7 @@ typedef struct {
   const CwPlanPart *part;
   int32_t node, regions, count;
   Candidate *candidate; // best first
-  uint8_t looked[ALL_DIRECTIONS];
+  uint8_t looked[CW_DIRECTIONS];
   int32_t tried_count;
   Best tried[TRIES];
 } Choice;
@@ -194,7 +185,7 @@ static void find_best(const Choice *choice, Best *best) {
   for (int32_t i = 0; i < choice->count && choice->candidate[i].score < best->score; i++) {
     Candidate *candidate = &choice->candidate[i];
     CwPlane plane = {{0}, candidate->offset};
-    direction_of(candidate->direction, plane.normal);
+    cw_direction(candidate->direction, plane.normal);
     if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane, candidate->below)) continue;
     if (!candidate->judged) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
@@ -208,7 +199,7 @@ static void find_best(const Choice *choice, Best *best) {
 }
 
 static void add_direction(Choice *choice, int32_t direction, Directions *directions) {
-  if (choice->looked[direction]) return;
+  if (direction < 0 || choice->looked[direction]) return;
   choice->looked[direction] = 1;
   directions->direction[directions->count++] = direction;
 }
@@ -233,16 +224,18 @@ done:
   return status;
 }
 
-// Goes from the best plane to those of the directions beside it, as long as these are better.
-static CwStatus climb(Choice *choice, Best *best) {
+// Goes from the best plane to better ones of the directions beside it, so many turns away and, where it leans or may lean,
+// half as many tilts.
+static CwStatus climb(Choice *choice, int32_t step, int lean, Best *best) {
   CwStatus status = CW_OK;
-  for (int32_t from = -1; best->below > 0 && best->direction != from && best->direction != DIRECTIONS;) {
+  for (int32_t from = -1; best->below > 0 && best->direction != from && best->direction != CW_ALONG_AXIS;) {
     Directions beside = {.count = 0};
     from = best->direction;
-    int32_t first = from < DIRECTIONS ? 0 : from - (from - DIRECTIONS - 1) % AROUND;
-    int32_t around = from < DIRECTIONS ? DIRECTIONS : AROUND;
-    add_direction(choice, first + (from - first + 1) % around, &beside);
-    add_direction(choice, first + (from - first + around - 1) % around, &beside);
+    int32_t turn = cw_direction_turn(from), tilt = cw_direction_tilt(from), up = lean ? (step + 1) / 2 : 0;
+    add_direction(choice, cw_direction_at(turn + step, tilt), &beside);
+    add_direction(choice, cw_direction_at(turn - step, tilt), &beside);
+    add_direction(choice, cw_direction_at(turn, tilt + up), &beside);
+    add_direction(choice, cw_direction_at(turn, tilt - up), &beside);
     CW_TRY(look_further(choice, &beside, best));
   }
 done:
@@ -255,14 +248,18 @@ static CwStatus next_best(Choice *choice, double limit, Best *best) {
   Directions upright = {.count = 0}, leaning = {.count = 0};
   *best = (Best){.score = limit};
   find_best(choice, best);
-  for (int32_t d = 0; d < DIRECTIONS; d += COARSE) add_direction(choice, d, &upright);
-  add_direction(choice, DIRECTIONS, &upright);
+  for (int32_t turn = 0; turn < CW_TURNS; turn += COARSE) add_direction(choice, cw_direction_at(turn, 0), &upright);
+  add_direction(choice, CW_ALONG_AXIS, &upright);
   CW_TRY(look_further(choice, &upright, best));
-  CW_TRY(climb(choice, best));
+  CW_TRY(climb(choice, 1, 0, best));
   if (best->score > WELL) {
-    for (int32_t d = DIRECTIONS + 1; d < ALL_DIRECTIONS; d += COARSE_LEANING) add_direction(choice, d, &leaning);
+    for (int32_t tilt = -LEANING * COARSE_TILT; tilt <= LEANING * COARSE_TILT; tilt += COARSE_TILT) {
+      for (int32_t turn = 0; turn < CW_TURNS && tilt != 0; turn += COARSE_TURN) {
+        add_direction(choice, cw_direction_at(turn, tilt), &leaning);
+      }
+    }
     CW_TRY(look_further(choice, &leaning, best));
-    CW_TRY(climb(choice, best));
+    for (int32_t step = STEP; step > 0 && best->score > WELL; step /= 2) CW_TRY(climb(choice, step, 1, best));
   }
   choice->tried[choice->tried_count++] = *best;
 done:
