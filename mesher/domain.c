@@ -187,6 +187,19 @@ static double cells_per_region(const CwCase *table) {
   return fmax(LEAST_REGION_CELLS, (double)table->mesh.cells / MOST_REGIONS);
 }
 
+// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the fan are copied with
+// their faces.
+static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
+  const CwBackground *background = &domain->background;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (domain->symmetry->face.next[background->face[t]] != background->face[t]) continue;
+    for (int k = 0; k < 3; k++) {
+      if (cw_plane_distance(&plan->node[0].plane, background->x[background->triangle[t][k]]) > 0) return 0;
+    }
+  }
+  return 1;
+}
+
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
@@ -209,6 +222,8 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                                                domain->symmetry->count, &plan)
                             : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
   CW_TRY(status);
+  CW_REQUIRE(!domain->symmetry || fixed_faces_fit(domain, &plan), CW_RETRY,
+             "a face round the axis lies on the side of the passages");
   cw_plan_free(&domain->plan);
   domain->plan = plan;
   plan = (CwPlan){0};
@@ -216,38 +231,6 @@ done:
   cw_plan_free(&plan);
   free(thickness);
   free(least);
-  return status;
-}
-
-// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the fan are copied with
-// their faces.
-static int fixed_faces_fit(const CwDomain *domain) {
-  const CwBackground *background = &domain->background;
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    if (domain->symmetry->face.next[background->face[t]] != background->face[t]) continue;
-    for (int k = 0; k < 3; k++) {
-      if (cw_plane_distance(&domain->plan.node[0].plane, background->x[background->triangle[t][k]]) > 0) return 0;
-    }
-  }
-  return 1;
-}
-
-CwStatus cw_domain_try_plan(CwDomain *domain) {
-  CwStatus status = CW_OK;
-  CwNetwork network = {0};
-  CwSkeletonOrbits orbits = {.symmetry = domain->symmetry};
-  if (!domain->symmetry) goto done;
-  if (fixed_faces_fit(domain)) {
-    status = cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &network);
-    if (status == CW_OK) status = cw_orbit_network(&network, &orbits);
-  } else {
-    status = CW_FAIL(CW_RETRY, "a face round the axis lies on the side of the passages");
-  }
-  if (status == CW_OK) goto done;
-  cw_plan_free(&domain->plan);
-done:
-  cw_orbit_free(&orbits);
-  cw_network_free(&network);
   return status;
 }
 
@@ -296,7 +279,6 @@ done:
 
 CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_column_heights_room(&domain->heights, &domain->skeleton));
   domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
                                       .domain = domain->name,
                                       .layer_count = table->walls.layer_count,

@@ -121,14 +121,8 @@ done:
 
 // CW_RETRY where it has a symmetry and the plan cannot have it. Collective.
 static CwStatus plan_domain(CwMeshRun *run, int d) {
-  CwStatus status = CW_OK;
-  CwDomain *domain = &run->domain[d];
   cw_ledger_part("planes weighed");
-  CW_TRY(cw_domain_plan(domain, run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor));
-  cw_ledger_part("plan tried");
-  CW_TRY(cw_domain_try_plan(domain));
-done:
-  return status;
+  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor);
 }
 
 // Plans a domain anew, at the scale and factors of the first plan: a run that goes on from a later pass plans alike.

@@ -10,6 +10,7 @@
 #include "mesher/ledger.h"
 #include "mesher/mesh_plan.h"
 #include "mesher/pass_state.h"
+#include "mesher/run_layers.h"
 #include "mesher/run_step.h"
 #include "mesher/run_thinning.h"
 #include "pipeline/atomic_file.h"
@@ -18,8 +19,6 @@
 enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
-static const double OWN_LAYERS = 0.09;      // of the work on layers, what every rank does for itself
-static const double COPIED_LAYERS = 0.6;    // of the work on a wall triangle, what one takes that is a turned copy
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
 // (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35). A
@@ -131,10 +130,9 @@ static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
     cw_ledger_part("walls merged");
+    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+    CW_TRY(cw_run_heights(run));
     for (int d = 0; d < run->domains.count; d++) {
-      CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
-      cw_ledger_part("heights of the layers");
-      CW_TRY(cw_domain_targets(&run->domain[d]));
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name, run->domain[d].layer_share);
       triangles += run->domain[d].skeleton.wall_triangle_count;
       integral += run->domain[d].prism_integral;
@@ -156,44 +154,6 @@ static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
 done:
   cw_results_free(&results);
   free(task);
-  return status;
-}
-
-static CwStatus grow_side(void *context, int32_t d) {
-  CwMeshRun *run = context;
-  CwDomain *domain = &run->domain[d];
-  return cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target);
-}
-
-static CwStatus hand_layers(void *context, const CwSideHand *hand) {
-  CwMeshRun *run = context;
-  return cw_skeleton_hand_grown(&run->domain[hand->side].skeleton, hand);
-}
-
-// The domains side by side. CW_RETRY where one, *unfit, has no layers that fit its symmetry or plan.
-static CwStatus grow_layers(CwMeshRun *run, int *unfit) {
-  CwStatus status = CW_OK, outcome[CW_DOMAINS_MOST];
-  double started = cw_seconds(), cost[CW_DOMAINS_MOST];
-  int64_t faces = 0;
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    int32_t firsts = 0;
-    faces += skeleton->wall_triangle_count;
-    for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) firsts += skeleton->wall_source[t] == t;
-    cost[d] = firsts + COPIED_LAYERS * (skeleton->wall_triangle_count - firsts);
-  }
-  CwSides sides = {.step = "layers", .count = run->domains.count, .cost = cost, .own = OWN_LAYERS, .run = grow_side,
-                   .hand = hand_layers, .context = run};
-  cw_progress_start("layers", faces, "wall faces");
-  CW_TRY(cw_sides_run(&sides, outcome));
-  for (int d = 0; d < run->domains.count && *unfit < 0; d++) {
-    if (outcome[d] == CW_RETRY) *unfit = d;
-  }
-  if (*unfit < 0) cw_progress(faces);
-  cw_progress_end();
-  CW_TRY(*unfit < 0 ? CW_OK : CW_RETRY);
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
-done:
   return status;
 }
 
@@ -388,7 +348,7 @@ static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight, int *unfit) {
   CwStatus status = CW_OK;
   *unfit = -1;
   CW_TRY(mesh_walls(run, unfit));
-  CW_TRY(grow_layers(run, unfit));
+  CW_TRY(cw_run_layers(run, unfit));
   CW_TRY(mesh_inner(run, tight));
 done:
   return status;

@@ -40,6 +40,12 @@ CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome);
 
 // Hands over `size` bytes, as many on all ranks. Straight from array to array.
 void cw_side_give(const CwSideHand *hand, void *data, int64_t size);
+// The same for an array of `count` items, which is allocated where it comes to.
+#define CW_SIDE_ARRAY(hand, pointer, count)                                                                            \
+  do {                                                                                                                 \
+    if (!(hand)->mine) CW_NEW_UNSET(pointer, count);                                                                   \
+    cw_side_give(hand, pointer, (int64_t)(count) * (int64_t)sizeof *(pointer));                                        \
+  } while (0)
 
 // Groups for so many ranks: group_of[side]; ranks_of[group]. A side takes cost * (own + (1 - own) / ranks), a group the sum
 // of its sides; so many groups are made, of at least two ranks each, that the longest takes the least time.

@@ -15,7 +15,6 @@
 #include "mesher/orbit.h"
 #include "mesher/patch_mesh.h"
 #include "mesher/polygons.h"
-#include "mesher/sides.h"
 
 // The surface or curve that holds the column of a wall vertex on a rim or on a dividing plane.
 typedef enum { CW_GUIDE_NONE, CW_GUIDE_PLANE, CW_GUIDE_CAP, CW_GUIDE_CURVE } CwGuideKind;
@@ -98,8 +97,6 @@ CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 // Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front. Collective: all ranks work on
 // it and have the same result. CW_RETRY, on all ranks, where no symmetric front is found or no column leaves the wall on a plane.
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target);
-// What that has made, to ranks that took no part in it. Collective over all.
-CwStatus cw_skeleton_hand_grown(CwSkeleton *skeleton, const CwSideHand *hand);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 // Where layers leave no room for that, it only collects the places (skeleton->tight): the layers there want to be thinner.

@@ -240,19 +240,3 @@ done:
   free(cap_triangle);
   return status;
 }
-
-CwStatus cw_skeleton_hand_grown(CwSkeleton *skeleton, const CwSideHand *hand) {
-  CwStatus status = CW_OK;
-  int32_t n = skeleton->wall_count;
-  if (!hand->mine) {
-    CW_NEW_UNSET(skeleton->front, n);
-    CW_NEW_UNSET(skeleton->height, n);
-    CW_NEW_UNSET(skeleton->reason, n);
-  }
-  cw_side_give(hand, skeleton->wall_triangle, skeleton->wall_triangle_count * (int64_t)sizeof *skeleton->wall_triangle);
-  cw_side_give(hand, skeleton->front, n * (int64_t)sizeof *skeleton->front);
-  cw_side_give(hand, skeleton->height, n * (int64_t)sizeof *skeleton->height);
-  cw_side_give(hand, skeleton->reason, n * (int64_t)sizeof *skeleton->reason);
-done:
-  return status;
-}
