@@ -8,91 +8,135 @@
 #include "mesher/hilbert.h"
 #include "mesher/share.h"
 
-enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGIT_BITS = 13, DIGIT = (1 << DIGIT_BITS) - 1 };
+enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGITS = 1 << BITS };
 
+// An item, with what is left of its place on the curve once it is sorted by the last digit.
 typedef struct {
-  uint64_t key;
+  uint32_t key;
   int32_t item;
 } Place;
 
-// Sorts by key, digit by digit from the least; equal keys keep their order.
-static CwStatus sort_places(int32_t count, Place *place) {
-  CwStatus status = CW_OK;
-  Place *other = NULL;
-  CW_NEW(other, count);
-  for (int shift = 0; shift < 3 * BITS; shift += DIGIT_BITS) {
-    int32_t start[1 << DIGIT_BITS] = {0}, sum = 0;
-    for (int32_t i = 0; i < count; i++) start[place[i].key >> shift & DIGIT]++;
-    for (int32_t d = 0; d <= DIGIT; d++) {
-      int32_t found = start[d];
-      start[d] = sum;
-      sum += found;
-    }
-    for (int32_t i = 0; i < count; i++) other[start[place[i].key >> shift & DIGIT]++] = place[i];
-    memcpy(place, other, (size_t)count * sizeof *place);
+// Makes counts the places where those counted begin.
+static void begin(int32_t start[DIGITS]) {
+  int32_t sum = 0;
+  for (int32_t d = 0; d < DIGITS; d++) {
+    int32_t found = start[d];
+    start[d] = sum;
+    sum += found;
   }
+}
+
+// Lists the items by key, digit by digit from the last; equal keys keep their order.
+static CwStatus sort_items(int32_t count, const uint64_t *key, int32_t *item) {
+  CwStatus status = CW_OK;
+  Place *once = NULL, *twice = NULL;
+  int32_t(*start)[DIGITS] = NULL;
+  CW_NEW(start, 3);
+  CW_NEW_UNSET(once, count);
+  CW_NEW_UNSET(twice, count);
+  for (int32_t i = 0; i < count; i++) {
+    for (int digit = 0; digit < 3; digit++) start[digit][key[i] >> digit * BITS & (DIGITS - 1)]++;
+  }
+  for (int digit = 0; digit < 3; digit++) begin(start[digit]);
+  for (int32_t i = 0; i < count; i++) {
+    once[start[0][key[i] & (DIGITS - 1)]++] = (Place){(uint32_t)(key[i] >> BITS), i};
+  }
+  for (int32_t i = 0; i < count; i++) twice[start[1][once[i].key & (DIGITS - 1)]++] = once[i];
+  for (int32_t i = 0; i < count; i++) item[start[2][twice[i].key >> BITS]++] = twice[i].item;
 done:
-  free(other);
+  free(start);
+  free(once);
+  free(twice);
   return status;
 }
 
-static const CwBox NOTHING = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static void add_box(CwBox *sum, const CwBox *box) {
+void cw_box_add(CwBox *sum, const CwBox *box) {
   for (int k = 0; k < 3; k++) {
     if (box->low[k] < sum->low[k]) sum->low[k] = box->low[k];
     if (box->high[k] > sum->high[k]) sum->high[k] = box->high[k];
   }
 }
 
+// What the tasks below read.
 typedef struct {
-  const CwBox *box;
+  CwBoxOf box_of;
+  const void *context;
+  const CwBoxTree *tree;
   const double *low;
   double cells; // a metre
-} Curve;
+} Boxes;
 
-static CwStatus find_place(void *context, int32_t i, void *out) {
-  const Curve *curve = context;
-  const CwBox *box = &curve->box[i];
+static CwStatus find_key(void *context, int32_t i, void *out) {
+  const Boxes *boxes = context;
+  CwBox box = boxes->box_of(boxes->context, i);
   uint32_t cell[3];
-  for (int k = 0; k < 3; k++) cell[k] = (uint32_t)(curve->cells * (0.5 * (box->low[k] + box->high[k]) - curve->low[k]));
-  *(Place *)out = (Place){cw_hilbert_place(cell, BITS), i};
+  for (int k = 0; k < 3; k++) cell[k] = (uint32_t)(boxes->cells * (0.5 * (box.low[k] + box.high[k]) - boxes->low[k]));
+  *(uint64_t *)out = cw_hilbert_place(cell, BITS);
   return CW_OK;
 }
 
-CwStatus cw_box_tree_make(int32_t count, const CwBox *box, CwBoxTree *tree) {
+CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree) {
   CwStatus status = CW_OK;
-  Place *place = NULL;
-  CwBox all = NOTHING;
+  uint64_t *key = NULL;
   memset(tree, 0, sizeof *tree);
   tree->count = count;
   tree->leaves = 1;
   while ((int64_t)tree->leaves * LEAF < count) tree->leaves *= 2;
-  CW_NEW(place, count);
-  CW_NEW(tree->item, count);
-  CW_NEW(tree->node, 2 * (size_t)tree->leaves);
+  CW_NEW_UNSET(key, count);
+  CW_NEW_UNSET(tree->item, count);
+  CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
   double side = 0;
-  for (int32_t i = 0; i < count; i++) add_box(&all, &box[i]);
-  for (int k = 0; k < 3; k++) side = fmax(side, all.high[k] - all.low[k]);
-  double cells = side > 0 ? (double)((1u << BITS) - 1) / side : 0;
-  Curve curve = {box, all.low, cells};
-  CW_TRY(cw_share("places of boxes", count, sizeof *place, find_place, &curve, place));
-  CW_TRY(sort_places(count, place));
-  for (int32_t i = 0; i < count; i++) tree->item[i] = place[i].item;
-  cw_box_tree_fit(tree, box);
+  for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
+  Boxes boxes = {box_of, context, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
+  CW_TRY(cw_share("places of boxes", count, sizeof *key, find_key, &boxes, key));
+  CW_TRY(sort_items(count, key, tree->item));
+  CW_TRY(cw_box_tree_fit(tree, box_of, context));
 done:
-  free(place);
+  free(key);
   if (status != CW_OK) cw_box_tree_free(tree);
   return status;
 }
 
-void cw_box_tree_fit(CwBoxTree *tree, const CwBox *box) {
-  for (int32_t k = 0; k < 2 * tree->leaves; k++) tree->node[k] = NOTHING;
-  for (int32_t i = 0; i < tree->count; i++) add_box(&tree->node[tree->leaves + i / LEAF], &box[tree->item[i]]);
-  for (int32_t k = tree->leaves - 1; k > 0; k--) {
-    add_box(&tree->node[k], &tree->node[2 * k]);
-    add_box(&tree->node[k], &tree->node[2 * k + 1]);
+static CwStatus find_leaf(void *context, int32_t leaf, void *out) {
+  const Boxes *boxes = context;
+  CwBox sum = cw_box_empty();
+  for (int32_t i = leaf * LEAF; i < leaf * LEAF + LEAF && i < boxes->tree->count; i++) {
+    CwBox box = boxes->box_of(boxes->context, boxes->tree->item[i]);
+    cw_box_add(&sum, &box);
   }
+  *(CwBox *)out = sum;
+  return CW_OK;
+}
+
+// The boxes of all nodes but the leaves.
+static void join_nodes(CwBoxTree *tree) {
+  for (int32_t k = tree->leaves - 1; k > 0; k--) {
+    tree->node[k] = tree->node[2 * k];
+    cw_box_add(&tree->node[k], &tree->node[2 * k + 1]);
+  }
+}
+
+CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context) {
+  CwStatus status = CW_OK;
+  Boxes boxes = {.box_of = box_of, .context = context, .tree = tree};
+  int32_t used = (tree->count + LEAF - 1) / LEAF;
+  for (int32_t k = tree->leaves + used; k < 2 * tree->leaves; k++) tree->node[k] = cw_box_empty();
+  CW_TRY(cw_share("boxes of leaves", used, sizeof *tree->node, find_leaf, &boxes, tree->node + tree->leaves));
+  join_nodes(tree);
+done:
+  return status;
+}
+
+void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,
+                        const void *context) {
+  Boxes boxes = {.box_of = box_of, .context = context, .tree = tree};
+  for (int32_t i = 0; i < tree->count; i++) {
+    int32_t leaf = i / LEAF;
+    if (tree->item[i] >= moved_count || !moved[tree->item[i]]) continue;
+    find_leaf(&boxes, leaf, &tree->node[tree->leaves + leaf]);
+    i = leaf * LEAF + LEAF - 1; // on to the next
+  }
+  join_nodes(tree);
 }
 
 void cw_box_tree_free(CwBoxTree *tree) {

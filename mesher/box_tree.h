@@ -27,10 +27,15 @@ typedef struct {
 // What is called for an item whose leaf is met; a result other than 0 ends the walk.
 typedef int (*CwBoxVisit)(void *context, int32_t item);
 
-// Orders the items by the middles of their boxes. Deterministic.
-CwStatus cw_box_tree_make(int32_t count, const CwBox *box, CwBoxTree *tree);
-// Takes up new boxes of the same items.
-void cw_box_tree_fit(CwBoxTree *tree, const CwBox *box);
+// The box of an item.
+typedef CwBox (*CwBoxOf)(const void *context, int32_t item);
+
+// Orders the items by the middles of their boxes, all of which lie in `within`. Deterministic. Collective.
+CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree);
+// Takes up new boxes of the same items. Collective.
+CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context);
+// The same where only some of the first `moved_count` items, those with moved[item], have new ones.
+void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of, const void *context);
 void cw_box_tree_free(CwBoxTree *tree);
 
 // Visits the items of every leaf whose box meets `box`.
@@ -39,13 +44,30 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
 void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
                      void *context);
 
-static inline CwBox cw_box_of_triangle(const double a[3], const double b[3], const double c[3]) {
-  CwBox box;
+// Widens a box by another one, or by a point.
+void cw_box_add(CwBox *sum, const CwBox *box);
+
+static inline void cw_box_add_point(CwBox *box, const double x[3]) {
   for (int k = 0; k < 3; k++) {
-    box.low[k] = fmin(a[k], fmin(b[k], c[k]));
-    box.high[k] = fmax(a[k], fmax(b[k], c[k]));
+    box->low[k] = x[k] < box->low[k] ? x[k] : box->low[k];
+    box->high[k] = x[k] > box->high[k] ? x[k] : box->high[k];
   }
+}
+
+static inline CwBox cw_box_of_point(const double x[3]) {
+  return (CwBox){{x[0], x[1], x[2]}, {x[0], x[1], x[2]}};
+}
+
+static inline CwBox cw_box_of_triangle(const double a[3], const double b[3], const double c[3]) {
+  CwBox box = cw_box_of_point(a);
+  cw_box_add_point(&box, b);
+  cw_box_add_point(&box, c);
   return box;
+}
+
+// Holds nothing: what to begin with.
+static inline CwBox cw_box_empty(void) {
+  return (CwBox){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
 
 static inline int cw_boxes_meet(const CwBox *a, const CwBox *b) {

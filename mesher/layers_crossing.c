@@ -28,12 +28,12 @@ static int parts(const double m[3], const double *const a[3], const double *cons
     if (i != shared_a) {
       sub3(a[i], o, d);
       s = dot3(m, d);
-      low_a = fmin(low_a, s), high_a = fmax(high_a, s);
+      low_a = s < low_a ? s : low_a, high_a = s > high_a ? s : high_a;
     }
     if (i != shared_b) {
       sub3(b[i], o, d);
       s = dot3(m, d);
-      low_b = fmin(low_b, s), high_b = fmax(high_b, s);
+      low_b = s < low_b ? s : low_b, high_b = s > high_b ? s : high_b;
     }
   }
   if (shared_a < 0) return low_b - high_a > clear || low_a - high_b > clear;
@@ -82,36 +82,22 @@ static int cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
   return cw_triangles_cross(x, a, b);
 }
 
-static void add_triangle(const double (*x)[3], const int32_t corner[3], CwBox *box) {
-  for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 3; k++) {
-      box->low[k] = fmin(box->low[k], x[corner[i]][k]);
-      box->high[k] = fmax(box->high[k], x[corner[i]][k]);
-    }
-}
-
-static const CwBox NOTHING = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
 static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int32_t f) {
   int32_t corner[3];
-  CwBox box = NOTHING;
   corners(work, kind, f, corner);
-  add_triangle(x, corner, &box);
-  return box;
+  return cw_box_of_triangle(x[corner[0]], x[corner[1]], x[corner[2]]);
 }
 
 // The box of a prism or of a cap's triangle.
-static CwStatus find_box(void *context, int32_t f, void *out) {
+static CwBox box_of_item(const void *context, int32_t f) {
   const CwLayerCrossing *crossing = context;
   const CwLayerWork *work = crossing->work;
-  const CwLayerInput *in = work->in;
   const double (*x)[3] = (const double (*)[3])crossing->x;
-  int cap = f >= in->triangle_count;
-  CwBox box = box_of(work, x, cap ? 2 : 0, cap ? f - in->triangle_count : f);
-  if (!cap) add_triangle(x, (int32_t[3]){in->triangle[f][0] + work->n, in->triangle[f][1] + work->n,
-                                         in->triangle[f][2] + work->n}, &box);
-  *(CwBox *)out = box;
-  return CW_OK;
+  int32_t walls = work->in->triangle_count;
+  if (f >= walls) return box_of(work, x, 2, f - walls);
+  CwBox front = box_of(work, x, 0, f), wall = box_of(work, x, 1, f);
+  cw_box_add(&front, &wall);
+  return front;
 }
 
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing) {
@@ -121,7 +107,6 @@ CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *cross
   crossing->work = work;
   crossing->item_count = in->triangle_count + in->obstacle_triangle_count;
   CW_NEW(crossing->x, 2 * (size_t)n + in->obstacle_point_count);
-  CW_NEW(crossing->box, crossing->item_count);
   CW_NEW(crossing->active, in->triangle_count);
   CW_NEW(crossing->list, in->triangle_count);
   memcpy(crossing->x + n, in->x, n * sizeof *in->x);
@@ -133,7 +118,6 @@ done:
 
 void cw_layers_crossing_free(CwLayerCrossing *crossing) {
   free(crossing->x);
-  free(crossing->box);
   free(crossing->active);
   free(crossing->list);
   free(crossing->pair);
@@ -229,7 +213,7 @@ static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t
     finder.guided = is_guided(crossing->work->in, f);
     finder.front = box_of(crossing->work, x, 0, f);
     finder.wall = box_of(crossing->work, x, 1, f);
-    CwBox box = crossing->searched ? finder.front : crossing->box[f];
+    CwBox box = crossing->searched ? finder.front : box_of_item(crossing, f);
     cw_box_tree_overlaps(&crossing->tree, &box, visit, &finder);
     CW_TRY(finder.status);
   }
@@ -267,14 +251,17 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
     if (crossing->active[f]) crossing->list[crossing->list_count++] = f;
   }
   if (crossing->searched) {
-    for (int32_t i = 0; i < crossing->list_count; i++) find_box(crossing, crossing->list[i], &crossing->box[crossing->list[i]]);
+    cw_box_tree_follow(&crossing->tree, crossing->active, in->triangle_count, box_of_item, crossing);
+  } else if (crossing->tree.count) {
+    CW_TRY(cw_box_tree_fit(&crossing->tree, box_of_item, crossing));
   } else {
-    CW_TRY(cw_share("layers: boxes", crossing->item_count, sizeof *crossing->box, find_box, crossing, crossing->box));
+    CwBox within = cw_box_empty();
+    for (int32_t i = 0; i < 2 * work->n; i++) cw_box_add_point(&within, crossing->x[i]);
+    for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
+      for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
+    }
+    CW_TRY(cw_box_tree_make(crossing->item_count, &within, box_of_item, crossing, &crossing->tree));
   }
-  if (crossing->tree.count == 0)
-    CW_TRY(cw_box_tree_make(crossing->item_count, crossing->box, &crossing->tree));
-  else
-    cw_box_tree_fit(&crossing->tree, crossing->box);
   drop_active(crossing);
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
   CW_NEW(bytes, blocks);

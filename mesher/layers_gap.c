@@ -11,25 +11,25 @@ static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) 
                                        : in->obstacle_x[in->obstacle_triangle[f - in->triangle_count][i]];
 }
 
-static CwStatus find_box(void *context, int32_t f, void *out) {
-  const CwLayerWork *work = context;
+static CwBox box_of(const void *context, int32_t f) {
   const double *corner[3];
-  corners(work->in, f, corner);
-  *(CwBox *)out = cw_box_of_triangle(corner[0], corner[1], corner[2]);
-  return CW_OK;
+  corners(context, f, corner);
+  return cw_box_of_triangle(corner[0], corner[1], corner[2]);
 }
 
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   int32_t total = in->triangle_count + in->obstacle_triangle_count;
-  CwBox *box = NULL;
+  CwBox within = cw_box_empty();
   uint8_t *listed = NULL;
-  CW_NEW(box, total);
   CW_NEW(listed, work->n);
-  CW_NEW(work->curve, work->n);
-  CW_TRY(cw_share("layers: boxes", total, sizeof *box, find_box, work, box));
-  CW_TRY(cw_box_tree_make(total, box, tree));
+  CW_NEW_UNSET(work->curve, work->n);
+  for (int32_t v = 0; v < work->n; v++) cw_box_add_point(&within, in->x[v]);
+  for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
+    for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
+  }
+  CW_TRY(cw_box_tree_make(total, &within, box_of, in, tree));
   int32_t count = 0;
   for (int32_t i = 0; i < total; i++) {
     for (int k = 0; tree->item[i] < in->triangle_count && k < 3; k++) {
@@ -39,7 +39,6 @@ CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
     }
   }
 done:
-  free(box);
   free(listed);
   return status;
 }

@@ -116,7 +116,6 @@ typedef struct {
   const CwLayerWork *work;
   int32_t item_count;
   double (*x)[3];       // front, wall, caps
-  CwBox *box;           // of each prism, then of each cap triangle
   CwBoxTree tree;       // of the prisms and the caps; may be given in any order
   uint8_t *active;      // triangles that moved
   int32_t *list, list_count;

@@ -44,6 +44,17 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
   part->whole->snap(part->whole->snap_context, part->global[vertex], x);
 }
 
+// The first ones.
+typedef struct {
+  const double (*x)[3];
+  const int32_t *vertex; // of each item of the tree
+} Firsts;
+
+static CwBox box_of(const void *context, int32_t item) {
+  const Firsts *firsts = context;
+  return cw_box_of_point(firsts->x[firsts->vertex[item]]);
+}
+
 // A point, and whether one of others was met within reach of it.
 typedef struct {
   const double (*x)[3], *p;
@@ -80,7 +91,7 @@ static CwStatus find_near(void *context, int32_t v, void *out) {
 static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
   CwStatus status = CW_OK;
   CwBoxTree tree = {0};
-  CwBox *box = NULL;
+  CwBox within = cw_box_empty();
   int32_t *vertex = NULL, firsts = 0;
   double longest = 0, thickest = 0;
   for (int32_t t = 0; t < whole->triangle_count; t++) {
@@ -92,20 +103,17 @@ static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole,
       thickest = fmax(thickest, whole->target[corner[k]]);
     }
   }
-  CW_NEW(box, whole->point_count);
-  CW_NEW(vertex, whole->point_count);
+  CW_NEW_UNSET(vertex, whole->point_count);
   for (int32_t v = 0; v < whole->point_count; v++) {
     if (!is_first[v]) continue;
-    memcpy(box[firsts].low, whole->x[v], sizeof box->low);
-    memcpy(box[firsts].high, whole->x[v], sizeof box->high);
+    cw_box_add_point(&within, whole->x[v]);
     vertex[firsts++] = v;
   }
-  CW_TRY(cw_box_tree_make(firsts, box, &tree));
+  CW_TRY(cw_box_tree_make(firsts, &within, box_of, &(Firsts){whole->x, vertex}, &tree));
   Reach reach = {&tree, {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest}, is_first};
   CW_TRY(cw_share("layers: reach", whole->point_count, sizeof *near, find_near, &reach, near));
 done:
   cw_box_tree_free(&tree);
-  free(box);
   free(vertex);
   return status;
 }

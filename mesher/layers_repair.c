@@ -46,9 +46,10 @@ double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double 
   return cw_layers_corner_quality(wall, end);
 }
 
-static double around(const CwLayerWork *work, int32_t v, const double (*front)[3]) {
+// The least quality of the prisms around v; no more than `floor` where one has no more, not looking at the others.
+static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor) {
   double least = INFINITY;
-  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1] && least > floor; k++)
     least = fmin(least, cw_layers_prism_quality(work, work->face[k], front));
   return least;
 }
@@ -58,7 +59,7 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
   const CwLayerInput *in = work->in;
   const double step[2] = {0.25, 0.1};
   int guides = in->guide_count ? in->guide_count[v] : 0;
-  double best = around(work, v, (const double (*)[3])front), kept[3], column[3];
+  double best = around(work, v, (const double (*)[3])front, -INFINITY), kept[3], column[3];
   if (guides == 2) return;
   memcpy(kept, front[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
@@ -76,16 +77,16 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
     }
     unit3(side);
     if (guides == 0) cross3(g, side, up);
+    double slope = tan(step[s]);
     for (int i = 0; i < 8; i++) {
       if (guides == 1 && i % 4) continue;
-      double angle = i * acos(-1) / 4, trial[3];
-      for (int k = 0; k < 3; k++)
-        trial[k] = g[k] + tan(step[s]) * (cos(angle) * side[k] + sin(angle) * up[k]);
+      double angle = i * M_PI / 4, c = cos(angle), d = sin(angle), trial[3];
+      for (int k = 0; k < 3; k++) trial[k] = g[k] + slope * (c * side[k] + d * up[k]);
       unit3(trial);
       if (cw_layers_least_cosine(work, v, trial) < fmin(LEAST_COSINE, 0.9 * work->base_cos[v])) continue;
       cw_layers_set_column(work, v, trial, 0.3);
       cw_layers_place(work, v, front[v]);
-      double quality = around(work, v, (const double (*)[3])front);
+      double quality = around(work, v, (const double (*)[3])front, best);
       if (quality > best) {
         best = quality;
         memcpy(kept, front[v], sizeof kept);

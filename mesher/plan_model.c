@@ -235,19 +235,19 @@ int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const
   return hits.count;
 }
 
+static CwBox box_of(const void *context, int32_t t) {
+  const CwBackground *background = context;
+  const int32_t *corner = background->triangle[t];
+  return cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
+}
+
 static CwStatus sort_triangles(CwPlanModel *model) {
-  CwStatus status = CW_OK;
   const CwBackground *background = model->background;
-  CwBox *box = NULL;
-  CW_NEW(box, background->triangle_count);
+  CwBox within = cw_box_empty();
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    const int32_t *corner = background->triangle[t];
-    box[t] = cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
+    for (int k = 0; k < 3; k++) cw_box_add_point(&within, background->x[background->triangle[t][k]]);
   }
-  CW_TRY(cw_box_tree_make(background->triangle_count, box, &model->triangles));
-done:
-  free(box);
-  return status;
+  return cw_box_tree_make(background->triangle_count, &within, box_of, background, &model->triangles);
 }
 
 static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
