@@ -15,17 +15,23 @@ typedef struct {
   int32_t other, side; // the greater vertex; 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
 } Side;
 
-CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, CwFlipMesh *mesh) {
+CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t *start = NULL;
+  uint8_t *wanted = NULL; // vertices
   Side *side = NULL;
-  if (!mesh->near) CW_NEW(mesh->near, triangle_count);
+  if (!mesh->near) CW_NEW_UNSET(mesh->near, triangle_count);
   CW_NEW(start, (size_t)point_count + 2);
-  CW_NEW(side, 3 * (size_t)triangle_count);
+  CW_NEW(wanted, point_count);
+  for (int32_t t = 0; t < triangle_count; t++) {
+    for (int k = 0; k < 3; k++) wanted[mesh->triangle[t][k]] |= !group || group[t] >= 0;
+  }
   for (int store = 0; store < 2; store++) {
     for (int32_t t = 0; t < triangle_count; t++) {
       for (int k = 0; k < 3; k++) {
         int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3], low = a < b ? a : b;
+        if (!store) mesh->near[t][k] = -1;
+        if (!wanted[a] && !wanted[b]) continue;
         if (store) {
           side[start[low + 1]++] = (Side){a < b ? b : a, 2 * (3 * t + k) + (a < b)};
         } else {
@@ -34,6 +40,7 @@ CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, CwFlipM
       }
     }
     for (int32_t v = 0; !store && v < point_count; v++) start[v + 2] += start[v + 1];
+    if (!store) CW_NEW_UNSET(side, start[point_count + 1]);
   }
   for (int32_t v = 0; v < point_count; v++) { // sides kept with v stand from start[v] to start[v + 1]
     for (int32_t s = start[v]; s < start[v + 1]; s++) {
@@ -44,11 +51,12 @@ CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, CwFlipM
         others++;
       }
       int32_t own = side[s].side / 2;
-      mesh->near[own / 3][own % 3] = others == 1 ? found : -1;
+      if (others == 1) mesh->near[own / 3][own % 3] = found;
     }
   }
 done:
   free(start);
+  free(wanted);
   free(side);
   return status;
 }

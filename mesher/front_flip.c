@@ -90,12 +90,6 @@ typedef struct {
   const int64_t *group;
 } Front;
 
-// A triangle as it was given.
-typedef struct {
-  double angle;   // least of the front
-  int32_t fresh;  // whether a flip of one of its sides helps
-} Judged;
-
 // The corner of the triangle across side k of t; -1 where the side may not be flipped.
 static int32_t across(const CwFlipMesh *mesh, const int64_t *group, int32_t t, int k) {
   int32_t u = mesh->near[t][k];
@@ -103,17 +97,22 @@ static int32_t across(const CwFlipMesh *mesh, const int64_t *group, int32_t t, i
   return mesh->triangle[u][(cw_flip_corner(mesh, u, mesh->triangle[t][(k + 1) % 3]) + 2) % 3];
 }
 
+static double angle_of(const double (*front)[3], const int32_t corner[3]) {
+  return least_angle(front, corner[0], corner[1], corner[2]);
+}
+
+// Whether a flip of one of the sides of a triangle helps.
 static CwStatus judge_triangle(void *context, int32_t t, void *out) {
   const Front *front = context;
-  const int32_t *corner = front->mesh->triangle[t];
-  Judged *judged = out;
-  judged->angle = least_angle(front->front, corner[0], corner[1], corner[2]);
-  for (int k = 0; k < 3 && !judged->fresh; k++) {
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])front->mesh->triangle, *corner = triangle[t];
+  uint8_t *helps = out;
+  if (front->group[t] < 0) return CW_OK;
+  double angle = angle_of(front->front, corner);
+  for (int k = 0; k < 3 && !*helps; k++) {
     int32_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3], d = across(front->mesh, front->group, t, k);
     if (d < 0 || c == d) continue;
-    const int32_t *other = front->mesh->triangle[front->mesh->near[t][k]];
-    double before = fmin(judged->angle, least_angle(front->front, other[0], other[1], other[2]));
-    judged->fresh = flip_helps(front->wall, front->front, before, a, b, c, d);
+    double before = fmin(angle, angle_of(front->front, triangle[front->mesh->near[t][k]]));
+    *helps = (uint8_t)flip_helps(front->wall, front->front, before, a, b, c, d);
   }
   return CW_OK;
 }
@@ -122,19 +121,11 @@ CwStatus cw_front_flip(const double (*wall)[3], const double (*front)[3], int32_
                        const int64_t *group, int32_t *flips) {
   CwStatus status = CW_OK;
   int32_t(*const triangle)[3] = mesh->triangle;
-  Judged *judged = NULL;
-  double *angle = NULL; // least of each front triangle
   uint8_t *fresh = NULL; // triangles to look at in this sweep and in the next
   *flips = 0;
-  CW_NEW(angle, triangle_count);
   CW_NEW(fresh, triangle_count);
-  CW_NEW(judged, triangle_count);
   Front given = {wall, front, mesh, group};
-  CW_TRY(cw_share("layers: flips", triangle_count, sizeof *judged, judge_triangle, &given, judged));
-  for (int32_t t = 0; t < triangle_count; t++) {
-    angle[t] = judged[t].angle;
-    fresh[t] = (uint8_t)judged[t].fresh;
-  }
+  CW_TRY(cw_share("layers: flips", triangle_count, sizeof *fresh, judge_triangle, &given, fresh));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;
     for (int32_t t = 0; t < triangle_count; t++) {
@@ -144,11 +135,9 @@ CwStatus cw_front_flip(const double (*wall)[3], const double (*front)[3], int32_
         int32_t u = mesh->near[t][k], d = across(mesh, group, t, k);
         if (d < 0) continue;
         int32_t a = triangle[t][k], b = triangle[t][(k + 1) % 3], c = triangle[t][(k + 2) % 3];
-        double before = fmin(angle[t], angle[u]);
+        double before = fmin(angle_of(front, triangle[t]), angle_of(front, triangle[u]));
         if (c == d || !flip_helps(wall, front, before, a, b, c, d) || cw_flip_joined(mesh, t, c, d)) continue;
         cw_flip(mesh, t, k, u);
-        angle[t] = least_angle(front, triangle[t][0], triangle[t][1], triangle[t][2]);
-        angle[u] = least_angle(front, triangle[u][0], triangle[u][1], triangle[u][2]);
         fresh[u] = 1;
         for (int i = 0; i < 3; i++) {
           if (mesh->near[t][i] >= 0) fresh[mesh->near[t][i]] = 1;
@@ -163,8 +152,6 @@ CwStatus cw_front_flip(const double (*wall)[3], const double (*front)[3], int32_
     if (made == 0) break;
   }
 done:
-  free(angle);
-  free(judged);
   free(fresh);
   return status;
 }

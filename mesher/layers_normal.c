@@ -143,7 +143,7 @@ static void edge_direction(int count, double (*normal)[3], double along[3]) {
 }
 
 typedef struct {
-  double normal[3], normal_cos, base[3], base_cos, along[3];
+  double normal[3], normal_cos;
   int32_t crease;
 } Direction;
 
@@ -154,53 +154,89 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   const double none[2][3] = {{0}}, *x = in->x[v];
   Direction *made = out;
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
-  int count = cw_layers_distinct_normals(work, v, normal), guides = in->guide_count ? in->guide_count[v] : 0;
+  int count = cw_layers_distinct_normals(work, v, normal);
   double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
   CW_REQUIRE(c > LEAST_COSINE, CW_ERR_MESH,
              "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
              "least %.2f needed): the wall is folded or has an edge too sharp there",
              x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c, LEAST_COSINE);
   made->normal_cos = c;
-  if (c < 0.92) {
-    double most = -1;
-    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-      double e[3];
-      sub3(in->x[work->near[k]], x, e);
-      most = fmax(most, dot3(e, g) / length3(e));
-    }
-    made->crease = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
-    edge_direction(count, normal, made->along);
+  if (c >= 0.92) goto done;
+  double most = -1;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    double e[3];
+    sub3(in->x[work->near[k]], x, e);
+    most = fmax(most, dot3(e, g) / length3(e));
   }
-  memcpy(made->base, g, sizeof made->base);
-  made->base_cos = c;
-  if (guides == 0) goto done;
-  made->base_cos = cw_layers_most_normal(count, (const double (*)[3])normal, guides, in->guide_normal[v], made->base);
+  made->crease = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
 done:
   return status;
+}
+
+// What the few vertices on creases and in guides have besides.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t count, *vertex;
+} Special;
+
+typedef struct {
+  double base[3], base_cos, along[3];
+} Held;
+
+static int guides_at(const CwLayerWork *work, int32_t v) {
+  return work->in->guide_count ? work->in->guide_count[v] : 0;
+}
+
+static CwStatus find_held(void *context, int32_t i, void *out) {
+  const Special *special = context;
+  const CwLayerWork *work = special->work;
+  int32_t v = special->vertex[i];
+  Held *made = out;
+  double normal[CW_LAYER_NORMALS][3];
+  int count = cw_layers_distinct_normals(work, v, normal), guides = guides_at(work, v);
+  if (work->crease[v] != CW_CREASE_NONE) edge_direction(count, normal, made->along);
+  memcpy(made->base, work->normal[v], sizeof made->base);
+  made->base_cos = work->normal_cos[v];
+  if (guides == 0) return CW_OK;
+  made->base_cos =
+      cw_layers_most_normal(count, (const double (*)[3])normal, guides, work->in->guide_normal[v], made->base);
+  return CW_OK;
 }
 
 CwStatus cw_layers_normals(CwLayerWork *work) {
   CwStatus status = CW_OK;
   Direction *made = NULL;
-  CW_NEW(made, work->n);
+  Special special = {.work = work};
+  Held *held = NULL;
+  CW_NEW_UNSET(made, work->n);
+  CW_NEW_UNSET(special.vertex, work->n);
   CW_TRY(cw_share("layers: directions", work->n, sizeof *made, find_direction, work, made));
   for (int32_t v = 0; v < work->n; v++) {
+    memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
+    memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
+    work->normal_cos[v] = work->base_cos[v] = made[v].normal_cos;
+    work->crease[v] = (uint8_t)made[v].crease;
+    if (made[v].crease != CW_CREASE_NONE || guides_at(work, v) > 0) special.vertex[special.count++] = v;
+  }
+  CW_NEW_UNSET(held, special.count);
+  CW_TRY(cw_share("layers: directions", special.count, sizeof *held, find_held, &special, held));
+  for (int32_t i = 0; i < special.count; i++) {
+    int32_t v = special.vertex[i];
     const double *x = work->in->x[v];
     int stays = work->in->guide_stays && work->in->guide_stays[v];
     // Not in a block: all ranks fail alike, and may go on with other planes, but not with other caps.
-    CW_REQUIRE(made[v].base_cos > LEAST_COSINE, stays ? CW_ERR_MESH : CW_RETRY,
+    CW_REQUIRE(held[i].base_cos > LEAST_COSINE, stays ? CW_ERR_MESH : CW_RETRY,
                "layers: no column inside the %s at (%.4f, %.4f, %.4f) mm leaves the wall (best "
                "cosine %.3f, at least %.2f needed): it is nearly tangent to the wall there",
-               stays ? "cap" : "dividing plane", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, made[v].base_cos, LEAST_COSINE);
-    memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
-    memcpy(work->base[v], made[v].base, sizeof made[v].base);
-    memcpy(work->along[v], made[v].along, sizeof made[v].along);
-    work->normal_cos[v] = made[v].normal_cos;
-    work->base_cos[v] = made[v].base_cos;
-    work->crease[v] = (uint8_t)made[v].crease;
-    cw_layers_upright(work, v, work->column[v]);
+               stays ? "cap" : "dividing plane", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, held[i].base_cos, LEAST_COSINE);
+    memcpy(work->base[v], held[i].base, sizeof held[i].base);
+    memcpy(work->along[v], held[i].along, sizeof held[i].along);
+    work->base_cos[v] = held[i].base_cos;
   }
+  for (int32_t v = 0; v < work->n; v++) cw_layers_upright(work, v, work->column[v]);
 done:
   free(made);
+  free(special.vertex);
+  free(held);
   return status;
 }

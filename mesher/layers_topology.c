@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
+#include "mesher/incident.h"
 #include "mesher/layers_inner.h"
 
 // Some ten numbers: by insertion.
@@ -55,35 +56,45 @@ done:
   return status;
 }
 
+// The next and the last corner of triangle f, seen from its corner v.
+static void beside(const CwLayerInput *in, int32_t f, int32_t v, int32_t *next, int32_t *last) {
+  const int32_t *corner = in->triangle[f];
+  int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
+  *next = corner[(i + 1) % 3];
+  *last = corner[(i + 2) % 3];
+}
+
+static int is_among(int32_t count, const int32_t *number, int32_t wanted) {
+  int found = 0;
+  for (int32_t i = 0; i < count; i++) found |= number[i] == wanted;
+  return found;
+}
+
 static CwStatus lists(CwLayerWork *work) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
-  int32_t *fill = NULL;
-  CW_NEW(fill, work->n);
-  CW_NEW(work->face_start, work->n + 1);
-  CW_NEW(work->face, 3 * (size_t)in->triangle_count);
-  CW_NEW(work->near_start, work->n + 1);
-  CW_NEW(work->near, 6 * (size_t)in->triangle_count);
-  for (int32_t f = 0; f < in->triangle_count; f++)
-    for (int i = 0; i < 3; i++) work->face_start[in->triangle[f][i] + 1]++;
-  for (int32_t v = 0; v < work->n; v++) {
-    CW_REQUIRE(work->face_start[v + 1] > 0, CW_ERR_INPUT,
-               "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
-               in->x[v][1] * 1e3, in->x[v][2] * 1e3);
-    work->face_start[v + 1] += work->face_start[v];
-  }
-  for (int32_t f = 0; f < in->triangle_count; f++)
-    for (int i = 0; i < 3; i++) {
-      int32_t v = in->triangle[f][i];
-      work->face[work->face_start[v] + fill[v]++] = f;
-    }
+  CwIncident around = {0};
+  CW_TRY(cw_incident_make(work->n, in->triangle_count, in->triangle, &around));
+  work->face_start = around.start;
+  work->face = around.triangle;
+  CW_NEW_UNSET(work->near_start, work->n + 1);
+  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count);
   int32_t count = 0;
   for (int32_t v = 0; v < work->n; v++) {
-    int32_t start = count;
+    int32_t start = count, next, last;
+    CW_REQUIRE(work->face_start[v + 1] > work->face_start[v], CW_ERR_INPUT,
+               "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
+               in->x[v][1] * 1e3, in->x[v][2] * 1e3);
     work->near_start[v] = start;
-    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
-      for (int i = 0; i < 3; i++)
-        if (in->triangle[work->face[k]][i] != v) work->near[count++] = in->triangle[work->face[k]][i];
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      beside(in, work->face[k], v, &next, &last);
+      work->near[count++] = next;
+    }
+    int32_t nexts = count - start; // most of them, or all
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      beside(in, work->face[k], v, &next, &last);
+      if (!is_among(nexts, work->near + start, last)) work->near[count++] = last;
+    }
     sort_few(count - start, work->near + start);
     int32_t kept = start;
     for (int32_t k = start; k < count; k++)
@@ -92,7 +103,6 @@ static CwStatus lists(CwLayerWork *work) {
   }
   work->near_start[work->n] = count;
 done:
-  free(fill);
   return status;
 }
 

@@ -110,7 +110,7 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
 // Edges may be flipped inside one CAD face and one region: curves stay. Turned copies are left to follow.
 static CwStatus make_groups(const CwSkeleton *skeleton, int64_t **group) {
   CwStatus status = CW_OK;
-  CW_NEW(*group, skeleton->wall_triangle_count);
+  CW_NEW_UNSET(*group, skeleton->wall_triangle_count);
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
     (*group)[t] = skeleton->wall_source[t] != t
                       ? -1 - (int64_t)t
@@ -125,12 +125,12 @@ static CwStatus unfold_wall(CwSkeleton *skeleton, CwFlipMesh *mesh) {
   int64_t *group = NULL;
   int32_t flips, folded;
   CW_TRY(make_groups(skeleton, &group));
-  CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, mesh));
+  CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, group, mesh));
   CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count, mesh,
                         group, &flips, &folded));
   cw_orbit_copy_triangles(skeleton);
   if (flips && skeleton->orbits.symmetry) { // copies have followed
-    CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, mesh));
+    CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, group, mesh));
   }
   if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
 done:

@@ -15,7 +15,7 @@ static const double FLATTEST = 0.02; // height over base of a triangle that a fl
 typedef struct {
   const double (*x)[3];
   CwFlipMesh mesh;
-  int32_t *around; // a triangle at each vertex
+  int32_t *around; // a triangle at each vertex; -1: none may be flipped there
   double *open;    // cosine of each vertex, where it is not stale
   uint8_t *stale;
 } Wall;
@@ -44,8 +44,9 @@ static double openness(const Wall *wall, int32_t v) {
   return cw_layers_most_normal(count, (const double (*)[3])normal, 0, NULL, g);
 }
 
-static CwStatus judge_vertex(void *wall, int32_t v, void *out) {
-  *(double *)out = openness(wall, v);
+static CwStatus judge_vertex(void *context, int32_t v, void *out) {
+  const Wall *wall = context;
+  *(double *)out = wall->around[v] < 0 ? 2 : openness(wall, v);
   return CW_OK;
 }
 
@@ -128,8 +129,9 @@ CwStatus cw_wall_unfold(int32_t point_count, const double (*x)[3], int32_t trian
   CW_NEW(wall.around, point_count);
   CW_NEW(wall.open, point_count);
   CW_NEW(wall.stale, point_count);
+  for (int32_t v = 0; v < point_count; v++) wall.around[v] = -1;
   for (int32_t t = 0; t < triangle_count; t++)
-    for (int k = 0; k < 3; k++) wall.around[mesh->triangle[t][k]] = t;
+    for (int k = 0; group[t] >= 0 && k < 3; k++) wall.around[mesh->triangle[t][k]] = t;
   CW_TRY(cw_share("layers: folds", point_count, sizeof *wall.open, judge_vertex, &wall, wall.open));
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     int32_t made = 0;

@@ -21,7 +21,7 @@ static void start(int32_t triangle[2][3]) {
 
 static CwStatus flip(const double front[4][3], int32_t triangle[2][3], const int64_t *group, int32_t *flips) {
   CwFlipMesh mesh = {.triangle = triangle};
-  assert_int_equal(cw_flip_neighbours(4, 2, &mesh), CW_OK);
+  assert_int_equal(cw_flip_neighbours(4, 2, group, &mesh), CW_OK);
   CwStatus status = cw_front_flip(WALL, front, 2, &mesh, group, flips);
   free(mesh.near);
   return status;

@@ -25,7 +25,7 @@ static void copy_fan(int32_t (*triangle)[3]) {
 
 static CwStatus unfold(int32_t triangle[5][3], const int64_t *group, int32_t *flips, int32_t *folded) {
   CwFlipMesh mesh = {.triangle = triangle};
-  assert_int_equal(cw_flip_neighbours(6, 5, &mesh), CW_OK);
+  assert_int_equal(cw_flip_neighbours(6, 5, group, &mesh), CW_OK);
   CwStatus status = cw_wall_unfold(6, X, 5, &mesh, group, flips, folded);
   free(mesh.near);
   return status;
