@@ -237,6 +237,7 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
   CW_NEW(heights->first_height, skeleton->wall_count);
   CW_NEW(heights->growth, skeleton->wall_count);
   CW_NEW(heights->target, skeleton->wall_count);
+  CW_NEW(heights->least, skeleton->wall_count);
   CW_NEW(fair, skeleton->wall_count);
   CW_TRY(take_asked(skeleton, around, layers, heights));
   Columns columns = {.skeleton = skeleton, .around = around, .heights = heights};
@@ -245,6 +246,8 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
   heights->target = fair;
   fair = NULL;
   turn_copies(&skeleton->orbits, skeleton->wall_count, heights);
+  double lowest = cw_layer_thickness(1, layer_count, CW_LEAST_GROWTH);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) heights->least[v] = lowest * heights->first_height[v];
 done:
   free(fair);
   return status;
@@ -340,6 +343,7 @@ void cw_column_heights_free(CwColumnHeights *heights) {
   free(heights->first_height);
   free(heights->growth);
   free(heights->target);
+  free(heights->least);
   free(heights->room);
   *heights = (CwColumnHeights){0};
 }

@@ -21,6 +21,7 @@ typedef struct {
   double *first_height; // m
   double *growth;       // largest ratio of neighbouring layers
   double *target;       // height, m
+  double *least;        // height of the lowest column with that first height, m
   double *room;         // how tall the column could be, once the layers are grown, m
 } CwColumnHeights;
 
@@ -30,7 +31,7 @@ double cw_column_height_least(double first, int layer_count);
 // Height of a column over a flat wall where edges are `size` long, m.
 double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size);
 
-// Sets first heights, growths and targets of all wall vertices; layers: of each CAD face; around: the wall's
+// Sets first heights, growths, targets and least heights of all wall vertices; layers: of each CAD face; around: the wall's
 // triangles. Turned copies get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has no triangle.
 CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
                                 int layer_count, CwColumnHeights *heights);

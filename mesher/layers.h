@@ -8,10 +8,11 @@
 //   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal height
 //   height     least of target, 0.6 of where the columns of a hollow meet, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x
 //              distance more than any neighbour
-//   repair     poor prisms are turned, then thinned by 0.8, until nothing is inverted and nothing crosses
+//   repair    poor prisms and those with a poor front are turned, then thinned by 0.8, until nothing is inverted, nothing
+//             crosses, and no front triangle is a needle or turned away that was none on the wall
 //
 // Best where the surface is not much finer than t beside concave edges. Along straight edges the full height is kept
-// up to t/h = 3 at 60 degrees and 4.8 at 90; around a bevelled blade in a wedge of 45 degrees at t/h = 4 to 8 on 77 %.
+// up to t/h = 3 at 60 degrees and 4.8 at 90; around a bevelled blade in a wedge of 45 degrees at t/h = 4 on 60 %.
 #ifndef CUTWATER_MESHER_LAYERS_H
 #define CUTWATER_MESHER_LAYERS_H
 
@@ -36,6 +37,7 @@ typedef struct {
   int32_t triangle_count;
   const int32_t (*triangle)[3];       // wall triangles, normal out of the domain
   const double *target;               // asked height of each vertex, normal to the wall, m
+  const double *least;                // no column is thinned below this for a better shape of the front; NULL: 0
   // Guides: a vertex on a rim with a cap, or on a dividing plane, marches inside that surface. Up to two per
   // vertex:
   // none: free; one: stays in the tangent plane; two: stays on the line of both.

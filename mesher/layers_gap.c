@@ -4,6 +4,9 @@
 #include "mesher/box_tree.h"
 #include "mesher/layers_inner.h"
 
+static const double SLOPE = 0.3;        // of heights, per distance between columns
+static const double LEAST_APART = 0.25; // of the wall's edge: distance of columns that nearly meet
+
 // Corner coordinates of triangle f of walls and obstacles together.
 static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
   for (int i = 0; i < 3; i++)
@@ -175,16 +178,26 @@ CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
   return cw_share("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
 }
 
+// Height of w at most, beside v: by the distance of their columns on the wall or at the height of the lower one, whichever
+// is less. Beside a concave crease columns lean away from it by less and less, so that they stand closer on the front than
+// on the wall, and heights that rose by their distance there would fold the front along the crease.
+static double most_beside(const CwLayerWork *work, int32_t v, int32_t w) {
+  double e[3], d[3], t = fmin(work->t[v], work->t[w]);
+  sub3(work->in->x[w], work->in->x[v], e);
+  for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
+  double wall = length3(e);
+  return work->t[v] + SLOPE * fmin(wall, fmax(length3(d), LEAST_APART * wall));
+}
+
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
   CwStatus status = CW_OK;
-  const double slope = 0.3;
   CwHeap heap = {0};
   for (int32_t v = 0; v < work->n; v++) {
     int low = 0;
     if (lowered && !lowered[v]) continue;
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !low; k++) {
       int32_t w = work->near[k];
-      low = work->t[w] > work->t[v] + slope * distance3(work->in->x[v], work->in->x[w]);
+      low = work->t[w] > most_beside(work, v, w);
     }
     if (low) CW_TRY(cw_heap_push(&heap, work->t[v], v));
   }
@@ -194,7 +207,7 @@ CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
     if (top.key > work->t[v]) continue;
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
       int32_t w = work->near[k];
-      double most = work->t[v] + slope * distance3(work->in->x[v], work->in->x[w]);
+      double most = most_beside(work, v, w);
       if (work->t[w] <= most) continue;
       work->t[w] = most;
       work->reason[w] = CW_LAYER_GRADATION;

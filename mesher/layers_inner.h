@@ -105,7 +105,8 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which they
 // would meet. Beside a concave crease the fan keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_hollow(CwLayerWork *work);
-// Lowers heights until |dt| <= 0.3 length along every edge. lowered: vertices lowered since that last held; NULL: any.
+// Lowers heights until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower height.
+// lowered: vertices lowered since that last held; NULL: any.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 
 // layers_crossing.c: pairs of triangles that cross; kinds are 0 front, 1 wall, 2 caps.
@@ -134,6 +135,10 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
 // between wall and front,
 // scaled to 1 for a right prism over the same wall triangle.
 double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]);
+// Least over the corners of a front triangle of the sine there, seen along the wall's normal, over that on the wall: 1 where
+// it is only moved or smaller, not above 0 where it is turned over. Where columns lean much, prisms may be sound and their
+// front all the same needles or folds, on which only flat tetrahedra fit.
+double cw_layers_front_quality(const double *const wall[3], const double *const front[3]);
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
 // Takes the tree of walls and obstacles over.
 CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds);

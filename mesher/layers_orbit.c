@@ -22,7 +22,7 @@ typedef struct {
   CwLayerInput in;
   uint8_t *is_first;       // of each point of the whole: on a face that is the first of its orbit
   int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
-  double (*x)[3], *target, (*guide_normal)[2][3];
+  double (*x)[3], *target, *least, (*guide_normal)[2][3];
   int32_t (*triangle)[3], *guide_count;
   uint8_t *guide_stays;
 } Part;
@@ -33,6 +33,7 @@ static void part_free(Part *part) {
   free(part->local);
   free(part->x);
   free(part->target);
+  free(part->least);
   free(part->guide_normal);
   free(part->triangle);
   free(part->guide_count);
@@ -145,6 +146,9 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
   }
   CW_NEW(part->x, points);
   CW_NEW(part->target, points);
+  if (whole->least) {
+    CW_NEW(part->least, points);
+  }
   CW_NEW(part->guide_count, points);
   CW_NEW(part->guide_normal, points);
   CW_NEW(part->guide_stays, points);
@@ -152,6 +156,7 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
     int32_t v = part->global[i];
     memcpy(part->x[i], whole->x[v], sizeof *part->x);
     part->target[i] = whole->target[v];
+    if (whole->least) part->least[i] = whole->least[v];
     part->guide_count[i] = whole->guide_count[v];
     memcpy(part->guide_normal[i], whole->guide_normal[v], sizeof *part->guide_normal);
     part->guide_stays[i] = whole->guide_stays[v];
@@ -162,6 +167,7 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
   part->in.triangle_count = triangles;
   part->in.triangle = (const int32_t(*)[3])part->triangle;
   part->in.target = part->target;
+  part->in.least = part->least;
   part->in.guide_count = part->guide_count;
   part->in.guide_normal = (const double(*)[2][3])part->guide_normal;
   part->in.guide_stays = part->guide_stays;

@@ -4,7 +4,10 @@
 #include "mesher/layers_inner.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
+enum { FOR_FRONT = 1, FOR_PRISM }; // what a column is turned and thinned for: the shape of the front alone, or more
 static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
+static const double FRONT = 0.4;         // what the quality of the front counts beside that of prisms: 0.3 is good
+static const double MUCH = 100;          // more than any quality
 static const double THIN = 0.8;          // what a thinned column keeps
 static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
 static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
@@ -39,6 +42,24 @@ double cw_layers_corner_quality(const double *const wall[3], const double *const
   return least;
 }
 
+double cw_layers_front_quality(const double *const wall[3], const double *const front[3]) {
+  const double *const *const x[2] = {wall, front};
+  double least = INFINITY;
+  for (int i = 0; i < 3; i++) {
+    double c[2][3], scale[2];
+    for (int k = 0; k < 2; k++) {
+      double next[3], last[3];
+      sub3(x[k][(i + 1) % 3], x[k][i], next);
+      sub3(x[k][(i + 2) % 3], x[k][i], last);
+      cross3(next, last, c[k]);
+      scale[k] = length3(next) * length3(last);
+    }
+    double q = scale[1] > 0 ? dot3(c[0], c[1]) / dot3(c[0], c[0]) * scale[0] / scale[1] : -1;
+    if (q < least) least = q;
+  }
+  return least;
+}
+
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
   const int32_t *v = work->in->triangle[f];
   const double (*x)[3] = work->in->x;
@@ -46,15 +67,27 @@ double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double 
   return cw_layers_corner_quality(wall, end);
 }
 
-// The least quality of the prisms around v; no more than `floor` where one has no more, not looking at the others.
-static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor) {
-  double least = INFINITY;
-  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1] && least > floor; k++)
-    least = fmin(least, cw_layers_prism_quality(work, work->face[k], front));
-  return least;
+// What the front of a prism counts beside it.
+static double front_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
+  const int32_t *v = work->in->triangle[f];
+  const double (*x)[3] = work->in->x;
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
+  return FRONT * cw_layers_front_quality(wall, end);
 }
 
-// Tries directions near the present one; keeps the one whose worst prism is best.
+// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than `floor`
+// where one is no better, not looking at the others.
+static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor) {
+  double prism = INFINITY, end = INFINITY, quality = INFINITY;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1] && quality > floor; k++) {
+    prism = fmin(prism, cw_layers_prism_quality(work, work->face[k], front));
+    end = fmin(end, front_quality(work, work->face[k], front));
+    quality = prism < GOOD ? prism - MUCH : fmin(prism, end);
+  }
+  return quality;
+}
+
+// Tries directions near the present one; keeps the best.
 static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
   const CwLayerInput *in = work->in;
   const double step[2] = {0.25, 0.1};
@@ -104,7 +137,7 @@ typedef struct {
   double *quality;         // of each prism
   int32_t bad_count, *bad; // prisms
   int32_t *stale;          // prisms to judge
-  uint8_t *mark;           // vertices to turn or to thin
+  uint8_t *mark;           // vertices to turn or to thin, and what for
   uint8_t *moved;          // vertices that moved since prisms were judged
   int32_t moved_count, *moved_list;
   uint8_t *uncrossed;      // and since crossings were looked for
@@ -113,9 +146,23 @@ typedef struct {
   CwLayerCrossing crossing;
 } Repair;
 
-static CwStatus judge_prism(void *context, int32_t f, void *out) {
-  const Repair *repair = context;
-  *(double *)out = cw_layers_prism_quality(repair->work, f, (const double (*)[3])repair->front);
+// Height down to which column v may be thinned for the shape of the front.
+static double least_height(const CwLayerWork *work, int32_t v) { return work->in->least ? work->in->least[v] : 0; }
+
+// The front counts as long as one of the columns can still give way.
+static double judge(const Repair *repair, int32_t f) {
+  const CwLayerWork *work = repair->work;
+  const double (*front)[3] = (const double (*)[3])repair->front;
+  double prism = cw_layers_prism_quality(work, f, front);
+  for (int k = 0; k < 3; k++) {
+    int32_t v = work->in->triangle[f][k];
+    if (work->t[v] > least_height(work, v)) return fmin(prism, front_quality(work, f, front));
+  }
+  return prism;
+}
+
+static CwStatus judge_prism(void *repair, int32_t f, void *out) {
+  *(double *)out = judge(repair, f);
   return CW_OK;
 }
 
@@ -145,13 +192,18 @@ static void find_bad(Repair *repair) {
   }
   for (int32_t i = 0; i < stale; i++) {
     int32_t f = repair->stale[i];
-    repair->quality[f] = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front);
+    repair->quality[f] = judge(repair, f);
     if (repair->quality[f] < repair->limit) repair->bad[kept++] = f;
   }
   repair->bad_count = kept;
   memset(repair->mark, 0, (size_t)work->n);
   for (int32_t i = 0; i < kept; i++) {
-    for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[repair->bad[i]][k]] = 1;
+    int32_t f = repair->bad[i];
+    int sound = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= repair->limit;
+    for (int k = 0; k < 3; k++) {
+      uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
+      if (*mark != FOR_PRISM) *mark = sound ? FOR_FRONT : FOR_PRISM;
+    }
   }
 }
 
@@ -169,11 +221,12 @@ static void place_changed(Repair *repair) {
 static CwStatus thin_marked(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
-  for (int32_t v = 0; v < work->n; v++)
-    if (repair->mark[v]) {
-      work->t[v] *= THIN;
-      work->reason[v] = CW_LAYER_REPAIR;
-    }
+  for (int32_t v = 0; v < work->n; v++) {
+    double least = repair->mark[v] == FOR_FRONT ? least_height(work, v) : 0;
+    if (!repair->mark[v] || work->t[v] <= least) continue;
+    work->t[v] = fmax(THIN * work->t[v], least);
+    work->reason[v] = CW_LAYER_REPAIR;
+  }
   CW_TRY(cw_layers_grade(work, repair->mark));
   place_changed(repair);
 done:
@@ -198,11 +251,11 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
     double share = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = in->triangle[pair->f][k];
-      repair->mark[v] = 1;
+      repair->mark[v] = FOR_PRISM;
       share = fmax(share, work->t[v] / in->target[v]);
       if (pair->kind_g == 0) {
         v = in->triangle[pair->g][k];
-        repair->mark[v] = 1;
+        repair->mark[v] = FOR_PRISM;
         share = fmax(share, work->t[v] / in->target[v]);
       }
     }

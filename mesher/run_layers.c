@@ -55,7 +55,7 @@ static CwStatus grow(void *context, int32_t d) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[d];
-  CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target));
+  CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least));
   cw_ledger_part("layers: room");
   CW_TRY(cw_column_heights_room(&domain->heights, &domain->skeleton));
 done:

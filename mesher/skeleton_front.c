@@ -187,7 +187,8 @@ done:
   return status;
 }
 
-CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target) {
+CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
+                          const double *least) {
   CwStatus status = CW_OK;
   int32_t n = skeleton->wall_count, caps = 0;
   int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
@@ -214,6 +215,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
                         .triangle_count = skeleton->wall_triangle_count,
                         .triangle = (const int32_t(*)[3])skeleton->wall_triangle,
                         .target = target,
+                        .least = least,
                         .guide_count = guide_count,
                         .guide_normal = (const double(*)[2][3])guide_normal,
                         .guide_stays = guide_stays,

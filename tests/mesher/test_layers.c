@@ -223,6 +223,124 @@ static void hollow(void **state) {
   case_free(&c);
 }
 
+// What is left of a triangle that is moved, shrunk, drawn out to twice its height, squashed to a quarter of it, turned
+// upright, turned over.
+static void front_by_hand(void **state) {
+  const double wall[3][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
+  const struct {
+    double x[3][3], quality;
+  } front[] = {{{{-1, 0, -2}, {1, 0, -2}, {0, 1, -2}}, 1},
+               {{{-0.5, 0, -2}, {0.5, 0, -2}, {0, 0.5, -2}}, 1},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, 2, -2}}, 0.8},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, 0.25, -2}}, sqrt(2 / 17.0)},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, 0, -1}}, 0},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, -1, -2}}, -1}};
+  for (size_t i = 0; i < sizeof front / sizeof *front; i++) {
+    const double *const b[3] = {front[i].x[0], front[i].x[1], front[i].x[2]};
+    assert_float_equal(cw_layers_front_quality(a, b), front[i].quality, 1e-15);
+  }
+}
+
+// The height of the front on the wall between v and w: at the height of the lower one, columns stand so far apart.
+static double apart(const Case *c, int32_t v, int32_t w) {
+  double low = fmin(c->out.height[v], c->out.height[w]), p[3], q[3], wall = distance3(c->wall.x[v], c->wall.x[w]);
+  case_at(c, v, low / c->out.height[v], p);
+  case_at(c, w, low / c->out.height[w], q);
+  return fmin(wall, fmax(distance3(p, q), 0.25 * wall));
+}
+
+// A crease of 75 degrees whose columns are asked to be lower than those beside it, which stand closer on the front than on
+// the wall: heights rise from it by no more than the front allows, and the front keeps most of the angle.
+static void low_crease(void **state) {
+  const double half = 37.5 * M_PI / 180, p[3][2] = {{0, 0}, {0.02, -0.02 * tan(half)}, {0.02, 0.02 * tan(half)}};
+  const double depth = 0.006;
+  Case c = {.target = 1.6 * MM, .guide = end_planes, .guide_context = &depth};
+  surface_extrude(&c.wall, 3, p, 1, depth, 0.5 * MM, 1);
+  end_caps(&c.cap, 0, -0.02, 0.02, 0.02, depth);
+  assert_int_equal(case_make(&c), CW_OK);
+  for (int32_t v = 0; v < c.wall.point_count; v++) {
+    if (hypot(c.wall.x[v][0], c.wall.x[v][2]) < 1e-9) ((double *)c.in.target)[v] = 1.2 * MM;
+  }
+  cw_layers_free(&c.out);
+  assert_int_equal(cw_layers_make(&c.in, &c.out), CW_OK);
+  case_check_prisms(&c);
+  case_check_front(&c);
+  double least = 90;
+  for (int32_t f = 0; f < c.wall.triangle_count; f++) {
+    int32_t on = -1, high = -1;
+    for (int i = 0; i < 3; i++) {
+      int32_t v = c.wall.triangle[f][i], w = c.wall.triangle[f][(i + 1) % 3];
+      assert_true(fabs(c.out.height[v] - c.out.height[w]) <= 0.3 * apart(&c, v, w) + 1e-9);
+      (hypot(c.wall.x[v][0], c.wall.x[v][2]) < 1e-9 ? &on : &high)[0] = v;
+    }
+    if (on < 0) continue;
+    double rise[3];
+    sub3(c.out.front[high], c.out.front[on], rise);
+    least = fmin(least, atan2(fabs(rise[2]), rise[0]) * 180 / M_PI);
+  }
+  print_message("  half the angle of the front on a crease of 75 degrees: %.1f\n", least);
+  assert_true(least > 20);
+  case_free(&c);
+}
+
+// A column on a plate leans so far over its neighbour that the prisms are sound and front triangles are not: it is turned
+// back. Where it may not turn, the columns are thinned, but not below what they are asked to keep.
+static void leaning_column(void **state) {
+  const double least_height[3] = {0, 0, 0.55 * MM};
+  for (int i = 0; i < 3; i++) {
+    Case c = {.target = 0.6 * MM};
+    add_quad(&c.wall, 0, 0, 0, 0, 0.01, 0, 0.01, 0.01, 0, 0.01, 0, 0, 10, 10);
+    assert_int_equal(case_make(&c), CW_OK);
+    int32_t n = c.wall.point_count, centre = 0, rounds = 0;
+    double (*front)[3] = malloc((size_t)n * sizeof *front), *least = malloc((size_t)n * sizeof *least);
+    for (int32_t v = 0; v < n; v++) {
+      least[v] = least_height[i];
+      if (hypot(c.wall.x[v][0] - 0.005, c.wall.x[v][1] - 0.005) < 1e-9) centre = v;
+    }
+    for (int32_t v = 0; v < n && i > 0; v++) { // lines on which the columns stand and lean
+      const double way = v == centre ? 0.87 : 0, length = hypot(0.6, way);
+      const double across[2][3] = {{0, 1, 0}, {0.6 / length, 0, -way / length}};
+      memcpy(((double (*)[2][3])c.in.guide_normal)[v], across, sizeof across);
+      ((int32_t *)c.in.guide_count)[v] = 2;
+    }
+    c.in.least = least;
+    CwLayerWork work = {0};
+    CwBoxTree tree = {0};
+    assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
+    assert_int_equal(cw_layers_normals(&work), CW_OK);
+    assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
+    for (int32_t v = 0; v < n; v++) work.t[v] = c.target;
+    const double leaning[3] = {0.87 / 0.6, 0, 1};
+    memcpy(work.column[centre], leaning, sizeof leaning);
+    for (int after = 0; after < 2; after++) {
+      double prism = 1, shape = 1, height = INFINITY;
+      if (after) assert_int_equal(cw_layers_repair(&work, &tree, front, &rounds), CW_OK);
+      for (int32_t v = 0; v < n; v++) {
+        if (!after) cw_layers_place(&work, v, front[v]);
+        height = fmin(height, front[v][2]);
+      }
+      for (int32_t f = 0; f < c.wall.triangle_count; f++) {
+        const int32_t *v = c.wall.triangle[f];
+        const double *const a[3] = {c.wall.x[v[0]], c.wall.x[v[1]], c.wall.x[v[2]]};
+        const double *const b[3] = {front[v[0]], front[v[1]], front[v[2]]};
+        shape = fmin(shape, cw_layers_front_quality(a, b));
+        prism = fmin(prism, cw_layers_prism_quality(&work, f, (const double (*)[3])front));
+      }
+      print_message("  leaning column: prisms %.3f, front %.3f, heights from %.2f mm\n", prism, shape, height / MM);
+      assert_true(prism >= 0.12);
+      assert_true(after && i < 2 ? shape >= 0.3 : shape < 0.3);
+      if (!after || i == 0) assert_float_equal(height, c.target, 1e-15);
+      if (after && i == 1) assert_true(height < 0.55 * MM);
+      if (after && i == 2) assert_float_equal(height, 0.55 * MM, 1e-15);
+    }
+    cw_box_tree_free(&tree);
+    cw_layers_work_free(&work);
+    free(front);
+    free(least);
+    case_free(&c);
+  }
+}
+
 static int oblique_plane(const void *context, const double x[3], double normal[2][3]) {
   double tangent = *(const double *)context, c = 1 / sqrt(1 + tangent * tangent);
   if (fabs(x[0] - tangent * (x[2] - 0.005) - 0.01) > 1e-9) return 0;
@@ -384,7 +502,8 @@ int main(void) {
       cmocka_unit_test(thin_gap),            cmocka_unit_test(gap_to_cap),        cmocka_unit_test(gradation),
       cmocka_unit_test(pipe_between_caps),   cmocka_unit_test(plane_through_box), cmocka_unit_test(failures),
       cmocka_unit_test(same_each_time),      cmocka_unit_test(slanted_caps),      cmocka_unit_test(hollow),
-      cmocka_unit_test(guide_along_wall),
+      cmocka_unit_test(guide_along_wall),    cmocka_unit_test(front_by_hand),     cmocka_unit_test(low_crease),
+      cmocka_unit_test(leaning_column),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
