@@ -7,6 +7,8 @@
 
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
 static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
+static const double pull = 0.15;          // of an edge, a step
+enum { PULLS = 2 };
 
 // Sets the quality (1 for all that are regular enough), and puts the tetrahedron into the list where it is
 // below the limit.
@@ -33,15 +35,14 @@ done:
   return status;
 }
 
-// A point's tetrahedra: sum of weights times centres of the circumscribed spheres, and of the weights; then
-// where the point stood.
+// Of a point's tetrahedra: sum of weights times the places they want it at, and of the weights.
 typedef struct {
   double x[3], weight;
 } Sum;
 
-// The weight of a tetrahedron is its volume over the cube of its mean edge: equal for all that are well
-// shaped, large or small, so that the spacing keeps its gradient; nothing for flat ones, whose spheres are
-// anywhere.
+// A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the cube of
+// its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing for
+// flat ones, whose spheres are anywhere.
 static void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
   const int32_t *corner = w->mesh->tet[t].corner;
   const double *o = cw_tet_at(w, corner[0]);
@@ -71,47 +72,74 @@ static void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
   }
 }
 
-// Whether the move made a tetrahedron worse than it may be.
-static int is_spoilt(const CwTetWork *w, int32_t t, const Sum *old) {
-  const CwDelaunayTet *tet = &w->mesh->tet[t];
-  return tet->square < floor_quality &&
-         tet->square < cw_tet_quality(old[tet->corner[0]].x, old[tet->corner[1]].x, old[tet->corner[2]].x,
-                                      old[tet->corner[3]].x);
+// A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart.
+static void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
+  const int32_t *c = w->mesh->tet[t].corner;
+  double square[6];
+  int shortest = 0, longest = 0;
+  for (int e = 0; e < 6; e++) {
+    const double *p = cw_tet_at(w, c[cw_tet_edge[e][0]]), *q = cw_tet_at(w, c[cw_tet_edge[e][1]]);
+    double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
+    square[e] = x * x + y * y + z * z;
+    shortest = square[e] < square[shortest] ? e : shortest;
+    longest = square[e] > square[longest] ? e : longest;
+  }
+  for (int k = 0; k < 2; k++) {
+    int e = k ? longest : shortest;
+    int32_t a = c[cw_tet_edge[e][0]], b = c[cw_tet_edge[e][1]];
+    const double *p = cw_tet_at(w, a), *q = cw_tet_at(w, b);
+    double weight = 1.0 / square[e], step = k ? pull : -pull;
+    for (int i = 0; i < 3; i++) {
+      sum[a].x[i] += weight * (p[i] + step * (q[i] - p[i]));
+      sum[b].x[i] += weight * (q[i] - step * (q[i] - p[i]));
+    }
+    sum[a].weight += weight;
+    sum[b].weight += weight;
+  }
 }
 
-// Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and
-// J. Xu, Optimal Delaunay triangulations, J. Comp. Math. 22, 2004). Where that spoils a tetrahedron its
-// points go back, and those of others that are spoilt by this.
-CwStatus cw_tet_relax(CwTetWork *w) {
-  CwStatus status = CW_OK;
+// Whether the move made a tetrahedron worse than it may be.
+static int is_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3]) {
+  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  return tet->square < floor_quality &&
+         tet->square < cw_tet_quality(old[tet->corner[0]], old[tet->corner[1]], old[tet->corner[2]],
+                                      old[tet->corner[3]]);
+}
+
+// Marks the inner points that are not in a lattice.
+static void find_irregular(const CwTetWork *w, uint8_t *free_point) {
   CwDelaunay *mesh = w->mesh;
-  Sum *sum = NULL;
-  uint8_t *moved = NULL, *checked = NULL; // moved: 2 where it goes back in this round
-  int32_t returned;
-  CW_NEW(sum, mesh->point_count);
-  CW_NEW(moved, mesh->point_count);
-  CW_NEW(checked, mesh->point_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
     if (c[0] >= 0 && mesh->tet[t].square < regular)
-      moved[c[0]] = moved[c[1]] = moved[c[2]] = moved[c[3]] = 1;
+      free_point[c[0]] = free_point[c[1]] = free_point[c[2]] = free_point[c[3]] = 1;
   }
+  for (int32_t p = 0; p < mesh->point_count; p++)
+    free_point[p] = free_point[p] && mesh->source[p] >= w->fixed_count;
+}
+
+// Moves the marked points at once to the mean of the places that their tetrahedra want them at.
+static void move_all(CwTetWork *w, void (*add)(const CwTetWork *, int32_t, Sum *), const uint8_t *moved, Sum *sum) {
+  CwDelaunay *mesh = w->mesh;
+  memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
     if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
-      add_centre(w, t, sum);
+      add(w, t, sum);
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    double old[3];
-    memcpy(old, mesh->point[p].x, sizeof old);
-    moved[p] = checked[p] = moved[p] && mesh->source[p] >= w->fixed_count && sum[p].weight > 0.0;
-    if (moved[p]) {
-      for (int i = 0; i < 3; i++)
-        mesh->point[p].x[i] = sum[p].x[i] / sum[p].weight;
-      w->count.points_moved++;
-    }
-    memcpy(sum[p].x, old, sizeof old);
+    for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0; i++)
+      mesh->point[p].x[i] = sum[p].x[i] / sum[p].weight;
   }
+}
+
+// Judges all tetrahedra of the moved points. Where one is spoilt its points go back to where they stood, and those of
+// others that are spoilt by this.
+static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved, uint8_t *checked) {
+  CwStatus status = CW_OK;
+  CwDelaunay *mesh = w->mesh;
+  int32_t returned;
+  memcpy(checked, moved, (size_t)mesh->point_count);
   do {
     returned = 0;
     for (int32_t t = 0; t < mesh->tet_count; t++) {
@@ -119,23 +147,49 @@ CwStatus cw_tet_relax(CwTetWork *w) {
       if (c[0] < 0 || !(checked[c[0]] | checked[c[1]] | checked[c[2]] | checked[c[3]]))
         continue;
       CW_TRY(judge(w, t));
-      if (!is_spoilt(w, t, sum))
+      if (!is_spoilt(w, t, old))
         continue;
       for (int i = 0; i < 4; i++)
-        moved[c[i]] = moved[c[i]] ? 2 : 0;
+        moved[c[i]] = moved[c[i]] ? 2 : 0; // it goes back in this round
     }
     for (int32_t p = 0; p < mesh->point_count; p++) {
       checked[p] = moved[p] > 1;
       if (!checked[p])
         continue;
-      memcpy(mesh->point[p].x, sum[p].x, sizeof sum[p].x);
+      memcpy(mesh->point[p].x, old[p], sizeof *old);
       moved[p] = 0;
       returned++;
-      w->count.points_moved--;
     }
   } while (returned);
 done:
+  return status;
+}
+
+// Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
+// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by two short steps to where its
+// tetrahedra's edges are more even.
+CwStatus cw_tet_relax(CwTetWork *w) {
+  CwStatus status = CW_OK;
+  CwDelaunay *mesh = w->mesh;
+  Sum *sum = NULL;
+  double(*old)[3] = NULL;
+  uint8_t *moved = NULL, *checked = NULL;
+  CW_NEW(sum, mesh->point_count);
+  CW_NEW(old, mesh->point_count);
+  CW_NEW(moved, mesh->point_count);
+  CW_NEW(checked, mesh->point_count);
+  find_irregular(w, moved);
+  for (int32_t p = 0; p < mesh->point_count; p++)
+    memcpy(old[p], mesh->point[p].x, sizeof *old);
+  move_all(w, add_centre, moved, sum);
+  for (int k = 0; k < PULLS; k++)
+    move_all(w, add_pull, moved, sum);
+  CW_TRY(take_back(w, (const double(*)[3])old, moved, checked));
+  for (int32_t p = 0; p < mesh->point_count; p++)
+    w->count.points_moved += moved[p];
+done:
   free(sum);
+  free(old);
   free(moved);
   free(checked);
   return status;

@@ -93,7 +93,8 @@ double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough);
 // Pattern search for the point of best least quality from p, which it moves; returns that quality.
 double cw_hollow_best(CwHollow *hollow, double p[3], double start);
 
-// Moves all inner points at once towards even spacing; then every tetrahedron below the limit is in the list.
+// Moves all inner points at once towards even spacing and even edges; then every tetrahedron below the limit is in the
+// list.
 CwStatus cw_tet_relax(CwTetWork *w);
 // Sets all qualities and finds the tetrahedra below the limit.
 CwStatus cw_tet_scan(CwTetWork *w);

@@ -11,11 +11,12 @@
 #include "mesher/tet_work.h"
 #include "shaken_lattice.h"
 
-// Sum of the volumes, mean quality of the tetrahedra that have an inner point; all are positive.
-static double shape_of(const CwTetWork *w, double *mean) {
+// Sum of the volumes, mean quality and mean ratio of the longest to the shortest edge of the tetrahedra that have an
+// inner point; all are positive.
+static double shape_of(const CwTetWork *w, double *mean, double *aspect) {
   double six = 0.0;
   int count = 0;
-  *mean = 0.0;
+  *mean = *aspect = 0.0;
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     const int32_t *c = w->mesh->tet[t].corner;
     int inner = 0;
@@ -23,21 +24,25 @@ static double shape_of(const CwTetWork *w, double *mean) {
       continue;
     for (int i = 0; i < 4; i++)
       inner |= w->mesh->source[c[i]] >= w->fixed_count;
-    double here =
-        cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3])).six;
-    assert_true(here > 0.0);
-    six += here;
+    CwTetMeasures m =
+        cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+    double shortest, longest;
+    assert_true(m.six > 0.0);
+    six += m.six;
     if (!inner)
       continue;
+    cw_tet_edges(&m, &shortest, &longest);
+    *aspect += sqrt(longest / shortest);
     *mean += cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
     count++;
   }
   *mean /= count;
+  *aspect /= count;
   return six;
 }
 
 static void shaken_points_become_even(void **state) {
-  double(*x)[3], before, after;
+  double(*x)[3], before, after, uneven, even;
   int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x), moved = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
@@ -47,10 +52,11 @@ static void shaken_points_become_even(void **state) {
                  .fixed_count = outside,
                  .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
-  double six = shape_of(&w, &before);
+  double six = shape_of(&w, &before, &uneven);
   assert_int_equal(cw_tet_relax(&w), CW_OK);
-  assert_true(fabs(shape_of(&w, &after) / six - 1.0) < 1e-12);
+  assert_true(fabs(shape_of(&w, &after, &even) / six - 1.0) < 1e-12);
   assert_true(after > before + 0.03);
+  assert_true(uneven > 1.49 && even < 1.345); // 1.348 by the centres alone
   for (int32_t p = 0; p < mesh.point_count; p++) {
     if (mesh.source[p] < 0)
       continue;
