@@ -7,8 +7,8 @@
 
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
 static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
-static const double pull = 0.15;          // of an edge, a step
-enum { PULLS = 2 };
+static const double pull = 0.15;          // of an edge
+enum { MOVED = 1, RETURNED = 2 }; // a point that is free to move
 
 // Sets the quality (1 for all that are regular enough), and puts the tetrahedron into the list where it is
 // below the limit.
@@ -35,15 +35,15 @@ done:
   return status;
 }
 
-// Of a point's tetrahedra: sum of weights times the places they want it at, and of the weights.
+// Of a point's tetrahedra: sum of weights times the ways to the places they want it at, and of the weights.
 typedef struct {
-  double x[3], weight;
+  float way[3], weight;
 } Sum;
 
 // A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the cube of
-// its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing for
-// flat ones, whose spheres are anywhere.
-static void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
+// its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing
+// for flat ones, whose spheres are anywhere.
+static inline void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
   const int32_t *corner = w->mesh->tet[t].corner;
   const double *o = cw_tet_at(w, corner[0]);
   double a[3], b[3], c[3], bc[3], ca[3], ab[3];
@@ -60,41 +60,46 @@ static void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
   double products = a[0] * (b[0] + c[0]) + a[1] * (b[1] + c[1]) + a[2] * (b[2] + c[2]) + b[0] * c[0] +
                     b[1] * c[1] + b[2] * c[2];
   double squares = 3.0 * (aa + bb + cc) - 2.0 * products; // of all six edges
-  double scale = 1.0 / (squares * sqrt(squares)), x[3];
+  double scale = 1.0 / (squares * sqrt(squares)), way[3];
   double weight = scale * (a[0] * bc[0] + a[1] * bc[1] + a[2] * bc[2]);
   for (int i = 0; i < 3; i++)
-    x[i] = weight * o[i] + 0.5 * scale * (aa * bc[i] + bb * ca[i] + cc * ab[i]);
+    way[i] = 0.5 * scale * (aa * bc[i] + bb * ca[i] + cc * ab[i]);
   for (int k = 0; k < 4; k++) {
     Sum *s = &sum[corner[k]];
+    const double *from = k == 0 ? NULL : k == 1 ? a : k == 2 ? b : c;
     for (int i = 0; i < 3; i++)
-      s->x[i] += x[i];
-    s->weight += weight;
+      s->way[i] += (float)(from ? way[i] - weight * from[i] : way[i]);
+    s->weight += (float)weight;
   }
 }
 
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart.
-static void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
+static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
   const int32_t *c = w->mesh->tet[t].corner;
-  double square[6];
+  double x[4][3], square[6];
   int shortest = 0, longest = 0;
+  for (int k = 0; k < 4; k++)
+    memcpy(x[k], cw_tet_at(w, c[k]), sizeof x[k]);
   for (int e = 0; e < 6; e++) {
-    const double *p = cw_tet_at(w, c[cw_tet_edge[e][0]]), *q = cw_tet_at(w, c[cw_tet_edge[e][1]]);
-    double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
-    square[e] = x * x + y * y + z * z;
+    const double *p = x[cw_tet_edge[e][0]], *q = x[cw_tet_edge[e][1]];
+    double u = q[0] - p[0], v = q[1] - p[1], z = q[2] - p[2];
+    square[e] = u * u + v * v + z * z;
     shortest = square[e] < square[shortest] ? e : shortest;
     longest = square[e] > square[longest] ? e : longest;
   }
+  if (!(square[shortest] > CW_TET_FLAT * square[longest]))
+    return;
   for (int k = 0; k < 2; k++) {
-    int e = k ? longest : shortest;
-    int32_t a = c[cw_tet_edge[e][0]], b = c[cw_tet_edge[e][1]];
-    const double *p = cw_tet_at(w, a), *q = cw_tet_at(w, b);
-    double weight = 1.0 / square[e], step = k ? pull : -pull;
+    int e = k ? longest : shortest, a = cw_tet_edge[e][0], b = cw_tet_edge[e][1];
+    double weight = 1.0 / square[e], step = k ? weight * pull : -weight * pull;
+    Sum *p = &sum[c[a]], *q = &sum[c[b]];
     for (int i = 0; i < 3; i++) {
-      sum[a].x[i] += weight * (p[i] + step * (q[i] - p[i]));
-      sum[b].x[i] += weight * (q[i] - step * (q[i] - p[i]));
+      float way = (float)(step * (x[b][i] - x[a][i]));
+      p->way[i] += way;
+      q->way[i] -= way;
     }
-    sum[a].weight += weight;
-    sum[b].weight += weight;
+    p->weight += (float)weight;
+    q->weight += (float)weight;
   }
 }
 
@@ -107,19 +112,20 @@ static int is_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3]) {
 }
 
 // Marks the inner points that are not in a lattice.
-static void find_irregular(const CwTetWork *w, uint8_t *free_point) {
+static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   CwDelaunay *mesh = w->mesh;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
     if (c[0] >= 0 && mesh->tet[t].square < regular)
-      free_point[c[0]] = free_point[c[1]] = free_point[c[2]] = free_point[c[3]] = 1;
+      moved[c[0]] = moved[c[1]] = moved[c[2]] = moved[c[3]] = MOVED;
   }
   for (int32_t p = 0; p < mesh->point_count; p++)
-    free_point[p] = free_point[p] && mesh->source[p] >= w->fixed_count;
+    moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
 }
 
-// Moves the marked points at once to the mean of the places that their tetrahedra want them at.
-static void move_all(CwTetWork *w, void (*add)(const CwTetWork *, int32_t, Sum *), const uint8_t *moved, Sum *sum) {
+// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
+static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, int32_t, Sum *), const uint8_t *moved,
+                            Sum *sum) {
   CwDelaunay *mesh = w->mesh;
   memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
@@ -128,69 +134,102 @@ static void move_all(CwTetWork *w, void (*add)(const CwTetWork *, int32_t, Sum *
       add(w, t, sum);
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0; i++)
-      mesh->point[p].x[i] = sum[p].x[i] / sum[p].weight;
+    for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0f; i++)
+      mesh->point[p].x[i] += (double)(sum[p].way[i] / sum[p].weight);
   }
 }
 
-// Judges all tetrahedra of the moved points. Where one is spoilt its points go back to where they stood, and those of
-// others that are spoilt by this.
-static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved, uint8_t *checked) {
+typedef struct {
+  int32_t *tet, count, space;
+} List;
+
+static CwStatus note_if_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3], List *spoilt) {
   CwStatus status = CW_OK;
-  CwDelaunay *mesh = w->mesh;
-  int32_t returned;
-  memcpy(checked, moved, (size_t)mesh->point_count);
-  do {
-    returned = 0;
-    for (int32_t t = 0; t < mesh->tet_count; t++) {
-      const int32_t *c = mesh->tet[t].corner;
-      if (c[0] < 0 || !(checked[c[0]] | checked[c[1]] | checked[c[2]] | checked[c[3]]))
-        continue;
-      CW_TRY(judge(w, t));
-      if (!is_spoilt(w, t, old))
-        continue;
-      for (int i = 0; i < 4; i++)
-        moved[c[i]] = moved[c[i]] ? 2 : 0; // it goes back in this round
-    }
-    for (int32_t p = 0; p < mesh->point_count; p++) {
-      checked[p] = moved[p] > 1;
-      if (!checked[p])
-        continue;
-      memcpy(mesh->point[p].x, old[p], sizeof *old);
-      moved[p] = 0;
-      returned++;
-    }
-  } while (returned);
+  if (!is_spoilt(w, t, old))
+    goto done;
+  if (spoilt->count == spoilt->space) {
+    int32_t space = 2 * spoilt->space + 64;
+    int32_t *grown = realloc(spoilt->tet, (size_t)space * sizeof *grown);
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: list of %d tetrahedra", space);
+    spoilt->tet = grown;
+    spoilt->space = space;
+  }
+  spoilt->tet[spoilt->count++] = t;
 done:
   return status;
 }
 
+// A point of t goes back to where it stood. *whole: its tetrahedra are too many to be judged here.
+static CwStatus put_back(CwTetWork *w, int32_t t, int32_t point, const double (*old)[3], List *spoilt, int *whole) {
+  CwStatus status = CW_OK;
+  int32_t star[CW_TET_STAR];
+  memcpy(w->mesh->point[point].x, old[point], sizeof *old);
+  int count = cw_tet_star(w, t, point, star);
+  *whole |= count == 0;
+  for (int k = 0; k < count; k++) {
+    CW_TRY(judge(w, star[k]));
+    CW_TRY(note_if_spoilt(w, star[k], old, spoilt));
+  }
+done:
+  return status;
+}
+
+// Judges all tetrahedra of the moved points. Where one is spoilt its points go back, and those of others that are
+// spoilt by this.
+static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) {
+  CwStatus status = CW_OK;
+  CwDelaunay *mesh = w->mesh;
+  List spoilt = {0};
+  int whole;
+  do {
+    whole = 0;
+    for (int32_t t = 0; t < mesh->tet_count; t++) {
+      const int32_t *c = mesh->tet[t].corner;
+      if (c[0] < 0 || !(moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
+        continue;
+      CW_TRY(judge(w, t));
+      CW_TRY(note_if_spoilt(w, t, old, &spoilt));
+    }
+    while (spoilt.count) {
+      int32_t t = spoilt.tet[--spoilt.count];
+      for (int i = 0; i < 4 && is_spoilt(w, t, old); i++) {
+        int32_t point = mesh->tet[t].corner[i];
+        if (moved[point] != MOVED)
+          continue;
+        moved[point] = RETURNED;
+        w->count.points_moved--;
+        CW_TRY(put_back(w, t, point, old, &spoilt, &whole));
+      }
+    }
+  } while (whole);
+done:
+  free(spoilt.tet);
+  return status;
+}
+
 // Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
-// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by two short steps to where its
-// tetrahedra's edges are more even.
+// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by a short step to where its tetrahedra's
+// edges are more even.
 CwStatus cw_tet_relax(CwTetWork *w) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
   Sum *sum = NULL;
   double(*old)[3] = NULL;
-  uint8_t *moved = NULL, *checked = NULL;
+  uint8_t *moved = NULL;
   CW_NEW(sum, mesh->point_count);
   CW_NEW(old, mesh->point_count);
   CW_NEW(moved, mesh->point_count);
-  CW_NEW(checked, mesh->point_count);
   find_irregular(w, moved);
-  for (int32_t p = 0; p < mesh->point_count; p++)
+  for (int32_t p = 0; p < mesh->point_count; p++) {
     memcpy(old[p], mesh->point[p].x, sizeof *old);
-  move_all(w, add_centre, moved, sum);
-  for (int k = 0; k < PULLS; k++)
-    move_all(w, add_pull, moved, sum);
-  CW_TRY(take_back(w, (const double(*)[3])old, moved, checked));
-  for (int32_t p = 0; p < mesh->point_count; p++)
     w->count.points_moved += moved[p];
+  }
+  move_all(w, add_centre, moved, sum);
+  move_all(w, add_pull, moved, sum);
+  CW_TRY(take_back(w, (const double(*)[3])old, moved));
 done:
   free(sum);
   free(old);
   free(moved);
-  free(checked);
   return status;
 }
