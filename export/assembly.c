@@ -18,6 +18,7 @@ typedef struct {
   int32_t slot;   // place among the open faces of its region
   int32_t cell;   // of the region
   int32_t reversed;
+  double centroid[3]; // of the cell, m
 } OpenFace;
 
 // What one rank collects over its regions.
@@ -78,6 +79,7 @@ static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
     CwDomainTotal *t = &a->totals[d];
     const CwMeshDomain *domain = &mesh->domains[d];
     t->points = domain->shared_points;
+    cw_orthogonality_start(&t->orthogonality);
     for (int r = domain->first_region; r < domain->first_region + domain->region_count; ++r) {
       const CwMeshRegion *line = &mesh->regions[r];
       a->places[r].own_point = t->points;
@@ -174,6 +176,8 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   int order[4], count = cw_cell_face(data, face.cell, ref % CW_CELL_FACES, nodes);
   for (int k = 0; k < count; ++k)
     wide[k] = data->shared_id[nodes[k]];
+  const double *x[6];
+  cw_cell_centroid(cw_cell_points(data, face.cell, x), x, face.centroid);
   face.reversed = cw_face_loop(wide, count, order);
   for (int k = 0; k < count; ++k)
     face.loop[k] = wide[order[k]];
@@ -280,6 +284,16 @@ static CwStatus fail_at_open_face(const CwAssembly *a, const OpenFace *face, con
                  x[1], x[2], what);
 }
 
+// The face between the cells of x and y, of which x sees it in the order of its loop.
+static void measure_open_face(CwAssembly *a, const OpenFace *x, const OpenFace *y) {
+  int domain = a->mesh->regions[x->region].domain, count = x->loop[3] < 0 ? 3 : 4;
+  double points[4][3], area[3];
+  for (int i = 0; i < count; ++i)
+    memcpy(points[i], a->shared[domain][x->loop[i]], sizeof points[i]);
+  cw_face_area((const double(*)[3])points, (const int32_t[4]){0, 1, 2, 3}, count, area);
+  cw_orthogonality_face(area, x->centroid, y->centroid, &a->totals[domain].orthogonality);
+}
+
 // Pairs the open faces of one domain at a time (shared numbers are the domain's own). On rank 0.
 static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
   CwStatus status = CW_OK;
@@ -292,6 +306,7 @@ static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
       CW_TRY(fail_at_open_face(a, x, "is shared by more than two cells"));
     if (x->reversed == y->reversed)
       CW_TRY(fail_at_open_face(a, x, "has both of its cells on the same side"));
+    measure_open_face(a, x->reversed ? y : x, x->reversed ? x : y);
     const OpenFace *sides[2] = {x, y};
     for (int s = 0; s < 2; ++s) {
       const OpenFace *here = sides[s], *there = sides[1 - s];

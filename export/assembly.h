@@ -5,6 +5,7 @@
 #ifndef CUTWATER_EXPORT_ASSEMBLY_H
 #define CUTWATER_EXPORT_ASSEMBLY_H
 
+#include "export/orthogonality.h"
 #include "export/ranks.h"
 #include "pipeline/mesh/region_faces.h"
 #include "pipeline/mesh/region_read.h"
@@ -36,7 +37,9 @@ typedef struct {
 typedef struct {
   int64_t first_point; // points of the domains before
   int64_t points, tetrahedra, pyramids, prisms, cells;
-  double volume, least_volume; // m3; known when all regions have been checked
+  // Known when all regions have been checked; `orthogonality` holds the faces on dividing planes before.
+  double volume, least_volume; // m3
+  CwOrthogonality orthogonality;
 } CwDomainTotal;
 
 typedef struct {

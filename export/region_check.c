@@ -6,15 +6,13 @@
 
 #include "pipeline/mesh/cell.h"
 
-static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionVolume *volume) {
+static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegionFigures *figures) {
   CwStatus status = CW_OK;
-  *volume = (CwRegionVolume){0, INFINITY};
+  *figures = (CwRegionFigures){.least_volume = INFINITY};
+  cw_orthogonality_start(&figures->orthogonality);
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
     const double *x[6];
-    int count;
-    const int32_t *nodes = cw_cell_nodes(data, cell, &count);
-    for (int i = 0; i < count; ++i)
-      x[i] = data->points[nodes[i]];
+    int count = cw_cell_points(data, cell, x);
     double one = cw_cell_volume(count, x);
     if (!(one > 0)) {
       double centre[3];
@@ -22,8 +20,8 @@ static CwStatus check_volumes(const char *path, const CwRegionData *data, CwRegi
       CW_REQUIRE(0, CW_ERR_INPUT, "%s: cell %d at (%.6g, %.6g, %.6g) mm has a volume of %.3g mm3; it must be above 0",
                  path, cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * one);
     }
-    volume->sum += one;
-    volume->least = one < volume->least ? one : volume->least;
+    figures->volume += one;
+    figures->least_volume = one < figures->least_volume ? one : figures->least_volume;
   }
 done:
   return status;
@@ -50,14 +48,15 @@ done:
 }
 
 CwStatus cw_region_check(const CwAssembly *a, int region, const CwRegionData *data, CwRegionFaces *faces,
-                         CwRegionVolume *volume) {
+                         CwRegionFigures *figures) {
   CwStatus status = CW_OK;
   const CwRegionPlace *place = &a->places[region];
   const char *path = a->mesh->regions[region].path;
   int64_t open = (region + 1 < a->mesh->region_count ? place[1].open : a->open_count) - place->open;
-  CW_TRY(check_volumes(path, data, volume));
+  CW_TRY(check_volumes(path, data, figures));
   CW_TRY(cw_region_faces(path, CW_ERR_INPUT, data, faces));
   CW_TRY(check_points(path, data));
+  CW_TRY(cw_orthogonality_region(data, faces, &figures->orthogonality));
   CW_REQUIRE(faces->inner_triangles == place->inner_triangles && faces->inner_quads == place->inner_quads &&
                  faces->open_count == open,
              CW_ERR_INPUT, "%s: has other faces than when it was first read", path);
@@ -65,11 +64,13 @@ done:
   return status;
 }
 
-void cw_region_volumes_sum(const CwRanks *ranks, CwRegionVolume *volumes, CwAssembly *a) {
+void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figures, CwAssembly *a) {
   for (int r = 0; r < a->mesh->region_count; ++r) {
     CwDomainTotal *total = &a->totals[a->mesh->regions[r].domain];
-    MPI_Bcast(&volumes[r], sizeof *volumes, MPI_BYTE, r % ranks->size, ranks->comm);
-    total->least_volume = total->volume > 0 ? fmin(total->least_volume, volumes[r].least) : volumes[r].least;
-    total->volume += volumes[r].sum;
+    MPI_Bcast(&figures[r], sizeof *figures, MPI_BYTE, r % ranks->size, ranks->comm);
+    total->least_volume =
+        total->volume > 0 ? fmin(total->least_volume, figures[r].least_volume) : figures[r].least_volume;
+    total->volume += figures[r].volume;
+    cw_orthogonality_add(&figures[r].orthogonality, &total->orthogonality);
   }
 }

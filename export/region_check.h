@@ -6,17 +6,18 @@
 #include "export/assembly.h"
 
 typedef struct {
-  double sum, least; // m3, of its cells
-} CwRegionVolume;
+  double volume, least_volume; // m3, of its cells
+  CwOrthogonality orthogonality; // of the faces between its cells
+} CwRegionFigures;
 
-// Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and sums its volume. Fails with
+// Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and measures its cells. Fails with
 // CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
 // belongs to no cell, or the faces are not as many as the assembly found.
 CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionData *data, CwRegionFaces *faces,
-                         CwRegionVolume *volume);
+                         CwRegionFigures *figures);
 
-// Gives all ranks the volumes of all regions, each set on the rank that owns it, and sums them into the totals of the
+// Gives all ranks the figures of all regions, each set on the rank that owns it, and sums them into the totals of the
 // domains. Collective.
-void cw_region_volumes_sum(const CwRanks *ranks, CwRegionVolume *volumes, CwAssembly *assembly);
+void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figuress, CwAssembly *assembly);
 
 #endif

@@ -71,12 +71,12 @@ done:
 }
 
 static CwStatus write_region(const CwAssembly *assembly, int region, hid_t cgns, const CwFoamMesh *foam,
-                             CwRegionVolume *volume) {
+                             CwRegionFigures *figures) {
   CwStatus status = CW_OK;
   CwRegionData data = {0};
   CwRegionFaces faces = {0};
   CW_TRY(cw_mesh_region_read(assembly->mesh, region, CW_REGION_WHOLE, &data));
-  CW_TRY(cw_region_check(assembly, region, &data, &faces, volume));
+  CW_TRY(cw_region_check(assembly, region, &data, &faces, figures));
   CW_TRY(cw_cgns_write_region(cgns, assembly, region, &data));
   CW_TRY(cw_foam_mesh_write_region(foam, region, &data, &faces));
 done:
@@ -90,8 +90,8 @@ done:
 static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, const Paths *paths, CwFoamMesh *foam) {
   CwStatus status = CW_OK, closed;
   hid_t cgns = -1;
-  CwRegionVolume *volumes = calloc((size_t)assembly->mesh->region_count, sizeof *volumes);
-  if (!volumes)
+  CwRegionFigures *figures = calloc((size_t)assembly->mesh->region_count, sizeof *figures);
+  if (!figures)
     status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_cgns_open(paths->cgns, ranks, &cgns);
@@ -103,7 +103,7 @@ static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, const 
   cw_progress_start("check and write the mesh", assembly->mesh->region_count, "regions");
   for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
     if (cw_ranks_own(ranks, r))
-      status = write_region(assembly, r, cgns, foam, &volumes[r]);
+      status = write_region(assembly, r, cgns, foam, &figures[r]);
     cw_progress(r + 1);
   }
   cw_progress_end();
@@ -115,8 +115,8 @@ done:
   closed = cw_foam_mesh_close(foam);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
   if (status == CW_OK)
-    cw_region_volumes_sum(ranks, volumes, assembly);
-  free(volumes);
+    cw_region_figures_sum(ranks, figures, assembly);
+  free(figures);
   return status;
 }
 
@@ -155,10 +155,12 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
     cells += t->cells;
     CW_TRY(
         cw_record_json(record, a->mesh->domains[d].name,
-                       json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f}", "points", (json_int_t)t->points,
+                       json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "points", (json_int_t)t->points,
                                  "tetrahedra", (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids,
                                  "prisms", (json_int_t)t->prisms, "volume_m3", t->volume, "solid_volume_m3",
-                                 a->mesh->domains[d].solid_volume, "least_cell_volume_m3", t->least_volume)));
+                                 a->mesh->domains[d].solid_volume, "least_cell_volume_m3", t->least_volume,
+                                 "greatest_non_orthogonality_deg", cw_non_orthogonality_greatest(&t->orthogonality),
+                                 "mean_non_orthogonality_deg", cw_non_orthogonality_mean(&t->orthogonality))));
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));

@@ -98,3 +98,25 @@ double cw_cell_volume(int count, const double *const *x) {
   }
   return six / 6;
 }
+
+void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
+  // Pyramid and prism in tetrahedra, all of them with corner 0.
+  static const signed char of_pyramid[2][3] = {{1, 2, 4}, {2, 3, 4}};
+  static const signed char of_prism[3][3] = {{1, 2, 5}, {1, 5, 4}, {4, 5, 3}};
+  const signed char(*part)[3] = count == 5 ? of_pyramid : of_prism;
+  double six = 0, moment[3] = {0};
+  if (count == 4) {
+    for (int k = 0; k < 3; ++k)
+      centroid[k] = (x[0][k] + x[1][k] + x[2][k] + x[3][k]) / 4;
+    return;
+  }
+  for (int p = 0; p < count - 3; ++p) {
+    const double *a = x[part[p][0]], *b = x[part[p][1]], *c = x[part[p][2]];
+    double one = six_volumes(x[0], a, b, c);
+    six += one;
+    for (int k = 0; k < 3; ++k)
+      moment[k] += one * ((a[k] - x[0][k]) + (b[k] - x[0][k]) + (c[k] - x[0][k]));
+  }
+  for (int k = 0; k < 3; ++k)
+    centroid[k] = x[0][k] + moment[k] / (4 * six);
+}

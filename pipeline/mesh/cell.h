@@ -35,6 +35,18 @@ void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, do
 // takes them: volumes of cells add up to the volume enclosed, without gaps.
 double cw_cell_volume(int count, const double *const *x);
 
+// Centroid of such a cell of positive volume, m.
+void cw_cell_centroid(int count, const double *const *x, double centroid[3]);
+
+// The places of the nodes of a cell; returns their number.
+static inline int cw_cell_points(const CwRegionData *region, int32_t cell, const double *x[6]) {
+  int count;
+  const int32_t *nodes = cw_cell_nodes(region, cell, &count);
+  for (int i = 0; i < count; ++i)
+    x[i] = region->points[nodes[i]];
+  return count;
+}
+
 // Mean of the nodes, m.
 void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]);
 

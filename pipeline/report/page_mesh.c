@@ -273,6 +273,15 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
             "tetrahedra_beside_planes", "mean_ratio_mean", 3);
   inner_row(page, data, "Other tetrahedra: mean ratio, mean", "", domain, "tetrahedra_apart", "mean_ratio_mean", 3);
   figure_row(page, data, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
+  json_t *exported = json_object_get(data->record[2], "results");
+  if (exported) {
+    for (int d = 0; d < domains; d++)
+      domain[d] = json_object_get(exported, data->mesh.domains[d].name);
+    figure_row(page, data, "All cells: greatest non-orthogonality", "&deg;, by the exporter", domain,
+               "greatest_non_orthogonality_deg", 1, 4);
+    figure_row(page, data, "All cells: mean non-orthogonality", "&deg;, by the exporter", domain,
+               "mean_non_orthogonality_deg", 1, 4);
+  }
   fputs("</table>\n<figure>", page);
   CwPlotSeries series[DOMAINS_MOST + 1];
   for (int d = 0; d < domains; d++)

@@ -89,15 +89,18 @@ def at_once(way, cores):
     return [sum(column) / cores for column in zip(*rows)]
 
 
-def hxt_size(program, surface, shells, edge, tets):
-    """The largest size, m, with which HXT makes so many tetrahedra."""
-    def make(size):
-        row = fill_by_gmsh(program, surface, shells, "hxt", "-clmax", size)
-        if isinstance(row, str):
-            sys.exit(f"fill: HXT with sizes up to {size} m: {row}")
-        return row[1]
+def hxt_with(program, surface, shells, edge, tets):
+    """The row of HXT with a largest size that gives it so many tetrahedra, but for 5 %."""
+    rows = []
 
-    return size_for(tets, edge / 2, 3, 0.05, make)
+    def make(size):
+        rows.append(fill_by_gmsh(program, surface, shells, "hxt", "-clmax", size))
+        if isinstance(rows[-1], str):
+            sys.exit(f"fill: HXT with sizes up to {size} m: {rows[-1]}")
+        return rows[-1][1]
+
+    size_for(tets, edge / 2, 3, 0.05, make)
+    return rows[-1]
 
 
 def compare(program, title, surface, shells, words, delaunay, edge=None):
@@ -109,8 +112,8 @@ def compare(program, title, surface, shells, words, delaunay, edge=None):
         if delaunay:
             ways.append(("delaunay", lambda: fill_by_gmsh(program, surface, shells, "del3d")))
     if edge:
-        size = hxt_size(program, surface, shells, edge, run_ours(program, "kernel", surface, words.growth)[1])
-        ways.append(("hxt, =", lambda: fill_by_gmsh(program, surface, shells, "hxt", "-clmax", size)))
+        tets = run_ours(program, "kernel", surface, words.growth)[1]
+        ways.append(("hxt, =", lambda: hxt_with(program, surface, shells, edge, tets)))
     best = {}
     for _ in range(words.repeat):
         for cores in words.cores:

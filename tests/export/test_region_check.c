@@ -41,18 +41,18 @@ static int make(void **state) {
 static void a_sound_region_gives_its_volume(void **state) {
   (void)state;
   CwRegionFaces faces = {0};
-  CwRegionVolume volume;
-  assert_int_equal(cw_region_check(&assembly, 0, &data, &faces, &volume), CW_OK);
-  assert_float_equal(volume.sum, 1.0 / 6 + 2.0 / 6, 1e-15);
-  assert_float_equal(volume.least, 1.0 / 6, 1e-15);
+  CwRegionFigures figures;
+  assert_int_equal(cw_region_check(&assembly, 0, &data, &faces, &figures), CW_OK);
+  assert_float_equal(figures.volume, 1.0 / 6 + 2.0 / 6, 1e-15);
+  assert_float_equal(figures.least_volume, 1.0 / 6, 1e-15);
   assert_int_equal(faces.inner_triangles, 1);
   cw_region_faces_free(&faces);
 }
 
 static void fails_with(const char *words) {
   CwRegionFaces faces = {0};
-  CwRegionVolume volume;
-  assert_int_equal(cw_region_check(&assembly, 0, &data, &faces, &volume), CW_ERR_INPUT);
+  CwRegionFigures figures;
+  assert_int_equal(cw_region_check(&assembly, 0, &data, &faces, &figures), CW_ERR_INPUT);
   if (!strstr(cw_fail_message(), words))
     fail_msg("unexpected message: %s", cw_fail_message());
   cw_region_faces_free(&faces);

@@ -51,6 +51,20 @@ static void an_inverted_tetrahedron_has_a_negative_volume(void **state) {
   assert_float_equal(cw_cell_volume(4, inverted), -1.0 / 6, 1e-15);
 }
 
+// A quarter of the way up from the base of tetrahedron and pyramid; half a box, in the middle of its height.
+static void centroids_of_the_three_shapes(void **state) {
+  (void)state;
+  CwRegionData region = one_of_each();
+  const double wanted[3][3] = {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.25}, {1.0 / 3, 1.0 / 3, 0.5}};
+  for (int32_t cell = 0; cell < 3; ++cell) {
+    const double *x[6];
+    double centroid[3];
+    cw_cell_centroid(cw_cell_points(&region, cell, x), x, centroid);
+    for (int k = 0; k < 3; ++k)
+      assert_float_equal(centroid[k], wanted[cell][k], 1e-15);
+  }
+}
+
 // Every face looks out of its cell, and together they close.
 static void faces_look_outward_and_close(void **state) {
   (void)state;
@@ -82,6 +96,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(volumes_of_the_three_shapes),
       cmocka_unit_test(an_inverted_tetrahedron_has_a_negative_volume),
+      cmocka_unit_test(centroids_of_the_three_shapes),
       cmocka_unit_test(faces_look_outward_and_close),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
