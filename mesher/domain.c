@@ -17,6 +17,7 @@
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double LEAST_REGION_CELLS = 400e3, MOST_REGIONS = 140;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
+static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
@@ -32,42 +33,77 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// Reciprocal of h^3 at one of many points.
+// A background triangle of a wall; all zero where it is on a cap.
 typedef struct {
-  const CwSize *size;
-  const double (*x)[3];
-} Points;
+  double area, size;
+} WallPiece;
 
-static CwStatus find_density(void *context, int32_t i, void *out) {
-  const Points *points = context;
-  double h = cw_size_at(points->size, points->x[i]);
-  *(double *)out = 1 / (h * h * h);
+static CwStatus find_piece(void *context, int32_t t, void *out) {
+  const CwDomain *domain = context;
+  WallPiece *piece = out;
+  double centre[3];
+  if (!cw_face_is_wall(domain->cad, domain->background.face[t])) return CW_OK;
+  piece->area = triangle_area(&domain->background, t, centre);
+  piece->size = cw_size_at(domain->size, centre);
   return CW_OK;
+}
+
+static CwStatus find_line(void *context, int32_t line, void *out) {
+  const CwDomain *domain = context;
+  *(double *)out = cw_size_line_integral(domain->size, line);
+  return CW_OK;
+}
+
+// Pieces of one patch and nearly one size together.
+static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = &domain->background;
+  CwLayerSample *sample = NULL;
+  double least = INFINITY, greatest = 0;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (piece[t].size == 0) continue;
+    least = fmin(least, piece[t].size);
+    greatest = fmax(greatest, piece[t].size);
+  }
+  int patches = cw_cad_patch_count(domain->cad);
+  int steps = greatest > 0 ? 1 + (int)(log(greatest / least) / log(SAMPLE_STEP)) : 0;
+  CW_NEW(sample, (size_t)patches * (size_t)steps);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    double h = piece[t].size;
+    if (h == 0) continue;
+    int patch = cw_cad_face_patch(domain->cad, background->face[t]);
+    CwLayerSample *of = &sample[patch * steps + (int)(log(h / least) / log(SAMPLE_STEP))];
+    domain->prism_integral += piece[t].area / (h * h);
+    of->density += piece[t].area / (h * h * h);
+    of->size += piece[t].area / (h * h); // times the density
+    of->patch = patch;
+  }
+  CW_NEW(domain->layer_sample, (size_t)patches * (size_t)steps);
+  for (int i = 0; i < patches * steps; i++) {
+    if (sample[i].density == 0) continue;
+    sample[i].size /= sample[i].density;
+    domain->layer_sample[domain->layer_sample_count++] = sample[i];
+  }
+done:
+  free(sample);
+  return status;
 }
 
 // What the count of cells follows from: integrals of the size field at scale 1 over walls and volume. Collective.
 static CwStatus integrate(CwDomain *domain) {
   CwStatus status = CW_OK;
-  double(*x)[3] = NULL, *volume = NULL, *density = NULL;
-  int32_t count = 0;
-  CW_NEW(domain->layer_sample, domain->background.triangle_count);
-  for (int32_t t = 0; t < domain->background.triangle_count; t++) {
-    int32_t face = domain->background.face[t];
-    if (!cw_face_is_wall(domain->cad, face)) continue;
-    double centre[3], area = triangle_area(&domain->background, t, centre), h = cw_size_at(domain->size, centre);
-    int patch = cw_cad_face_patch(domain->cad, face);
-    domain->prism_integral += area / (h * h);
-    domain->layer_sample[domain->layer_sample_count++] = (CwLayerSample){area / (h * h * h), h, patch};
-  }
-  CW_TRY(cw_size_samples(domain->size, &count, &x, &volume));
-  CW_NEW(density, count);
-  Points points = {domain->size, (const double(*)[3])x};
-  CW_TRY(cw_share("size integrals", count, sizeof *density, find_density, &points, density));
-  for (int32_t i = 0; i < count; i++) domain->volume_integral += volume[i] * density[i];
+  WallPiece *piece = NULL;
+  double *along = NULL;
+  int32_t lines = cw_size_line_count(domain->size);
+  CW_NEW(piece, domain->background.triangle_count);
+  CW_NEW(along, lines);
+  CW_TRY(cw_share("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
+  CW_TRY(sum_pieces(domain, piece));
+  CW_TRY(cw_share("size integrals", lines, sizeof *along, find_line, domain, along));
+  for (int32_t i = 0; i < lines; i++) domain->volume_integral += along[i];
 done:
-  free(x);
-  free(volume);
-  free(density);
+  free(piece);
+  free(along);
   return status;
 }
 

@@ -13,7 +13,7 @@
 
 #define CW_LAYER_SHARE 1.0 // before the walls are known
 
-// The layers over a piece of wall.
+// The layers over a piece of wall, where h is nearly one.
 typedef struct {
   double density;          // area / h^3 at scale 1, m-1
   double size;             // h at scale 1, m
@@ -35,7 +35,7 @@ typedef struct {
   int layer_count;
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
   double volume_integral;                     // integral of h^-3 over the domain, at scale 1
-  CwLayerSample *layer_sample;                // what the layers take of it: one for each background triangle of a wall
+  CwLayerSample *layer_sample;                // what the layers take of it
   int32_t layer_sample_count;
   double layer_share;                         // of that, what graded columns take; known with the walls
   int32_t more_regions;                       // than the number of cells asks for: plans given up

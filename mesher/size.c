@@ -264,27 +264,57 @@ double cw_size_at(const void *size, const double x[3]) {
   return field->rim.value ? fmin(wanted, fmax(cw_size_grid_at(&field->rim, x), least_at_rims(field) * wanted)) : wanted;
 }
 
-// Cuts the inside runs of all lines into lengths of about one spacing; stores them where x is not NULL.
-// Returns how many.
+// The inside runs of a line, cut into lengths of about one spacing.
+typedef struct {
+  double begin, length;
+  int64_t parts;
+} Run;
+
+static Run run_at(const CwScanlines *lines, int64_t crossing) {
+  Run run = {.begin = lines->crossing[crossing]};
+  run.length = lines->crossing[crossing + 1] - run.begin;
+  run.parts = (int64_t)fmax(round(run.length / lines->spacing), 1);
+  return run;
+}
+
+static double run_place(const Run *run, int64_t part) {
+  return run->begin + run->length * ((double)part + 0.5) / (double)run->parts;
+}
+
+int32_t cw_size_line_count(const CwSize *size) {
+  return size->lines.count[0] * size->lines.count[1];
+}
+
+double cw_size_line_integral(const CwSize *size, int32_t line) {
+  const CwScanlines *lines = &size->lines;
+  double x[3], sum = 0;
+  cw_scanlines_place(lines, line % lines->count[0], line / lines->count[0], &x[1]);
+  for (int64_t c = lines->start[line]; c + 1 < lines->start[line + 1]; c += 2) {
+    Run run = run_at(lines, c);
+    for (int64_t i = 0; i < run.parts; i++) {
+      x[0] = run_place(&run, i);
+      double h = cw_size_at(size, x);
+      sum += run.length / (double)run.parts / (h * h * h);
+    }
+  }
+  return lines->spacing * lines->spacing * sum;
+}
+
+// Stores the parts of all runs where x is not NULL. Returns how many.
 static int64_t cut_runs(const CwScanlines *lines, double (*x)[3], double *volume) {
   int64_t count = 0;
   double area = lines->spacing * lines->spacing;
-  for (int32_t k = 0; k < lines->count[1]; k++) {
-    for (int32_t j = 0; j < lines->count[0]; j++) {
-      size_t line = (size_t)j + (size_t)lines->count[0] * (size_t)k;
-      double place[2];
-      cw_scanlines_place(lines, j, k, place);
-      for (int64_t c = lines->start[line]; c + 1 < lines->start[line + 1]; c += 2) {
-        double begin = lines->crossing[c], length = lines->crossing[c + 1] - begin;
-        int64_t parts = (int64_t)fmax(round(length / lines->spacing), 1);
-        for (int64_t i = 0; i < parts; i++, count++) {
-          if (!x)
-            continue;
-          x[count][0] = begin + length * ((double)i + 0.5) / (double)parts;
-          x[count][1] = place[0];
-          x[count][2] = place[1];
-          volume[count] = area * length / (double)parts;
-        }
+  for (int32_t line = 0; line < lines->count[0] * lines->count[1]; line++) {
+    double place[2];
+    cw_scanlines_place(lines, line % lines->count[0], line / lines->count[0], place);
+    for (int64_t c = lines->start[line]; c + 1 < lines->start[line + 1]; c += 2) {
+      Run run = run_at(lines, c);
+      for (int64_t i = 0; i < run.parts; i++, count++) {
+        if (!x) continue;
+        x[count][0] = run_place(&run, i);
+        x[count][1] = place[0];
+        x[count][2] = place[1];
+        volume[count] = area * run.length / (double)run.parts;
       }
     }
   }

@@ -53,6 +53,10 @@ void cw_size_set_scale(CwSize *size, double scale);
 // field as context.
 double cw_size_at(const void *size, const double x[3]);
 
+// The integral of h^-3 over the domain is that over the neighbourhoods of so many lines.
+int32_t cw_size_line_count(const CwSize *size);
+double cw_size_line_integral(const CwSize *size, int32_t line);
+
 // Sample points inside the domain: *count points with the volume each stands for (m3); sum of volumes =
 // volume of the domain to about 1 %. For predicting cells per region: cells = c * sum(volume / h^3). Caller
 // frees both.

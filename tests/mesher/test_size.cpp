@@ -172,13 +172,16 @@ static void growth_is_limited(void **state) {
 
 static double check_samples(const Model &model, const std::function<bool(const double *)> &inside) {
   int32_t count;
-  double(*x)[3], *volume, sum = 0;
+  double(*x)[3], *volume, sum = 0, integral = 0;
   assert_int_equal(cw_size_samples(model.size, &count, &x, &volume), CW_OK);
   for (int32_t i = 0; i < count; i++) {
     assert_true(inside(x[i]));
     assert_true(volume[i] > 0);
     sum += volume[i];
+    integral += volume[i] / std::pow(cw_size_at(model.size, x[i]), 3);
   }
+  for (int32_t i = 0; i < cw_size_line_count(model.size); i++) integral -= cw_size_line_integral(model.size, i);
+  assert_near(integral, 0, 1e-9 * sum / std::pow(0.002, 3));
   free(x);
   free(volume);
   return sum;
