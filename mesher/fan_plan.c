@@ -17,6 +17,9 @@ enum {
   WINDOW = 3,      // slices to either side of its even place in which such a plane is looked for
   ANGLES = 120         // places tried for half-planes in one pitch
 };
+// What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a slice too
+// large is better than a plane along a wall.
+static const double UNEVEN = 0.33;
 // Where regions are more than EVEN off their mean, numbers of regions in a pitch beside the wanted one are tried.
 enum { NUMBERS = 4 };
 static const int32_t BESIDE[NUMBERS] = {0, 1, -1, 2};
@@ -105,7 +108,7 @@ static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t
   CW_NEW(least, (slices + 1) * (steps + 1));
   CW_NEW(place_cost, steps + 1);
   CW_NEW(uneven, steps + 1);
-  for (int32_t s = 1; s <= steps; s++) uneven[s] = cw_plan_unevenness(all * s / steps, mean, 1);
+  for (int32_t s = 1; s <= steps; s++) uneven[s] = UNEVEN * cw_plan_unevenness(all * s / steps, mean, 1);
   for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(fan, step_place(fan, slices, s), &worst);
   for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
   least[0] = 0;
@@ -174,7 +177,7 @@ static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
       if (count > fan->slices_most) continue;
       double mean = all / (count + fan->count * regions);
       CW_TRY(place_slices(fan, count, mean, &cost));
-      score += cost + cw_plan_unevenness(pitch, regions * mean, regions);
+      score += cost + UNEVEN * cw_plan_unevenness(pitch, regions * mean, regions);
     }
     if (score < best) best = score, chosen = place;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The planner on the solids of the paper's pump: balance, angles, determinism and rooms for few and many regions. With
-// an argument (300): that many regions a domain, which takes its time.
+// arguments (paper 60 100): of that case's pump, so many regions a domain, which takes its time.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,9 @@
 
 enum { CELLS_PER_REGION = 20000 };
 
-static int asked_regions;
+static const char *case_name = "paper";
+static int asked_count;
+static char **asked;
 static CwCase table;
 static CwDomainTable domains;
 static CwDomain domain[CW_DOMAINS_MOST];
@@ -56,13 +58,14 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
 }
 
 static int open_pump(void **state) {
-  char folder[] = "test-plan-XXXXXX", command[1024], path[128];
+  char folder[] = "test-plan-XXXXXX", command[1024], path[128], case_path[512];
   CwFlowScales scales;
   assert_non_null(mkdtemp(folder));
-  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s/cases/paper/case.yaml --run %s > /dev/null 2>&1",
-           CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, folder);
+  snprintf(case_path, sizeof case_path, "%s/cases/%s/case.yaml", CUTWATER_SOURCE_DIR, case_name);
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR, case_path,
+           folder);
   assert_int_equal(system(command), 0);
-  check(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table));
+  check(cw_case_read(case_path, &table));
   prism_factor = 2.45 * table.walls.layer_count;
   snprintf(path, sizeof path, "%s/geometry/design.json", folder);
   check(cw_flow_scales_read(path, &scales));
@@ -70,7 +73,7 @@ static int open_pump(void **state) {
   check(cw_domain_table_read(path, &domains));
   for (int d = 0; d < domains.count; d++) open_domain(&domain[d], domains.name[d], path, &scales);
   check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
-  assert_non_null(symmetry);
+  assert_true(symmetry || strcmp(case_name, "paper") != 0);
   snprintf(command, sizeof command, "rm -r %s", folder);
   assert_int_equal(system(command), 0);
   return 0;
@@ -104,18 +107,20 @@ static void make_plan(CwDomain *of, int32_t regions, CwPlan *plan) {
 
 typedef struct {
   double least, greatest; // work of a region over the mean
+  int off;                // regions more than 15 % off the mean
   double angle;           // degrees, the sharpest of all planes to walls
   int sharp;              // planes under 40 degrees
 } Figures;
 
 static Figures figures_of(const CwPlan *plan) {
-  Figures figures = {INFINITY, 0, 90, 0};
+  Figures figures = {INFINITY, 0, 0, 90, 0};
   double sum = 0;
   for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
   for (int32_t r = 0; r < plan->region_count; r++) {
     double share = plan->predicted_cells[r] / sum * plan->region_count;
     figures.least = fmin(figures.least, share);
     figures.greatest = fmax(figures.greatest, share);
+    figures.off += fabs(share - 1) > 0.15;
   }
   for (int32_t n = 0; n < plan->node_count; n++) {
     double angle = asin(plan->worst_angle[n]) * 180 / M_PI;
@@ -170,7 +175,8 @@ static void check_work(const CwDomain *of, const CwPlan *plan) {
   free(tets);
 }
 
-static void judge(int d, int32_t regions, double greatest, double least, int sharp) {
+// All regions within 15 % of the mean, and no plane slantwise on a wall.
+static void judge(int d, int32_t regions) {
   CwPlan plan;
   make_plan(&domain[d], regions, &plan);
   Figures figures = figures_of(&plan);
@@ -178,21 +184,21 @@ static void judge(int d, int32_t regions, double greatest, double least, int sha
                 domain[d].name, plan.region_count, regions, figures.least, figures.greatest, figures.angle, figures.sharp);
   check_tree(&plan);
   check_work(&domain[d], &plan);
-  assert_true(plan.region_count >= regions - regions / 50);
-  assert_true(figures.greatest <= greatest && figures.least >= least);
-  assert_true(figures.sharp <= sharp);
+  assert_int_equal(plan.region_count, regions);
+  assert_int_equal(figures.off, 0);
+  assert_int_equal(figures.sharp, 0);
   cw_plan_free(&plan);
 }
 
 static void few_regions_are_even_and_cut_cleanly(void **state) {
   for (int d = 0; d < domains.count; d++) {
-    judge(d, 4, 1.16, 0.8, 0);
-    judge(d, 8, 1.16, 0.8, 0);
+    judge(d, 4);
+    judge(d, 8);
   }
 }
 
 static void dozens_of_regions_too(void **state) {
-  for (int d = 0; d < domains.count; d++) judge(d, 32, 1.2, 0.8, 0);
+  for (int d = 0; d < domains.count; d++) judge(d, 32);
 }
 
 static void two_plans_are_the_same(void **state) {
@@ -311,35 +317,40 @@ static Room room_of(const CwDomain *of, const CwPlan *plan) {
   return room;
 }
 
-// All ways of dividing the pump: planes and lines keep clear of layers and edges, and no plane stands slantwise on walls.
-static void judge_room(int32_t regions, double each, int few) {
+// All ways of dividing the pump: regions are even, planes and lines keep clear of layers and edges, and no plane stands
+// slantwise on walls. `few` of all may fail to.
+static void judge_room(int32_t regions, double each, int few, int along) {
   for (int way = 0; way < 3; way++) {
     CwDomain *of = &domain[way == 2];
     CwPlan plan;
+    if (way == 1 && !symmetry) continue;
     of->symmetry = way == 1 ? symmetry : NULL;
     make_plan_of(of, regions, each, &plan);
     of->symmetry = NULL;
     Figures figures = figures_of(&plan);
     Room room = room_of(of, &plan);
-    print_message("%s%s: %d of %d regions, work %.3f to %.3f of the mean, walls at %.0f degrees, %d planes under 40, "
-                  "%d lines filled, %d planes along edges\n",
+    print_message("%s%s: %d of %d regions, work %.3f to %.3f of the mean, %d more than 15 %% off, walls at %.0f degrees, "
+                  "%d planes under 40, %d lines filled, %d planes along edges\n",
                   of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
-                  figures.angle, figures.sharp, room.filled, room.along);
+                  figures.off, figures.angle, figures.sharp, room.filled, room.along);
     assert_int_equal(plan.fan_count > 0, way == 1);
-    assert_true(room.filled <= few && room.along <= few && figures.sharp <= few);
+    assert_true(room.filled <= few && room.along <= along && figures.sharp <= few && figures.off <= few);
+    assert_true(figures.greatest < 1.25 && figures.least > 0.75);
     cw_plan_free(&plan);
   }
 }
 
 static void planes_keep_clear_of_edges_and_layers(void **state) {
-  judge_room(8, 4e5, 0);
-  judge_room(30, 1e5, 0);
+  judge_room(8, 4e5, 0, 0);
+  judge_room(30, 1e5, 0, 0);
 }
 
-// Where blades and layers leave little room a few planes stay sharp and a few parts whole.
-static void hundreds_of_regions_can_be_had(void **state) {
-  for (int d = 0; d < domains.count; d++) judge(d, asked_regions, 4, 0.5, asked_regions / 10);
-  judge_room(asked_regions, 4e5, asked_regions / 10);
+// One in a hundred may be uneven or sharp, and more than a hundred anywhere have no room beside all edges.
+static void all_that_are_asked_can_be_had(void **state) {
+  for (int i = 0; i < asked_count; i++) {
+    int regions = atoi(asked[i]);
+    judge_room(regions, regions < 100 ? 1e5 : 4e5, (regions + 99) / 100, regions / 8);
+  }
 }
 
 int main(int argc, char **argv) {
@@ -351,8 +362,10 @@ int main(int argc, char **argv) {
       cmocka_unit_test(plans_that_do_not_fit_give_way),
       cmocka_unit_test(packed_plans_come_back_whole),
   };
-  const struct CMUnitTest many[] = {cmocka_unit_test(hundreds_of_regions_can_be_had)};
-  asked_regions = argc > 1 ? atoi(argv[1]) : 0;
-  if (asked_regions) return cmocka_run_group_tests(many, open_pump, close_pump);
-  return cmocka_run_group_tests(quick, open_pump, close_pump);
+  const struct CMUnitTest many[] = {cmocka_unit_test(all_that_are_asked_can_be_had)};
+  if (argc < 2) return cmocka_run_group_tests(quick, open_pump, close_pump);
+  case_name = argv[1];
+  asked = argv + 2;
+  asked_count = argc - 2;
+  return cmocka_run_group_tests(many, open_pump, close_pump);
 }
