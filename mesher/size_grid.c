@@ -162,8 +162,25 @@ static int is_settled(const Clock *clock, const int32_t n[3], int32_t j, int32_t
          (k + 1 == n[2] || seen > clock->lowered[line + n[1]]);
 }
 
+// Flags the nodes of a run on a line that the values around, as they are, may lower: no root is under the lowest of them by
+// `rise`. The lines beside it are itself where there are none. In a loop of its own, which the compiler makes vectors of.
+static void find_low(const float *restrict line, const float *const beside[4], int32_t along, int32_t begin, int32_t end,
+                     float rise, int32_t *restrict low) {
+  const float *restrict p = beside[0], *restrict q = beside[1], *restrict r = beside[2], *restrict s = beside[3];
+  int32_t from = begin > 0 ? begin : 1, to = end + 1 < along ? end : along - 2;
+  low[begin] = low[end] = 1; // these may lack a neighbour
+  for (int32_t i = from; i <= to; i++) {
+    float least = line[i - 1] < line[i + 1] ? line[i - 1] : line[i + 1];
+    least = p[i] < least ? p[i] : least;
+    least = q[i] < least ? q[i] : least;
+    least = r[i] < least ? r[i] : least;
+    least = s[i] < least ? s[i] : least;
+    low[i] = least + rise < line[i];
+  }
+}
+
 // One sweep in the direction of bits of `sweep`; returns how many nodes went lower.
-static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step, Clock *clock) {
+static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step, Clock *clock, int32_t *low) {
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
   float least_change = (float)(1e-3 * step), least_rise = (float)(0.57 * step);
@@ -177,11 +194,17 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
       int64_t before = lowered;
       clock->seen[k * n[1] + j] = ++clock->now;
       int32_t first = runs->start[k * n[1] + j], last = runs->start[k * n[1] + j + 1] - 1;
+      const float *const beside[4] = {j > 0 ? line - row : line, j + 1 < n[1] ? line + row : line,
+                                      k > 0 ? line - slab : line, k + 1 < n[2] ? line + slab : line};
       for (int32_t rr = first; rr <= last; rr++) {
         int32_t r = sweep & 1 ? first + last - rr : rr, begin = runs->begin[r], end = runs->end[r];
+        int lowered_last = 0; // then the next may be lowered too
+        find_low(line, beside, n[0], begin, end, least_rise, low);
         for (int32_t ii = begin; ii <= end; ii++) {
           int32_t i = sweep & 1 ? begin + end - ii : ii;
           float *node = line + i;
+          if (!low[i] && !lowered_last) continue;
+          lowered_last = 0;
           float a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row),
                 c = least_of(node, k, n[2], slab);
           float lowest = a < b ? a : b;
@@ -192,6 +215,7 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
           if (f < *node - least_change) {
             *node = (float)f;
             lowered++;
+            lowered_last = 1;
           }
         }
       }
@@ -227,15 +251,18 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
   CwStatus status = CW_OK;
   Runs runs = {0};
   Clock clock = {0};
+  int32_t *low = NULL;
   double step = slope * grid->spacing;
+  CW_NEW(low, grid->count[0]);
   CW_TRY(runs_make(grid, within, &runs));
   CW_NEW(clock.seen, (size_t)grid->count[1] * (size_t)grid->count[2]);
   CW_NEW(clock.lowered, (size_t)grid->count[1] * (size_t)grid->count[2]);
   for (int quiet = 0, sweep = 0; quiet < 8; sweep = (sweep + 1) % 8) {
-    quiet = sweep_once(grid, &runs, sweep, step, &clock) > 0 ? 0 : quiet + 1;
+    quiet = sweep_once(grid, &runs, sweep, step, &clock, low) > 0 ? 0 : quiet + 1;
   }
   if (within) go_on_outside(grid, within, (float)step);
 done:
+  free(low);
   runs_free(&runs);
   free(clock.seen);
   free(clock.lowered);
