@@ -109,7 +109,8 @@ static CwStatus judge_triangle(void *context, int32_t t, void *out) {
   if (front->group[t] < 0) return CW_OK;
   double angle = angle_of(front->front, corner);
   for (int k = 0; k < 3 && !*helps; k++) {
-    int32_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3], d = across(front->mesh, front->group, t, k);
+    int32_t a = corner[k], b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
+    int32_t d = across(front->mesh, front->group, t, k);
     if (d < 0 || c == d) continue;
     double before = fmin(angle, angle_of(front->front, triangle[front->mesh->near[t][k]]));
     *helps = (uint8_t)flip_helps(front->wall, front->front, before, a, b, c, d);

@@ -189,17 +189,30 @@ static double most_beside(const CwLayerWork *work, int32_t v, int32_t w) {
   return work->t[v] + SLOPE * fmin(wall, fmax(length3(d), LEAST_APART * wall));
 }
 
+// Whether a vertex beside v is too high.
+static CwStatus find_steep(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
+  uint8_t *steep = out;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !*steep; k++) {
+    *steep = work->t[work->near[k]] > most_beside(work, v, work->near[k]);
+  }
+  return CW_OK;
+}
+
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
   CwStatus status = CW_OK;
   CwHeap heap = {0};
-  for (int32_t v = 0; v < work->n; v++) {
-    int low = 0;
-    if (lowered && !lowered[v]) continue;
-    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !low; k++) {
-      int32_t w = work->near[k];
-      low = work->t[w] > most_beside(work, v, w);
+  uint8_t *steep = NULL;
+  CW_NEW(steep, work->n);
+  if (lowered) { // few
+    for (int32_t v = 0; v < work->n; v++) {
+      if (lowered[v]) find_steep(work, v, &steep[v]);
     }
-    if (low) CW_TRY(cw_heap_push(&heap, work->t[v], v));
+  } else {
+    CW_TRY(cw_share("layers: steep", work->n, sizeof *steep, find_steep, work, steep));
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    if (steep[v]) CW_TRY(cw_heap_push(&heap, work->t[v], v));
   }
   while (heap.count) {
     CwHeapItem top = cw_heap_pop(&heap);
@@ -216,5 +229,6 @@ CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
   }
 done:
   cw_heap_free(&heap);
+  free(steep);
   return status;
 }

@@ -106,7 +106,7 @@ CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
 // would meet. Beside a concave crease the fan keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_hollow(CwLayerWork *work);
 // Lowers heights until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower height.
-// lowered: vertices lowered since that last held; NULL: any.
+// lowered: vertices lowered since that last held; NULL: any. Collective.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 
 // layers_crossing.c: pairs of triangles that cross; kinds are 0 front, 1 wall, 2 caps.

@@ -120,11 +120,9 @@ done:
   return status;
 }
 
-static CwStatus unfold_wall(CwSkeleton *skeleton, CwFlipMesh *mesh) {
+static CwStatus unfold_wall(CwSkeleton *skeleton, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
-  int64_t *group = NULL;
   int32_t flips, folded;
-  CW_TRY(make_groups(skeleton, &group));
   CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, group, mesh));
   CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count, mesh,
                         group, &flips, &folded));
@@ -134,21 +132,17 @@ static CwStatus unfold_wall(CwSkeleton *skeleton, CwFlipMesh *mesh) {
   }
   if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
 done:
-  free(group);
   return status;
 }
 
-static CwStatus flip_front(CwSkeleton *skeleton, CwFlipMesh *mesh) {
+static CwStatus flip_front(CwSkeleton *skeleton, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
-  int64_t *group = NULL;
   int32_t flips;
-  CW_TRY(make_groups(skeleton, &group));
   CW_TRY(cw_front_flip((const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
                        skeleton->wall_triangle_count, mesh, group, &flips));
   cw_orbit_copy_triangles(skeleton);
   cw_log_debug("%d edges of wall and front flipped", flips);
 done:
-  free(group);
   return status;
 }
 
@@ -197,8 +191,10 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   Snap snapping = {skeleton, NULL};
   CwLayers layers = {0};
   CwFlipMesh mesh = {.triangle = skeleton->wall_triangle};
+  int64_t *group = NULL;
   cw_ledger_part("layers: wall unfolded");
-  CW_TRY(unfold_wall(skeleton, &mesh));
+  CW_TRY(make_groups(skeleton, &group));
+  CW_TRY(unfold_wall(skeleton, group, &mesh));
   CW_NEW(guide_count, n);
   CW_NEW(guide_normal, n);
   CW_NEW(guide_stays, n);
@@ -231,9 +227,10 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   skeleton->reason = layers.reason;
   layers = (CwLayers){0};
   cw_ledger_part("layers: front flipped");
-  CW_TRY(flip_front(skeleton, &mesh));
+  CW_TRY(flip_front(skeleton, group, &mesh));
 done:
   free(mesh.near);
+  free(group);
   cw_layers_free(&layers);
   free(guide_count);
   free(guide_normal);
