@@ -317,9 +317,9 @@ static Room room_of(const CwDomain *of, const CwPlan *plan) {
   return room;
 }
 
-// All ways of dividing the pump: regions are even, planes and lines keep clear of layers and edges, and no plane stands
-// slantwise on walls. `few` of all may fail to.
-static void judge_room(int32_t regions, double each, int few, int along) {
+// All ways of dividing the pump: regions are even, but for `off` of them, planes and lines keep clear of layers, and no plane
+// stands slantwise on walls, but for `few`; `along` may run along edges.
+static void judge_room(int32_t regions, double each, int off, int few, int along) {
   for (int way = 0; way < 3; way++) {
     CwDomain *of = &domain[way == 2];
     CwPlan plan;
@@ -334,22 +334,22 @@ static void judge_room(int32_t regions, double each, int few, int along) {
                   of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
                   figures.off, figures.angle, figures.sharp, room.filled, room.along);
     assert_int_equal(plan.fan_count > 0, way == 1);
-    assert_true(room.filled <= few && room.along <= along && figures.sharp <= few && figures.off <= few);
-    assert_true(figures.greatest < 1.25 && figures.least > 0.75);
+    assert_true(figures.off <= off && figures.greatest < 1.22 && figures.least > 0.78);
+    assert_true(figures.sharp <= few && room.filled <= 2 * few && room.along <= along);
     cw_plan_free(&plan);
   }
 }
 
 static void planes_keep_clear_of_edges_and_layers(void **state) {
-  judge_room(8, 4e5, 0, 0);
-  judge_room(30, 1e5, 0, 0);
+  judge_room(8, 4e5, 0, 0, 0);
+  judge_room(30, 1e5, 0, 0, 0);
 }
 
-// One in a hundred may be uneven or sharp, and more than a hundred anywhere have no room beside all edges.
+// One of twenty regions may be uneven and one of a hundred planes sharp; hundreds do not find room beside all edges.
 static void all_that_are_asked_can_be_had(void **state) {
   for (int i = 0; i < asked_count; i++) {
     int regions = atoi(asked[i]);
-    judge_room(regions, regions < 100 ? 1e5 : 4e5, (regions + 99) / 100, regions / 8);
+    judge_room(regions, regions < 100 ? 1e5 : 4e5, (regions + 19) / 20, (regions + 99) / 100, regions / 8);
   }
 }
 
