@@ -86,7 +86,7 @@ typedef struct {
 // Where the solid has a symmetry that the plan has too, each orbit of faces, curves, caps and interfaces is meshed once
 // and copied (orbit.h): tasks are only the first of each orbit, and the results of the others are NULL.
 
-// Discretises all wall curves; makes their vertices. The network must be made, and the rims be coupled.
+// Discretises all wall curves; makes their vertices. The network must be made, and the rims be coupled. Collective.
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton);
 
 // Meshes the wall face `face` (any rank); the result is a byte buffer for cw_skeleton_merge_walls.

@@ -7,6 +7,7 @@
 
 #include "mesher/orbit_skeleton.h"
 #include "mesher/patch_task.h"
+#include "mesher/schedule.h"
 #include "mesher/share.h"
 #include "mesher/skeleton_curves.h"
 #include "mesher/vec.h"
@@ -126,10 +127,47 @@ static CwStatus add_curve_vertex(CwSkeleton *skeleton, const CwCurve *curve, con
   return add_wall_vertex(skeleton, x, curve_guide(skeleton, curve), vertex);
 }
 
+// A point of a divided curve.
+typedef struct {
+  double x[3], parameter[2];
+} CurvePoint;
+
+typedef struct {
+  const CwSkeleton *skeleton;
+  int32_t count, *curve; // wall curves to divide: the first of each orbit
+} Curves;
+
+// Divides one curve: a task, whose result are its points.
+static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Curves *curves = context;
+  const CwSkeleton *skeleton = curves->skeleton;
+  const CwCurve *curve = &skeleton->network.curve[curves->curve[i]];
+  double *place = NULL;
+  CurvePoint *point = NULL;
+  int32_t count, closed = curve->corner[0] == curve->corner[1];
+  CW_TRY(divide_rim(skeleton, curve, &count, &place));
+  if (!place) {
+    CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], closed ? 3 : 1, &count,
+                           &place));
+  }
+  CW_NEW(point, count);
+  for (int32_t k = 0; k < count; k++) {
+    cw_curve_point(&skeleton->network, curve, place[k], point[k].x, point[k].parameter);
+  }
+  *bytes = point;
+  *size = count * (int64_t)sizeof *point;
+done:
+  free(place);
+  return status;
+}
+
 CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   CwNetwork *network = &skeleton->network;
-  double *place = NULL;
+  Curves curves = {.skeleton = skeleton};
+  void **bytes = NULL;
+  int64_t *size = NULL;
   CW_NEW(skeleton->corner_vertex, network->corner_count);
   for (int32_t i = 0; i < network->corner_count; i++) {
     skeleton->corner_vertex[i] = -1;
@@ -144,34 +182,37 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     int32_t next = orbits->corner.next[i];
     CW_TRY(cw_orbit_link(orbits, skeleton->corner_vertex[i], skeleton->corner_vertex[next], orbits->corner.turns[next]));
   }
+  CW_NEW(curves.curve, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
-    CwCurve *curve = &network->curve[i];
-    if (!curve->wall || cw_orbit_turns(orbits, &orbits->curve, i) > 0) continue;
-    int32_t count, closed = curve->corner[0] == curve->corner[1];
-    CW_TRY(divide_rim(skeleton, curve, &count, &place));
-    if (!place) {
-      CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], closed ? 3 : 1, &count,
-                             &place));
-    }
+    if (network->curve[i].wall && cw_orbit_turns(orbits, &orbits->curve, i) == 0) curves.curve[curves.count++] = i;
+  }
+  CW_NEW(bytes, curves.count);
+  CW_NEW(size, curves.count);
+  CwSchedule schedule = {.step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves,
+                         .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t i = 0; i < curves.count; i++) {
+    const CurvePoint *point = bytes[i];
+    CwCurve *curve = &network->curve[curves.curve[i]];
+    int32_t count = curve->point_count = (int32_t)((size_t)size[i] / sizeof *point);
     CW_NEW(curve->node, count);
     CW_NEW(curve->parameter, count);
-    curve->point_count = count;
     CwGuide guide = curve_guide(skeleton, curve);
     for (int32_t k = 0; k < count; k++) {
-      double x[3];
-      cw_curve_point(network, curve, place[k], x, curve->parameter[k]);
+      memcpy(curve->parameter[k], point[k].parameter, sizeof point[k].parameter);
       if (k == 0 || k == count - 1) {
         curve->node[k] = skeleton->corner_vertex[curve->corner[k > 0]];
       } else {
-        CW_TRY(add_wall_vertex(skeleton, x, guide, &curve->node[k]));
+        CW_TRY(add_wall_vertex(skeleton, point[k].x, guide, &curve->node[k]));
       }
     }
-    free(place);
-    place = NULL;
-    CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->corner_vertex, &skeleton->wall_x, add_curve_vertex));
+    CW_TRY(cw_orbit_copy_curve(skeleton, curves.curve[i], skeleton->corner_vertex, &skeleton->wall_x, add_curve_vertex));
   }
 done:
-  free(place);
+  for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  free(curves.curve);
   return status;
 }
 
