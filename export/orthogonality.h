@@ -14,7 +14,8 @@ typedef struct {
 
 void cw_orthogonality_start(CwOrthogonality *o);
 
-// Adds a face whose area vector, or a multiple, is `area`, from the cell with centroid `from` to that with centroid `to`.
+// Adds a face whose area vector, or a multiple, is `area`, from the cell with centroid `from` to that with centroid
+// `to`.
 void cw_orthogonality_face(const double area[3], const double from[3], const double to[3], CwOrthogonality *o);
 void cw_orthogonality_add(const CwOrthogonality *more, CwOrthogonality *sum);
 

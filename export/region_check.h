@@ -10,8 +10,8 @@ typedef struct {
   CwOrthogonality orthogonality; // of the faces between its cells
 } CwRegionFigures;
 
-// Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and measures its cells. Fails with
-// CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
+// Matches the faces of the region into `faces` (zeroed on entry, freed by the caller) and measures its cells. Fails
+// with CW_ERR_INPUT, naming file and place, where cw_region_faces() does, where a cell has no positive volume, a point
 // belongs to no cell, or the faces are not as many as the assembly found.
 CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionData *data, CwRegionFaces *faces,
                          CwRegionFigures *figures);

@@ -122,9 +122,9 @@ static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, in
   if (!(*volume > doubt)) {
     double centre[3];
     cw_cell_centre(data, cell, centre);
-    status = CW_FAIL(CW_ERR_MESH, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3",
-                     r->domain, r->region, cell_name(*corners), cell, 1e3 * centre[0], 1e3 * centre[1],
-                     1e3 * centre[2], 1e9 * *volume);
+    status = CW_FAIL(
+        CW_ERR_MESH, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3", r->domain,
+        r->region, cell_name(*corners), cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * *volume);
   }
   return status;
 }

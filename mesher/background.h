@@ -24,11 +24,12 @@ typedef struct {
   int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
 } CwBackground;
 
-// Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that other
-// ranks have made.
+// Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that
+// other ranks have made.
 CwStatus cw_background_make(const CwCad *cad, double deflection, double angle, CwBackground *background);
 
-// From the faces (background_tessellate.h). Fails with CW_ERR_GEOMETRY where the result is not closed (the place is named).
+// From the faces (background_tessellate.h). Fails with CW_ERR_GEOMETRY where the result is not closed (the place is
+// named).
 CwStatus cw_background_join(const CwCad *cad, void *const *face_bytes, CwBackground *background);
 void cw_background_free(CwBackground *background);
 

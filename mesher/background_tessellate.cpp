@@ -36,8 +36,8 @@ struct CwTessellation {
 
 namespace {
 
-// A face as it travels between ranks: head, nodes, triangles, and for each of its edges, ascending, number, count of nodes
-// and the nodes in the order of the edge's parameter.
+// A face as it travels between ranks: head, nodes, triangles, and for each of its edges, ascending, number, count of
+// nodes and the nodes in the order of the edge's parameter.
 struct Head {
   int32_t nodes, triangles;
 };
@@ -181,8 +181,8 @@ CwStatus start(const CwCad *cad, double deflection, double angle, CwTessellation
   return CW_OK;
 }
 
-// The divided curve of an edge on a face of the model. Of faces that are one but for their place, and of edges of that kind,
-// the library may know one alone.
+// The divided curve of an edge on a face of the model. Of faces that are one but for their place, and of edges of that
+// kind, the library may know one alone.
 IMeshData::IPCurveHandle pcurve_of(const CwTessellation &tessellation, int e, const IMeshData::IFaceHandle &face) {
   const TopoDS_Shape &shape = tessellation.cad->edge_map(e + 1);
   IMeshData::IPCurveHandle found;
@@ -215,8 +215,8 @@ IMeshData::IFaceHandle triangulate(const CwTessellation &tessellation, const Top
   return IMeshData::IFaceHandle();
 }
 
-// Nodes of the triangulation along the edges of the face; the points of those edges of which it is the first. False where
-// the library has not divided an edge on it.
+// Nodes of the triangulation along the edges of the face; the points of those edges of which it is the first. False
+// where the library has not divided an edge on it.
 bool take_sides(const CwTessellation &tessellation, int face, const IMeshData::IFaceHandle &model_face,
                 std::vector<Node> &node, std::vector<int32_t> &side) {
   const CwCad *cad = tessellation.cad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A tree of axis-aligned boxes. The items are ordered along Hilbert's curve and cut into leaves, so that the tree needs no
-// choice of planes, is made in one sort, and follows items that move without being made anew.
+// A tree of axis-aligned boxes. The items are ordered along Hilbert's curve and cut into leaves, so that the tree needs
+// no choice of planes, is made in one sort, and follows items that move without being made anew.
 #ifndef CUTWATER_MESHER_BOX_TREE_H
 #define CUTWATER_MESHER_BOX_TREE_H
 
@@ -35,7 +35,8 @@ CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, co
 // Takes up new boxes of the same items. Collective.
 CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context);
 // The same where only some of the first `moved_count` items, those with moved[item], have new ones.
-void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of, const void *context);
+void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,
+                        const void *context);
 void cw_box_tree_free(CwBoxTree *tree);
 
 // Visits the items of every leaf whose box meets `box`.

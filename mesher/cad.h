@@ -38,8 +38,8 @@ int cw_cad_face_reversed(const CwCad *cad, int face);
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
                        double xv[3]);
 
-// What the exact face adds to the volume of the solid: the integral of x.n / 3 over it, n out of the domain, m3; 0 where
-// OpenCASCADE cannot have it.
+// What the exact face adds to the volume of the solid: the integral of x.n / 3 over it, n out of the domain, m3; 0
+// where OpenCASCADE cannot have it.
 double cw_cad_face_volume(const CwCad *cad, int face);
 
 // Greatest absolute principal curvature, 1/m.

@@ -105,8 +105,9 @@ static Bend bend_at(const CwSkeleton *skeleton, const CwIncident *around, int32_
 }
 
 // The height of a column that is fair by the cells around it, or the target where that is less. The tetrahedron on it
-// stands at the end of the column, where the size is another than at the wall: the height is reckoned twice. Nowhere grow
-// sizes faster than heights. Turned copies get that of their first: the size field is symmetric only to within its grid.
+// stands at the end of the column, where the size is another than at the wall: the height is reckoned twice. Nowhere
+// grow sizes faster than heights. Turned copies get that of their first: the size field is symmetric only to within its
+// grid.
 static CwStatus find_fair(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   const CwSkeleton *skeleton = columns->skeleton;
@@ -157,8 +158,8 @@ static CwStatus find_steep(void *context, int32_t v, void *out) {
   return CW_OK;
 }
 
-// Lowers the values at wall vertices, all above 0, until they change by no more than `slope` per distance along any edge,
-// from the lowest on. Collective.
+// Lowers the values at wall vertices, all above 0, until they change by no more than `slope` per distance along any
+// edge, from the lowest on. Collective.
 static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
   CwStatus status = CW_OK;
   Grading grading = {skeleton, around, slope, value};

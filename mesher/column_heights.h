@@ -31,8 +31,9 @@ double cw_column_height_least(double first, int layer_count);
 // Height of a column over a flat wall where edges are `size` long, m.
 double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size);
 
-// Sets first heights, growths, targets and least heights of all wall vertices; layers: of each CAD face; around: the wall's
-// triangles. Turned copies get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has no triangle.
+// Sets first heights, growths, targets and least heights of all wall vertices; layers: of each CAD face; around: the
+// wall's triangles. Turned copies get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has no
+// triangle.
 CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
                                 int layer_count, CwColumnHeights *heights);
 

@@ -254,9 +254,10 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .tallest = CW_TALLEST_COLUMN,
                            .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
-  status = domain->symmetry ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
-                                               domain->symmetry->count, &plan)
-                            : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
+  status = domain->symmetry
+               ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
+                                  domain->symmetry->count, &plan)
+               : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
   CW_TRY(status);
   CW_REQUIRE(!domain->symmetry || fixed_faces_fit(domain, &plan), CW_RETRY,
              "a face round the axis lies on the side of the passages");

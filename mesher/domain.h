@@ -52,9 +52,9 @@ typedef struct {
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
 
-// What one rank makes for all, packed, and how all take it up. First the background triangulation and the exact volume: a
-// part for each face, then one for what each face adds to the volume. Then the seeds of one face; the size field from the
-// seeds of all faces, a part for each CwSizePart.
+// What one rank makes for all, packed, and how all take it up. First the background triangulation and the exact volume:
+// a part for each face, then one for what each face adds to the volume. Then the seeds of one face; the size field from
+// the seeds of all faces, a part for each CwSizePart.
 CwStatus cw_domain_start_measures(CwDomain *domain);
 double cw_domain_measure_cost(const CwDomain *domain, int part);
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
@@ -68,8 +68,8 @@ CwStatus cw_domain_take_size(CwDomain *domain, void *const *bytes); // collectiv
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
-// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective: the
-// ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan;
+// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
+// the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan;
 // CW_RETRY where none can be had.
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor);
 
@@ -77,7 +77,8 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
 // cw_skeleton_wall_curves. CW_RETRY, on all ranks, where a plane grazes something (cw_network_make).
 CwStatus cw_domain_start(CwDomain *domain);
 
-// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume. Collective.
+// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
+// Collective.
 CwStatus cw_domain_targets(CwDomain *domain);
 
 // Region numbers, once the inner surfaces are merged.

@@ -95,8 +95,8 @@ CwStatus cw_domain_table_read(const char *geometry_dir, CwDomainTable *table) {
   CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s; made by cutwater-geometry", path, strerror(errno));
   for (int number = 1; fgets(line, sizeof line, file); number++) {
     int count = split(line, word);
-    CW_REQUIRE(count == 4, CW_ERR_INPUT, "%s:%d: the row has %d columns; they are domain,patch,other_domain,other_patch",
-               path, number, count);
+    CW_REQUIRE(count == 4, CW_ERR_INPUT,
+               "%s:%d: the row has %d columns; they are domain,patch,other_domain,other_patch", path, number, count);
     if (number > 1) CW_TRY(read_interface(path, number, word, side_count, sides, table));
   }
 done:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// New points near an interface (paper, section 2.3): which of a region's candidates fall into the sphere of an interface
-// triangle, and the interface with the centres of such triangles' circles inserted. The sphere of a triangle is the
-// smallest one through its corners; its centre lies in the plane. Plane coordinates: u, v and the height over the plane.
+// New points near an interface (paper, section 2.3): which of a region's candidates fall into the sphere of an
+// interface triangle, and the interface with the centres of such triangles' circles inserted. The sphere of a triangle
+// is the smallest one through its corners; its centre lies in the plane. Plane coordinates: u, v and the height over
+// the plane.
 #ifndef CUTWATER_MESHER_ENCROACH_H
 #define CUTWATER_MESHER_ENCROACH_H
 
@@ -26,8 +27,8 @@ CwStatus cw_beside_make(const double origin[3], const double axis[3][3], double 
                         const double (*x)[3], CwBeside *beside);
 void cw_beside_free(CwBeside *beside);
 
-// Centre and radius of the circle that stands for the triangle's sphere: 5 % larger than the circumscribed one, so that a
-// Delaunay mesh of what lies outside holds the triangle surely. That of a needle reaches no further than its longest
+// Centre and radius of the circle that stands for the triangle's sphere: 5 % larger than the circumscribed one, so that
+// a Delaunay mesh of what lies outside holds the triangle surely. That of a needle reaches no further than its longest
 // edge. Returns 0 for a triangle without area.
 int cw_encroach_circle(const double a[2], const double b[2], const double c[2], double centre[2], double *radius);
 
@@ -45,9 +46,10 @@ typedef struct {
 } CwEncroachRefined;
 
 // Constrained Delaunay triangulation of the patch (points without edges are free), with the centre of the circumscribed
-// circle of each triangle inserted that holds a candidate in its sphere, again and again until no more can be. A centre is
-// refused where the size field asks for no point: nearer than LEAST_DISTANCE times the wanted length to another point, or
-// LEAST_HEIGHT times to an edge of the outline, or outside. The patch's map must be an isometry. Deterministic.
+// circle of each triangle inserted that holds a candidate in its sphere, again and again until no more can be. A centre
+// is refused where the size field asks for no point: nearer than LEAST_DISTANCE times the wanted length to another
+// point, or LEAST_HEIGHT times to an edge of the outline, or outside. The patch's map must be an isometry.
+// Deterministic.
 CwStatus cw_encroach_refine(const CwPatchInput *patch, const CwBeside *beside, CwEncroachRefined *refined);
 void cw_encroach_refined_free(CwEncroachRefined *refined);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The fan: half-planes that hold the z axis divide the flow around it into wedges. The decomposition of a domain with
 // rotational symmetry: one plane across the axis cuts off the side where fluid lies on the axis (pipe and nose of the
-// nut), planes parallel to it divide that side into slices, and a fan with the symmetry of the domain divides the other.
-// The wedges of one pitch are divided by any planes, and those of the other pitches by the same planes, turned.
+// nut), planes parallel to it divide that side into slices, and a fan with the symmetry of the domain divides the
+// other. The wedges of one pitch are divided by any planes, and those of the other pitches by the same planes, turned.
 //
 //   node 0                the plane across the axis; its negative side is that of the pipe
 //   1 .. fan_first - 1    planes between slices

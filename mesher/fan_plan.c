@@ -17,8 +17,8 @@ enum {
   WINDOW = 3,      // slices to either side of its even place in which such a plane is looked for
   ANGLES = 120         // places tried for half-planes in one pitch
 };
-// What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a slice too
-// large is better than a plane along a wall.
+// What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a
+// slice too large is better than a plane along a wall.
 static const double UNEVEN = 0.33;
 // Where regions are more than EVEN off their mean, numbers of regions in a pitch beside the wanted one are tried.
 enum { NUMBERS = 4 };
@@ -97,8 +97,8 @@ static double step_place(const Fan *fan, int32_t slices, int32_t step) {
   return cw_profile_place(&fan->along, all * (1 - (double)step / (slices * STEPS)));
 }
 
-// Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn the
-// best way to every step. Returns what they cost.
+// Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn
+// the best way to every step. Returns what they cost.
 static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t *step, double *cost) {
   CwStatus status = CW_OK;
   int32_t steps = slices * STEPS, *from = NULL; // of each plane and step, the step of the plane before
@@ -132,7 +132,8 @@ done:
   return status;
 }
 
-// Divides the side of the pipe into slices of about `mean` work: planes 1 .. slices - 1 in a chain from node 0 outwards.
+// Divides the side of the pipe into slices of about `mean` work: planes 1 .. slices - 1 in a chain from node 0
+// outwards.
 static CwStatus place_slices(Fan *fan, int32_t slices, double mean, double *cost) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
@@ -159,8 +160,8 @@ static int32_t slices_beside(double pipe, double pitch, int32_t regions) {
   return (int32_t)fmax(1, floor(pipe / pitch * regions + 0.5));
 }
 
-// The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and slices
-// that are as large as the regions of a pitch (0: as they come).
+// The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
+// slices that are as large as the regions of a pitch (0: as they come).
 static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
@@ -344,7 +345,8 @@ done:
   return status;
 }
 
-// The number of regions in one pitch with which, and the slices beside, all come near the asked number, all about as large.
+// The number of regions in one pitch with which, and the slices beside, all come near the asked number, all about as
+// large.
 static int32_t choose_number(double pipe, double pitch, int32_t count, int32_t asked) {
   int32_t chosen = 1;
   double region = (pipe + count * pitch) / asked, best = INFINITY;

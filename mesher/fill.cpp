@@ -170,8 +170,8 @@ done:
   return status;
 }
 
-// Fills with the given inner points, or, where there are none, with points that keep `clearance` times their usual distance
-// from the boundary.
+// Fills with the given inner points, or, where there are none, with points that keep `clearance` times their usual
+// distance from the boundary.
 CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   CwStatus status = CW_OK;
   double(*made)[3] = nullptr;

@@ -24,8 +24,8 @@ typedef struct {
   const void *size_context;
   const char *name; // for messages: "rotor region 3"
   // The last `row_count` triangles have a row of points over them (fill_row.h). The last `open_count` keep points of
-  // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the inner
-  // points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
+  // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the
+  // inner points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
   int32_t row_count, open_count, inner_count;
   const double (*inner)[3];
   const CwLatticeSite *inner_site;

@@ -14,8 +14,8 @@
 extern "C" {
 #endif
 
-// Flips edges between triangles of equal `group`, not below 0, where that raises the least angle of the front, keeps the
-// wall's triangles fair and flat, and leaves the thick prisms valid. Changes `mesh` in place; *flips counts.
+// Flips edges between triangles of equal `group`, not below 0, where that raises the least angle of the front, keeps
+// the wall's triangles fair and flat, and leaves the thick prisms valid. Changes `mesh` in place; *flips counts.
 // Deterministic. Collective.
 CwStatus cw_front_flip(const double (*wall)[3], const double (*front)[3], int32_t triangle_count, CwFlipMesh *mesh,
                        const int64_t *group, int32_t *flips);

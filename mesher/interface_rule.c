@@ -10,8 +10,8 @@
 #include "mesher/skeleton_curves.h"
 #include "mesher/vec.h"
 
-// The refined interfaces of a region, packed: their number, and of each a header, the inserted points and the triangles.
-// Corners below 0 are inserted points: -1 - k.
+// The refined interfaces of a region, packed: their number, and of each a header, the inserted points and the
+// triangles. Corners below 0 are inserted points: -1 - k.
 enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 
 int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, int32_t outline) {
@@ -101,8 +101,8 @@ static CwStatus refine(const CwSkeleton *skeleton, int32_t index, int32_t count,
   CwEncroachRefined refined = {0};
   CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
   CW_TRY(planned_points(skeleton, interface, &map, &outline));
-  // Inserting centres makes no circle larger; the constrained Delaunay triangulation may differ a little from the planned
-  // one before.
+  // Inserting centres makes no circle larger; the constrained Delaunay triangulation may differ a little from the
+  // planned one before.
   double reach = largest_radius(&map, interface->triangle_count,
                                 (const int32_t(*)[3])skeleton->interface_triangle + interface->triangle_start,
                                 (const double(*)[3])skeleton->node_x);
@@ -167,7 +167,8 @@ CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInt
     for (int32_t k = 0; k < owned; k++) {
       memcpy(header, at, sizeof header);
       block[header[OUTLINE]] = at;
-      at += sizeof header + (size_t)header[INSERTED] * sizeof(double[3]) + (size_t)header[TRIANGLES] * sizeof(int32_t[3]);
+      at +=
+          sizeof header + (size_t)header[INSERTED] * sizeof(double[3]) + (size_t)header[TRIANGLES] * sizeof(int32_t[3]);
       counts->inserted += header[INSERTED];
       counts->refined += header[TRIANGLES];
       counts->encroached += header[ENCROACHED];

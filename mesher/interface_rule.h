@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The rule of region numbers (paper, section 2.3). Where a new point of a region falls into the sphere of an interface
-// triangle, the region of the smaller number inserts the centre of the triangle's circle into the interface instead; its
-// neighbour gets the nodes and inserts nothing there.
+// triangle, the region of the smaller number inserts the centre of the triangle's circle into the interface instead;
+// its neighbour gets the nodes and inserts nothing there.
 //
-// New points are the candidates of the fill. They follow from the planned interfaces alone, so that the owner finds them
-// before any region is filled (cw_interface_rule), the refined interfaces go to all ranks, and each fill takes up the
-// same candidates, less those in a sphere of the final interfaces (cw_interface_rule_points). No fill waits for another.
+// New points are the candidates of the fill. They follow from the planned interfaces alone, so that the owner finds
+// them before any region is filled (cw_interface_rule), the refined interfaces go to all ranks, and each fill takes up
+// the same candidates, less those in a sphere of the final interfaces (cw_interface_rule_points). No fill waits for
+// another.
 #ifndef CUTWATER_MESHER_INTERFACE_RULE_H
 #define CUTWATER_MESHER_INTERFACE_RULE_H
 

@@ -241,7 +241,8 @@ static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
     old[old_count++] = other / 4;
     for (int k = 0; k < 3; k++) {
       int32_t a = tet->corner[tet_face[i][k]], b = tet->corner[tet_face[i][(k + 1) % 3]];
-      const int32_t below[4] = {b, a, tet->corner[i], -1}, above[4] = {a, b, mesh->tet[other / 4].corner[other % 4], -1};
+      const int32_t below[4] = {b, a, tet->corner[i], -1},
+                    above[4] = {a, b, mesh->tet[other / 4].corner[other % 4], -1};
       memcpy(made[count++], below, sizeof below);
       memcpy(made[count++], above, sizeof above);
     }

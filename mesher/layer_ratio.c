@@ -42,7 +42,8 @@ static double prism_volume(const CwRegionMesh *mesh, int32_t prism) {
   return cw_cell_volume(6, x);
 }
 
-CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches, CwLayerRatio *ratio) {
+CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches,
+                        CwLayerRatio *ratio) {
   CwStatus status = CW_OK;
   End *end = NULL;
   uint8_t *on_end = NULL;
@@ -88,8 +89,8 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall 
       ratio[patch].fair_within += at >= 2 && at <= 5;
     }
   }
-  CW_REQUIRE(met == count, CW_ERR_MESH, "%s region %d: %d of %d columns have no tetrahedron on their ends", mesh->domain,
-             mesh->region, count - met, count);
+  CW_REQUIRE(met == count, CW_ERR_MESH, "%s region %d: %d of %d columns have no tetrahedron on their ends",
+             mesh->domain, mesh->region, count - met, count);
 done:
   free(end);
   free(on_end);

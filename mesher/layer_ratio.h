@@ -18,23 +18,24 @@ extern const double cw_ratio_ends[CW_RATIO_BINS - 1];
 // What the case allows the column over a wall face.
 typedef struct {
   double first; // target of the first height, m
-  double last;  // of the tallest column that number and growth of the layers, gaps and the slope of heights allow: its last
-                // layer, m
+  double last;  // of the tallest column that number and growth of the layers, gaps and the slope of heights allow: its
+                // last layer, m
   int cramped;  // a gap or the repair leaves no room for the height asked
 } CwRatioWall;
 
 typedef struct {
   int64_t bin[CW_RATIO_BINS];
-  // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half of
-  // the tetrahedron, and the last could reach half of it. And fair ones among them.
+  // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half
+  // of the tetrahedron, and the last could reach half of it. And fair ones among them.
   int64_t within, fair_within;
 } CwLayerRatio;
 
-// Counts the wall faces of each patch by the ratio of the heights, normal to the face between them: volume of the last prism
-// over that face's area, and three times the volume of the tetrahedron over it. Adds to ratio[patch], which has `patches`
-// rows; wall[i] belongs to the i-th triangle with a prism. Fails with CW_ERR_MESH where a column of `layers` prisms has no
-// tetrahedron on its end.
-CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches, CwLayerRatio *ratio);
+// Counts the wall faces of each patch by the ratio of the heights, normal to the face between them: volume of the last
+// prism over that face's area, and three times the volume of the tetrahedron over it. Adds to ratio[patch], which has
+// `patches` rows; wall[i] belongs to the i-th triangle with a prism. Fails with CW_ERR_MESH where a column of `layers`
+// prisms has no tetrahedron on its end.
+CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches,
+                        CwLayerRatio *ratio);
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,8 @@
 //   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal height
 //   height     least of target, 0.6 of where the columns of a hollow meet, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x
 //              distance more than any neighbour
-//   repair    poor prisms and those with a poor front are turned, then thinned by 0.8, until nothing is inverted, nothing
+//   repair    poor prisms and those with a poor front are turned, then thinned by 0.8, until nothing is inverted,
+//   nothing
 //             crosses, and no front triangle is a needle or turned away that was none on the wall
 //
 // Best where the surface is not much finer than t beside concave edges. Along straight edges the full height is kept
@@ -66,9 +67,9 @@ typedef struct {
 } CwLayers;
 
 // Fails with CW_ERR_MESH (place in mm) where no valid envelope is found: the wall crosses itself, an edge leaves no
-// direction that sees all faces, or 40 rounds of repair do not do, or a guide that stays leaves none; with CW_RETRY, on all ranks, where another one leaves none;
-// with CW_ERR_INPUT on wrong input (triangles without area, points without triangles, heights not above 0). Every column
-// has a height > 0. Equal input gives equal bits.
+// direction that sees all faces, or 40 rounds of repair do not do, or a guide that stays leaves none; with CW_RETRY, on
+// all ranks, where another one leaves none; with CW_ERR_INPUT on wrong input (triangles without area, points without
+// triangles, heights not above 0). Every column has a height > 0. Equal input gives equal bits.
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers);
 void cw_layers_free(CwLayers *layers);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Pairs of triangles of front, wall and caps that cross. The first search looks at everything, the later ones at what moved
-// since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the triangles; what is left
-// is judged exactly.
+// Pairs of triangles of front, wall and caps that cross. The first search looks at everything, the later ones at what
+// moved since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the triangles;
+// what is left is judged exactly.
 #include <stdlib.h>
 
 #include "mesher/intersect.h"
@@ -266,7 +266,8 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
   blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
   CW_NEW(bytes, blocks);
   CW_NEW(size, blocks);
-  CwSchedule schedule = {.step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing, .gather = 1};
+  CwSchedule schedule = {
+      .step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   size_t total = (size_t)crossing->pair_count;
   for (int32_t i = 0; i < blocks; i++) total += (size_t)size[i] / sizeof *crossing->pair;

@@ -32,8 +32,8 @@ typedef struct {
 
 // What all blocks share. The vertices in reach are divided into blocks along the curve of the domain's tree. A block is
 // solved together with the vertices up to HALO edges around it, whose displacement counts in their own block alone: the
-// solution forgets within a few edges what it was held to beyond them, and the next fan goes on from what all have found.
-// Sources, reach and blocks are those of the first fan, when no height is greater.
+// solution forgets within a few edges what it was held to beyond them, and the next fan goes on from what all have
+// found. Sources, reach and blocks are those of the first fan, when no height is greater.
 typedef struct CwFans {
   const CwLayerWork *work;
   int32_t source_count;

@@ -315,8 +315,8 @@ static void lean(Part *part, int32_t i) {
   set_end(part, i);
 }
 
-// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's bevel on the
-// hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
+// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's bevel
+// on the hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
 static int32_t widen(Part *part) {
   const CwLayerWork *work = part->work;
   const CwLayerInput *in = work->in;
@@ -372,8 +372,8 @@ static int is_between(const CwFans *fans, int32_t v) {
   return 0;
 }
 
-// Where the solution at i starts: what the last fan found, or what falls off from the nearest source. Around the members
-// it stays so.
+// Where the solution at i starts: what the last fan found, or what falls off from the nearest source. Around the
+// members it stays so.
 static void start(const CwFans *fans, Part *part, int32_t i) {
   const CwLayerWork *work = part->work;
   int32_t v = vertex_of(part, i);

@@ -3,8 +3,8 @@
 // along the curve, each with as much around it as can matter. A wave ends REACH heights of its source from there, and
 // every vertex belongs to the wave that comes first. Let R be the longest way of the waves that can come to a block. A
 // place at the distance D from the block, which some wave has come to after a way d, matters to none that comes to the
-// block where d + D > R: neither that wave nor one that comes there later has way left to go on to the block. So a block
-// without those places has the same bits as if all were one.
+// block where d + D > R: neither that wave nor one that comes there later has way left to go on to the block. So a
+// block without those places has the same bits as if all were one.
 #include <stdlib.h>
 
 #include "mesher/layers_fan.h"

@@ -178,9 +178,9 @@ CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
   return cw_share("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
 }
 
-// Height of w at most, beside v: by the distance of their columns on the wall or at the height of the lower one, whichever
-// is less. Beside a concave crease columns lean away from it by less and less, so that they stand closer on the front than
-// on the wall, and heights that rose by their distance there would fold the front along the crease.
+// Height of w at most, beside v: by the distance of their columns on the wall or at the height of the lower one,
+// whichever is less. Beside a concave crease columns lean away from it by less and less, so that they stand closer on
+// the front than on the wall, and heights that rose by their distance there would fold the front along the crease.
 static double most_beside(const CwLayerWork *work, int32_t v, int32_t w) {
   double e[3], d[3], t = fmin(work->t[v], work->t[w]);
   sub3(work->in->x[w], work->in->x[v], e);

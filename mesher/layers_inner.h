@@ -93,20 +93,21 @@ void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);
 // Outer end of the column of v at height t[v], put back on its guides.
 void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]);
 
-// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. The first time it sets every
-// column, later those that the change of heights concerns. Collective.
+// layers_fan.c: tilts the columns beside concave creases and tilted guides for the heights t. The first time it sets
+// every column, later those that the change of heights concerns. Collective.
 CwStatus cw_layers_fan(CwLayerWork *work);
 void cw_fans_free(struct CwFans **fans);
 
-// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`. Collective.
+// layers_gap.c: a tree of all triangles, those of the walls first, and the free way along a ray. Sets `curve`.
+// Collective.
 CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree);
 // t = min(most, 0.35 of the gap to walls, 0.6 of the gap to obstacles) for the columns as they stand. Collective.
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree);
-// Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which they
-// would meet. Beside a concave crease the fan keeps them apart, and nothing is limited. Collective.
+// Sets `most`: the target, but in a hollow, where columns side by side lean to one another, 0.6 of the height at which
+// they would meet. Beside a concave crease the fan keeps them apart, and nothing is limited. Collective.
 CwStatus cw_layers_limit_by_hollow(CwLayerWork *work);
-// Lowers heights until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower height.
-// lowered: vertices lowered since that last held; NULL: any. Collective.
+// Lowers heights until |dt| <= 0.3 length along every edge, the lesser of its lengths on the wall and at the lower
+// height. lowered: vertices lowered since that last held; NULL: any. Collective.
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered);
 
 // layers_crossing.c: pairs of triangles that cross; kinds are 0 front, 1 wall, 2 caps.
@@ -126,8 +127,8 @@ typedef struct {
 } CwLayerCrossing;
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing); // zeroed before
 void cw_layers_crossing_free(CwLayerCrossing *crossing);
-// Brings the pairs up to date with the front; moved: vertices that moved since the last time; the first time all those not
-// known to be clear of one another. Collective.
+// Brings the pairs up to date with the front; moved: vertices that moved since the last time; the first time all those
+// not known to be clear of one another. Collective.
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved);
 
 // layers_repair.c: makes prisms and front valid; fills `front`.
@@ -135,9 +136,9 @@ CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front
 // between wall and front,
 // scaled to 1 for a right prism over the same wall triangle.
 double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]);
-// Least over the corners of a front triangle of the sine there, seen along the wall's normal, over that on the wall: 1 where
-// it is only moved or smaller, not above 0 where it is turned over. Where columns lean much, prisms may be sound and their
-// front all the same needles or folds, on which only flat tetrahedra fit.
+// Least over the corners of a front triangle of the sine there, seen along the wall's normal, over that on the wall: 1
+// where it is only moved or smaller, not above 0 where it is turned over. Where columns lean much, prisms may be sound
+// and their front all the same needles or folds, on which only flat tetrahedra fit.
 double cw_layers_front_quality(const double *const wall[3], const double *const front[3]);
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
 // Takes the tree of walls and obstacles over.

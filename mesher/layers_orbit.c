@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Layers over the first of each orbit of a symmetric wall, and their copies: all ranks grow and check them together, and
-// each turns them for itself.
+// Layers over the first of each orbit of a symmetric wall, and their copies: all ranks grow and check them together,
+// and each turns them for itself.
 #include <stdlib.h>
 
 #include "mesher/layers_inner.h"
@@ -205,9 +205,10 @@ static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
   for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
 }
 
-// Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What has
-// not moved was checked as it was made.
-static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad, int32_t *bad_count) {
+// Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What
+// has not moved was checked as it was made.
+static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad,
+                      int32_t *bad_count) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = &part->in;
   CwLayerWork work = {.in = in, .n = in->point_count};
@@ -325,12 +326,14 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
     int32_t first = 0;
     while (!bad[first]) first++;
     near = input->x[first];
-    cw_log_debug("%d prisms and pairs of the front do not fit their turned copies, near (%.3f, %.3f, %.3f) mm", bad_count,
-                 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
+    cw_log_debug("%d prisms and pairs of the front do not fit their turned copies, near (%.3f, %.3f, %.3f) mm",
+                 bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
     CW_TRY(thin(&part, bad, layers));
   }
-  CW_REQUIRE(!bad_count, CW_RETRY, "after %d rounds %d prisms and pairs of the front do not fit their turned copies, near "
-             "(%.3f, %.3f, %.3f) mm", ROUNDS, bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
+  CW_REQUIRE(!bad_count, CW_RETRY,
+             "after %d rounds %d prisms and pairs of the front do not fit their turned copies, near "
+             "(%.3f, %.3f, %.3f) mm",
+             ROUNDS, bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
 done:
   part_free(&part);
   cw_layers_free(&made);

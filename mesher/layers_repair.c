@@ -75,8 +75,8 @@ static double front_quality(const CwLayerWork *work, int32_t f, const double (*f
   return FRONT * cw_layers_front_quality(wall, end);
 }
 
-// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than `floor`
-// where one is no better, not looking at the others.
+// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
+// `floor` where one is no better, not looking at the others.
 static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor) {
   double prism = INFINITY, end = INFINITY, quality = INFINITY;
   for (int32_t k = work->face_start[v]; k < work->face_start[v + 1] && quality > floor; k++) {

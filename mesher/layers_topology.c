@@ -133,8 +133,8 @@ static double twice_area(const CwLayerInput *in, int32_t f) {
   return length3(normal);
 }
 
-// Half the cotangent of the angle at corner i of f, which belongs to the opposite edge; clamped so that obtuse corners keep
-// the system monotone.
+// Half the cotangent of the angle at corner i of f, which belongs to the opposite edge; clamped so that obtuse corners
+// keep the system monotone.
 static double half_cotangent(const CwLayerInput *in, int32_t f, int i) {
   const int32_t *corner = in->triangle[f];
   double e1[3], e2[3];
@@ -166,7 +166,8 @@ static CwStatus measure(void *context, int32_t v, void *out) {
   const CwLayerInput *in = work->in;
   Measured *made = out;
   made->edge_min = INFINITY;
-  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) made->area += twice_area(in, work->face[k]) / 6;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
+    made->area += twice_area(in, work->face[k]) / 6;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     made->edge_min = fmin(made->edge_min, distance3(in->x[work->near[k]], in->x[v]));
   }

@@ -141,9 +141,10 @@ static CwStatus account_json(const Account *account, const double *most, json_t 
   CwStatus status = CW_OK;
   json_t *parts = json_array(), *tasks = json_array();
   for (int i = 0; i < account->part_count; i++) {
-    CW_REQUIRE(json_array_append_new(parts, json_pack("{s:s, s:o, s:o}", "part", account->name[i], "seconds",
-                                                      rounded(account->spent[i]), "most", rounded(most ? most[i] : 0))) == 0,
-               CW_ERR_MEMORY, "out of memory: record of a part");
+    CW_REQUIRE(
+        json_array_append_new(parts, json_pack("{s:s, s:o, s:o}", "part", account->name[i], "seconds",
+                                               rounded(account->spent[i]), "most", rounded(most ? most[i] : 0))) == 0,
+        CW_ERR_MEMORY, "out of memory: record of a part");
   }
   for (int32_t i = 0; i < account->entry_count; i++) {
     const Entry *entry = &account->entry[i];

@@ -11,8 +11,9 @@
 
 static const CwStageUsage USAGE = {
     .stage = "mesh",
-    .summary = "Meshes RUN/geometry into region files and a manifest in RUN/mesh. Regions that an earlier run left whole\n"
-               "are kept. Start it under mpirun for more than one rank; the mesh is the same for any number.\n",
+    .summary =
+        "Meshes RUN/geometry into region files and a manifest in RUN/mesh. Regions that an earlier run left whole\n"
+        "are kept. Start it under mpirun for more than one rank; the mesh is the same for any number.\n",
 };
 
 int main(int argc, char **argv) {

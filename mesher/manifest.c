@@ -82,8 +82,8 @@ static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
                    (json_int_t)rule->left, "final_triangles", (json_int_t)rule->refined);
 }
 
-// Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the last
-// layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
+// Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the
+// last layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
 static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   const CwDomain *domain = &run->domain[d];
   const CwLayerTarget *target = &domain->patch_layers[patch];
@@ -109,19 +109,19 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
     ratio.fair_within += made->fair_within;
   }
   json_t *result = json_pack(
-      "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch), "wall_faces",
-      (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
-      (json_int_t)sum.first_met,
-      "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
+      "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch),
+      "wall_faces", (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
+      (json_int_t)sum.first_met, "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
       cw_json_number(sum.faces ? sum.thickness / (double)sum.faces : 0), "least_thickness_m",
-      cw_json_number(sum.faces ? sum.least : 0),
-      "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP], "thinned_by_gradation_faces",
-      (json_int_t)sum.reason[CW_LAYER_GRADATION], "thinned_by_repair_faces", (json_int_t)sum.reason[CW_LAYER_REPAIR]);
+      cw_json_number(sum.faces ? sum.least : 0), "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP],
+      "thinned_by_gradation_faces", (json_int_t)sum.reason[CW_LAYER_GRADATION], "thinned_by_repair_faces",
+      (json_int_t)sum.reason[CW_LAYER_REPAIR]);
   json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
   json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)sum.missed[CW_LAYER_GAP]));
   json_object_set_new(result, "first_height_missed_by_gradation_faces",
                       json_integer((json_int_t)sum.missed[CW_LAYER_GRADATION]));
-  json_object_set_new(result, "first_height_missed_by_repair_faces", json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
+  json_object_set_new(result, "first_height_missed_by_repair_faces",
+                      json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
   const int64_t *bin = ratio.bin;
   json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
   json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
@@ -157,17 +157,16 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     tetgen += made->way.tetgen;
     for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
     int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r);
-    json_array_append_new(region_list,
-                          json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1,
-                                     "copy_of", first + 1, "number",
-                                    domain->number[r],
-                                    "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
-                                    "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
-                                    "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided,
-                                    "tetgen", made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
-                                    "seconds", cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
-                                    cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
-                                    cw_json_number(made->dihedral_allowed)));
+    json_array_append_new(
+        region_list,
+        json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
+                  first + 1, "number", domain->number[r], "tetrahedra", (json_int_t)made->tetrahedra, "prisms",
+                  (json_int_t)made->prisms, "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
+                  "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided, "tetgen",
+                  made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
+                  "seconds", cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
+                  cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
+                  cw_json_number(made->dihedral_allowed)));
     allowed = fmin(allowed, made->dihedral_allowed);
   }
   for (int32_t r = 0; r < regions; r++) {

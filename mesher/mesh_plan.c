@@ -112,7 +112,8 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
                "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
   }
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
+  if (run->rank == 0)
+    CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
   CW_TRY(measure_domains(run));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
@@ -185,7 +186,8 @@ CwStatus cw_mesh_plan_again(CwMeshRun *run, int d) {
   CwDomain *domain = &run->domain[d];
   char reason[1000];
   snprintf(reason, sizeof reason, "%s", cw_fail_message());
-  CW_REQUIRE(domain->more_regions < PLANS_MORE, CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason, PLANS_MORE);
+  CW_REQUIRE(domain->more_regions < PLANS_MORE, CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
+             PLANS_MORE);
   cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
   cw_fail_clear();
   domain->more_regions++;
@@ -226,8 +228,13 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   run->planned_tet_factor = run->tet_factor;
   run->planned_scale = run->scale;
   for (int d = 0; d < run->domains.count; d++) cost[d] = LEAST_PLAN + run->domain[d].background.triangle_count;
-  CwSides sides = {.step = "decomposition", .count = run->domains.count, .cost = cost, .own = OWN_PLAN, .run = plan_side,
-                   .hand = hand_plan, .context = run};
+  CwSides sides = {.step = "decomposition",
+                   .count = run->domains.count,
+                   .cost = cost,
+                   .own = OWN_PLAN,
+                   .run = plan_side,
+                   .hand = hand_plan,
+                   .context = run};
   cw_progress_start("decomposition", run->domains.count, "domains");
   CW_TRY(cw_sides_run(&sides, outcome));
   cw_progress(run->domains.count);

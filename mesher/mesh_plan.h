@@ -16,8 +16,8 @@ CwStatus cw_mesh_plan(CwMeshRun *run);
 // Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole.
 CwStatus cw_mesh_plan_whole(CwMeshRun *run);
 
-// Another plan for a domain that the present one does not fit (a plane grazes a wall, or leaves no room to layers): by one
-// region more, so that all planes lie elsewhere. Fails with the present message after three such plans.
+// Another plan for a domain that the present one does not fit (a plane grazes a wall, or leaves no room to layers): by
+// one region more, so that all planes lie elsewhere. Fails with the present message after three such plans.
 CwStatus cw_mesh_plan_again(CwMeshRun *run, int domain);
 
 #endif

@@ -21,9 +21,9 @@ static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
-// (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35). A
-// lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise (measured from 0.3 to 100
-// million cells: 16.4 at scale 2.02, 12.8 at 1.17, 11.4 at 0.73, 10.3 at 0.50, 9.1 at 0.20).
+// (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
+// A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise (measured from 0.3 to
+// 100 million cells: 16.4 at scale 2.02, 12.8 at 1.17, 11.4 at 0.73, 10.3 at 0.50, 9.1 at 0.20).
 static double prisms_per_layer(double scale) {
   return 2.33 + 0.1 * scale;
 }
@@ -54,8 +54,8 @@ void cw_mesh_set_scale(CwMeshRun *run, double scale) {
   for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
 }
 
-// Sets the scale of the size fields so that the predicted count is the asked one: by secants in the logarithms, the first
-// of a slope of -2.7, about which cells go with the scale.
+// Sets the scale of the size fields so that the predicted count is the asked one: by secants in the logarithms, the
+// first of a slope of -2.7, about which cells go with the scale.
 static void solve_scale(CwMeshRun *run) {
   double asked = (double)run->table->mesh.cells, slope = -2.7, before = 0, step = 0;
   run->scale = 1; // the same bits, whatever scale was before
@@ -92,7 +92,8 @@ done:
   return status;
 }
 
-// Skeletons with all wall curves, those along interfaces divided alike on both sides. CW_RETRY where the plan of a domain,
+// Skeletons with all wall curves, those along interfaces divided alike on both sides. CW_RETRY where the plan of a
+// domain,
 // *unfit, cuts no curves.
 static CwStatus start_walls(CwMeshRun *run, int *unfit) {
   CwStatus status = CW_OK;
@@ -130,10 +131,12 @@ static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
     cw_ledger_part("walls merged");
-    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+    for (int d = 0; d < run->domains.count; d++)
+      CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
     CW_TRY(cw_run_heights(run));
     for (int d = 0; d < run->domains.count; d++) {
-      cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name, run->domain[d].layer_share);
+      cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
+                   run->domain[d].layer_share);
       triangles += run->domain[d].skeleton.wall_triangle_count;
       integral += run->domain[d].prism_integral;
     }
@@ -203,8 +206,8 @@ done:
   return status;
 }
 
-// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where passages
-// are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where
+// passages are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
 static CwStatus refine_interfaces(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults results = {0};
@@ -342,8 +345,8 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
-// CW_RETRY where a symmetric domain does not come out symmetric, or the plan of one, *unfit (else -1), fits neither walls nor
-// layers.
+// CW_RETRY where a symmetric domain does not come out symmetric, or the plan of one, *unfit (else -1), fits neither
+// walls nor layers.
 static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight, int *unfit) {
   CwStatus status = CW_OK;
   *unfit = -1;
@@ -354,9 +357,9 @@ done:
   return status;
 }
 
-// One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal, the
-// impeller is meshed whole; a domain with a plane that grazes a wall, or on which no column leaves one, gets other planes;
-// surfaces and regions that fail are tried again with thinner layers.
+// One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal,
+// the impeller is meshed whole; a domain with a plane that grazes a wall, or on which no column leaves one, gets other
+// planes; surfaces and regions that fail are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
   int32_t failed = 0, tight = 0;
@@ -422,8 +425,8 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     learn_tets(run);
     if (fabs(off) <= COUNT_TOLERANCE) break;
     if (run->passes == PASSES_MOST) {
-      cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off, asked,
-                  run->passes);
+      cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off,
+                  asked, run->passes);
       break;
     }
     // As many digits as the file keeps, so that a run that goes on from it has the same bits.

@@ -46,7 +46,8 @@ typedef struct {
   int64_t cells;                   // made
 } CwMeshRun;
 
-// Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all ranks.
+// Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all
+// ranks.
 CwStatus cw_mesh_run(CwMeshRun *run);
 void cw_mesh_run_free(CwMeshRun *run);
 

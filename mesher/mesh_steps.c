@@ -85,8 +85,8 @@ done:
   return status;
 }
 
-// Makes a turned copy of a region, whose file is whole, or takes it up where an earlier run left it so. The result is its sum
-// of open faces.
+// Makes a turned copy of a region, whose file is whole, or takes it up where an earlier run left it so. The result is
+// its sum of open faces.
 CwStatus cw_step_copy(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];

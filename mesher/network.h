@@ -6,8 +6,8 @@
 //   cut piece    where a dividing plane meets a CAD face, within the plane's cell
 //   line piece   where two dividing planes meet inside the domain
 //
-// A curve is a wall curve when at least one surface along it is a wall: layers start there. The others (cap with cap, cap with plane,
-// plane with plane) are free curves: they begin where the layers end.
+// A curve is a wall curve when at least one surface along it is a wall: layers start there. The others (cap with cap,
+// cap with plane, plane with plane) are free curves: they begin where the layers end.
 #ifndef CUTWATER_MESHER_NETWORK_H
 #define CUTWATER_MESHER_NETWORK_H
 
@@ -51,8 +51,8 @@ typedef struct {
   CwCurve *curve;
 } CwNetwork;
 
-// Builds corners and curves (not yet discretised). CW_RETRY where a plane touches a face or an edge in a way that cannot be
-// resolved, with the place in mm: other planes may not.
+// Builds corners and curves (not yet discretised). CW_RETRY where a plane touches a face or an edge in a way that
+// cannot be resolved, with the place in mm: other planes may not.
 CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
                          const CwPlan *plan, CwNetwork *network);
 void cw_network_free(CwNetwork *network);
@@ -71,7 +71,8 @@ double cw_face_onto_plane(const CwCad *cad, int32_t face, const CwPlane *plane, 
 double cw_face_onto_planes(const CwCad *cad, int32_t face, const CwPlane *a, const CwPlane *b, double uv[2],
                            double x[3]);
 
-// Adds a corner unless one with the same CAD entity and planes lies within `tolerance` m; returns its number, or -1 where memory ran out.
+// Adds a corner unless one with the same CAD entity and planes lies within `tolerance` m; returns its number, or -1
+// where memory ran out.
 int32_t cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance);
 
 // Adds a curve (taking over its arrays); CW_ERR_MEMORY frees them.

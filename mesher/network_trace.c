@@ -206,7 +206,8 @@ static int compare_splits(const void *p, const void *q) {
 }
 
 // All places where planes that belong together with `node` divide the trace.
-static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace *trace, int32_t *count, Split **splits) {
+static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace *trace, int32_t *count,
+                            Split **splits) {
   CwStatus status = CW_OK;
   const CwPlan *plan = network->plan;
   int32_t capacity = 16;
@@ -223,8 +224,9 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       Split split = {.place = i + s, .plane = q};
       for (int k = 0; k < 2; k++) split.uv[k] = trace->uv[i][k] + s * (trace->uv[i + 1][k] - trace->uv[i][k]);
       double left = cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.uv, split.x);
-      CW_REQUIRE(left < FOUND, CW_RETRY, "dividing planes %d and %d meet too flatly on face %s near (%.3f, %.3f, %.3f) mm",
-                 node, q, cw_cad_face_name(network->cad, trace->face), 1e3 * trace->x[i][0], 1e3 * trace->x[i][1],
+      CW_REQUIRE(left < FOUND, CW_RETRY,
+                 "dividing planes %d and %d meet too flatly on face %s near (%.3f, %.3f, %.3f) mm", node, q,
+                 cw_cad_face_name(network->cad, trace->face), 1e3 * trace->x[i][0], 1e3 * trace->x[i][1],
                  1e3 * trace->x[i][2]);
       int32_t skip[1] = {node};
       if (below && !cw_plan_in_cell(plan, q, split.x, 1e-9, skip, 1)) continue;

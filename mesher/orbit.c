@@ -183,8 +183,8 @@ CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits) {
   for (int32_t i = 0; i < network->curve_count; i++) {
     const double *x = network->corner[network->curve[i].corner[0]].x;
     next[i] = find_curve(network, symmetry, &orbits->corner, &network->curve[i]);
-    CW_REQUIRE(next[i] >= 0, CW_RETRY, "the curve from (%.3f, %.3f, %.3f) mm has no turned copy", 1e3 * x[0], 1e3 * x[1],
-               1e3 * x[2]);
+    CW_REQUIRE(next[i] >= 0, CW_RETRY, "the curve from (%.3f, %.3f, %.3f) mm has no turned copy", 1e3 * x[0],
+               1e3 * x[1], 1e3 * x[2]);
   }
   status = cw_orbits_make(network->curve_count, next, symmetry->count, 0, &orbits->curve);
   next = NULL;

@@ -25,8 +25,8 @@ CwStatus cw_orbit_link(CwSkeletonOrbits *orbits, int32_t node, int32_t next, int
 int32_t cw_orbit_node(const CwSkeletonOrbits *orbits, int32_t node, int32_t turns);
 int32_t cw_orbit_node_turns(const CwSkeletonOrbits *orbits, int32_t node);
 
-// Copies to be made of an item, itself included, and the `turns`-th of them; without symmetry 1 and itself. A copy that is
-// not the first has turns.
+// Copies to be made of an item, itself included, and the `turns`-th of them; without symmetry 1 and itself. A copy that
+// is not the first has turns.
 static inline int32_t cw_orbit_copies(const CwSkeletonOrbits *orbits, const CwOrbits *of, int32_t item) {
   return orbits->symmetry ? cw_orbits_size(of, orbits->symmetry->count, item) : 1;
 }

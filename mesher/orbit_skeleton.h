@@ -6,8 +6,8 @@
 #include "mesher/layers.h"
 #include "mesher/skeleton.h"
 
-// Makes the turned copies of curve `first`, which is divided. Ends are those of `corner_node`, nodes between them lie at *x
-// (which `add` may move) and are made by `add`.
+// Makes the turned copies of curve `first`, which is divided. Ends are those of `corner_node`, nodes between them lie
+// at *x (which `add` may move) and are made by `add`.
 typedef CwStatus (*CwAddCurveNode)(CwSkeleton *skeleton, const CwCurve *curve, const double x[3], int32_t *node);
 CwStatus cw_orbit_copy_curve(CwSkeleton *skeleton, int32_t first, const int32_t *corner_node, double (*const *x)[3],
                              CwAddCurveNode add);

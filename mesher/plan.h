@@ -30,7 +30,7 @@ typedef struct {
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
-  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers (1: normal to all)
+  double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
   int32_t fan_first, fan_count, fan_region; // half-planes and the first region of a wedge (fan.h); fan_count 0: none
   int32_t fan_turns;       // that bring the plan's wedges to themselves
 } CwPlan;
@@ -48,7 +48,7 @@ CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound);
 
 typedef struct {
   int32_t region_count;     // at least 1; the plan has fewer where no plane divides a part of the domain any more
-  const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and their lines keep room for it
+  const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
   const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
   double tallest;
   double tet_factor;        // predicted tetrahedra = tet_factor * sum(volume / h^3), outside the layers

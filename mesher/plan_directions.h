@@ -12,7 +12,8 @@ enum {
   CW_DIRECTIONS = CW_ALONG_AXIS + 1
 };
 
-// The unit normal of planes of direction d. Those of CW_ALONG_AXIS stand across the z axis, upright ones hold its direction.
+// The unit normal of planes of direction d. Those of CW_ALONG_AXIS stand across the z axis, upright ones hold its
+// direction.
 void cw_direction(int32_t d, double normal[3]);
 
 // The direction of so many turns and tilts, of any sign; -1 beyond the last tilt.

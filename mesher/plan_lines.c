@@ -17,7 +17,7 @@ static const double SAME_POINT = 1e-9;  // m
 static const double LEANING = 0.55;     // cosine of a line to a wall's normal: columns that lean more are lower
 static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
 static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
-static const double HOLLOW_WALL = 0.8;   // share of the layers that a line through them leaves behind where the wall bends
+static const double HOLLOW_WALL = 0.8;   // share of the layers that a line in them leaves behind where the wall bends
 static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
@@ -176,8 +176,8 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end, Line
   return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
 }
 
-// How far the line ought to be from this wall, over the thickness of its layers: less beside an end where the line comes to
-// the same wall.
+// How far the line ought to be from this wall, over the thickness of its layers: less beside an end where the line
+// comes to the same wall.
 static double wanted_of(const Line *line, const End *end, double place, int32_t triangle) {
   const CwPlanModel *model = line->model;
   if (end->triangle < 0 || fabs(place - end->place) > 2 * ROOM * end->layers) return 1;
@@ -216,7 +216,8 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   lines->blocked += cramped >= 1;
 }
 
-static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine, Lines *lines) {
+static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
+                       Lines *lines) {
   cut_to_cell(line, node, part);
   if (!(line->to > line->from)) return;
   CwPlanHit hit[HITS];

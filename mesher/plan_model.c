@@ -307,7 +307,8 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   }
   model->sample_spacing = cbrt(model->sample_spacing);
   Samples samples = {model, options->tet_factor};
-  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *model->sample_work, find_work, &samples, model->sample_work));
+  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *model->sample_work, find_work, &samples,
+                  model->sample_work));
 done:
   return status;
 }

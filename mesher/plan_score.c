@@ -140,7 +140,8 @@ static CwStatus look(Directions *look, Candidate *candidate, int32_t *count) {
   }
   CW_NEW(bytes, look->count);
   CW_NEW(size, look->count);
-  CwSchedule schedule = {.step = "decomposition", .count = look->count, .run = look_along, .context = look, .gather = 1};
+  CwSchedule schedule = {
+      .step = "decomposition", .count = look->count, .run = look_along, .context = look, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t i = 0; i < look->count; i++) {
     if (size[i] > 0) memcpy(candidate + *count, bytes[i], (size_t)size[i]);
@@ -159,7 +160,8 @@ typedef struct {
   double score;
 } Best;
 
-// The planes that could divide a part into so many regions. The ancestors of `node`, which it is to become, are in the plan.
+// The planes that could divide a part into so many regions. The ancestors of `node`, which it is to become, are in the
+// plan.
 typedef struct {
   const CwPlanModel *model;
   const CwPlan *plan;
@@ -186,7 +188,8 @@ static void find_best(const Choice *choice, Best *best) {
     Candidate *candidate = &choice->candidate[i];
     CwPlane plane = {{0}, candidate->offset};
     cw_direction(candidate->direction, plane.normal);
-    if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane, candidate->below)) continue;
+    if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane, candidate->below))
+      continue;
     if (!candidate->judged) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
@@ -224,8 +227,8 @@ done:
   return status;
 }
 
-// Goes from the best plane to better ones of the directions beside it, so many turns away and, where it leans or may lean,
-// half as many tilts.
+// Goes from the best plane to better ones of the directions beside it, so many turns away and, where it leans or may
+// lean, half as many tilts.
 static CwStatus climb(Choice *choice, int32_t step, int lean, Best *best) {
   CwStatus status = CW_OK;
   for (int32_t from = -1; best->below > 0 && best->direction != from && best->direction != CW_ALONG_AXIS;) {
@@ -309,8 +312,8 @@ static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart 
 
 // Divides the part by this plane, and both sides further. *worst: the score of the worst plane. Gives up once that is
 // `limit` or more.
-static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, const Best *by,
-                          double limit, double *worst) {
+static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions,
+                          const Best *by, double limit, double *worst) {
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
   int32_t node = plan->node_count++, first[2] = {by->below, regions - by->below};
@@ -330,9 +333,9 @@ done:
   return status;
 }
 
-// Divides the part, or leaves it whole where no plane will do. Where a small part, or what comes of it, divides badly by the
-// best plane, others are tried: the best of them may leave a part that no plane divides well. *worst is `limit` or more, and
-// the subtree of no use, where it would not be less.
+// Divides the part, or leaves it whole where no plane will do. Where a small part, or what comes of it, divides badly
+// by the best plane, others are tried: the best of them may leave a part that no plane divides well. *worst is `limit`
+// or more, and the subtree of no use, where it would not be less.
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
                        int side, double limit, double *worst) {
   CwStatus status = CW_OK;

@@ -9,8 +9,8 @@
 // What a plane costs by the sharpest wall that it meets and the edges there.
 double cw_plan_place_cost(CwPlanPlace place);
 
-// What work that is off the wanted one costs in a part that is to become so many regions: the more of them, the less it may
-// be off, for the planes that divide it will not be even either.
+// What work that is off the wanted one costs in a part that is to become so many regions: the more of them, the less it
+// may be off, for the planes that divide it will not be even either.
 double cw_plan_unevenness(double work, double wanted, int32_t regions);
 
 // Divides `part` into at most `regions` leaves on side `side` of node `parent` (-1: the whole domain);

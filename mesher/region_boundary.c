@@ -37,7 +37,8 @@ CwStatus cw_region_boundary_make(const CwSkeleton *skeleton, int32_t region, int
   int32_t interfaces = planned ? skeleton->planned_triangle_count : skeleton->interface_triangle_count;
   int32_t wall_start = skeleton->region_wall_start[region], wall_end = skeleton->region_wall_start[region + 1];
   int32_t count = wall_end - wall_start;
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])(planned ? skeleton->planned_triangle : skeleton->interface_triangle);
+  const int32_t(*triangle)[3] =
+      (const int32_t(*)[3])(planned ? skeleton->planned_triangle : skeleton->interface_triangle);
   const int32_t(*beside)[2] = (const int32_t(*)[2])(planned ? skeleton->planned_region : skeleton->interface_region);
   *boundary = (CwRegionBoundary){0};
   for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) count += skeleton->cap_region[t] == region;

@@ -106,7 +106,8 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   }
   for (int32_t t = 0; t < skeleton->planned_triangle_count; t++) { // candidates follow from these
     if (skeleton->planned_region[t][0] != region && skeleton->planned_region[t][1] != region) continue;
-    for (int k = 0; k < 3; k++) cw_hash_bytes(&hash, skeleton->node_x[skeleton->planned_triangle[t][k]], sizeof(double[3]));
+    for (int k = 0; k < 3; k++)
+      cw_hash_bytes(&hash, skeleton->node_x[skeleton->planned_triangle[t][k]], sizeof(double[3]));
   }
   for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
     if (skeleton->interface_region[t][0] != region && skeleton->interface_region[t][1] != region) continue;
@@ -139,7 +140,8 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
   double fraction[CW_LAYERS_MOST + 1];
   for (int32_t i = 0; i < build->boundary.node_count; i++) {
-    int on_front = build->boundary.node[i] < skeleton->wall_count, is_shared = context->shared_base[build->boundary.node[i]] >= 0;
+    int on_front = build->boundary.node[i] < skeleton->wall_count,
+        is_shared = context->shared_base[build->boundary.node[i]] >= 0;
     if (on_front) total += levels;
     if (is_shared) shared += on_front ? levels + 1 : 1;
   }
@@ -202,7 +204,8 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       const int32_t *corner = build->boundary.triangle[t];
       int32_t first_cell = mesh->tetrahedron_count + t * levels;
       for (int e = 0; e < 3; e++) {
-        int32_t a = corner[e], b = corner[(e + 1) % 3], cap = rim_cap(context, build->boundary.node[a], build->boundary.node[b]);
+        int32_t a = corner[e], b = corner[(e + 1) % 3],
+                cap = rim_cap(context, build->boundary.node[a], build->boundary.node[b]);
         if (cap < 0) continue;
         sides += pass == 0;
         for (int k = 0; pass == 1 && k < levels; k++) {
@@ -266,7 +269,8 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
     face[t] = face_of(corner[0], corner[1], corner[2], t);
     int32_t made = mesh->triangle_count++;
     for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
-    mesh->triangle_patch[made] = cw_cad_face_patch(skeleton->cad, skeleton->cap_face[build->boundary.source[first + t]]);
+    mesh->triangle_patch[made] =
+        cw_cad_face_patch(skeleton->cad, skeleton->cap_face[build->boundary.source[first + t]]);
     mesh->triangle_cell[made] = -1;
   }
   qsort(face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
@@ -274,7 +278,8 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
     const int32_t *corner = build->fill.tetrahedron[t];
     for (int k = 0; k < 4; k++) {
       int32_t a = corner[(k + 1) % 4], b = corner[(k + 2) % 4], c = corner[(k + 3) % 4];
-      if (a >= build->boundary.node_count || b >= build->boundary.node_count || c >= build->boundary.node_count) continue;
+      if (a >= build->boundary.node_count || b >= build->boundary.node_count || c >= build->boundary.node_count)
+        continue;
       Face key = face_of(a, b, c, 0);
       const Face *found = bsearch(&key, face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
       if (found) mesh->triangle_cell[build->boundary.wall_count + found->index] = t;
@@ -285,8 +290,8 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
     CW_REQUIRE(mesh->triangle_cell[build->boundary.wall_count + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
                build->region + 1,
-               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), 1e3 * x[0], 1e3 * x[1],
-               1e3 * x[2]);
+               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), 1e3 * x[0],
+               1e3 * x[1], 1e3 * x[2]);
   }
 done:
   free(face);

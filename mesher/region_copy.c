@@ -95,8 +95,9 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
     if (i >= mesh->shared_count) continue;
     CW_TRY(turned_point(context, first->shared_id[i], turns, &mesh->shared_id[i], mesh->x[i]));
     CW_REQUIRE(cw_distance(turned, mesh->x[i]) < SAME_POINT, CW_ERR_MESH,
-               "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its turned copy", context->domain,
-               mesh->region, 1e3 * turned[0], 1e3 * turned[1], 1e3 * turned[2], 1e3 * cw_distance(turned, mesh->x[i]));
+               "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its turned copy",
+               context->domain, mesh->region, 1e3 * turned[0], 1e3 * turned[1], 1e3 * turned[2],
+               1e3 * cw_distance(turned, mesh->x[i]));
   }
   struct {
     const void *from;

@@ -6,8 +6,8 @@
 
 #include "mesher/region_build.h"
 
-// Hex fingerprint of the copy of `first`, the mesh of the first region of an orbit, `turns` turns on: of what both follow
-// from.
+// Hex fingerprint of the copy of `first`, the mesh of the first region of an orbit, `turns` turns on: of what both
+// follow from.
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
                                 char fingerprint[33]);
 

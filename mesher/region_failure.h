@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What is done about a region that cannot be filled: its boundary is kept for a look, the place is found, and the columns
-// of the layers there are thinned, so that front, planes and caps get more room between them.
+// What is done about a region that cannot be filled: its boundary is kept for a look, the place is found, and the
+// columns of the layers there are thinned, so that front, planes and caps get more room between them.
 #ifndef CUTWATER_MESHER_REGION_FAILURE_H
 #define CUTWATER_MESHER_REGION_FAILURE_H
 
@@ -19,8 +19,8 @@ typedef struct {
 CwStatus cw_region_failure_examine(const CwSkeleton *skeleton, int32_t region, const char *message, const char *path,
                                    CwRegionFailure *failure);
 
-// Lowers the greatest heights `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they are now:
-// those whose front is nearer to it than `reach` wanted lengths, or all of the region.
+// Lowers the greatest heights `most` (of each wall vertex, m) of the columns near the failure to 0.7 of what they are
+// now: those whose front is nearer to it than `reach` wanted lengths, or all of the region.
 void cw_region_failure_thin(const CwSkeleton *skeleton, int32_t region, const CwRegionFailure *failure, double reach,
                             double *most);
 

@@ -33,8 +33,8 @@ typedef struct {
 
 // Writes under a temporary name and renames. Equal regions give equal bytes.
 CwStatus cw_region_write(const char *path, const CwRegionMesh *region);
-// Reads and checks ranges; CW_ERR_INPUT with file and item where something does not fit, CW_ERR_IO where the file is cut
-// short.
+// Reads and checks ranges; CW_ERR_INPUT with file and item where something does not fit, CW_ERR_IO where the file is
+// cut short.
 CwStatus cw_region_read(const char *path, CwRegionMesh *region);
 // True where `path` is a whole region file with this fingerprint. Never fails.
 int cw_region_is_current(const char *path, const char *fingerprint);

@@ -12,9 +12,9 @@
 extern "C" {
 #endif
 
-// Greedy colouring, largest degree first, ties by index. `pair` holds each adjacent pair once. Writes region numbers from 1: regions are
-// ordered by (colour, index), so neighbours never share a colour and a smaller colour always has the smaller number.
-// `colour` (0-based) may be NULL. Returns the number of colours through *colours.
+// Greedy colouring, largest degree first, ties by index. `pair` holds each adjacent pair once. Writes region numbers
+// from 1: regions are ordered by (colour, index), so neighbours never share a colour and a smaller colour always has
+// the smaller number. `colour` (0-based) may be NULL. Returns the number of colours through *colours.
 CwStatus cw_region_numbers(int32_t region_count, int32_t pair_count, const int32_t (*pair)[2], int32_t *number,
                            int32_t *colour, int32_t *colours);
 

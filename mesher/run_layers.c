@@ -5,8 +5,8 @@
 #include "mesher/sides.h"
 #include "pipeline/log.h"
 
-// Of the work, what every rank of a group does for itself, and of that on a wall triangle what one takes that is a turned
-// copy. Measured from 0.3 to 21 million cells.
+// Of the work, what every rank of a group does for itself, and of that on a wall triangle what one takes that is a
+// turned copy. Measured from 0.3 to 21 million cells.
 static const double OWN_HEIGHTS = 0.3, COPIED_HEIGHTS = 0.15, OWN_LAYERS = 0.1, COPIED_LAYERS = 0.6;
 
 // Returns the wall triangles.
@@ -93,7 +93,8 @@ CwStatus cw_run_layers(CwMeshRun *run, int *unfit) {
   if (status == CW_OK) cw_progress(faces);
   cw_progress_end();
   CW_TRY(status);
-  if (run->rank == 0) CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
+  if (run->rank == 0)
+    CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
 done:
   return status;
 }

@@ -44,14 +44,16 @@ CwStatus cw_thin_tight(CwMeshRun *run, int attempt) {
     if (skeleton->tight_count == 0) continue;
     double at[3];
     for (int k = 0; k < 3; k++) at[k] = 1e3 * skeleton->tight[0][k];
-    CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
-               "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it, after %d attempts "
-               "with thinner layers",
-               run->domain[d].name, at[0], at[1], at[2], ATTEMPTS);
+    CW_REQUIRE(
+        attempt < ATTEMPTS, CW_ERR_MESH,
+        "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it, after %d attempts "
+        "with thinner layers",
+        run->domain[d].name, at[0], at[1], at[2], ATTEMPTS);
     if (run->rank == 0) {
-      cw_log_warn("%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it; tried again "
-                  "with thinner layers there",
-                  run->domain[d].name, at[0], at[1], at[2]);
+      cw_log_warn(
+          "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it; tried again "
+          "with thinner layers there",
+          run->domain[d].name, at[0], at[1], at[2]);
     }
     CW_TRY(start_thinning(run, d));
     for (int32_t i = 0; i < skeleton->tight_count; i++) {
@@ -81,7 +83,8 @@ CwStatus cw_thin_columns(CwMeshRun *run, int attempt) {
       CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
                  "%s region %d, %s: not filled after %d attempts with thinner layers: %s; its boundary is in "
                  "%s/mesh/failed-%s-%04d.vtk",
-                 run->domain[d].name, r + 1, place, ATTEMPTS, failure->message, run->run_path, run->domain[d].name, r + 1);
+                 run->domain[d].name, r + 1, place, ATTEMPTS, failure->message, run->run_path, run->domain[d].name,
+                 r + 1);
       if (run->rank == 0) {
         cw_log_warn("%s region %d, %s: %s; tried again with thinner layers there", run->domain[d].name, r + 1, place,
                     failure->message);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Thinner layers about the places where a pass has failed, for the next attempt. Each of three attempts reaches twice as far
-// as the one before; out of attempts the run fails with the first place.
+// Thinner layers about the places where a pass has failed, for the next attempt. Each of three attempts reaches twice
+// as far as the one before; out of attempts the run fails with the first place.
 #ifndef CUTWATER_MESHER_RUN_THINNING_H
 #define CUTWATER_MESHER_RUN_THINNING_H
 

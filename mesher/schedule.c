@@ -14,8 +14,8 @@
 enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
 enum { CHUNK = 1 << 26 }; // bytes of one broadcast: counts of MPI are int
 
-// As MPI itself, once per process. The counters of a team stand on its first rank; all its ranks add to them without help
-// of that one.
+// As MPI itself, once per process. The counters of a team stand on its first rank; all its ranks add to them without
+// help of that one.
 static struct {
   int rank, ranks;
   MPI_Win window;

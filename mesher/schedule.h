@@ -61,8 +61,8 @@ void cw_mpi_most(int32_t count, double *value);
 
 // Runs all tasks. Collective; all ranks give the same schedule. Without cw_mpi_start there is one rank.
 // `bytes` and `size` (arrays of count, zeroed) receive results where `gather`; the caller frees bytes[i].
-// `seconds` (count, may be NULL) receives the processor time of each task on all ranks: what else runs on the machine does
-// not count.
+// `seconds` (count, may be NULL) receives the processor time of each task on all ranks: what else runs on the machine
+// does not count.
 // Without `gather` a result stays on the rank that ran the task. A rank that waits sleeps, so that more ranks
 // than cores cost nothing. The next task is taken without the help of rank 0 where ranks share memory;
 // between machines it may have to wait until rank 0 ends its own task. A failing task: with one rank the

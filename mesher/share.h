@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Work on many small items (vertices, triangles) in blocks over the ranks. The blocks follow from the count alone and each
-// item from itself alone, so that the bits are the same for any number of ranks.
+// Work on many small items (vertices, triangles) in blocks over the ranks. The blocks follow from the count alone and
+// each item from itself alone, so that the bits are the same for any number of ranks.
 #ifndef CUTWATER_MESHER_SHARE_H
 #define CUTWATER_MESHER_SHARE_H
 

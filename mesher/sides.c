@@ -103,7 +103,8 @@ CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome) {
   CwStatus status = CW_OK;
   Told *told = NULL;
   int group_of[CW_SIDES_MOST], ranks_of[CW_SIDES_MOST], first[CW_SIDES_MOST] = {0}, mine = 0;
-  CW_REQUIRE(sides->count <= CW_SIDES_MOST, CW_ERR_INPUT, "%d sides; at most %d are allowed", sides->count, CW_SIDES_MOST);
+  CW_REQUIRE(sides->count <= CW_SIDES_MOST, CW_ERR_INPUT, "%d sides; at most %d are allowed", sides->count,
+             CW_SIDES_MOST);
   CW_NEW(told, sides->count);
   CW_TRY(cw_ledger_sides(sides->step, sides->count, sides->cost, sides->own));
   int groups = cw_sides_group(sides->count, sides->cost, sides->own, cw_mpi_ranks(), group_of, ranks_of);

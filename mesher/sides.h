@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Steps in which what every rank does for itself weighs: the ranks go apart in groups, each of which works on some of the
-// sides (domains) while the others are on others, and hand what they have made to all. Few ranks stay together, on one
-// side after the other.
+// Steps in which what every rank does for itself weighs: the ranks go apart in groups, each of which works on some of
+// the sides (domains) while the others are on others, and hand what they have made to all. Few ranks stay together, on
+// one side after the other.
 #ifndef CUTWATER_MESHER_SIDES_H
 #define CUTWATER_MESHER_SIDES_H
 
@@ -34,8 +34,8 @@ typedef struct {
   void *context;
 } CwSides;
 
-// Runs all sides; collective. outcome[side]: CW_OK, or CW_RETRY of `run`, which is not handed over; then the first such message
-// stands on all ranks. Other failures end all ranks, or are returned where there is one.
+// Runs all sides; collective. outcome[side]: CW_OK, or CW_RETRY of `run`, which is not handed over; then the first such
+// message stands on all ranks. Other failures end all ranks, or are returned where there is one.
 CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome);
 
 // Hands over `size` bytes, as many on all ranks. Straight from array to array.
@@ -47,8 +47,8 @@ void cw_side_give(const CwSideHand *hand, void *data, int64_t size);
     cw_side_give(hand, pointer, (int64_t)(count) * (int64_t)sizeof *(pointer));                                        \
   } while (0)
 
-// Groups for so many ranks: group_of[side]; ranks_of[group]. A side takes cost * (own + (1 - own) / ranks), a group the sum
-// of its sides; so many groups are made, of at least two ranks each, that the longest takes the least time.
+// Groups for so many ranks: group_of[side]; ranks_of[group]. A side takes cost * (own + (1 - own) / ranks), a group the
+// sum of its sides; so many groups are made, of at least two ranks each, that the longest takes the least time.
 int cw_sides_group(int32_t count, const double *cost, double own, int ranks, int *group_of, int *ranks_of);
 
 #ifdef __cplusplus

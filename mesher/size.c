@@ -10,7 +10,8 @@
 #include "mesher/size_sources.h"
 
 // Rims are granted edges down to this share of the wanted ones, and no shorter ones at all where they ask for less than
-// LEAST_ASKED of these: there prisms inside have a small determinant too, and edges of micrometres would take all cells.
+// LEAST_ASKED of these: there prisms inside have a small determinant too, and edges of micrometres would take all
+// cells.
 static const double LEAST_AT_RIM = 0.4, LEAST_ASKED = 0.28;
 
 struct CwSizeSeeds {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The size field: edge length of the mesh as a function of place, h(x) = scale * min over the surface of
 // (h_p + gradation * |x - p|), with h_p from patch sizes, curvature and narrow gaps; near rims of walls no
-// more than these allow. Kept on a Cartesian grid that also knows which of its nodes lie inside the domain, so that cell
-// counts can be predicted by integration.
+// more than these allow. Kept on a Cartesian grid that also knows which of its nodes lie inside the domain, so that
+// cell counts can be predicted by integration.
 #ifndef CUTWATER_MESHER_SIZE_H
 #define CUTWATER_MESHER_SIZE_H
 
@@ -30,10 +30,10 @@ CwStatus cw_size_seeds_of_face(CwSizeSeeds *seeds, int face, void **bytes, int64
 void cw_size_seeds_free(CwSizeSeeds **seeds);
 
 // The field that spreads from the seeds of all faces (seeds[face]) through the domain. `rim_size`, if given, is the
-// longest edge (m, by patch; only those of walls count) where a wall meets an open face, at any scale: prisms there have a
-// side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims are
-// granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of it in
-// the mean.
+// longest edge (m, by patch; only those of walls count) where a wall meets an open face, at any scale: prisms there
+// have a side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims
+// are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of
+// it in the mean.
 // Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it.
 typedef enum { CW_SIZE_SEEDS, CW_SIZE_RIMS } CwSizePart;
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,

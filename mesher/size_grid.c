@@ -154,7 +154,8 @@ typedef struct {
   int32_t now, *seen, *lowered;
 } Clock;
 
-// Whether nothing on the line or beside it was lowered since it was looked at: then another look, either way, lowers nothing.
+// Whether nothing on the line or beside it was lowered since it was looked at: then another look, either way, lowers
+// nothing.
 static int is_settled(const Clock *clock, const int32_t n[3], int32_t j, int32_t k) {
   int32_t line = k * n[1] + j, seen = clock->seen[line];
   return seen > clock->lowered[line] && (j == 0 || seen > clock->lowered[line - 1]) &&
@@ -162,10 +163,11 @@ static int is_settled(const Clock *clock, const int32_t n[3], int32_t j, int32_t
          (k + 1 == n[2] || seen > clock->lowered[line + n[1]]);
 }
 
-// Flags the nodes of a run on a line that the values around, as they are, may lower: no root is under the lowest of them by
-// `rise`. The lines beside it are itself where there are none. In a loop of its own, which the compiler makes vectors of.
-static void find_low(const float *restrict line, const float *const beside[4], int32_t along, int32_t begin, int32_t end,
-                     float rise, int32_t *restrict low) {
+// Flags the nodes of a run on a line that the values around, as they are, may lower: no root is under the lowest of
+// them by `rise`. The lines beside it are itself where there are none. In a loop of its own, which the compiler makes
+// vectors of.
+static void find_low(const float *restrict line, const float *const beside[4], int32_t along, int32_t begin,
+                     int32_t end, float rise, int32_t *restrict low) {
   const float *restrict p = beside[0], *restrict q = beside[1], *restrict r = beside[2], *restrict s = beside[3];
   int32_t from = begin > 0 ? begin : 1, to = end + 1 < along ? end : along - 2;
   low[begin] = low[end] = 1; // these may lack a neighbour

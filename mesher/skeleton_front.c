@@ -130,7 +130,8 @@ static CwStatus unfold_wall(CwSkeleton *skeleton, const int64_t *group, CwFlipMe
   if (flips && skeleton->orbits.symmetry) { // copies have followed
     CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, group, mesh));
   }
-  if (flips || folded) cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
+  if (flips || folded)
+    cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
 done:
   return status;
 }

@@ -180,7 +180,8 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
   for (int32_t i = 0; orbits->symmetry && i < network->corner_count; i++) {
     if (!network->corner[i].on_wall) continue;
     int32_t next = orbits->corner.next[i];
-    CW_TRY(cw_orbit_link(orbits, skeleton->corner_vertex[i], skeleton->corner_vertex[next], orbits->corner.turns[next]));
+    CW_TRY(
+        cw_orbit_link(orbits, skeleton->corner_vertex[i], skeleton->corner_vertex[next], orbits->corner.turns[next]));
   }
   CW_NEW(curves.curve, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
@@ -358,7 +359,8 @@ static CwStatus list_regions(CwSkeleton *skeleton) {
     fill[r] = start[r];
     start[r + 1] += start[r];
   }
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) skeleton->region_wall[fill[skeleton->wall_region[t]]++] = t;
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++)
+    skeleton->region_wall[fill[skeleton->wall_region[t]]++] = t;
 done:
   free(fill);
   return status;

@@ -29,8 +29,8 @@ typedef struct {
 } CwSymmetry;
 
 // Finds the greatest number of turns, at most 64, that brings the solid to itself: its patches, its faces with their
-// parameters (u,v), its edges with theirs, its vertices, all within 1e-9 m. A face may be fixed (a disk about the axis),
-// an edge or vertex not. The first faces of all orbits are chosen so that
+// parameters (u,v), its edges with theirs, its vertices, all within 1e-9 m. A face may be fixed (a disk about the
+// axis), an edge or vertex not. The first faces of all orbits are chosen so that
 // they hang together. *symmetry is NULL where there is none.
 CwStatus cw_symmetry_find(const CwCad *cad, const CwBackground *background, CwSymmetry **symmetry);
 void cw_symmetry_free(CwSymmetry **symmetry);
@@ -38,8 +38,8 @@ void cw_symmetry_free(CwSymmetry **symmetry);
 // x turned by `turns` z-ths of a revolution; `turned` may be x.
 void cw_symmetry_turn(int32_t count, int32_t turns, const double x[3], double turned[3]);
 
-// Orbits from next[0..item_count), which they take over; the first of each is the one with the least number. CW_RETRY (and `next` freed) unless every item comes back to
-// itself after exactly `count` turns, or, with `allow_fixed`, one.
+// Orbits from next[0..item_count), which they take over; the first of each is the one with the least number. CW_RETRY
+// (and `next` freed) unless every item comes back to itself after exactly `count` turns, or, with `allow_fixed`, one.
 CwStatus cw_orbits_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwOrbits *orbits);
 void cw_orbits_free(CwOrbits *orbits);
 int32_t cw_orbits_turned(const CwOrbits *orbits, int32_t item, int32_t turns);

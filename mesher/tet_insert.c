@@ -82,8 +82,8 @@ static int is_filled(const CwTetWork *w, const Cavity *cavity, const double p[3]
   return fabs(made - old) <= 1e-9 * old;
 }
 
-// Places to try: over each boundary face, the middles of the tetrahedron, of its faces and of its edges. Round a bad one
-// those in 14 directions too, on shells to the length of its mean edge.
+// Places to try: over each boundary face, the middles of the tetrahedron, of its faces and of its edges. Round a bad
+// one those in 14 directions too, on shells to the length of its mean edge.
 static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   const CwDelaunayTet *tet = &w->mesh->tet[t];
   const double *x[4];

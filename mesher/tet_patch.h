@@ -20,10 +20,12 @@ typedef struct {
   int32_t point_count, *point; // of the whole mesh: the patch's first ones; those after them are new
 } CwTetPatch;
 
-// Up to `count` tetrahedra round t, by steps over faces. Points of the whole mesh with a source below `fixed_count` stay.
+// Up to `count` tetrahedra round t, by steps over faces. Points of the whole mesh with a source below `fixed_count`
+// stay.
 CwStatus cw_tet_patch_take(const CwDelaunay *whole, int32_t t, int32_t count, int32_t fixed_count, CwTetPatch *patch);
-// Puts patch->mesh, which has the hull it was taken with, in its old place. New points have sources from *source_count on,
-// which is counted up. (*place)[k] is where tetrahedron k of the patch is now, -1 for its free places; the caller frees it.
+// Puts patch->mesh, which has the hull it was taken with, in its old place. New points have sources from *source_count
+// on, which is counted up. (*place)[k] is where tetrahedron k of the patch is now, -1 for its free places; the caller
+// frees it.
 CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwDelaunay *whole, int32_t *source_count, int32_t **place);
 void cw_tet_patch_free(CwTetPatch *patch);
 

@@ -63,8 +63,8 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 #define CW_TET_ASPECT (16.0 * CW_TET_SLENDER)
 
 // Least sine of the dihedral angles, and not above 1.69 shortest / longest edge: 0.943 for the regular tetrahedron, -1
-// where it is flat or not positive. Above an aspect of 4 the edges count by their root, so that a slender triangle of the
-// boundary, which nothing can help, does not hide flat angles. The sine at an edge is 6 V times the edge over the
+// where it is flat or not positive. Above an aspect of 4 the edges count by their root, so that a slender triangle of
+// the boundary, which nothing can help, does not hide flat angles. The sine at an edge is 6 V times the edge over the
 // (doubled) areas of its two faces. Where it is above `enough` only 1 is known, without division.
 static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3],
                                        const double d[3], double enough) {

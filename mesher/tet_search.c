@@ -92,8 +92,8 @@ static int32_t choose_tet(Search *s, double least) {
   return chosen;
 }
 
-// Takes a free point of t away, or of the first tetrahedron round t that has one: of the edges to its neighbours the one
-// goes that leaves the best worst tetrahedron.
+// Takes a free point of t away, or of the first tetrahedron round t that has one: of the edges to its neighbours the
+// one goes that leaves the best worst tetrahedron.
 static CwStatus contract(Search *s, int32_t t) {
   CwStatus status = CW_OK;
   int32_t star[CW_TET_STAR], made[CW_TET_STAR][4], point = -1, to = -1;

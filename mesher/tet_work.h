@@ -76,13 +76,13 @@ CwStatus cw_tet_smooth(CwTetWork *w, int32_t t, int32_t point, int *done_it);
 // A new point in the place of t and of what stands in its way.
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it);
 
-// A new point in the place of t and of all that would be below `aim` with it, from `place` to its best place there. Made
-// whether it gains or not, where nothing is below `least` then.
+// A new point in the place of t and of all that would be below `aim` with it, from `place` to its best place there.
+// Made whether it gains or not, where nothing is below `least` then.
 CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least);
 // Goes over the list, again and again while something changes. The first pass adds no points.
 CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move);
-// Where single changes have left dihedral angles below 13 degrees in the list: disturbs patches of a few hundred tetrahedra
-// and improves them again, hundreds of times; what is better in all is kept. The same every time.
+// Where single changes have left dihedral angles below 13 degrees in the list: disturbs patches of a few hundred
+// tetrahedra and improves them again, hundreds of times; what is better in all is kept. The same every time.
 CwStatus cw_tet_search(CwTetWork *w);
 
 // Tetrahedra of an inner point of t; 0 where there are more than CW_TET_STAR.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Mends walls that are folded at a vertex: where triangles are as wide as the nose that they follow, one of them may stand
-// against its neighbours, and no column sees all faces. Turning edges there opens the fold.
+// Mends walls that are folded at a vertex: where triangles are as wide as the nose that they follow, one of them may
+// stand against its neighbours, and no column sees all faces. Turning edges there opens the fold.
 #ifndef CUTWATER_MESHER_WALL_UNFOLD_H
 #define CUTWATER_MESHER_WALL_UNFOLD_H
 

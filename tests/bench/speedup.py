@@ -6,21 +6,21 @@
     [--gmsh [del3d | hxt] | --gmsh-seconds S]
 
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
-further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs on
-the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost first,
-each rank takes the next task when it is free; a schedule starts when the one before has ended on all ranks). What no task
-accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are grouped as the
-mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row of 2 ranks,
-measured and modelled, and --check tell how far it holds here.
+further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs
+on the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost
+first, each rank takes the next task when it is free; a schedule starts when the one before has ended on all ranks).
+What no task accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are
+grouped as the mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row
+of 2 ranks, measured and modelled, and --check tell how far it holds here.
 
 --check RANKS runs the mesher on so many ranks, more than there are cores too, and sets the processor seconds of the
 longest rank beside the model, step by step. --cells-per-region takes the place of the case's.
 
-`efficiency` is that against the mesher itself on one rank. The paper's T1, though, is the time of serial Gmsh for as many
-cells, so that a mesher faster than Gmsh has more than 100 % of it on few cores. --gmsh measures that T1 here: processor
-seconds of gmsh's own steps, without reading the STEP file and writing, on one core, on the same solids for as many
-tetrahedra as the run has cells, by its Delaunay mesher unless `hxt` is named; `by paper` is the efficiency T1 / (N TN)
-with it. Gmsh makes tetrahedra of one size and no layers. --gmsh-seconds gives a T1 that is known.
+`efficiency` is that against the mesher itself on one rank. The paper's T1, though, is the time of serial Gmsh for as
+many cells, so that a mesher faster than Gmsh has more than 100 % of it on few cores. --gmsh measures that T1 here:
+processor seconds of gmsh's own steps, without reading the STEP file and writing, on one core, on the same solids for as
+many tetrahedra as the run has cells, by its Delaunay mesher unless `hxt` is named; `by paper` is the efficiency T1 / (N
+TN) with it. Gmsh makes tetrahedra of one size and no layers. --gmsh-seconds gives a T1 that is known.
 
 `waiting` is the efficiency if regions waited for the fills of their smaller-numbered neighbours, as section 2.3 reads,
 in place of the rule's own step. --record models a record.json of a one-rank run that is there, without measuring."""
@@ -116,8 +116,8 @@ def replay_waiting(tasks, before, ranks):
 
 
 def smaller_neighbours(record):
-    """For each task of the step "regions" the tasks of its neighbours of smaller number. Turned copies are no tasks of their
-    own, and where passages are copies of one another none waits."""
+    """For each task of the step "regions" the tasks of its neighbours of smaller number. Turned copies are no tasks of
+    their own, and where passages are copies of one another none waits."""
     before = []
     for domain in record["results"]["domains"]:
         firsts = [region for region in domain["region_list"] if region["copy_of"] == region["region"]]
@@ -149,8 +149,8 @@ def add(seconds, more):
 
 
 class Account:
-    """What ranks do together: seconds of what every rank does, by part, and the lists of tasks (cost, seconds); the least of
-    several runs."""
+    """What ranks do together: seconds of what every rank does, by part, and the lists of tasks (cost, seconds); the
+    least of several runs."""
 
     def __init__(self, several):
         self.parts, self.steps = {}, []
@@ -211,7 +211,8 @@ class Model:
 
 
 def serial_gmsh(arguments, cells):
-    """Processor seconds of gmsh on one core for about so many tetrahedra; its size is looked for with an eighth of them."""
+    """Processor seconds of gmsh on one core for about so many tetrahedra; its size is looked for with an eighth of
+    them."""
     with tempfile.TemporaryDirectory(prefix="cutwater-speedup-") as name:
         folder = pathlib.Path(name)
         geometry, runs = folder / "geometry", []
@@ -273,8 +274,9 @@ def most_of(account):
 
 
 def print_check(model, record):
-    """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by schedule,
-    side by side those of the longest group. Such a run may have more ranks than cores: a rank that waits sleeps."""
+    """The model beside a run on more ranks: of each step the processor seconds of the rank with most, schedule by
+    schedule, side by side those of the longest group. Such a run may have more ranks than cores: a rank that waits
+    sleeps."""
     results = record["results"]
     ranks, sides = results["ranks"], results["side_by_side"]
     modelled, measured = model.seconds(ranks), most_of(results["together"])

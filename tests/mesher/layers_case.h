@@ -140,8 +140,9 @@ static inline void case_run(Case *c, const char *name) {
   assert_int_equal(n - full, c->out.thinned_count);
   c->share = (double)full / n;
   print_message("  %-26s %7d triangles: %6.2f %% at %.2f mm, mean %.3f of it, least %.3f mm; gap %d, gradation %d, "
-                "repair %d; rounds %d\n", name, c->wall.triangle_count, 100 * c->share, c->target / MM, c->mean, least / MM,
-                reason[CW_LAYER_GAP], reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
+                "repair %d; rounds %d\n",
+                name, c->wall.triangle_count, 100 * c->share, c->target / MM, c->mean, least / MM, reason[CW_LAYER_GAP],
+                reason[CW_LAYER_GRADATION], reason[CW_LAYER_REPAIR], c->out.repair_rounds);
   case_check_prisms(c);
   case_check_front(c);
   // Guided columns stay in the surfaces that hold them, to first order where those are curved and not put

@@ -41,7 +41,8 @@ static void rectangle(Rectangle *r, double width, double height, int steps, doub
   int count = 4 * steps;
   for (int k = 0; k < count; k++) {
     double s = (double)(k % steps) / steps;
-    for (int i = 0; i < 2; i++) r->uv[k][i] = corner[k / steps][i] + s * (corner[k / steps + 1][i] - corner[k / steps][i]);
+    for (int i = 0; i < 2; i++)
+      r->uv[k][i] = corner[k / steps][i] + s * (corner[k / steps + 1][i] - corner[k / steps][i]);
     flat_map(NULL, r->uv[k], r->x[k], NULL, NULL);
     r->edge[k][0] = k;
     r->edge[k][1] = (k + 1) % count;

@@ -53,8 +53,8 @@ static void carved_mesh_and_core_fit(void **unused) {
   int32_t count, open = 0;
   double(*x)[3], whole = 0.0, left = 0.0, of_core = 0.0;
   make_ball(&ball, 0);
-  assert_int_equal(cw_kernel_core_make(&ball.input, ball.count, (const double(*)[3])ball.x, ball.site, &core, &count, &x),
-                   CW_OK);
+  assert_int_equal(
+      cw_kernel_core_make(&ball.input, ball.count, (const double(*)[3])ball.x, ball.site, &core, &count, &x), CW_OK);
   assert_true(core.deep_count > ball.count / 8);
   assert_int_equal(count + core.deep_count, ball.surface.point_count + ball.count);
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);

@@ -249,8 +249,8 @@ static double apart(const Case *c, int32_t v, int32_t w) {
   return fmin(wall, fmax(distance3(p, q), 0.25 * wall));
 }
 
-// A crease of 75 degrees whose columns are asked to be lower than those beside it, which stand closer on the front than on
-// the wall: heights rise from it by no more than the front allows, and the front keeps most of the angle.
+// A crease of 75 degrees whose columns are asked to be lower than those beside it, which stand closer on the front than
+// on the wall: heights rise from it by no more than the front allows, and the front keeps most of the angle.
 static void low_crease(void **state) {
   const double half = 37.5 * M_PI / 180, p[3][2] = {{0, 0}, {0.02, -0.02 * tan(half)}, {0.02, 0.02 * tan(half)}};
   const double depth = 0.006;
@@ -283,8 +283,8 @@ static void low_crease(void **state) {
   case_free(&c);
 }
 
-// A column on a plate leans so far over its neighbour that the prisms are sound and front triangles are not: it is turned
-// back. Where it may not turn, the columns are thinned, but not below what they are asked to keep.
+// A column on a plate leans so far over its neighbour that the prisms are sound and front triangles are not: it is
+// turned back. Where it may not turn, the columns are thinned, but not below what they are asked to keep.
 static void leaning_column(void **state) {
   const double least_height[3] = {0, 0, 0.55 * MM};
   for (int i = 0; i < 3; i++) {

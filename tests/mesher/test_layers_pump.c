@@ -208,12 +208,14 @@ static int walk(int corners, const double (*p)[2], double h, double (*out)[2]) {
 // 60 degrees on one side).
 static void trailing_edge(void **state) {
   const double half = 1 * MM, bevel = 0.6 * MM, length = 12 * MM;
-  const double outline[8][2] = {{0, -half + bevel}, {bevel, -half},        {length - bevel, -half}, {length, -half + bevel},
-                                {length, half - bevel}, {length - bevel, half}, {bevel, half},      {0, half - bevel}};
+  const double outline[8][2] = {{0, -half + bevel},      {bevel, -half},         {length - bevel, -half},
+                                {length, -half + bevel}, {length, half - bevel}, {length - bevel, half},
+                                {bevel, half},           {0, half - bevel}};
   const double lean[3] = {0, tan(30 * M_PI / 180), tan(45 * M_PI / 180)}, h[3] = {0.5 * MM, 0.3 * MM, 0.15 * MM};
   // Layers 4 times as thick as the mesh is wide and more, in a wedge of 45 degrees, are beyond what a front can do in
-  // full with prisms as round as OpenFOAM wants them and a front without needles; the mesher asks for 3 at most. The mean
-  // height is what is held: the share of columns that are thinner at all hangs on single repairs, which gradation spreads.
+  // full with prisms as round as OpenFOAM wants them and a front without needles; the mesher asks for 3 at most. The
+  // mean height is what is held: the share of columns that are thinner at all hangs on single repairs, which gradation
+  // spreads.
   const double least[3][3] = {{0.99, 0.99, 0.97}, {0.99, 0.98, 0.96}, {0.96, 0.87, 0.83}};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {

@@ -62,8 +62,8 @@ static int open_pump(void **state) {
   CwFlowScales scales;
   assert_non_null(mkdtemp(folder));
   snprintf(case_path, sizeof case_path, "%s/cases/%s/case.yaml", CUTWATER_SOURCE_DIR, case_name);
-  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR, case_path,
-           folder);
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR,
+           case_path, folder);
   assert_int_equal(system(command), 0);
   check(cw_case_read(case_path, &table));
   prism_factor = 2.45 * table.walls.layer_count;
@@ -181,7 +181,8 @@ static void judge(int d, int32_t regions) {
   make_plan(&domain[d], regions, &plan);
   Figures figures = figures_of(&plan);
   print_message("%s: %d of %d regions, work %.3f to %.3f of the mean, walls at %.0f degrees, %d planes under 40\n",
-                domain[d].name, plan.region_count, regions, figures.least, figures.greatest, figures.angle, figures.sharp);
+                domain[d].name, plan.region_count, regions, figures.least, figures.greatest, figures.angle,
+                figures.sharp);
   check_tree(&plan);
   check_work(&domain[d], &plan);
   assert_int_equal(plan.region_count, regions);
@@ -329,10 +330,11 @@ static void judge_room(int32_t regions, double each, int off, int few, int along
     of->symmetry = NULL;
     Figures figures = figures_of(&plan);
     Room room = room_of(of, &plan);
-    print_message("%s%s: %d of %d regions, work %.3f to %.3f of the mean, %d more than 15 %% off, walls at %.0f degrees, "
-                  "%d planes under 40, %d lines filled, %d planes along edges\n",
-                  of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
-                  figures.off, figures.angle, figures.sharp, room.filled, room.along);
+    print_message(
+        "%s%s: %d of %d regions, work %.3f to %.3f of the mean, %d more than 15 %% off, walls at %.0f degrees, "
+        "%d planes under 40, %d lines filled, %d planes along edges\n",
+        of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
+        figures.off, figures.angle, figures.sharp, room.filled, room.along);
     assert_int_equal(plan.fan_count > 0, way == 1);
     assert_true(figures.off <= off && figures.greatest < 1.22 && figures.least > 0.78);
     assert_true(figures.sharp <= few && room.filled <= 2 * few && room.along <= along);

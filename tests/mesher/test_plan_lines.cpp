@@ -34,7 +34,8 @@ struct Box {
     table.curvature_angle = 0.3;
     table.cells_across_gap = 1;
     check(cw_background_make(cad, 1e-4, 0.2, &background));
-    check(cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
+    check(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
     CwSizeSeeds *seeds = nullptr;
     std::vector<void *> seed(cw_cad_face_count(cad));
     check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
@@ -72,7 +73,8 @@ static void lines_with_room_cost_nothing(void **) {
   assert_near(box.cost(0, 0, 1, 30, 14, 10), 0, 1e-9);
 }
 
-// The line comes from the wall y = 30 mm to the floor at y = 2 mm; its cosine to the floor's normal is that of the case.
+// The line comes from the wall y = 30 mm to the floor at y = 2 mm; its cosine to the floor's normal is that of the
+// case.
 static void lines_tangent_to_a_wall_are_refused(void **) {
   Box box;
   const double cosine[] = {0.1, 0.14, 0.16, 0.4};

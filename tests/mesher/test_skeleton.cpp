@@ -84,8 +84,8 @@ struct Box {
 };
 
 // One plane: four edges of the box are cut in two; four cuts. A second plane on one side: two more edges, three cuts of
-// its own, two cuts of the first divided, one line. A third on the other side likewise, and where both lines cross on the
-// first plane each is divided: two pieces of each.
+// its own, two cuts of the first divided, one line. A third on the other side likewise, and where both lines cross on
+// the first plane each is divided: two pieces of each.
 static void network_of_a_box(void **) {
   {
     Box box(1);

@@ -99,11 +99,12 @@ struct Tank {
   CwPlan plan;
   CwSkeleton skeleton = {};
 
-  // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24 mm
-  // from the axis, whose lines on the half-planes before and after differ.
+  // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24
+  // mm from the axis, whose lines on the half-planes before and after differ.
   Tank(int turns, int wedges, bool divided = false) : n(turns), cad(open_tank(turns)) {
     check(cw_background_make(cad, 1e-4, 0.2, &background));
-    check(cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
+    check(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
     check(cw_symmetry_find(cad, &background, &symmetry));
     const int count = n * wedges, first = 1 + count, each = divided ? 2 : 1;
     const auto wedge = [=](int j) { return divided ? first + j : -2 - j; };
@@ -271,7 +272,8 @@ static void uneven_plans_are_told(void **) {
   assert_int_equal(cw_orbit_network(&tank.skeleton.network, &tank.skeleton.orbits), CW_RETRY);
 }
 
-// All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last bit.
+// All regions, the copies too, are audited; together they are as large as the tank; shared points agree to the last
+// bit.
 static void fill_the_tank(bool divided) {
   Tank tank(5, 1, divided);
   CwSkeleton &skeleton = tank.skeleton;

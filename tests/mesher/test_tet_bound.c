@@ -37,7 +37,8 @@ static void a_tetrahedron_allows_its_own_angle(void **state) {
 // worse than two with A/2; or it is the better one.
 static double roof(double degrees, double apart, int32_t *worst) {
   const double a = degrees * 3.14159265358979323846 / 180.0;
-  // The edge 0-1; 2 and 3 on the floor and the slope, at `apart` to both sides of the middle; 4 and 5 close the far side.
+  // The edge 0-1; 2 and 3 on the floor and the slope, at `apart` to both sides of the middle; 4 and 5 close the far
+  // side.
   const double x[6][3] = {{0, 0, 0},
                           {0, 2, 0},
                           {1, 1 - apart, 0},
@@ -45,7 +46,8 @@ static double roof(double degrees, double apart, int32_t *worst) {
                           {1, 1 + apart, 0},
                           {cos(a), 1 - apart, sin(a)}};
   // Floor 0-2-4-1, slope 0-5-3-1 and the ends 0-5-2, 1-4-3; the far side 2-5-3-4.
-  const int32_t triangle[8][3] = {{0, 4, 2}, {0, 1, 4}, {0, 5, 3}, {0, 3, 1}, {0, 2, 5}, {1, 3, 4}, {2, 4, 3}, {2, 3, 5}};
+  const int32_t triangle[8][3] = {{0, 4, 2}, {0, 1, 4}, {0, 5, 3}, {0, 3, 1},
+                                  {0, 2, 5}, {1, 3, 4}, {2, 4, 3}, {2, 3, 5}};
   return bound_of(6, x, 8, triangle, worst);
 }
 
@@ -68,7 +70,8 @@ static void a_cube_is_not_bounded(void **state) {
   NEAR(bound_of(8, (const double(*)[3])x, 12, triangle, &worst), CW_TET_BOUND_MOST, 0.0);
   // Turned inside out its edges are 270 degrees wide.
   int32_t turned[12][3];
-  for (int t = 0; t < 12; t++) turned[t][0] = triangle[t][0], turned[t][1] = triangle[t][2], turned[t][2] = triangle[t][1];
+  for (int t = 0; t < 12; t++)
+    turned[t][0] = triangle[t][0], turned[t][1] = triangle[t][2], turned[t][2] = triangle[t][1];
   NEAR(bound_of(8, (const double(*)[3])x, 12, (const int32_t(*)[3])turned, &worst), CW_TET_BOUND_MOST, 0.0);
   assert_int_equal(worst, -1);
 }

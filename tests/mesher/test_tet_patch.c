@@ -21,7 +21,8 @@ static double sound_volume(const CwDelaunay *mesh) {
     const CwDelaunayTet *tet = &mesh->tet[t];
     const int32_t *c = tet->corner;
     if (c[0] < 0) continue;
-    double here = cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x).six;
+    double here =
+        cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x).six;
     assert_true(here > 0.0);
     six += here;
     for (int i = 0; i < 4; i++) {
@@ -44,8 +45,9 @@ static int32_t used_count(const CwDelaunay *mesh) {
   return count;
 }
 
-// A patch from the middle holds the nearest tetrahedra; points are free where all of their tetrahedra are in it and they are
-// no boundary points. Put back with one point moved and one new in a tetrahedron, the whole is sound and has both.
+// A patch from the middle holds the nearest tetrahedra; points are free where all of their tetrahedra are in it and
+// they are no boundary points. Put back with one point moved and one new in a tetrahedron, the whole is sound and has
+// both.
 static void patch_goes_out_and_back(void **state) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(8, 0.1, &outside, &x), middle = -1, *place = NULL;

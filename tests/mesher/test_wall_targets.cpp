@@ -100,8 +100,11 @@ static CwStatus read_scales(const char *text, CwFlowScales *scales) {
 
 static void scales_of_the_design(void **state) {
   CwFlowScales scales;
-  assert_int_equal(read_scales("{\"relative_speed_m_per_s\": 7, \"volute_speed_m_per_s\": 6,"
-                               "\"suction_speed_m_per_s\": 2, \"discharge_speed_m_per_s\": 3, \"interface_radius_m\": 0.1}", &scales), CW_OK);
+  assert_int_equal(
+      read_scales("{\"relative_speed_m_per_s\": 7, \"volute_speed_m_per_s\": 6,"
+                  "\"suction_speed_m_per_s\": 2, \"discharge_speed_m_per_s\": 3, \"interface_radius_m\": 0.1}",
+                  &scales),
+      CW_OK);
   assert_near(scales.relative_speed, 7, 0);
   assert_near(scales.volute_speed, 6, 0);
   assert_near(scales.suction_speed, 2, 0);
