@@ -440,6 +440,10 @@ done:
   return status;
 }
 
+static int compare_row(const void *p, const void *q) {
+  return cw_row_compare(&((const RowPoint *)p)->place, &((const RowPoint *)q)->place);
+}
+
 CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3],
                         CwLatticeSite **site) {
   CwStatus status = CW_OK;
@@ -466,8 +470,10 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
       high[k % 3] = value > high[k % 3] ? value : high[k % 3];
     }
   }
-  for (int32_t p = 0; p < input->row_count; p++) {
+  for (int32_t p = 0; p < input->row_count; p++)
     tree->row[p] = (RowPoint){cw_row_place(input, input->triangle_count - input->row_count + p), -1, 0};
+  qsort(tree->row, (size_t)input->row_count, sizeof *tree->row, compare_row);
+  for (int32_t p = 0; p < input->row_count; p++) {
     tree->box[input->triangle_count + p] =
         cw_reach_box(tree->row[p].place.x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * tree->row[p].place.spacing);
     tree->list[tree->list_count++] = input->triangle_count + p;

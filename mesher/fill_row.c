@@ -12,7 +12,7 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
   double u[3], v[3], normal[3];
-  CwRowPlace place;
+  CwRowPlace place = {.triangle = t};
   cw_sub(b, a, u);
   cw_sub(c, a, v);
   cw_cross(u, v, normal);
@@ -24,4 +24,12 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   for (int i = 0; i < 3; i++)
     place.x[i] -= height * place.spacing * normal[i];
   return place;
+}
+
+int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b) {
+  static const double line[3] = {1.0, 0.37, 0.61}; // along no axis, so that few places of regular triangles are level
+  double here = cw_dot(line, a->x), there = cw_dot(line, b->x);
+  if (here != there)
+    return here < there ? -1 : 1;
+  return (a->triangle > b->triangle) - (a->triangle < b->triangle);
 }

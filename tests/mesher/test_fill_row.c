@@ -48,10 +48,19 @@ static void spacing_is_between_the_wanted_length_and_the_edges(void **unused) {
   NEAR(place_for(9, 1).spacing, 1.3);
 }
 
+static void order_is_along_a_line_then_by_triangle(void **unused) {
+  const CwRowPlace place[4] = {
+      {.x = {0, 0, 0}, .triangle = 7}, {.x = {0, 0, 0}, .triangle = 8}, {.x = {0, 1, 0}}, {.x = {1, -1, 0}}};
+  for (int k = 0; k < 4; k++) {
+    for (int l = 0; l < 4; l++) assert_int_equal(cw_row_compare(&place[k], &place[l]), (k > l) - (k < l));
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stands_inside_over_the_middle),
       cmocka_unit_test(makes_a_good_tetrahedron),
+      cmocka_unit_test(order_is_along_a_line_then_by_triangle),
       cmocka_unit_test(spacing_is_between_the_wanted_length_and_the_edges),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
