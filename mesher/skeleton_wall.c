@@ -207,7 +207,8 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
         CW_TRY(add_wall_vertex(skeleton, point[k].x, guide, &curve->node[k]));
       }
     }
-    CW_TRY(cw_orbit_copy_curve(skeleton, curves.curve[i], skeleton->corner_vertex, &skeleton->wall_x, add_curve_vertex));
+    CW_TRY(
+        cw_orbit_copy_curve(skeleton, curves.curve[i], skeleton->corner_vertex, &skeleton->wall_x, add_curve_vertex));
   }
 done:
   for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);

@@ -318,8 +318,8 @@ static Room room_of(const CwDomain *of, const CwPlan *plan) {
   return room;
 }
 
-// All ways of dividing the pump: regions are even, but for `off` of them, planes and lines keep clear of layers, and no plane
-// stands slantwise on walls, but for `few`; `along` may run along edges.
+// All ways of dividing the pump: regions are even, but for `off` of them, planes and lines keep clear of layers, and no
+// plane stands slantwise on walls, but for `few`; `along` may run along edges.
 static void judge_room(int32_t regions, double each, int off, int few, int along) {
   for (int way = 0; way < 3; way++) {
     CwDomain *of = &domain[way == 2];
