@@ -11,8 +11,6 @@ import unittest
 from cutwater import CELLS, RUN, execute, fresh, record
 
 ITERATIONS = int(os.environ.get("CUTWATER_ITERATIONS", 5))
-# checkMesh -allGeometry may flag a few cells of a mesh this coarse; at the size of real use none.
-FLAGGED_CELLS = max(50, 1e-3 * CELLS)
 
 
 def table(path):
@@ -28,22 +26,10 @@ class OpenFoam(unittest.TestCase):
         shutil.copytree(RUN / "export/openfoam", cls.case)
         cls.check = execute(["checkMesh", "-allGeometry", "-allTopology"], cls.case).stdout
 
-    def test_1_the_basic_checks_pass(self):
-        # Without -allGeometry: what OpenFOAM asks of a mesh before it runs.
-        told = execute(["checkMesh"], self.case).stdout
-        self.assertIn("Mesh OK.", told, "\n".join(re.findall(r"^ \*\*\*.*$", told, re.M)))
+    def test_1_no_check_fails(self):
+        self.assertIn("Mesh OK.", self.check, "\n".join(re.findall(r"^ \*\*\*.*$", self.check, re.M)))
 
-    def test_2_the_strict_checks_flag_corner_cells_only(self):
-        # A cell in a corner of three walls has one or two inner faces: its determinant is small however good it is.
-        complaints = re.findall(r"^ \*\*\*(.*)$", self.check, re.M)
-        for line in complaints:
-            self.assertIn("small determinant", line, "\n".join(complaints))
-            count = int(re.search(r"number of cells: (\d+)", line).group(1))
-            print(f"{count} cells of small determinant")
-            self.assertLessEqual(count, FLAGGED_CELLS)
-        self.assertRegex(self.check, r"Mesh OK\.|Failed 1 mesh checks\.")
-
-    def test_3_it_is_the_mesh_of_the_mesher(self):
+    def test_2_it_is_the_mesh_of_the_mesher(self):
         mesh = record(RUN, "mesh")["results"]
         told = dict(re.findall(r"^ +(points|cells|prisms|tetrahedra|pyramids): +(\d+)$", self.check, re.M))
         self.assertEqual(int(told["cells"]), mesh["cells"])
@@ -52,14 +38,14 @@ class OpenFoam(unittest.TestCase):
         self.assertEqual(int(told["points"]), sum(domain["points"] for domain in mesh["domains"]))
         self.assertRegex(self.check, r"Number of regions: 2\b|\*Number of regions: 2")
 
-    def test_4_every_face_of_the_interface_meets_the_other_side(self):
+    def test_3_every_face_of_the_interface_meets_the_other_side(self):
         weights = re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", self.check)
         self.assertEqual({side for side, _, _ in weights}, {"source", "target"}, self.check[-2000:])
         for side, least, most in weights:
             self.assertGreater(float(least), 0.98, side)
             self.assertLess(float(most), 1.02, side)
 
-    def test_5_the_solver_runs(self):
+    def test_4_the_solver_runs(self):
         execute(["foamDictionary", "-entry", "endTime", "-set", ITERATIONS, "system/controlDict"], self.case)
         result = execute(["simpleFoam"], self.case, timeout=3000)
         self.assertEqual(result.returncode, 0, result.stdout[-3000:])

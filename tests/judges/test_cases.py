@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""Cases and sizes whose layers are hard at corners of blade and hub: no check of OpenFOAM's fails, no tetrahedron is flat,
+and the first height holds."""
+import unittest
+
+from cutwater import SOURCE, done, execute, fresh, record
+
+CASES = (("splitters", None), ("nq24", None), ("ns200", None), ("paper", 8000000))  # cells; None: the case's own
+LEAST_DIHEDRAL = 12  # degrees
+
+
+class Cases(unittest.TestCase):
+    def judge(self, name, cells):
+        run, case = fresh(f"case-{name}"), SOURCE / f"cases/{name}/case.yaml"
+        done(self, "geometry", run, case=case)
+        for stage in ("mesh", "export"):
+            done(self, stage, run, case=case, cells=cells, ranks=2)
+        told = execute(["checkMesh", "-allGeometry", "-allTopology"], run / "export/openfoam").stdout
+        self.assertIn("Mesh OK.", told, "\n".join(line for line in told.splitlines() if "***" in line))
+        for domain in record(run, "mesh")["results"]["domains"]:
+            self.assertGreaterEqual(domain["least_dihedral_deg"], LEAST_DIHEDRAL, domain["name"])
+            faces = sum(patch["wall_faces"] for patch in domain["layer_coverage"])
+            met = sum(patch["first_height_met_faces"] for patch in domain["layer_coverage"])
+            self.assertGreaterEqual(met, 0.99 * faces, domain["name"])
+
+    def test_no_check_fails(self):
+        for name, cells in CASES:
+            with self.subTest(name):
+                self.judge(name, cells)
+
+
+if __name__ == "__main__":
+    unittest.main()
