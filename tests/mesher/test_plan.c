@@ -109,8 +109,15 @@ typedef struct {
   double least, greatest; // work of a region over the mean
   int off;                // regions more than 15 % off the mean
   double angle;           // degrees, the sharpest of all planes to walls
-  int sharp;              // planes under 40 degrees
+  int sharp;              // planes under 40 degrees; one for all its turned copies
 } Figures;
+
+static int is_copy(const CwPlan *plan, int32_t node) {
+  int32_t end = plan->fan_first + plan->fan_count;
+  if (plan->fan_count == 0 || node < plan->fan_first) return 0;
+  return node < end ? node >= plan->fan_first + plan->fan_count / plan->fan_turns
+                    : node >= end + (plan->node_count - end) / plan->fan_turns;
+}
 
 static Figures figures_of(const CwPlan *plan) {
   Figures figures = {INFINITY, 0, 0, 90, 0};
@@ -125,7 +132,7 @@ static Figures figures_of(const CwPlan *plan) {
   for (int32_t n = 0; n < plan->node_count; n++) {
     double angle = asin(plan->worst_angle[n]) * 180 / M_PI;
     figures.angle = fmin(figures.angle, angle);
-    figures.sharp += angle < 40;
+    figures.sharp += angle < 40 && !is_copy(plan, n);
   }
   return figures;
 }
