@@ -10,6 +10,7 @@
 #include "mesher/interface_rule.h"
 #include "mesher/layer_heights.h"
 #include "mesher/region_boundary.h"
+#include "mesher/source_hash.h"
 #include "mesher/vec.h"
 
 static int compare_rims(const void *p, const void *q) {
@@ -85,6 +86,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   const CwSkeleton *skeleton = context->skeleton;
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
+  cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# Writes OUT, which defines the hash of source_hash.h over the sources in ROOT.
+file(GLOB names RELATIVE ${ROOT} ${ROOT}/*.c ${ROOT}/*.cpp ${ROOT}/*.h)
+list(SORT names)
+set(all "")
+foreach(name ${names})
+  file(SHA256 ${ROOT}/${name} hash)
+  string(APPEND all "${name} ${hash}\n")
+endforeach()
+string(SHA256 hash "${all}")
+file(WRITE ${OUT} "#include \"mesher/source_hash.h\"\nconst char cw_source_hash[65] = \"${hash}\";\n")

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef CUTWATER_MESHER_SOURCE_HASH_H
+#define CUTWATER_MESHER_SOURCE_HASH_H
+
+// SHA-256, in hex, of the mesher's own sources (source_hash.cmake): regions that other code has made are not used again.
+extern const char cw_source_hash[65];
+
+#endif
