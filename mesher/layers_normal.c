@@ -100,8 +100,10 @@ int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*norm
 
 double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]) {
   double least = INFINITY;
-  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
-    least = fmin(least, dot3(work->face_normal[work->face[k]], direction));
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+    double c = dot3(work->face_normal[work->face[k]], direction);
+    if (c < least) least = c;
+  }
   return least;
 }
 

@@ -4,6 +4,7 @@
 #include "mesher/layers_inner.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
+enum { MANY = 8192 }; // prisms that are worth handing round the ranks
 enum { FOR_FRONT = 1, FOR_PRISM }; // what a column is turned and thinned for: the shape of the front alone, or more
 static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
 static const double FRONT = 0.4;         // what the quality of the front counts beside that of prisms: 0.3 is good
@@ -13,27 +14,31 @@ static const double LEAST_COSINE = 0.3;  // of a direction that the search may c
 static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
 
 double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]) {
-  double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3];
-  for (int i = 0; i < 3; i++) sub3(front[i], wall[i], d[i]);
+  double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
+  for (int i = 0; i < 3; i++) {
+    sub3(front[i], wall[i], d[i]);
+    height[i] = length3(d[i]);
+  }
   for (int i = 0; i < 3; i++) {
     sub3(wall[(i + 1) % 3], wall[i], e[i]); // edge from corner i to the next
     sub3(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to front
+    length[i] = length3(e[i]);
   }
   for (int i = 0; i < 3; i++) {
     double c[3];
     int last = (i + 2) % 3;
     cross3(e[last], e[i], c);
-    sine[i] = length3(c) / (length3(e[i]) * length3(e[last]));
+    sine[i] = length3(c) / (length[i] * length[last]);
   }
   for (int level = 0; level <= 4; level++) {
-    double edge[3][3], length[3];
+    double edge[3][3];
     for (int i = 0; i < 3; i++) {
       for (int k = 0; k < 3; k++) edge[i][k] = e[i][k] + 0.25 * level * de[i][k];
-      length[i] = length3(edge[i]);
+      if (level > 0) length[i] = length3(edge[i]);
     }
     for (int i = 0; i < 3; i++) {
       int last = (i + 2) % 3;
-      double c[3], scale = length[i] * length[last] * length3(d[i]) * sine[i];
+      double c[3], scale = length[i] * length[last] * height[i] * sine[i];
       cross3(edge[i], edge[last], c); // with the minus of edge[last]: into the fluid
       double q = scale > 0 ? dot3(c, d[i]) / scale : -1;
       if (q < least) least = q;
@@ -76,14 +81,25 @@ static double front_quality(const CwLayerWork *work, int32_t f, const double (*f
 }
 
 // How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
-// `floor` where one is no better, not looking at the others.
-static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor) {
+// `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and then the one
+// that was the worst: most other directions fail there too.
+static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {
   double prism = INFINITY, end = INFINITY, quality = INFINITY;
-  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1] && quality > floor; k++) {
-    prism = fmin(prism, cw_layers_prism_quality(work, work->face[k], front));
-    end = fmin(end, front_quality(work, work->face[k], front));
-    quality = prism < GOOD ? prism - MUCH : fmin(prism, end);
+  int32_t start = work->face_start[v], count = work->face_start[v + 1] - start, worst = *first;
+  for (int32_t i = 0; i < count && quality > floor; i++) {
+    int32_t at = (*first + i) % count, f = work->face[start + at];
+    double q = cw_layers_prism_quality(work, f, front), before = quality;
+    if (q < prism) prism = q;
+    if (prism < GOOD) {
+      quality = prism - MUCH;
+    } else {
+      q = front_quality(work, f, front);
+      if (q < end) end = q;
+      quality = end < prism ? end : prism;
+    }
+    if (quality < before) worst = at;
   }
+  *first = worst;
   return quality;
 }
 
@@ -92,8 +108,10 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
   const CwLayerInput *in = work->in;
   const double step[2] = {0.25, 0.1};
   int guides = in->guide_count ? in->guide_count[v] : 0;
-  double best = around(work, v, (const double (*)[3])front, -INFINITY), kept[3], column[3];
   if (guides == 2) return;
+  int32_t first = 0;
+  double best = around(work, v, (const double (*)[3])front, -INFINITY, &first), kept[3], column[3];
+  double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
   memcpy(kept, front[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
   for (int s = 0; s < 2; s++) {
@@ -116,10 +134,11 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
       double angle = i * M_PI / 4, c = cos(angle), d = sin(angle), trial[3];
       for (int k = 0; k < 3; k++) trial[k] = g[k] + slope * (c * side[k] + d * up[k]);
       unit3(trial);
-      if (cw_layers_least_cosine(work, v, trial) < fmin(LEAST_COSINE, 0.9 * work->base_cos[v])) continue;
-      cw_layers_set_column(work, v, trial, 0.3);
+      double cosine = cw_layers_least_cosine(work, v, trial);
+      if (cosine < least_cosine) continue;
+      for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
       cw_layers_place(work, v, front[v]);
-      double quality = around(work, v, (const double (*)[3])front, best);
+      double quality = around(work, v, (const double (*)[3])front, best, &first);
       if (quality > best) {
         best = quality;
         memcpy(kept, front[v], sizeof kept);
@@ -166,14 +185,22 @@ static CwStatus judge_prism(void *repair, int32_t f, void *out) {
   return CW_OK;
 }
 
+static CwStatus judge_stale(void *context, int32_t i, void *out) {
+  const Repair *repair = context;
+  *(double *)out = judge(repair, repair->stale[i]);
+  return CW_OK;
+}
+
 static void set_moved(Repair *repair, int32_t v) {
   if (!repair->moved[v]) repair->moved_list[repair->moved_count++] = v;
   repair->moved[v] = 1;
 }
 
-// Brings the qualities round what moved up to date and marks the vertices of bad prisms.
-static void find_bad(Repair *repair) {
+// Brings the qualities round what moved up to date and marks the vertices of bad prisms. Collective.
+static CwStatus find_bad(Repair *repair) {
+  CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
+  double *many = NULL;
   int32_t stale = 0, kept = 0;
   for (int32_t i = 0; i < repair->moved_count; i++) {
     int32_t v = repair->moved_list[i];
@@ -190,9 +217,13 @@ static void find_bad(Repair *repair) {
   for (int32_t i = 0; i < repair->bad_count; i++) {
     if (repair->quality[repair->bad[i]] < repair->limit) repair->bad[kept++] = repair->bad[i];
   }
+  if (stale > MANY) {
+    CW_NEW_UNSET(many, stale);
+    CW_TRY(cw_share("layers: prisms", stale, sizeof *many, judge_stale, repair, many));
+  }
   for (int32_t i = 0; i < stale; i++) {
     int32_t f = repair->stale[i];
-    repair->quality[f] = judge(repair, f);
+    repair->quality[f] = many ? many[i] : judge(repair, f);
     if (repair->quality[f] < repair->limit) repair->bad[kept++] = f;
   }
   repair->bad_count = kept;
@@ -205,6 +236,9 @@ static void find_bad(Repair *repair) {
       if (*mark != FOR_PRISM) *mark = sound ? FOR_FRONT : FOR_PRISM;
     }
   }
+done:
+  free(many);
+  return status;
 }
 
 // Puts the ends of the columns whose height changed where they belong.
@@ -321,11 +355,11 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
     repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;
-    find_bad(&repair);
+    CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
       for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
         turn_marked(&repair);
-        find_bad(&repair);
+        CW_TRY(find_bad(&repair));
       }
       if (!repair.bad_count) continue;
     } else {
@@ -337,7 +371,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
     // lost by it, and only thinning is sure to come to an end.
     if (*rounds == REFAN) CW_TRY(fan_again(&repair));
   }
-  find_bad(&repair);
+  CW_TRY(find_bad(&repair));
   int32_t first = 0;
   for (int32_t v = 0; v < work->n; v++)
     if (repair.mark[v]) first = v;
