@@ -42,8 +42,10 @@ void cw_scanlines_place(const CwScanlines *lines, int32_t j, int32_t k, double p
   }
 }
 
+// Lines that may meet a triangle, and its box.
 typedef struct {
   int32_t first[2], last[2];
+  double low[2], high[2];
 } LineRange;
 
 static LineRange lines_over(const CwBackground *background, int32_t t, const CwScanlines *lines) {
@@ -51,35 +53,57 @@ static LineRange lines_over(const CwBackground *background, int32_t t, const CwS
   for (int d = 0; d < 2; d++) {
     double low = INFINITY, high = -INFINITY;
     for (int k = 0; k < 3; k++) {
-      low = fmin(low, background->x[background->triangle[t][k]][d + 1]);
-      high = fmax(high, background->x[background->triangle[t][k]][d + 1]);
+      double x = background->x[background->triangle[t][k]][d + 1];
+      low = x < low ? x : low;
+      high = x > high ? x : high;
     }
+    range.low[d] = low;
+    range.high[d] = high;
     range.first[d] = (int32_t)fmax(floor((low - lines->low[d]) / lines->spacing) - 1, 0);
     range.last[d] = (int32_t)fmin(ceil((high - lines->low[d]) / lines->spacing), lines->count[d] - 1);
   }
   return range;
 }
 
-// Visits all crossings. Counts them in start[line + 1], or stores them from start[line] on, which moves
-// along.
-static void visit(const CwBackground *background, CwScanlines *lines, int64_t *start, int store) {
+typedef struct {
+  size_t line;
+  double x;
+} Crossing;
+
+// All crossings, triangle by triangle.
+static CwStatus find_crossings(const CwBackground *background, const CwScanlines *lines, Crossing **crossing,
+                               size_t *count) {
+  CwStatus status = CW_OK;
+  double(*place)[2] = NULL;
+  size_t room = 0;
+  CW_NEW(place, (size_t)lines->count[0] * (size_t)lines->count[1]);
+  for (int32_t k = 0; k < lines->count[1]; k++) {
+    for (int32_t j = 0; j < lines->count[0]; j++)
+      cw_scanlines_place(lines, j, k, place[(size_t)j + (size_t)lines->count[0] * (size_t)k]);
+  }
   for (int32_t t = 0; t < background->triangle_count; t++) {
     LineRange range = lines_over(background, t, lines);
     for (int32_t k = range.first[1]; k <= range.last[1]; k++) {
       for (int32_t j = range.first[0]; j <= range.last[0]; j++) {
-        double p[2], x;
-        cw_scanlines_place(lines, j, k, p);
         size_t line = (size_t)j + (size_t)lines->count[0] * (size_t)k;
-        if (!meets(background, t, p, &x))
+        const double *p = place[line];
+        double x;
+        if (p[0] < range.low[0] || p[0] > range.high[0] || p[1] < range.low[1] || p[1] > range.high[1] ||
+            !meets(background, t, p, &x))
           continue;
-        if (store) {
-          lines->crossing[start[line]++] = x;
-        } else {
-          start[line + 1]++;
+        if (*count == room) {
+          room = 2 * room + 4096;
+          Crossing *grown = realloc(*crossing, room * sizeof *grown);
+          CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %zu crossings of lines", room);
+          *crossing = grown;
         }
+        (*crossing)[(*count)++] = (Crossing){line, x};
       }
     }
   }
+done:
+  free(place);
+  return status;
 }
 
 static int by_value(const void *a, const void *b) {
@@ -92,6 +116,8 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
                     int32_t variant, CwScanlines *lines, int64_t *odd) {
   CwStatus status = CW_OK;
   int64_t *next = NULL;
+  Crossing *crossing = NULL;
+  size_t crossings = 0;
   lines->spacing = spacing;
   lines->variant = variant;
   for (int d = 0; d < 2; d++) {
@@ -100,13 +126,16 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
   }
   size_t count = (size_t)lines->count[0] * (size_t)lines->count[1];
   CW_NEW(lines->start, count + 1);
-  visit(background, lines, lines->start, 0);
+  CW_TRY(find_crossings(background, lines, &crossing, &crossings));
+  for (size_t i = 0; i < crossings; i++)
+    lines->start[crossing[i].line + 1]++;
   for (size_t i = 0; i < count; i++)
     lines->start[i + 1] += lines->start[i];
   CW_NEW(lines->crossing, lines->start[count]);
   CW_NEW(next, count);
   memcpy(next, lines->start, count * sizeof *next);
-  visit(background, lines, next, 1);
+  for (size_t i = 0; i < crossings; i++)
+    lines->crossing[next[crossing[i].line]++] = crossing[i].x;
   *odd = 0;
   for (size_t i = 0; i < count; i++) {
     int64_t length = lines->start[i + 1] - lines->start[i];
@@ -114,6 +143,7 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
     *odd += length & 1;
   }
 done:
+  free(crossing);
   free(next);
   return status;
 }

@@ -69,6 +69,30 @@ void cw_size_seeds_free(CwSizeSeeds **seeds) {
   *seeds = NULL;
 }
 
+// Sets what lies before or after a set byte in each row of `count` bytes.
+static void widen_along(uint8_t *restrict row, int32_t count, uint8_t *restrict old) {
+  memcpy(old + 1, row, (size_t)count);
+  old[0] = old[count + 1] = 0;
+  for (int32_t i = 0; i < count; i++) row[i] = old[i] | old[i + 1] | old[i + 2];
+}
+
+// The same across `count` rows of `length` bytes that follow one another. `old` holds two rows.
+static void widen_across(uint8_t *row, size_t length, int32_t count, uint8_t *old) {
+  uint8_t *before = old, *here = old + length;
+  memset(before, 0, length);
+  for (int32_t i = 0; i < count; i++, row += length) {
+    uint8_t *restrict to = row;
+    memcpy(here, row, length);
+    for (size_t b = 0; b < length; b++) to[b] |= before[b];
+    if (i + 1 < count) {
+      const uint8_t *restrict next = row + length;
+      for (size_t b = 0; b < length; b++) to[b] |= next[b];
+    }
+    uint8_t *swap = before;
+    before = here, here = swap;
+  }
+}
+
 // Sets a byte for the nodes of the cells that lie in the domain, as the lines see it, and of those beside.
 static CwStatus mark_inside(const CwSize *size, uint8_t **within) {
   CwStatus status = CW_OK;
@@ -76,37 +100,33 @@ static CwStatus mark_inside(const CwSize *size, uint8_t **within) {
   const CwScanlines *lines = &size->lines;
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
+  uint8_t *old = NULL;
   CW_NEW(*within, slab * (size_t)n[2]);
+  CW_NEW(old, 2 * slab + 2);
+  // Thin passages may lie between the lines; seeds are everywhere on the surface.
+  cw_size_grid_mark_set(grid, *within);
   for (int32_t k = 0; k < lines->count[1]; k++) {
     for (int32_t j = 0; j < lines->count[0]; j++) {
       size_t line = (size_t)j + (size_t)lines->count[0] * (size_t)k;
       for (int64_t c = lines->start[line]; c + 1 < lines->start[line + 1]; c += 2) {
         // The lattice begins one spacing into the grid: square (j, k) is cell (j + 1, k + 1).
-        int32_t first = (int32_t)fmax(floor((lines->crossing[c] - grid->low[0]) / grid->spacing) - 1, 0);
-        int32_t last = (int32_t)fmin(floor((lines->crossing[c + 1] - grid->low[0]) / grid->spacing) + 2, n[0] - 1);
-        for (int32_t z = k; z <= k + 3 && z < n[2]; z++) {
-          for (int32_t y = j; y <= j + 3 && y < n[1]; y++)
+        int32_t first = (int32_t)fmax(floor((lines->crossing[c] - grid->low[0]) / grid->spacing), 0);
+        int32_t last = (int32_t)fmin(floor((lines->crossing[c + 1] - grid->low[0]) / grid->spacing) + 1, n[0] - 1);
+        for (int32_t z = k + 1; z <= k + 2 && z < n[2]; z++) {
+          for (int32_t y = j + 1; y <= j + 2 && y < n[1]; y++)
             memset(*within + (size_t)z * slab + (size_t)y * row + first, 1, (size_t)(last - first + 1));
         }
       }
     }
   }
-  // Thin passages may lie between the lines; seeds are everywhere on the surface.
   for (int32_t z = 0; z < n[2]; z++) {
-    for (int32_t y = 0; y < n[1]; y++) {
-      for (int32_t x = 0; x < n[0]; x++) {
-        size_t node = (size_t)z * slab + (size_t)y * row + (size_t)x;
-        if (!cw_size_grid_is_set(grid, (int64_t)node))
-          continue;
-        int32_t first = x > 0 ? x - 1 : x, last = x + 1 < n[0] ? x + 1 : x;
-        for (int32_t c = z > 0 ? z - 1 : z; c <= z + 1 && c < n[2]; c++) {
-          for (int32_t b = y > 0 ? y - 1 : y; b <= y + 1 && b < n[1]; b++)
-            memset(*within + (size_t)c * slab + (size_t)b * row + first, 1, (size_t)(last - first + 1));
-        }
-      }
-    }
+    uint8_t *of = *within + (size_t)z * slab;
+    for (int32_t y = 0; y < n[1]; y++) widen_along(of + (size_t)y * row, n[0], old);
+    widen_across(of, row, n[1], old);
   }
+  widen_across(*within, slab, n[2], old);
 done:
+  free(old);
   return status;
 }
 

@@ -48,6 +48,13 @@ void cw_size_grid_unset(CwSizeGrid *grid, int64_t node) {
   grid->value[node] = unset;
 }
 
+void cw_size_grid_mark_set(const CwSizeGrid *grid, uint8_t *mark) {
+  const float *restrict value = grid->value;
+  uint8_t *restrict to = mark;
+  size_t nodes = (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
+  for (size_t i = 0; i < nodes; i++) to[i] |= value[i] < unset;
+}
+
 // Cell of x and the place in it, 0..1.
 static size_t locate(const CwSizeGrid *grid, const double x[3], double part[3]) {
   size_t index = 0;
@@ -86,15 +93,9 @@ double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]) {
   return a + p[2] * (c - a);
 }
 
-// The root of sum over the upwind directions (f - a)^2 = step^2, with as many of the three as lie under it.
+// The root of sum over the upwind directions (f - value)^2 = step^2, with as many of the three values, a <= b <= c, as
+// lie under it.
 static double upwind(double a, double b, double c, double step) {
-  double swap;
-  if (a > b)
-    swap = a, a = b, b = swap;
-  if (b > c)
-    swap = b, b = c, c = swap;
-  if (a > b)
-    swap = a, a = b, b = swap;
   double f = a + step;
   if (f <= b)
     return f;
@@ -105,9 +106,12 @@ static double upwind(double a, double b, double c, double step) {
   return (sum + sqrt(fmax(0.0, sum * sum - 3 * (a * a + b * b + c * c - step * step)))) / 3;
 }
 
-static float least_of(const float *node, int32_t i, int32_t count, size_t stride) {
-  float before = i > 0 ? node[-(ptrdiff_t)stride] : unset, after = i + 1 < count ? node[stride] : unset;
-  return before < after ? before : after;
+static float least(float a, float b) {
+  return a < b ? a : b;
+}
+
+static float most(float a, float b) {
+  return a < b ? b : a;
 }
 
 // The nodes that take part, as runs along x: run r of line l covers begin[r] .. end[r], start[l] <= r < start[l + 1].
@@ -163,29 +167,63 @@ static int is_settled(const Clock *clock, const int32_t n[3], int32_t j, int32_t
          (k + 1 == n[2] || seen > clock->lowered[line + n[1]]);
 }
 
-// Flags the nodes of a run on a line that the values around, as they are, may lower: no root is under the lowest of
-// them by `rise`. The lines beside it are itself where there are none. In a loop of its own, which the compiler makes
-// vectors of.
-static void find_low(const float *restrict line, const float *const beside[4], int32_t along, int32_t begin,
-                     int32_t end, float rise, int32_t *restrict low) {
-  const float *restrict p = beside[0], *restrict q = beside[1], *restrict r = beside[2], *restrict s = beside[3];
+// What a line along x is held against, while a sweep is on it: for each node the lower and the higher of the lower
+// values beside it along y and along z, and whether the values around, as they are, may lower it.
+typedef struct {
+  float *lower, *higher;
+  int32_t *low;
+} Beside;
+
+// For a run: no root is under the lowest value around by `rise`. Lines that are not there are full of unset values. In
+// a loop of its own, which the compiler makes vectors of.
+static void look_beside(const float *restrict line, const float *const around[4], int32_t along, int32_t begin,
+                        int32_t end, float rise, const Beside *beside) {
+  const float *restrict p = around[0], *restrict q = around[1], *restrict r = around[2], *restrict s = around[3];
+  float *restrict lower = beside->lower, *restrict higher = beside->higher;
+  int32_t *restrict low = beside->low;
+  for (int32_t i = begin; i <= end; i++) {
+    float y = least(p[i], q[i]), z = least(r[i], s[i]);
+    lower[i] = least(y, z);
+    higher[i] = most(y, z);
+  }
   int32_t from = begin > 0 ? begin : 1, to = end + 1 < along ? end : along - 2;
   low[begin] = low[end] = 1; // these may lack a neighbour
   for (int32_t i = from; i <= to; i++) {
-    float least = line[i - 1] < line[i + 1] ? line[i - 1] : line[i + 1];
-    least = p[i] < least ? p[i] : least;
-    least = q[i] < least ? q[i] : least;
-    least = r[i] < least ? r[i] : least;
-    least = s[i] < least ? s[i] : least;
-    low[i] = least + rise < line[i];
+    float around_least = least(least(line[i - 1], line[i + 1]), lower[i]);
+    low[i] = around_least + rise < line[i];
   }
 }
 
-// One sweep in the direction of bits of `sweep`; returns how many nodes went lower.
-static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step, Clock *clock, int32_t *low) {
+// Lowers the nodes of a run, forwards or back along x; returns how many went lower.
+static int64_t sweep_run(float *line, int32_t along, int32_t begin, int32_t end, int back, double step,
+                         const Beside *beside) {
+  float least_change = (float)(1e-3 * step), least_rise = (float)(0.57 * step);
+  int64_t lowered = 0;
+  int lowered_last = 0; // then the next may be lowered too
+  for (int32_t ii = begin; ii <= end; ii++) {
+    int32_t i = back ? begin + end - ii : ii;
+    if (!beside->low[i] && !lowered_last) continue;
+    lowered_last = 0;
+    float before = i > 0 ? line[i - 1] : unset, after = i + 1 < along ? line[i + 1] : unset;
+    float x = least(before, after), b = beside->lower[i], c = beside->higher[i];
+    float lowest = least(x, b);
+    if (lowest + least_rise >= line[i])
+      continue; // no root is under lowest + step / sqrt(3)
+    double f = upwind(lowest, least(most(x, b), c), most(x, c), step);
+    if (f < line[i] - least_change) {
+      line[i] = (float)f;
+      lowered++;
+      lowered_last = 1;
+    }
+  }
+  return lowered;
+}
+
+// One sweep in the direction of bits of `sweep`; returns how many nodes went lower. `nothing`: a line of unset values.
+static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step, Clock *clock,
+                          const Beside *beside, const float *nothing) {
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
-  float least_change = (float)(1e-3 * step), least_rise = (float)(0.57 * step);
   int64_t lowered = 0;
   for (int32_t kk = 0; kk < n[2]; kk++) {
     int32_t k = sweep & 4 ? n[2] - 1 - kk : kk;
@@ -196,30 +234,12 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
       int64_t before = lowered;
       clock->seen[k * n[1] + j] = ++clock->now;
       int32_t first = runs->start[k * n[1] + j], last = runs->start[k * n[1] + j + 1] - 1;
-      const float *const beside[4] = {j > 0 ? line - row : line, j + 1 < n[1] ? line + row : line,
-                                      k > 0 ? line - slab : line, k + 1 < n[2] ? line + slab : line};
+      const float *const around[4] = {j > 0 ? line - row : nothing, j + 1 < n[1] ? line + row : nothing,
+                                      k > 0 ? line - slab : nothing, k + 1 < n[2] ? line + slab : nothing};
       for (int32_t rr = first; rr <= last; rr++) {
-        int32_t r = sweep & 1 ? first + last - rr : rr, begin = runs->begin[r], end = runs->end[r];
-        int lowered_last = 0; // then the next may be lowered too
-        find_low(line, beside, n[0], begin, end, least_rise, low);
-        for (int32_t ii = begin; ii <= end; ii++) {
-          int32_t i = sweep & 1 ? begin + end - ii : ii;
-          float *node = line + i;
-          if (!low[i] && !lowered_last) continue;
-          lowered_last = 0;
-          float a = least_of(node, i, n[0], 1), b = least_of(node, j, n[1], row),
-                c = least_of(node, k, n[2], slab);
-          float lowest = a < b ? a : b;
-          lowest = lowest < c ? lowest : c;
-          if (lowest + least_rise >= *node)
-            continue; // no root is under lowest + step / sqrt(3)
-          double f = upwind(a, b, c, step);
-          if (f < *node - least_change) {
-            *node = (float)f;
-            lowered++;
-            lowered_last = 1;
-          }
-        }
+        int32_t r = sweep & 1 ? first + last - rr : rr;
+        look_beside(line, around, n[0], runs->begin[r], runs->end[r], (float)(0.57 * step), beside);
+        lowered += sweep_run(line, n[0], runs->begin[r], runs->end[r], sweep & 1, step, beside);
       }
       if (lowered > before) clock->lowered[k * n[1] + j] = clock->now;
     }
@@ -227,23 +247,41 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
   return lowered;
 }
 
+// Lowers the nodes of a line that are not `within` to `step` over those of another.
+static void go_on_across(float *restrict line, const float *restrict from, const uint8_t *restrict within,
+                         int32_t along, float step) {
+  for (int32_t i = 0; i < along; i++) {
+    float next = from[i] + step;
+    next = next < line[i] ? next : line[i];
+    line[i] = within[i] ? line[i] : next;
+  }
+}
+
 // The nodes outside of `within`, from those before them along each axis, then from those behind.
 static void go_on_outside(CwSizeGrid *grid, const uint8_t *within, float step) {
   const int32_t *n = grid->count;
-  size_t stride[3] = {1, (size_t)n[0], (size_t)n[0] * (size_t)n[1]};
-  for (int back = 0; back < 2; back++) {
-    for (int32_t kk = 0; kk < n[2]; kk++) {
-      for (int32_t jj = 0; jj < n[1]; jj++) {
-        for (int32_t ii = 0; ii < n[0]; ii++) {
-          const int32_t at[3] = {back ? n[0] - 1 - ii : ii, back ? n[1] - 1 - jj : jj, back ? n[2] - 1 - kk : kk};
-          size_t node = (size_t)at[0] + stride[1] * (size_t)at[1] + stride[2] * (size_t)at[2];
-          if (within[node]) continue;
-          for (int axis = 0; axis < 3; axis++) {
-            if (back ? at[axis] + 1 == n[axis] : at[axis] == 0) continue;
-            float next = grid->value[back ? node + stride[axis] : node - stride[axis]] + step;
-            if (next < grid->value[node]) grid->value[node] = next;
-          }
-        }
+  size_t row = (size_t)n[0], slab = row * (size_t)n[1];
+  for (int32_t k = 0; k < n[2]; k++) {
+    for (int32_t j = 0; j < n[1]; j++) {
+      size_t start = (size_t)k * slab + (size_t)j * row;
+      float *line = grid->value + start;
+      const uint8_t *in = within + start;
+      if (j > 0) go_on_across(line, line - row, in, n[0], step);
+      if (k > 0) go_on_across(line, line - slab, in, n[0], step);
+      for (int32_t i = 1; i < n[0]; i++) {
+        if (line[i - 1] + step < line[i] && !in[i]) line[i] = line[i - 1] + step;
+      }
+    }
+  }
+  for (int32_t k = n[2] - 1; k >= 0; k--) {
+    for (int32_t j = n[1] - 1; j >= 0; j--) {
+      size_t start = (size_t)k * slab + (size_t)j * row;
+      float *line = grid->value + start;
+      const uint8_t *in = within + start;
+      if (j + 1 < n[1]) go_on_across(line, line + row, in, n[0], step);
+      if (k + 1 < n[2]) go_on_across(line, line + slab, in, n[0], step);
+      for (int32_t i = n[0] - 2; i >= 0; i--) {
+        if (line[i + 1] + step < line[i] && !in[i]) line[i] = line[i + 1] + step;
       }
     }
   }
@@ -253,18 +291,26 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
   CwStatus status = CW_OK;
   Runs runs = {0};
   Clock clock = {0};
-  int32_t *low = NULL;
+  Beside beside = {0};
+  float *nothing = NULL;
   double step = slope * grid->spacing;
-  CW_NEW(low, grid->count[0]);
+  CW_NEW(beside.lower, grid->count[0]);
+  CW_NEW(beside.higher, grid->count[0]);
+  CW_NEW(beside.low, grid->count[0]);
+  CW_NEW(nothing, grid->count[0]);
+  for (int32_t i = 0; i < grid->count[0]; i++) nothing[i] = unset;
   CW_TRY(runs_make(grid, within, &runs));
   CW_NEW(clock.seen, (size_t)grid->count[1] * (size_t)grid->count[2]);
   CW_NEW(clock.lowered, (size_t)grid->count[1] * (size_t)grid->count[2]);
   for (int quiet = 0, sweep = 0; quiet < 8; sweep = (sweep + 1) % 8) {
-    quiet = sweep_once(grid, &runs, sweep, step, &clock, low) > 0 ? 0 : quiet + 1;
+    quiet = sweep_once(grid, &runs, sweep, step, &clock, &beside, nothing) > 0 ? 0 : quiet + 1;
   }
   if (within) go_on_outside(grid, within, (float)step);
 done:
-  free(low);
+  free(beside.lower);
+  free(beside.higher);
+  free(beside.low);
+  free(nothing);
   runs_free(&runs);
   free(clock.seen);
   free(clock.lowered);

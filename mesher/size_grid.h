@@ -32,6 +32,9 @@ void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value);
 int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node);
 void cw_size_grid_unset(CwSizeGrid *grid, int64_t node);
 
+// Sets a byte of `mark` (one for each node) where a node has a value; leaves the others as they are.
+void cw_size_grid_mark_set(const CwSizeGrid *grid, uint8_t *mark);
+
 // Lowers every node to the greatest field of gradient `slope` under the seeds: |grad f| = slope by fast
 // sweeping (H. Zhao, Math. Comp. 74, 2005), to convergence. With `within` (a byte for each node) it spreads
 // through these nodes alone; the others then only go on from their neighbours, step by step along the axes.
