@@ -175,13 +175,13 @@ done:
   return status;
 }
 
-CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count) {
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   if (!domain->seeds) {
     CW_TRY(cw_size_seeds_start(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE,
                                &domain->seeds));
   }
-  CW_TRY(cw_size_seeds_of_face(domain->seeds, face, bytes, byte_count));
+  CW_TRY(cw_size_seeds_part(domain->seeds, part, bytes, byte_count));
 done:
   return status;
 }

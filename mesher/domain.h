@@ -53,13 +53,13 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
                         const CwFlowScales *scales);
 
 // What one rank makes for all, packed, and how all take it up. First the background triangulation and the exact volume:
-// a part for each face, then one for what each face adds to the volume. Then the seeds of one face; the size field from
-// the seeds of all faces, a part for each CwSizePart.
+// a part for each face, then one for what each face adds to the volume. Then a part of the seeds
+// of the size field; the field from all of them, a part for each CwSizePart.
 CwStatus cw_domain_start_measures(CwDomain *domain);
 double cw_domain_measure_cost(const CwDomain *domain, int part);
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
-CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int face, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
 enum { CW_DOMAIN_SIZE_PARTS = 2 };
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count);

@@ -11,6 +11,7 @@
 #include "pipeline/log.h"
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
+static const double MORE_SEEDS = 0.08; // of the triangles of a domain: as many take as long as edges or lines
 static const double OWN_PLAN = 0.2; // of the work on a plan, what every rank does for itself
 
 // Background triangulations and exact volumes, face by face.
@@ -60,25 +61,26 @@ done:
   return status;
 }
 
-// The size fields: seeds face by face, then the fields they spread to.
+// The size fields: seeds face by face, of the edges, and lines through the domain; then the fields they spread to.
 static CwStatus make_sizes(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults seeds = {0}, results = {0};
   CwMeshTask *task = NULL;
   CwMeshTask part[CW_DOMAINS_MOST * CW_DOMAIN_SIZE_PARTS];
-  int32_t count = 0, all = 0, made = 0, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
-  cw_face_counts(run, faces);
-  for (int d = 0; d < run->domains.count; d++) all += faces[d];
-  CW_TRY(cw_results_make(&seeds, run->domains.count, faces));
+  int32_t count = 0, all = 0, made = 0, parts[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) all += parts[d] = cw_size_seed_parts(run->domain[d].cad);
+  CW_TRY(cw_results_make(&seeds, run->domains.count, parts));
   CW_NEW(task, all);
   for (int d = 0; d < run->domains.count; d++) {
     const CwBackground *background = &run->domain[d].background;
-    for (int32_t f = 0; f < faces[d]; f++) task[count + f] = (CwMeshTask){d, f, 0};
+    int faces = cw_cad_face_count(run->domain[d].cad);
+    for (int32_t i = 0; i < parts[d]; i++)
+      task[count + i] = (CwMeshTask){d, i, i < faces ? 0 : MORE_SEEDS * background->triangle_count};
     for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
-    count += faces[d];
+    count += parts[d];
     run->seeds[d] = seeds.bytes[d];
   }
-  CW_TRY(cw_run_step(run, "size seeds", "faces", cw_step_seed, count, task, seeds.bytes, NULL));
+  CW_TRY(cw_run_step(run, "size seeds", "parts", cw_step_seed, count, task, seeds.bytes, NULL));
   for (int d = 0; d < run->domains.count; d++) {
     parts[d] = CW_DOMAIN_SIZE_PARTS;
     for (int i = 0; i < parts[d]; i++) part[made++] = (CwMeshTask){d, i, run->domain[d].background.triangle_count};

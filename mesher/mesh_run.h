@@ -35,7 +35,7 @@ typedef struct {
   CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
-  void **seeds[CW_DOMAINS_MOST];   // of the size field, by face, while it is made
+  void **seeds[CW_DOMAINS_MOST];   // of the size field, by part, while it is made
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
   double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL

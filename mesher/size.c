@@ -16,6 +16,7 @@ static const double LEAST_AT_RIM = 0.4, LEAST_ASKED = 0.28;
 
 struct CwSizeSeeds {
   CwSizeSurface *surface;
+  int faces;
 };
 
 struct CwSize {
@@ -49,6 +50,7 @@ CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, c
   CwSizeSeeds *made = NULL;
   CW_TRY(check_input(&input));
   CW_NEW(made, 1);
+  made->faces = cw_cad_face_count(cad);
   CW_TRY(cw_size_surface_make(&input, &made->surface));
   *seeds = made;
   made = NULL;
@@ -57,8 +59,57 @@ done:
   return status;
 }
 
-CwStatus cw_size_seeds_of_face(CwSizeSeeds *seeds, int face, void **bytes, int64_t *byte_count) {
-  return cw_size_seed_face(seeds->surface, face, bytes, byte_count);
+// The plain part of the lines; starts and crossings follow it.
+static CwStatus pack_lines(const CwScanlines *lines, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  size_t count = (size_t)lines->count[0] * (size_t)lines->count[1], starts = (count + 1) * sizeof *lines->start;
+  size_t crossings = (size_t)lines->start[count] * sizeof *lines->crossing;
+  char *block;
+  CW_NEW(block, sizeof *lines + starts + crossings);
+  memcpy(block, lines, sizeof *lines);
+  memcpy(block + sizeof *lines, lines->start, starts);
+  memcpy(block + sizeof *lines + starts, lines->crossing, crossings);
+  *bytes = block;
+  *byte_count = (int64_t)(sizeof *lines + starts + crossings);
+done:
+  return status;
+}
+
+static CwStatus unpack_lines(const void *bytes, CwScanlines *lines) {
+  CwStatus status = CW_OK;
+  const char *at = (const char *)bytes + sizeof *lines;
+  memcpy(lines, bytes, sizeof *lines);
+  lines->start = NULL; // addresses mean nothing elsewhere
+  lines->crossing = NULL;
+  size_t count = (size_t)lines->count[0] * (size_t)lines->count[1];
+  CW_NEW(lines->start, count + 1);
+  memcpy(lines->start, at, (count + 1) * sizeof *lines->start);
+  CW_NEW(lines->crossing, lines->start[count]);
+  memcpy(lines->crossing, at + (count + 1) * sizeof *lines->start, (size_t)lines->start[count] * sizeof(double));
+done:
+  return status;
+}
+
+enum { MORE_PARTS = 2 }; // than faces: edges and lines
+
+int cw_size_seed_parts(const CwCad *cad) {
+  return cw_cad_face_count(cad) + MORE_PARTS;
+}
+
+CwStatus cw_size_seeds_part(CwSizeSeeds *seeds, int part, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  CwScanlines lines = {0};
+  if (part < seeds->faces) {
+    CW_TRY(cw_size_seed_face(seeds->surface, part, bytes, byte_count));
+  } else if (part == seeds->faces) {
+    CW_TRY(cw_size_seed_creases(seeds->surface, bytes, byte_count));
+  } else {
+    CW_TRY(cw_size_surface_lines(seeds->surface, &lines));
+    CW_TRY(pack_lines(&lines, bytes, byte_count));
+  }
+done:
+  cw_scanlines_free(&lines);
+  return status;
 }
 
 void cw_size_seeds_free(CwSizeSeeds **seeds) {
@@ -143,12 +194,10 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   made->scale = 1;
   CW_TRY(cw_size_surface_grid(&input, &made->grid));
   CwSizeGrid *grid = &made->grid;
-  for (int f = 0; f < cw_cad_face_count(cad); f++)
-    cw_size_take_seeds(grid, seeds[f]);
-  CW_TRY(cw_size_seed_edges(&input, grid));
-  double low[3], high[3];
-  cw_size_box(background, low, high);
-  CW_TRY(cw_scanlines_make(background, &low[1], &high[1], grid->spacing, &made->lines));
+  int lists = cw_cad_face_count(cad) + 1; // with that of the edges
+  for (int i = 0; i < lists; i++)
+    cw_size_take_seeds(grid, seeds[i]);
+  CW_TRY(unpack_lines(seeds[lists], &made->lines));
   CW_TRY(mark_inside(made, &within));
   if (part == CW_SIZE_SEEDS) {
     CW_TRY(cw_size_grid_spread(grid, table->gradation, within));

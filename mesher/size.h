@@ -19,17 +19,19 @@ extern "C" {
 
 typedef struct CwSize CwSize;
 
-// The field begins with seeds on the surface, face by face: what patch sizes, curvature and gaps ask for there.
+// The field begins with seeds on the surface: part 0 .. faces - 1 are those of a face, what patch sizes, curvature and
+// gaps ask for there; then those of the edges, and last the lines that tell which part of space lies in the domain.
 // `patch_size` gives the relative size of each patch of the CAD (from the mesh table of the case). Sizes are
-// relative to `base_size` (m), the edge length at relative size 1 before scaling. Seeds of different faces may
-// be made on different ranks; they come packed (malloc'd).
+// relative to `base_size` (m), the edge length at relative size 1 before scaling. Different parts may be made on
+// different ranks; they come packed (malloc'd).
 typedef struct CwSizeSeeds CwSizeSeeds;
 CwStatus cw_size_seeds_start(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                              const double *patch_size, double base_size, CwSizeSeeds **seeds);
-CwStatus cw_size_seeds_of_face(CwSizeSeeds *seeds, int face, void **bytes, int64_t *byte_count);
+int cw_size_seed_parts(const CwCad *cad);
+CwStatus cw_size_seeds_part(CwSizeSeeds *seeds, int part, void **bytes, int64_t *byte_count);
 void cw_size_seeds_free(CwSizeSeeds **seeds);
 
-// The field that spreads from the seeds of all faces (seeds[face]) through the domain. `rim_size`, if given, is the
+// The field that spreads from all parts of the seeds (seeds[part]) through the domain. `rim_size`, if given, is the
 // longest edge (m, by patch; only those of walls count) where a wall meets an open face, at any scale: prisms there
 // have a side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims
 // are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of

@@ -44,6 +44,12 @@ int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node) {
   return grid->value[node] < unset;
 }
 
+int cw_size_grid_any_set(const CwSizeGrid *grid, int64_t first, int64_t last) {
+  int any = 0;
+  for (int64_t i = first; i <= last; i++) any |= grid->value[i] < unset;
+  return any;
+}
+
 void cw_size_grid_unset(CwSizeGrid *grid, int64_t node) {
   grid->value[node] = unset;
 }

@@ -30,6 +30,7 @@ void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value);
 
 // Whether a node has a value yet; and back to having none.
 int cw_size_grid_is_set(const CwSizeGrid *grid, int64_t node);
+int cw_size_grid_any_set(const CwSizeGrid *grid, int64_t first, int64_t last); // of these
 void cw_size_grid_unset(CwSizeGrid *grid, int64_t node);
 
 // Sets a byte of `mark` (one for each node) where a node has a value; leaves the others as they are.

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_SIZE_SOURCES_H
 
 #include "mesher/background.h"
+#include "mesher/scanlines.h"
 #include "mesher/size_grid.h"
 #include "pipeline/case.h"
 #include "pipeline/status.h"
@@ -49,9 +50,14 @@ CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64
 // Lowers the nodes of the grid by packed seeds; the order of faces does not matter.
 void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes);
 
-// Seeds `grid` along those CAD edges that are creases: with the length of a short one, and with the width of
-// the face between two that have no vertex in common.
+// The same for those CAD edges that are creases: the length of a short one, and the width of the face between two that
+// have no vertex in common.
+CwStatus cw_size_seed_creases(CwSizeSurface *surface, void **bytes, int64_t *byte_count);
+// Seeds `grid` with these.
 CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid);
+
+// Lines through the domain, one in each square of the grid's cells across x.
+CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines);
 
 // Seeds `grid` with the sizes that rims of walls allow, along them.
 void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid);

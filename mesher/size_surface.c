@@ -341,23 +341,20 @@ static void box_of_face(const Surface *surface, int face, int32_t from[3], int32
   }
 }
 
-CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count) {
+// Packs the seeds among the nodes from..to, and unsets these.
+static CwStatus pack_seeds(CwSizeGrid *grid, const int32_t from[3], const int32_t to[3], void **bytes,
+                           int64_t *byte_count) {
   CwStatus status = CW_OK;
-  CwSizeGrid *grid = &surface->grid;
-  int32_t from[3], to[3];
   int64_t count = 0;
   char *block = NULL;
-  for (int32_t i = 0; i < surface->input.background->point_count; i++)
-    surface->curvature[i] = -1;
-  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++)
-    seed_triangle(surface, surface->face_triangle[i]);
-  box_of_face(surface, face, from, to);
   for (int store = 0; store < 2; store++) {
     Seed *seed = store ? (Seed *)(block + sizeof count) : NULL;
     count = 0;
     for (int32_t k = from[2]; k <= to[2]; k++) {
       for (int32_t j = from[1]; j <= to[1]; j++) {
         int64_t line = ((int64_t)k * grid->count[1] + j) * grid->count[0];
+        if (!cw_size_grid_any_set(grid, line + from[0], line + to[0]))
+          continue; // most lines
         for (int64_t node = line + from[0]; node <= line + to[0]; node++) {
           if (!cw_size_grid_is_set(grid, node))
             continue;
@@ -377,6 +374,31 @@ CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64
   *byte_count = (int64_t)(sizeof count + (size_t)count * sizeof(Seed));
 done:
   return status;
+}
+
+CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count) {
+  int32_t from[3], to[3];
+  for (int32_t i = 0; i < surface->input.background->point_count; i++)
+    surface->curvature[i] = -1;
+  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++)
+    seed_triangle(surface, surface->face_triangle[i]);
+  box_of_face(surface, face, from, to);
+  return pack_seeds(&surface->grid, from, to, bytes, byte_count);
+}
+
+CwStatus cw_size_seed_creases(CwSizeSurface *surface, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  const int32_t *n = surface->grid.count, from[3] = {0, 0, 0}, to[3] = {n[0] - 1, n[1] - 1, n[2] - 1};
+  CW_TRY(cw_size_seed_edges(&surface->input, &surface->grid));
+  CW_TRY(pack_seeds(&surface->grid, from, to, bytes, byte_count));
+done:
+  return status;
+}
+
+CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines) {
+  double low[3], high[3];
+  cw_size_box(surface->input.background, low, high);
+  return cw_scanlines_make(surface->input.background, &low[1], &high[1], surface->grid.spacing, lines);
 }
 
 void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes) {

@@ -47,12 +47,13 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
   check(cw_domain_take_measures(made, part));
   for (int i = 0; i < 2 * faces; i++) free(part[i]);
   free(part);
-  seed = calloc((size_t)faces, sizeof *seed);
+  int seeds = cw_size_seed_parts(made->cad);
+  seed = calloc((size_t)seeds, sizeof *seed);
   assert_non_null(seed);
-  for (int f = 0; f < faces; f++) check(cw_domain_seed(made, &table, f, &seed[f], &size));
+  for (int i = 0; i < seeds; i++) check(cw_domain_seed(made, &table, i, &seed[i], &size));
   for (int i = 0; i < CW_DOMAIN_SIZE_PARTS; i++) check(cw_domain_make_size(made, &table, seed, i, &field[i], &size));
   check(cw_domain_take_size(made, field));
-  for (int f = 0; f < faces; f++) free(seed[f]);
+  for (int i = 0; i < seeds; i++) free(seed[i]);
   free(seed);
   for (int i = 0; i < CW_DOMAIN_SIZE_PARTS; i++) free(field[i]);
 }

@@ -37,9 +37,9 @@ struct Box {
     check(
         cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
     CwSizeSeeds *seeds = nullptr;
-    std::vector<void *> seed(cw_cad_face_count(cad));
+    std::vector<void *> seed(cw_size_seed_parts(cad));
     check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
-    for (size_t f = 0; f < seed.size(); f++) check(cw_size_seeds_of_face(seeds, (int)f, &seed[f], &bytes));
+    for (size_t i = 0; i < seed.size(); i++) check(cw_size_seeds_part(seeds, (int)i, &seed[i], &bytes));
     cw_size_seeds_free(&seeds);
     check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &size));
     for (void *one : seed) free(one);

@@ -42,19 +42,19 @@ struct Model {
     if (cw_background_make(cad, 1e-5, 0.1, &background) != CW_OK)
       fail_msg("%s", cw_fail_message());
     CwSizeSeeds *seeds = nullptr;
-    std::vector<void *> seeds_of_face(cw_cad_face_count(cad));
+    std::vector<void *> parts(cw_size_seed_parts(cad));
     int64_t bytes;
     void *rim_bytes;
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
-    for (int f = cw_cad_face_count(cad) - 1; f >= 0; f--)
-      check(cw_size_seeds_of_face(seeds, f, &seeds_of_face[f], &bytes));
+    for (int i = (int)parts.size() - 1; i >= 0; i--)
+      check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
     cw_size_seeds_free(&seeds);
     const double *rim = rim_size.empty() ? nullptr : rim_size.data();
-    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, seeds_of_face.data(),
+    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(),
                        CW_SIZE_SEEDS, &size));
     if (rim) {
       CwSize *rims = nullptr;
-      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, seeds_of_face.data(),
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(),
                          CW_SIZE_RIMS, &rims));
       check(cw_size_pack(rims, &rim_bytes, &bytes));
       cw_size_free(&rims);
@@ -63,8 +63,8 @@ struct Model {
       cw_size_join(size, &rims);
       assert_null(rims);
     }
-    for (void *of_face : seeds_of_face)
-      free(of_face);
+    for (void *part : parts)
+      free(part);
   }
   ~Model() {
     cw_size_free(&size);
