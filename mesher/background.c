@@ -71,10 +71,25 @@ done:
   return status;
 }
 
-CwStatus cw_background_join(const CwCad *cad, void *const *face_bytes, CwBackground *background) {
+// The triangles of an inside-out solid, and the solid with them.
+static void turn(CwCad *cad, CwBackground *background) {
+  cw_cad_turn(cad);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    int32_t *corner = background->triangle[t], point = corner[1];
+    double(*uv)[2] = background->uv[t], place[2];
+    corner[1] = corner[2];
+    corner[2] = point;
+    memcpy(place, uv[1], sizeof place);
+    memcpy(uv[1], uv[2], sizeof place);
+    memcpy(uv[2], place, sizeof place);
+  }
+}
+
+CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background) {
   CwStatus status = CW_OK;
   memset(background, 0, sizeof *background);
   CW_TRY(cw_tessellation_weld(cad, face_bytes, background));
+  if (cw_background_volume(background) < 0) turn(cad, background);
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(cw_background_volume(background) > 0, CW_ERR_GEOMETRY,
              "the tessellation encloses %g m3; it must be positive", cw_background_volume(background));
@@ -84,7 +99,7 @@ done:
   return status;
 }
 
-CwStatus cw_background_make(const CwCad *cad, double deflection, double angle, CwBackground *background) {
+CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background) {
   CwStatus status = CW_OK;
   CwTessellation *tessellation = NULL;
   void **bytes = NULL;

@@ -26,11 +26,11 @@ typedef struct {
 
 // Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that
 // other ranks have made.
-CwStatus cw_background_make(const CwCad *cad, double deflection, double angle, CwBackground *background);
+CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
 
-// From the faces (background_tessellate.h). Fails with CW_ERR_GEOMETRY where the result is not closed (the place is
+// From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with CW_ERR_GEOMETRY where the result is not closed (the place is
 // named).
-CwStatus cw_background_join(const CwCad *cad, void *const *face_bytes, CwBackground *background);
+CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
 void cw_background_free(CwBackground *background);
 
 // Volume enclosed, m3.

@@ -99,6 +99,11 @@ int cw_cad_face_reversed(const CwCad *cad, int face) {
   return cad->face[face].reversed;
 }
 
+void cw_cad_turn(CwCad *cad) {
+  cad->inside_out = !cad->inside_out;
+  for (CwCadFace &face : cad->face) face.reversed = !face.reversed;
+}
+
 static void to_metres(const gp_XYZ &mm, double x[3]) {
   x[0] = mm.X() * metre_per_mm;
   x[1] = mm.Y() * metre_per_mm;

@@ -34,6 +34,10 @@ const char *cw_cad_face_name(const CwCad *cad, int face);
 // turned to have their normal out of the domain.
 int cw_cad_face_reversed(const CwCad *cad, int face);
 
+// Takes the file for one whose faces point into the solid: turns them all. Whether it is one only a volume tells, so
+// that it is cw_background_join that finds it; before that the faces are as the file has them.
+void cw_cad_turn(CwCad *cad);
+
 // Point of a face at (u,v); with the first derivatives where xu and xv are not NULL.
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
                        double xv[3]);

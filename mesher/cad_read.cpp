@@ -3,12 +3,12 @@
 #include <cstring>
 #include <fstream>
 
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <Precision.hxx>
+#include <Standard_Failure.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -28,13 +28,21 @@ static bool is_binary(const char *path) {
   return std::strstr(head, "Open CASCADE Topology") != nullptr;
 }
 
+static bool read_file(const char *path, TopoDS_Shape &shape) {
+  try {
+    BRep_Builder builder;
+    bool read = is_binary(path) ? BinTools::Read(shape, path) : BRepTools::Read(shape, path, builder);
+    return read && !shape.IsNull();
+  } catch (const Standard_Failure &) { // so the binary reader, of a file cut short
+    return false;
+  }
+}
+
 CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
   if (!std::ifstream(path).good())
     return CW_FAIL(CW_ERR_IO, "%s: cannot be read", path);
   TopoDS_Shape shape;
-  BRep_Builder builder;
-  bool read = is_binary(path) ? BinTools::Read(shape, path) : BRepTools::Read(shape, path, builder);
-  if (!read || shape.IsNull())
+  if (!read_file(path, shape))
     return CW_FAIL(CW_ERR_INPUT, "%s: is not a B-rep file of OpenCASCADE", path);
 
   int solids = 0;
@@ -46,11 +54,6 @@ CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
   TopExp::MapShapes(cad->solid, TopAbs_FACE, cad->face_map);
   TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
   TopExp::MapShapes(cad->solid, TopAbs_VERTEX, cad->vertex_map);
-
-  // A solid that holds the point at infinity is inside out: cheaper to see than a volume below zero.
-  BRepClass3d_SolidClassifier classifier(cad->solid);
-  classifier.PerformInfinitePoint(Precision::Confusion());
-  cad->inside_out = classifier.State() == TopAbs_IN;
   return CW_OK;
 }
 
@@ -95,7 +98,7 @@ static void read_face(CwCad *cad, int index) {
   face.v_range[0] = surface.IsVPeriodic() ? -INFINITY : surface.FirstVParameter();
   face.v_range[1] = surface.IsVPeriodic() ? INFINITY : surface.LastVParameter();
   // A forward face of a solid has its natural normal out of it, unless the solid is inside out as a whole.
-  face.reversed = (shape.Orientation() == TopAbs_REVERSED) != cad->inside_out;
+  face.reversed = shape.Orientation() == TopAbs_REVERSED;
 }
 
 static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face,

@@ -45,7 +45,7 @@ struct CwCad {
   TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based
   std::vector<CwCadFace> face;
   std::vector<CwCadEdge> edge;
-  bool inside_out; // faces of the file point into the solid
+  bool inside_out; // faces of the file point into the solid (cw_cad_turn)
   CwFaceTable table;
 };
 

@@ -167,6 +167,7 @@ CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes) {
   CW_TRY(cw_background_join(domain->cad, bytes, &domain->background));
   domain->solid_volume = 0;
   for (int f = 0; f < faces; f++) domain->solid_volume += *(const double *)bytes[faces + f];
+  domain->solid_volume = fabs(domain->solid_volume); // measured before the faces were turned
   CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,

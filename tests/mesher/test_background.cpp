@@ -63,6 +63,9 @@ static void inside_out_file_still_has_normals_out(void **state) {
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape().Reversed());
   CwBackground b = make(cad, 1e-4);
   assert_near(cw_background_volume(&b), 6e-6, 1e-16);
+  assert_near(solid_volume(cad), 6e-6, 1e-15); // the solid has been turned with it
+  check_closed(&b);
+  check_corners(cad, &b);
   cw_background_free(&b);
   cw_cad_close(&cad);
 }

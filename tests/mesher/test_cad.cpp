@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
 
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BinTools.hxx>
 
 #include "solids.h"
 
@@ -106,6 +110,8 @@ static void normals_point_out_of_the_domain(void **state) {
   check_normals_point_out(cad, box_centre);
   cw_cad_close(&cad);
   cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape().Reversed()); // inside out in the file
+  assert_near(solid_volume(cad), -6e-6, 1e-15);
+  cw_cad_turn(cad);
   check_normals_point_out(cad, box_centre);
   assert_near(solid_volume(cad), 6e-6, 1e-15);
   cw_cad_close(&cad);
@@ -269,6 +275,20 @@ static void bad_solids_are_refused(void **state) {
   expect_refusal(folder, CW_ERR_INPUT, "holds 0 solids");
 }
 
+static void binary_file_is_read_and_half_of_it_refused(void **state) {
+  TemporaryFolder folder;
+  TopoDS_Shape solid = quarter_cylinder();
+  write_solid(folder, solid, all_wall);
+  const std::string path = std::string(folder.path) + "/part.brep";
+  assert_true(BinTools::Write(solid, path.c_str()));
+  CwCad *cad = nullptr;
+  assert_int_equal(cw_cad_open(folder.path, "part", &cad), CW_OK);
+  assert_near(solid_volume(cad), M_PI / 4 * radius * radius * height, 1e-12);
+  cw_cad_close(&cad);
+  assert_int_equal(truncate(path.c_str(), std::filesystem::file_size(path) / 2), 0);
+  expect_refusal(folder, CW_ERR_INPUT, "is not a B-rep file of OpenCASCADE");
+}
+
 static void bad_face_tables_are_refused(void **state) {
   TemporaryFolder folder;
   write_solid(folder, BRepPrimAPI_MakeBox(1, 1, 1).Shape(), all_wall);
@@ -296,6 +316,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(box_has_its_parts_and_patches),
       cmocka_unit_test(normals_point_out_of_the_domain),
+      cmocka_unit_test(binary_file_is_read_and_half_of_it_refused),
       cmocka_unit_test(derivatives_match_differences),
       cmocka_unit_test(cylinder_has_curvature_and_projection),
       cmocka_unit_test(spline_faces_do_the_same),
