@@ -19,6 +19,8 @@ static const double LEAST_REGION_CELLS = 400e3, MOST_REGIONS = 140;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
+static const double SEED_AREA = 1e-6;       // m2, that takes as long to seed as a triangle does by itself
+static const double MORE_SEEDS = 0.12;      // of the triangles: as many take as long as edges or lines
 static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
 
@@ -174,6 +176,15 @@ CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes) {
                         &domain->inside));
 done:
   return status;
+}
+
+void cw_domain_seed_costs(const CwDomain *domain, double *cost) {
+  const CwBackground *background = &domain->background;
+  int faces = cw_cad_face_count(domain->cad);
+  double centre[3];
+  for (int32_t t = 0; t < background->triangle_count; t++)
+    cost[background->face[t]] += 1 + triangle_area(background, t, centre) / SEED_AREA;
+  for (int i = faces; i < cw_size_seed_parts(domain->cad); i++) cost[i] = MORE_SEEDS * background->triangle_count;
 }
 
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count) {

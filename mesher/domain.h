@@ -59,6 +59,7 @@ CwStatus cw_domain_start_measures(CwDomain *domain);
 double cw_domain_measure_cost(const CwDomain *domain, int part);
 CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
+void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part, zeroed
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
 enum { CW_DOMAIN_SIZE_PARTS = 2 };
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,

@@ -11,7 +11,6 @@
 #include "pipeline/log.h"
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
-static const double MORE_SEEDS = 0.08; // of the triangles of a domain: as many take as long as edges or lines
 static const double OWN_PLAN = 0.2; // of the work on a plan, what every rank does for itself
 
 // Background triangulations and exact volumes, face by face.
@@ -66,17 +65,18 @@ static CwStatus make_sizes(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults seeds = {0}, results = {0};
   CwMeshTask *task = NULL;
+  double *cost = NULL;
   CwMeshTask part[CW_DOMAINS_MOST * CW_DOMAIN_SIZE_PARTS];
   int32_t count = 0, all = 0, made = 0, parts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->domains.count; d++) all += parts[d] = cw_size_seed_parts(run->domain[d].cad);
   CW_TRY(cw_results_make(&seeds, run->domains.count, parts));
   CW_NEW(task, all);
   for (int d = 0; d < run->domains.count; d++) {
-    const CwBackground *background = &run->domain[d].background;
-    int faces = cw_cad_face_count(run->domain[d].cad);
-    for (int32_t i = 0; i < parts[d]; i++)
-      task[count + i] = (CwMeshTask){d, i, i < faces ? 0 : MORE_SEEDS * background->triangle_count};
-    for (int32_t t = 0; t < background->triangle_count; t++) task[count + background->face[t]].cost += 1;
+    CW_NEW(cost, parts[d]);
+    cw_domain_seed_costs(&run->domain[d], cost);
+    for (int32_t i = 0; i < parts[d]; i++) task[count + i] = (CwMeshTask){d, i, cost[i]};
+    free(cost);
+    cost = NULL;
     count += parts[d];
     run->seeds[d] = seeds.bytes[d];
   }
@@ -93,6 +93,7 @@ done:
   for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
   cw_results_free(&seeds);
   cw_results_free(&results);
+  free(cost);
   free(task);
   return status;
 }

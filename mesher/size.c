@@ -203,9 +203,10 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
     CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
     if (rim_size) made->rim_asks = cw_size_rims_ask(&input, grid);
   } else {
-    cw_size_grid_free(grid);
+    cw_size_grid_clear(grid);
+    made->rim = made->grid;
+    made->grid = (CwSizeGrid){0};
     cw_scanlines_free(&made->lines);
-    CW_TRY(cw_size_surface_grid(&input, &made->rim));
     cw_size_seed_rims(&input, &made->rim);
     CW_TRY(cw_size_grid_spread(&made->rim, table->gradation, within));
   }

@@ -29,10 +29,15 @@ CwStatus cw_size_grid_make(const double low[3], const double high[3], double spa
     grid->low[k] = low[k] - spacing;
   size_t nodes = (size_t)grid->count[0] * grid->count[1] * grid->count[2];
   CW_NEW(grid->value, nodes);
-  for (size_t i = 0; i < nodes; i++)
-    grid->value[i] = unset;
+  cw_size_grid_clear(grid);
 done:
   return status;
+}
+
+void cw_size_grid_clear(CwSizeGrid *grid) {
+  size_t nodes = (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
+  for (size_t i = 0; i < nodes; i++)
+    grid->value[i] = unset;
 }
 
 void cw_size_grid_free(CwSizeGrid *grid) {

@@ -23,6 +23,7 @@ typedef struct {
 // spacing becomes as coarse as needed. All values begin at 1e30.
 CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
                            CwSizeGrid *grid);
+void cw_size_grid_clear(CwSizeGrid *grid); // no value anywhere
 void cw_size_grid_free(CwSizeGrid *grid);
 
 // Lowers the eight nodes around x to `value`, so that the field at x is at most that.
