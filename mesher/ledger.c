@@ -15,6 +15,7 @@ typedef struct {
   const char *step;
   int32_t count;
   double *cost, *seconds; // cost: NULL where all are alike
+  double *after;          // indices of tasks, -1: none; NULL where no task waits
   double own;
   int64_t bytes;
 } Entry;
@@ -83,8 +84,8 @@ done:
   return status;
 }
 
-CwStatus cw_ledger_tasks(const char *step, int32_t count, const double *cost, const double *seconds, double own,
-                         int64_t bytes) {
+CwStatus cw_ledger_tasks(const char *step, int32_t count, const double *cost, const int32_t *after,
+                         const double *seconds, double own, int64_t bytes) {
   CwStatus status = CW_OK;
   Entry *entry = NULL;
   ledger.since += own;
@@ -95,6 +96,10 @@ CwStatus cw_ledger_tasks(const char *step, int32_t count, const double *cost, co
   if (cost) {
     CW_NEW(entry->cost, count);
     memcpy(entry->cost, cost, (size_t)count * sizeof *cost);
+  }
+  if (after) {
+    CW_NEW(entry->after, count);
+    for (int32_t i = 0; i < count; i++) entry->after[i] = after[i];
   }
   entry->count = count;
 done:
@@ -149,8 +154,11 @@ static CwStatus account_json(const Account *account, const double *most, json_t 
   for (int32_t i = 0; i < account->entry_count; i++) {
     const Entry *entry = &account->entry[i];
     double longest = most ? most[account->part_count + i] : 0;
-    CW_REQUIRE(json_array_append_new(tasks, json_pack("{s:s, s:o, s:o, s:o, s:I}", "step", entry->step, "task_cost",
+    CW_REQUIRE(json_array_append_new(tasks, json_pack("{s:s, s:o, s:o, s:o, s:o, s:I}", "step", entry->step,
+                                                      "task_cost",
                                                       numbers(entry->cost ? entry->count : 0, entry->cost, 0),
+                                                      "task_after",
+                                                      numbers(entry->after ? entry->count : 0, entry->after, 0),
                                                       "task_seconds", numbers(entry->count, entry->seconds, 1), "most",
                                                       rounded(longest), "bytes", (json_int_t)entry->bytes)) == 0,
                CW_ERR_MEMORY, "out of memory: record of %d tasks", entry->count);
@@ -203,6 +211,7 @@ CwStatus cw_ledger_take_side(int32_t side, const char *bytes, int64_t size) {
     entry->step = json_string_value(json_object_get(item, "step"));
     entry->bytes = json_integer_value(json_object_get(item, "bytes"));
     CW_TRY(take_numbers(json_object_get(item, "task_cost"), &entry->cost));
+    CW_TRY(take_numbers(json_object_get(item, "task_after"), &entry->after));
     CW_TRY(take_numbers(seconds, &entry->seconds));
     entry->count = (int32_t)json_array_size(seconds);
   }
@@ -252,6 +261,7 @@ done:
 static void free_account(Account *account) {
   for (int32_t i = 0; i < account->entry_count; i++) {
     free(account->entry[i].cost);
+    free(account->entry[i].after);
     free(account->entry[i].seconds);
   }
   free(account->entry);

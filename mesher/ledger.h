@@ -18,10 +18,10 @@ extern "C" {
 // part before. All ranks call in the same order; the time before the first call is that of the part "start".
 const char *cw_ledger_part(const char *part);
 
-// A schedule has run. `cost` (may be NULL) and `seconds` of its tasks; `own` seconds of this rank's tasks, which do not
-// count to the present part; bytes of results that every rank got.
-CwStatus cw_ledger_tasks(const char *step, int32_t count, const double *cost, const double *seconds, double own,
-                         int64_t bytes);
+// A schedule has run. `cost`, `after` (CwSchedule; may be NULL) and `seconds` of its tasks; `own` seconds of this
+// rank's tasks, which do not count to the present part; bytes of results that every rank got.
+CwStatus cw_ledger_tasks(const char *step, int32_t count, const double *cost, const int32_t *after,
+                         const double *seconds, double own, int64_t bytes);
 
 // A step goes on side by side: accounts for `count` sides, of predicted costs of which the share `own` is what every
 // rank of a side does for itself. All ranks.
@@ -32,8 +32,9 @@ void cw_ledger_side(int32_t side);
 CwStatus cw_ledger_pack_side(int32_t side, char **bytes, int64_t *size);
 CwStatus cw_ledger_take_side(int32_t side, const char *bytes, int64_t size);
 
-// *account: {"every_rank": [{"part", "seconds", "most"}], "tasks": [{"step", "task_cost", "task_seconds", "most",
-// "bytes"}]}: seconds of rank 0, and of the rank with most. *sides: [{"step", "own", "side": [account with "cost"]}].
+// *account: {"every_rank": [{"part", "seconds", "most"}], "tasks": [{"step", "task_cost", "task_after", "task_seconds",
+// "most", "bytes"}]}: seconds of rank 0, and of the rank with most. *sides: [{"step", "own", "side": [account with
+// "cost"]}].
 // Collective.
 CwStatus cw_ledger_json(json_t **account, json_t **sides);
 

@@ -31,7 +31,7 @@ static CwStatus measure_domains(CwMeshRun *run) {
       task[count++] = (CwMeshTask){d, part, cw_domain_measure_cost(&run->domain[d], part)};
     }
   }
-  CW_TRY(cw_run_step(run, "background", "parts", cw_step_measure, count, task, results.bytes, NULL));
+  CW_TRY(cw_run_step(run, "background", "parts", cw_step_measure, count, task, NULL, results.bytes, NULL));
   cw_ledger_part("background joined");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
@@ -80,13 +80,13 @@ static CwStatus make_sizes(CwMeshRun *run) {
     count += parts[d];
     run->seeds[d] = seeds.bytes[d];
   }
-  CW_TRY(cw_run_step(run, "size seeds", "parts", cw_step_seed, count, task, seeds.bytes, NULL));
+  CW_TRY(cw_run_step(run, "size seeds", "parts", cw_step_seed, count, task, NULL, seeds.bytes, NULL));
   for (int d = 0; d < run->domains.count; d++) {
     parts[d] = CW_DOMAIN_SIZE_PARTS;
     for (int i = 0; i < parts[d]; i++) part[made++] = (CwMeshTask){d, i, run->domain[d].background.triangle_count};
   }
   CW_TRY(cw_results_make(&results, run->domains.count, parts));
-  CW_TRY(cw_run_step(run, "size field", "parts", cw_step_size, made, part, results.bytes, NULL));
+  CW_TRY(cw_run_step(run, "size field", "parts", cw_step_size, made, part, NULL, results.bytes, NULL));
   cw_ledger_part("integrals of the size");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
 done:

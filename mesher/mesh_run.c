@@ -19,6 +19,7 @@
 enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
+static const double COPY_COST = 0.07;       // of a turned copy of a region, by that of its first
 // Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
 // (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
@@ -130,7 +131,7 @@ static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
     cw_ledger_part("curves of the walls");
     CW_TRY(start_walls(run, unfit));
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
-    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, results.bytes, NULL));
+    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_ledger_part("walls merged");
     for (int d = 0; d < run->domains.count; d++)
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
@@ -177,7 +178,7 @@ static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
   cw_face_counts(run, counts);
   CW_TRY(cw_results_make(&caps, run->domains.count, counts));
   CW_TRY(face_tasks(run, 0, &count, &task));
-  CW_TRY(cw_run_step(run, "caps", "faces", cw_step_cap, count, task, caps.bytes, NULL));
+  CW_TRY(cw_run_step(run, "caps", "faces", cw_step_cap, count, task, NULL, caps.bytes, NULL));
   free(task);
   task = NULL;
   count = 0;
@@ -194,7 +195,7 @@ static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
       task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
     }
   }
-  CW_TRY(cw_run_step(run, "interfaces", "polygons", cw_step_interface, made, task, interfaces.bytes, NULL));
+  CW_TRY(cw_run_step(run, "interfaces", "polygons", cw_step_interface, made, task, NULL, interfaces.bytes, NULL));
   cw_ledger_part("inner surfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
@@ -230,7 +231,7 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
     }
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
-  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, results.bytes, NULL));
+  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
   cw_ledger_part("interfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
@@ -259,40 +260,14 @@ static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegion
   }
 }
 
-// The files of the turned copies, once all first regions are whole; adds up the open faces of the domains.
-static CwStatus copy_regions(CwMeshRun *run, const int32_t *regions, uint64_t *open_faces) {
-  CwStatus status = CW_OK;
-  CwResults results = {0};
-  CwMeshTask *task = NULL;
-  int32_t all = 0, count = 0;
-  for (int d = 0; d < run->domains.count; d++) all += regions[d];
-  CW_NEW(task, all);
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    for (int32_t r = 0; r < regions[d]; r++) {
-      int32_t first = cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r);
-      if (first != r) task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[first]};
-    }
-  }
-  if (count == 0) goto done;
-  CW_TRY(cw_results_make(&results, run->domains.count, regions));
-  CW_TRY(cw_run_step(run, "copies", "regions", cw_step_copy, count, task, results.bytes, run->region_seconds));
-  for (int32_t i = 0; i < count; i++) {
-    open_faces[task[i].domain] += *(const uint64_t *)results.bytes[task[i].domain][task[i].index];
-  }
-done:
-  cw_results_free(&results);
-  free(task);
-  return status;
-}
-
-// *failed: how many regions could not be made; then there are no copies.
+// Regions are made, and the turned copies of each as soon as it is whole. *failed: how many regions could not be made;
+// they have no copies.
 static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
   CwStatus status = CW_OK;
   CwResults results = {0};
   CwMeshTask *task = NULL;
   uint64_t open_faces[CW_DOMAINS_MOST] = {0};
-  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
+  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
   for (int d = 0; d < run->domains.count; d++) {
     regions[d] = run->domain[d].plan.region_count;
     all += regions[d];
@@ -304,32 +279,41 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
     CW_NEW(run->region_seconds[d], regions[d]);
   }
   CW_NEW(task, all);
+  CW_NEW(after, all);
   for (int d = 0; d < run->domains.count; d++) {
     const CwSkeleton *skeleton = &run->domain[d].skeleton;
     for (int32_t r = 0; r < regions[d]; r++) {
       if (cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r) != r) continue;
-      task[count++] = (CwMeshTask){d, r, run->domain[d].plan.predicted_cells[r]};
+      int32_t first = count, copies = cw_region_copies(skeleton, r);
+      double cost = run->domain[d].plan.predicted_cells[r];
+      after[count] = -1;
+      task[count++] = (CwMeshTask){d, r, cost};
+      for (int32_t turns = 1; turns < copies; turns++) {
+        after[count] = first;
+        task[count++] = (CwMeshTask){d, cw_orbit_region(&skeleton->orbits, skeleton->plan, r, turns), COPY_COST * cost};
+      }
     }
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
-  CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, results.bytes, run->region_seconds));
+  CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes,
+                     run->region_seconds));
   cw_ledger_part("results");
   run->cells = 0;
   *failed = 0;
   for (int32_t i = 0; i < count; i++) {
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
-    take_summaries(run, task[i].domain, task[i].index, made);
+    if (after[i] < 0) take_summaries(run, task[i].domain, task[i].index, made);
     open_faces[task[i].domain] += made->quality.open_faces;
     *failed += made->failure.failed;
   }
   if (*failed) goto done;
-  CW_TRY(copy_regions(run, regions, open_faces));
   for (int d = 0; d < run->domains.count; d++) {
     CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
                run->domain[d].name, run->run_path);
   }
 done:
   cw_results_free(&results);
+  free(after);
   free(task);
   return status;
 }

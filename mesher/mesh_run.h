@@ -73,7 +73,6 @@ CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *siz
 CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_copy(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 
 // How many regions a region stands for: itself and its turned copies.
 int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "mesher/mesh_run.h"
 #include "mesher/region_boundary.h"
@@ -85,39 +86,48 @@ done:
   return status;
 }
 
-// Makes a turned copy of a region, whose file is whole, or takes it up where an earlier run left it so. The result is
-// its sum of open faces.
-CwStatus cw_step_copy(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+// Makes a turned copy of the region `source`, whose file at `source_path` is whole, or takes it up where an earlier run
+// left it so.
+static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source, const char *source_path,
+                          CwQuality *quality) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
   const CwSkeletonOrbits *orbits = &domain->skeleton.orbits;
   CwRegionMesh first = {0}, mesh = {0};
-  CwQuality quality = {0};
-  uint64_t *open_faces = NULL;
   char path[4096], fingerprint[33];
-  int32_t source = cw_orbit_region_first(orbits, &domain->plan, task.index), turns = 1;
+  int32_t turns = 1;
   while (cw_orbit_region(orbits, &domain->plan, source, turns) != task.index) turns++;
-  CW_NEW(open_faces, 1);
-  CW_TRY(region_path(run, domain, source, sizeof path, path));
-  CW_TRY(cw_region_read(path, &first));
+  CW_TRY(cw_region_read(source_path, &first));
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
   if (cw_region_is_current(path, fingerprint)) { // its cells come from a file
     CW_TRY(cw_region_read(path, &mesh));
-    CW_TRY(cw_audit_region(&mesh, &quality));
+    CW_TRY(cw_audit_region(&mesh, quality));
   } else {
     CW_TRY(cw_region_copy(&domain->context, &first, turns, domain->number[task.index], fingerprint, &mesh));
-    CW_TRY(cw_audit_copy(&mesh, &quality.open_faces));
+    CW_TRY(cw_audit_copy(&mesh, &quality->open_faces));
     CW_TRY(cw_region_write(path, &mesh));
   }
-  *open_faces = quality.open_faces;
-  *bytes = open_faces;
-  *size = sizeof *open_faces;
-  open_faces = NULL;
 done:
   cw_region_free(&first);
   cw_region_free(&mesh);
-  free(open_faces);
+  return status;
+}
+
+// Of its summary the open faces alone; it has failed where its first has, which then has no file.
+static CwStatus step_copy(const CwMeshRun *run, CwMeshTask task, int32_t first, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwRegionSummary *summary = NULL;
+  char path[4096];
+  CW_NEW(summary, 1);
+  CW_TRY(region_path(run, &run->domain[task.domain], first, sizeof path, path));
+  summary->failure.failed = access(path, F_OK) != 0;
+  if (!summary->failure.failed) CW_TRY(make_copy(run, task, first, path, &summary->quality));
+  *bytes = summary;
+  *size = sizeof *summary;
+  summary = NULL;
+done:
+  free(summary);
   return status;
 }
 
@@ -147,13 +157,16 @@ done:
   return status;
 }
 
-// Makes the region, or takes it up from its file where an earlier run left it whole.
+// Makes the region, or takes it up from its file where an earlier run left it whole. A turned copy is made of its
+// first.
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
   char path[4096], boundary_path[4096], fingerprint[33];
+  int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, task.index);
+  if (first != task.index) return step_copy(run, task, first, bytes, size);
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   snprintf(boundary_path, sizeof boundary_path, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name,
            task.index + 1);
@@ -166,6 +179,7 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   if (made == CW_ERR_MESH) {
     CW_TRY(cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path,
                                      &summary->failure));
+    remove(path); // of an earlier attempt: it must not be copied
   } else {
     CW_TRY(made);
     if (!current) CW_TRY(cw_region_write(path, &mesh));

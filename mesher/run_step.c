@@ -18,7 +18,7 @@ static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *siz
 }
 
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
-                         const CwMeshTask *task, void ***bytes, double **seconds) {
+                     const CwMeshTask *task, const int32_t *after, void ***bytes, double **seconds) {
   CwStatus status = CW_OK;
   void **result = NULL;
   int64_t *size = NULL;
@@ -29,8 +29,8 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
   CW_NEW(cost, count);
   CW_NEW(time, count);
   for (int32_t i = 0; i < count; i++) cost[i] = task[i].cost;
-  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .run = run_one, .context = &context,
-                         .gather = 1};
+  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .after = after, .run = run_one,
+                         .context = &context, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, result, size, time));
   for (int32_t i = 0; i < count; i++) {
     bytes[task[i].domain][task[i].index] = result[i];

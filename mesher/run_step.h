@@ -15,9 +15,9 @@ CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count);
 void cw_results_free(CwResults *results);
 
 // Runs a step over tasks of all domains; collective. Results: bytes[d][i] for task index i of domain d; seconds[d][i]
-// likewise where seconds is given.
+// likewise where seconds is given. after: as in CwSchedule.
 CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
-                     const CwMeshTask *task, void ***bytes, double **seconds);
+                     const CwMeshTask *task, const int32_t *after, void ***bytes, double **seconds);
 
 // CAD faces of each domain.
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]);

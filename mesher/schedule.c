@@ -214,11 +214,51 @@ done:
   return status;
 }
 
+// Which tasks have ended, on the first rank of the team, where tasks wait for others.
+typedef struct {
+  MPI_Win window; // MPI_WIN_NULL: one rank, or no task waits
+  int64_t *ended;
+} Marks;
+
+static CwStatus make_marks(const CwSchedule *schedule, Marks *marks) {
+  CwStatus status = CW_OK;
+  if (!schedule->after) goto done;
+  MPI_Aint bytes = team.rank == 0 ? schedule->count * (MPI_Aint)sizeof(int64_t) : 0;
+  CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, team.comm, &marks->ended, &marks->window) ==
+                 MPI_SUCCESS,
+             CW_ERR_LIBRARY, "MPI gives no shared marks");
+  if (bytes) memset(marks->ended, 0, (size_t)bytes);
+  MPI_Win_lock_all(MPI_MODE_NOCHECK, marks->window); // nobody looks before the next barrier
+done:
+  return status;
+}
+
+static int64_t mark_add(const Marks *marks, int32_t task, int64_t amount) {
+  int64_t before = 0;
+  MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, 0, task, MPI_SUM, marks->window);
+  MPI_Win_flush(0, marks->window);
+  return before;
+}
+
+// Another rank has taken the task before, or this one has ended it: so the wait ends.
+static void wait_for(const Marks *marks, int32_t task) {
+  for (double pause = 2e-5; mark_add(marks, task, 0) == 0; pause = pause < 2e-3 ? 1.5 * pause : pause) {
+    sleep_seconds(pause);
+  }
+}
+
+static void free_marks(Marks *marks) {
+  if (marks->window == MPI_WIN_NULL) return;
+  MPI_Win_unlock_all(marks->window);
+  MPI_Win_free(&marks->window);
+}
+
 CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
   CwStatus status = CW_OK;
   Ordered *order = NULL;
   int32_t *owner = NULL;
   double *time = NULL, own = 0;
+  Marks marks = {.window = MPI_WIN_NULL};
   int64_t finished = 0, gathered = 0;
   const char *part = cw_ledger_part("exchange");
   CW_NEW(order, schedule->count);
@@ -227,11 +267,15 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   for (int32_t task = 0; task < schedule->count; task++) {
     order[task] = (Ordered){schedule->cost ? schedule->cost[task] : 0.0, task};
     owner[task] = -1;
+    int32_t before = schedule->after ? schedule->after[task] : -1;
+    CW_REQUIRE(before < 0 || (before < task && order[before].cost >= order[task].cost), CW_ERR_INPUT,
+               "%s: task %d waits for task %d, which is taken later", schedule->step, task, before);
   }
   qsort(order, (size_t)schedule->count, sizeof *order, compare_cost);
   if (team.ranks > 1) {
     // All have left the last run before the counters start again, and none starts before they have.
     quiet_barrier(0);
+    CW_TRY(make_marks(schedule, &marks));
     if (team.rank == 0) {
       counter_add(SLOT_NEXT, -counter_add(SLOT_NEXT, 0));
       counter_add(SLOT_DONE, -counter_add(SLOT_DONE, 0));
@@ -246,6 +290,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     int32_t task = order[place].task;
     void *result = NULL;
     int64_t result_size = 0;
+    if (marks.window != MPI_WIN_NULL && schedule->after[task] >= 0) wait_for(&marks, schedule->after[task]);
     double start = cw_processor_seconds();
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
     time[task] = cw_processor_seconds() - start;
@@ -257,18 +302,20 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
       free(result);
     if (size)
       size[task] = result_size;
+    if (marks.window != MPI_WIN_NULL) mark_add(&marks, task, 1);
     finished = team.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
     if (schedule->unit) cw_progress(finished);
   }
   if (team.ranks > 1) {
     quiet_barrier(team.rank == 0 && schedule->unit);
+    free_marks(&marks);
     MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, team.comm);
     MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, team.comm);
     if (schedule->gather)
       CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }
   for (int32_t task = 0; schedule->gather && task < schedule->count; task++) gathered += size[task];
-  CW_TRY(cw_ledger_tasks(schedule->step, schedule->count, schedule->cost, time, own, gathered));
+  CW_TRY(cw_ledger_tasks(schedule->step, schedule->count, schedule->cost, schedule->after, time, own, gathered));
   if (seconds)
     memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
   if (schedule->unit) cw_progress_end();

@@ -8,7 +8,8 @@
 1 and 2 ranks are measured on this machine, in turn, --repeat times; the least counts, of the run and of each task. All
 further rows are a model, marked so: the processor seconds of each task of the run on one rank (so that what else runs
 on the machine does not count) are replayed schedule by schedule through the mesher's own rule (largest predicted cost
-first, each rank takes the next task when it is free; a schedule starts when the one before has ended on all ranks).
+first, each rank takes the next task when it is free and waits where that one comes after another; a schedule starts when the
+one before has ended on all ranks).
 What no task accounts for is done by every rank and gains nothing. Where domains are worked on side by side, ranks are
 grouped as the mesher does it and the longest group counts. The model knows no network and no shared memory bus; the row
 of 2 ranks, measured and modelled, and --check tell how far it holds here.
@@ -87,10 +88,13 @@ def group_sides(cost, own, ranks):
 
 
 def replay(tasks, ranks):
-    """Time until the last of the tasks (predicted cost, seconds) ends on `ranks` ranks."""
-    free = [0.0] * ranks
-    for _, seconds in sorted(tasks, key=lambda task: -task[0]):
-        heapq.heappush(free, heapq.heappop(free) + seconds)
+    """Time until the last of the tasks (predicted cost, seconds, index of the task it waits for or -1) ends on `ranks`
+    ranks."""
+    free, ended = [0.0] * ranks, {-1: 0.0}
+    for i in sorted(range(len(tasks)), key=lambda i: -tasks[i][0]):
+        _, seconds, after = tasks[i]
+        ended[i] = max(heapq.heappop(free), ended[after]) + seconds
+        heapq.heappush(free, ended[i])
     return max(free)
 
 
@@ -116,8 +120,8 @@ def replay_waiting(tasks, before, ranks):
 
 
 def smaller_neighbours(record):
-    """For each task of the step "regions" the tasks of its neighbours of smaller number. Turned copies are no tasks of
-    their own, and where passages are copies of one another none waits."""
+    """For each task of the step "regions" but turned copies, in order, those of its neighbours of smaller number. Where
+    passages are copies of one another none waits."""
     before = []
     for domain in record["results"]["domains"]:
         firsts = [region for region in domain["region_list"] if region["copy_of"] == region["region"]]
@@ -129,6 +133,15 @@ def smaller_neighbours(record):
             low, high = (a, b) if number[a] < number[b] else (b, a)
             before[start + high - 1].add(start + low - 1)
     return before
+
+
+def of_all(before, tasks):
+    """The same for all tasks of the step: a turned copy waits for its first."""
+    firsts = [i for i, task in enumerate(tasks) if task[2] < 0]
+    waits = [{task[2]} for task in tasks]
+    for first, names in zip(firsts, before):
+        waits[first] = {firsts[name] for name in names}
+    return waits
 
 
 def depth(before):
@@ -157,7 +170,9 @@ class Account:
         for runs in zip(*(account["tasks"] for account in several)):
             assert len({step["step"] for step in runs}) == 1
             times = [min(values) for values in zip(*(step["task_seconds"] for step in runs))]
-            self.steps.append((runs[0]["step"], list(zip(runs[0]["task_cost"] or [0] * len(times), times))))
+            cost = runs[0]["task_cost"] or [0] * len(times)
+            after = [int(task) for task in runs[0]["task_after"]] or [-1] * len(times)
+            self.steps.append((runs[0]["step"], list(zip(cost, times, after))))
         for runs in zip(*(account["every_rank"] for account in several)):
             assert len({part["part"] for part in runs}) == 1
             add(self.parts, {runs[0]["part"]: min(part["seconds"] for part in runs)})
@@ -169,7 +184,8 @@ class Account:
             if before and name == "region rule":
                 continue
             waits = before and name == "regions"
-            add(seconds, {name + TASKS: replay_waiting(tasks, before, ranks) if waits else replay(tasks, ranks)})
+            add(seconds, {name + TASKS: replay_waiting(tasks, of_all(before, tasks), ranks) if waits
+                          else replay(tasks, ranks)})
         return seconds
 
 

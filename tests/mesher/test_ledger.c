@@ -77,7 +77,9 @@ static void sides_have_their_own_accounts(void **state) {
   json_t *account, *sides;
   char *bytes;
   int64_t size;
-  CwSchedule schedule = {.step = "step", .count = 2, .cost = COST, .run = task};
+  const double cost[2] = {7, 5};
+  const int32_t after[2] = {-1, 0};
+  CwSchedule schedule = {.step = "step", .count = 2, .cost = cost, .after = after, .run = task};
   cw_ledger_part("together");
   assert_int_equal(cw_ledger_sides("sides", 2, COST, 0.25), CW_OK);
   cw_ledger_side(1);
@@ -100,7 +102,8 @@ static void sides_have_their_own_accounts(void **state) {
                  *list = find(json_object_get(of, "tasks"), "step", "step");
     assert_float_equal(number(of, "cost"), COST[s], 0);
     assert_int_equal(json_array_size(json_object_get(list, "task_seconds")), 2);
-    assert_float_equal(json_number_value(json_array_get(json_object_get(list, "task_cost"), 1)), 7, 0);
+    assert_float_equal(json_number_value(json_array_get(json_object_get(list, "task_cost"), 1)), 5, 0);
+    assert_float_equal(json_number_value(json_array_get(json_object_get(list, "task_after"), 0)), -1, 0);
     assert_true(json_number_value(json_array_get(json_object_get(list, "task_seconds"), 1)) >= 0.06 - 1e-5);
     assert_true(number(alone, "most") >= (s ? 0.03 - 1e-5 : 0));
     assert_true(number(list, "most") >= (s ? 0.08 - 1e-5 : 0)); // who takes an account has spent nothing on it

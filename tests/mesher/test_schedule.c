@@ -66,6 +66,50 @@ static CwSchedule schedule_of(Work *work, const double *cost) {
                       .gather = 1};
 }
 
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+// Gives when it began and ended. The first takes long, so that whoever is free reaches the tasks that wait for it.
+static CwStatus run_timed(void *context, int32_t task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  double *time = NULL;
+  CW_NEW(time, 2);
+  time[0] = now();
+  usleep(task == 0 ? 300000 : 1000);
+  CW_REQUIRE(strcmp(context, "first-fails") || task != 0, CW_ERR_MESH, "the first task fails");
+  time[1] = now();
+  *bytes = time;
+  *size = sizeof(double[2]);
+  time = NULL;
+done:
+  free(time);
+  return status;
+}
+
+// Of four tasks three wait for the first. How many began before it had ended, or -1 where the schedule failed.
+static int began_too_early(char *mode) {
+  int early = 0;
+  double cost[TASKS];
+  int32_t after[TASKS];
+  void *bytes[TASKS] = {0};
+  int64_t size[TASKS] = {0};
+  for (int k = 0; k < TASKS; k++) {
+    cost[k] = k % 4 == 0 ? 2 : 1;
+    after[k] = k % 4 == 0 ? -1 : k - k % 4;
+  }
+  CwSchedule schedule = {.step = "tasks", .unit = "tasks", .count = TASKS, .cost = cost, .after = after,
+                         .run = run_timed, .context = mode, .gather = 1};
+  if (cw_schedule_run(&schedule, bytes, size, NULL) != CW_OK) early = -1;
+  for (int k = 0; k < TASKS && early >= 0; k++) {
+    early += after[k] >= 0 && ((double *)bytes[k])[0] < ((double *)bytes[after[k]])[1];
+  }
+  for (int k = 0; k < TASKS; k++) free(bytes[k]);
+  return early;
+}
+
 static int results_wrong(const Work *work, void **bytes, const int64_t *size) {
   int wrong = 0;
   for (int32_t task = 0; task < TASKS; task++) {
@@ -83,6 +127,12 @@ static int be_a_rank(int argc, char **argv) {
   int rank, ranks, wrong = 0;
   cw_mpi_start(&argc, &argv, &rank, &ranks);
   cw_log_open("test", NULL, rank == 0, 0);
+  if (!strcmp(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
+    printf("RANK %d EARLY %d\n", rank, began_too_early(argv[1]));
+    cw_log_close();
+    cw_mpi_end();
+    return 0;
+  }
   for (int repeat = 0; repeat < (strcmp(argv[1], "large") ? 3 : 1); repeat++) {
     Work work = {.mode = argv[1]};
     double cost[TASKS], seconds[TASKS];
@@ -127,12 +177,6 @@ static void large_results_come_whole(void **state) {
   assert_int_equal(sum_of(output, " RAN ", &lines), TASKS);
 }
 
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void failing_task_ends_the_run_with_one_line(void **state) {
   double start = now();
   assert_int_equal(launch(4, "fail", output, sizeof output), CW_ERR_MESH);
@@ -145,6 +189,38 @@ static void failing_task_ends_the_run_with_one_line(void **state) {
 static void many_failing_tasks_print_one_line(void **state) {
   assert_int_equal(launch(4, "all-fail", output, sizeof output), CW_ERR_MESH);
   assert_int_equal(count_lines_with(output, "error:"), 1);
+}
+
+static void tasks_wait_for_those_they_come_after(void **state) {
+  (void)state;
+  assert_int_equal(began_too_early("after"), 0);
+  static const int RANKS[] = {2, 3, 5};
+  for (int i = 0; i < 3; i++) {
+    int lines, code = launch(RANKS[i], "after", output, sizeof output);
+    if (code) fail_msg("exit status %d: %s", code, output);
+    assert_int_equal(sum_of(output, " EARLY ", &lines), 0);
+    assert_int_equal(lines, RANKS[i]);
+  }
+}
+
+// Those that wait do not wait for ever.
+static void failing_task_ends_those_that_wait(void **state) {
+  (void)state;
+  double start = now();
+  assert_int_equal(began_too_early("first-fails"), -1);
+  assert_int_equal(launch(3, "first-fails", output, sizeof output), CW_ERR_MESH);
+  assert_int_equal(count_lines_with(output, "error: the first task fails"), 1);
+  assert_true(now() - start < 10.0);
+}
+
+// A task that others would wait for without end is refused.
+static void tasks_wait_for_none_that_is_taken_later(void **state) {
+  (void)state;
+  const double cost[2] = {1, 2};
+  const int32_t after[2] = {-1, 0};
+  CwSchedule schedule = {.step = "tasks", .count = 2, .cost = cost, .after = after, .run = run_timed,
+                         .context = "after"};
+  assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_ERR_INPUT);
 }
 
 static void killed_rank_ends_the_run(void **state) {
@@ -207,6 +283,9 @@ int main(int argc, char **argv) {
       cmocka_unit_test(large_results_come_whole),
       cmocka_unit_test(failing_task_ends_the_run_with_one_line),
       cmocka_unit_test(many_failing_tasks_print_one_line),
+      cmocka_unit_test(tasks_wait_for_those_they_come_after),
+      cmocka_unit_test(failing_task_ends_those_that_wait),
+      cmocka_unit_test(tasks_wait_for_none_that_is_taken_later),
       cmocka_unit_test(killed_rank_ends_the_run),
       cmocka_unit_test(waiting_ranks_sleep),
   };
