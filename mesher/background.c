@@ -89,10 +89,13 @@ CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *b
   CwStatus status = CW_OK;
   memset(background, 0, sizeof *background);
   CW_TRY(cw_tessellation_weld(cad, face_bytes, background));
-  if (cw_background_volume(background) < 0) turn(cad, background);
+  double volume = cw_background_volume(background);
+  if (volume < 0) {
+    turn(cad, background);
+    volume = -volume;
+  }
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
-  CW_REQUIRE(cw_background_volume(background) > 0, CW_ERR_GEOMETRY,
-             "the tessellation encloses %g m3; it must be positive", cw_background_volume(background));
+  CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "the tessellation encloses %g m3; it must be positive", volume);
 done:
   if (status != CW_OK)
     cw_background_free(background);

@@ -85,8 +85,7 @@ CwStatus cw_layers_normals(CwLayerWork *work);
 enum { CW_LAYER_NORMALS = 48 };
 int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]);
 double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]);
-// Sets column[v] to the offset g / max(n.g, floor); floor 0.3 on concave creases, 0.55 elsewhere.
-void cw_layers_set_column(CwLayerWork *work, int32_t v, const double direction[3], double floor_cosine);
+// Least cosine that a column over height t[v] is lengthened for: it is the offset g / max(n.g, floor).
 double cw_layers_floor(const CwLayerWork *work, int32_t v);
 // The column of v without any fan.
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]);

@@ -111,11 +111,6 @@ double cw_layers_floor(const CwLayerWork *work, int32_t v) {
   return work->crease[v] == CW_CREASE_CONCAVE ? 0.3 : 0.55;
 }
 
-void cw_layers_set_column(CwLayerWork *work, int32_t v, const double direction[3], double floor_cosine) {
-  double c = fmax(cw_layers_least_cosine(work, v, direction), floor_cosine);
-  for (int k = 0; k < 3; k++) work->column[v][k] = direction[k] / c;
-}
-
 void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
   double c = fmax(work->base_cos[v], cw_layers_floor(work, v));
   for (int k = 0; k < 3; k++) column[k] = work->base[v][k] / c;
