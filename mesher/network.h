@@ -52,7 +52,7 @@ typedef struct {
 } CwNetwork;
 
 // Builds corners and curves (not yet discretised). CW_RETRY where a plane touches a face or an edge in a way that
-// cannot be resolved, with the place in mm: other planes may not.
+// cannot be resolved, with the place in mm: other planes may not. Collective.
 CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
                          const CwPlan *plan, CwNetwork *network);
 void cw_network_free(CwNetwork *network);
@@ -71,6 +71,8 @@ double cw_face_onto_plane(const CwCad *cad, int32_t face, const CwPlane *plane, 
 double cw_face_onto_planes(const CwCad *cad, int32_t face, const CwPlane *a, const CwPlane *b, double uv[2],
                            double x[3]);
 
+static const double cw_same_corner = 1e-8; // m: corners nearer to one another, on the same things, are one
+
 // Adds a corner unless one with the same CAD entity and planes lies within `tolerance` m; returns its number, or -1
 // where memory ran out.
 int32_t cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance);
@@ -78,7 +80,9 @@ int32_t cw_network_corner(CwNetwork *network, const CwCorner *corner, double tol
 // Adds a curve (taking over its arrays); CW_ERR_MEMORY frees them.
 CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve);
 
-// Traces the plane of `node` on every CAD face and adds the pieces within its cell. Step of cw_network_make.
+// Steps of cw_network_make: traces the plane of `node` on every CAD face and adds the pieces within its cell; and the
+// same for all planes, which the ranks share.
 CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node);
+CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background);
 
 #endif

@@ -8,7 +8,6 @@
 #include "mesher/vec.h"
 
 enum { EDGE_FINE = 129, LINE_FINE = 65 };
-static const double SAME_CORNER = 1e-8; // m
 
 typedef struct {
   int32_t corner;
@@ -137,7 +136,7 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
     cw_cad_vertex_point(cad, v, corner.x);
     CW_REQUIRE(cw_network_corner(network, &corner, 0) == v, CW_ERR_MEMORY, "out of memory: %d corners", v);
   }
-  for (int32_t node = 0; node < plan->node_count; node++) CW_TRY(cw_network_trace(network, background, node));
+  CW_TRY(cw_network_trace_all(network, background));
 
   // Three planes meet only where one is above the two others: cells side by side touch on a plane above both alone.
   CW_NEW(below, plan->node_count);
@@ -150,7 +149,7 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
       for (int32_t c = b + 1; c < count; c++) {
         CwCorner corner = {{0}, -1, -1, 0, -1, {a, below[b], below[c]}, 0};
         if (!triple_point(network, inside, corner.plane, corner.x)) continue;
-        CW_REQUIRE(cw_network_corner(network, &corner, SAME_CORNER) >= 0, CW_ERR_MEMORY, "out of memory: %d corners",
+        CW_REQUIRE(cw_network_corner(network, &corner, cw_same_corner) >= 0, CW_ERR_MEMORY, "out of memory: %d corners",
                    network->corner_count);
       }
     }

@@ -9,7 +9,6 @@
 #include "mesher/vec.h"
 
 enum { EDGE_SAMPLES = 257 };
-static const double SAME_CORNER = 1e-8; // m
 static const double FOUND = 1e-9;       // m: Newton has arrived
 
 // A background edge that the plane crosses, as seen from one of its two triangles.
@@ -290,7 +289,7 @@ static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, 
   if (from) ends[0] = split_corner(trace->face, node, from);
   if (to) ends[1] = split_corner(trace->face, node, to);
   for (int k = 0; k < 2; k++) {
-    curve.corner[k] = cw_network_corner(network, &ends[k], SAME_CORNER);
+    curve.corner[k] = cw_network_corner(network, &ends[k], cw_same_corner);
     CW_REQUIRE(curve.corner[k] >= 0, CW_ERR_MEMORY, "out of memory: %d corners", network->corner_count);
   }
   int patch = cw_cad_face_patch(network->cad, trace->face);
