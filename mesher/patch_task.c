@@ -95,7 +95,8 @@ done:
   return status;
 }
 
-// The packed form: outline points, new points, triangles; then coordinates, triangles, labels.
+// The packed form: counts of outline points, new points and triangles; then coordinates, nodes of the outline, triangles,
+// labels.
 enum { HEADER = 16 };
 
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
@@ -120,13 +121,16 @@ CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const
   CW_NEW(labels, mesh.component_count);
   CW_TRY(component_labels(&mesh, label, label_context, labels));
   int32_t fresh = mesh.point_count - outline->point_count;
-  size_t total = HEADER + (size_t)fresh * 24 + (size_t)mesh.triangle_count * 16;
+  size_t nodes = (size_t)outline->point_count * sizeof *outline->node;
+  size_t total = HEADER + (size_t)fresh * 24 + nodes + (size_t)mesh.triangle_count * 16;
   CW_NEW(block, total);
   int32_t header[3] = {outline->point_count, fresh, mesh.triangle_count};
   memcpy(block, header, sizeof header);
   char *at = block + HEADER;
   memcpy(at, mesh.x + outline->point_count, (size_t)fresh * 24);
   at += (size_t)fresh * 24;
+  memcpy(at, outline->node, nodes);
+  at += nodes;
   for (int32_t t = 0; t < mesh.triangle_count; t++, at += 12) {
     int32_t corner[3] = {mesh.triangle[t][0], mesh.triangle[t][turned ? 2 : 1], mesh.triangle[t][turned ? 1 : 2]};
     memcpy(at, corner, sizeof corner);
@@ -151,6 +155,8 @@ void cw_patch_block(const void *bytes, CwPatchBlock *block) {
   const char *at = (const char *)bytes + HEADER;
   block->x = (const double(*)[3])at;
   at += (size_t)header[1] * 24;
+  block->outline_node = (const int32_t *)at;
+  at += (size_t)header[0] * sizeof *block->outline_node;
   block->triangle = (const int32_t(*)[3])at;
   at += (size_t)header[2] * 12;
   block->label = (const int32_t *)at;

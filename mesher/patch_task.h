@@ -28,6 +28,7 @@ void cw_outline_free(CwPatchOutline *outline);
 typedef struct {
   int32_t outline_points, point_count, triangle_count;
   const double (*x)[3];
+  const int32_t *outline_node; // of the caller
   const int32_t (*triangle)[3];
   const int32_t *label; // of each triangle: region, say
 } CwPatchBlock;

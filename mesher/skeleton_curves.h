@@ -13,9 +13,6 @@
 CwStatus cw_curve_divide(const CwSkeleton *skeleton, const CwCurve *curve, double from, double to, int32_t least,
                          int32_t *count, double **place);
 
-// The outline of a cap: the marched rim, and free curves on it.
-CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline);
-
 // The outline of an interface in the coordinates of its plane.
 CwStatus cw_skeleton_interface_outline(const CwSkeleton *skeleton, const CwInterfaceOutline *interface,
                                        const CwPlaneMap *map, CwPatchOutline *outline);

@@ -249,8 +249,8 @@ done:
 }
 
 // Appends a packed patch, turned: its new points as nodes, its triangles at triangle[count...].
-static CwStatus append(CwSkeleton *skeleton, const CwPatchOutline *outline, const CwPatchBlock *block, int on_plane,
-                       int32_t turns, int32_t copies, int32_t (*triangle)[3]) {
+static CwStatus append(CwSkeleton *skeleton, const CwPatchBlock *block, int on_plane, int32_t turns, int32_t copies,
+                       int32_t (*triangle)[3]) {
   CwStatus status = CW_OK;
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t first = skeleton->node_count, node;
@@ -266,7 +266,7 @@ static CwStatus append(CwSkeleton *skeleton, const CwPatchOutline *outline, cons
   for (int32_t t = 0; t < block->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t local = block->triangle[t][k];
-      triangle[t][k] = local < block->outline_points ? cw_orbit_node(orbits, outline->node[local], turns)
+      triangle[t][k] = local < block->outline_points ? cw_orbit_node(orbits, block->outline_node[local], turns)
                                                      : first + local - block->outline_points;
     }
   }
@@ -276,11 +276,9 @@ done:
 
 static CwStatus merge_cap(CwSkeleton *skeleton, int32_t face, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
-  CwPatchOutline outline = {0};
   int32_t copies = cw_orbit_face_copies(&skeleton->orbits, face);
-  CW_TRY(cw_skeleton_cap_outline(skeleton, face, &outline));
   for (int32_t turns = 0; turns < copies; turns++) {
-    CW_TRY(append(skeleton, &outline, block, 0, turns, copies, skeleton->cap_triangle + skeleton->cap_triangle_count));
+    CW_TRY(append(skeleton, block, 0, turns, copies, skeleton->cap_triangle + skeleton->cap_triangle_count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
       skeleton->cap_face[skeleton->cap_triangle_count] = cw_orbit_face(&skeleton->orbits, face, turns);
       skeleton->cap_region[skeleton->cap_triangle_count++] =
@@ -288,24 +286,20 @@ static CwStatus merge_cap(CwSkeleton *skeleton, int32_t face, const CwPatchBlock
     }
   }
 done:
-  cw_outline_free(&outline);
   return status;
 }
 
 static CwStatus merge_interface(CwSkeleton *skeleton, int32_t index, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
-  CwPatchOutline outline = {0};
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t copies = cw_orbit_copies(orbits, &orbits->outline, index), regions = skeleton->plan->region_count;
-  CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[skeleton->outline[index].node].plane);
-  CW_TRY(cw_skeleton_interface_outline(skeleton, &skeleton->outline[index], &map, &outline));
   for (int32_t turns = 0, copy = index; turns < copies; turns++) {
     CwInterfaceOutline *interface = &skeleton->outline[copy];
     interface->free_start = skeleton->node_count;
     interface->free_count = block->point_count;
     interface->triangle_start = skeleton->interface_triangle_count;
     interface->triangle_count = block->triangle_count;
-    CW_TRY(append(skeleton, &outline, block, 1, turns, copies,
+    CW_TRY(append(skeleton, block, 1, turns, copies,
                   skeleton->interface_triangle + skeleton->interface_triangle_count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
       int32_t *region = skeleton->interface_region[skeleton->interface_triangle_count++];
@@ -315,7 +309,6 @@ static CwStatus merge_interface(CwSkeleton *skeleton, int32_t index, const CwPat
     if (copies > 1) copy = orbits->outline.next[copy];
   }
 done:
-  cw_outline_free(&outline);
   return status;
 }
 

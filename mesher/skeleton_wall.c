@@ -46,16 +46,22 @@ done:
   return status;
 }
 
+static CwStatus reserve_wall(CwSkeleton *skeleton, int32_t capacity) {
+  CwStatus status = CW_OK;
+  void *xs = realloc(skeleton->wall_x, (size_t)capacity * sizeof *skeleton->wall_x);
+  if (xs) skeleton->wall_x = xs;
+  void *guides = realloc(skeleton->guide, (size_t)capacity * sizeof *skeleton->guide);
+  if (guides) skeleton->guide = guides;
+  CW_REQUIRE(xs && guides, CW_ERR_MEMORY, "out of memory: %d wall vertices", capacity);
+  skeleton->wall_capacity = capacity;
+done:
+  return status;
+}
+
 static CwStatus add_wall_vertex(CwSkeleton *skeleton, const double x[3], CwGuide guide, int32_t *vertex) {
   CwStatus status = CW_OK;
   if (skeleton->wall_count == skeleton->wall_capacity) {
-    int32_t capacity = skeleton->wall_capacity ? 2 * skeleton->wall_capacity : 4096;
-    void *xs = realloc(skeleton->wall_x, (size_t)capacity * sizeof *skeleton->wall_x);
-    if (xs) skeleton->wall_x = xs;
-    void *guides = realloc(skeleton->guide, (size_t)capacity * sizeof *skeleton->guide);
-    if (guides) skeleton->guide = guides;
-    CW_REQUIRE(xs && guides, CW_ERR_MEMORY, "out of memory: %d wall vertices", capacity);
-    skeleton->wall_capacity = capacity;
+    CW_TRY(reserve_wall(skeleton, skeleton->wall_capacity ? 2 * skeleton->wall_capacity : 4096));
   }
   cw_copy(x, skeleton->wall_x[skeleton->wall_count]);
   skeleton->guide[skeleton->wall_count] = guide;
@@ -314,11 +320,9 @@ done:
 // Appends the mesh of a face for itself and its turned copies.
 static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
-  CwPatchOutline outline = {0};
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t copies = cw_orbit_face_copies(orbits, face), first = skeleton->wall_count;
   int32_t source = skeleton->wall_triangle_count;
-  CW_TRY(wall_outline(skeleton, face, &outline));
   for (int32_t turns = 0; turns < copies; turns++) {
     int32_t base = skeleton->wall_count;
     for (int32_t i = 0; i < block->point_count; i++) {
@@ -333,7 +337,7 @@ static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBloc
       int32_t *corner = skeleton->wall_triangle[skeleton->wall_triangle_count];
       for (int k = 0; k < 3; k++) {
         int32_t local = block->triangle[t][k];
-        corner[k] = local < block->outline_points ? cw_orbit_node(orbits, outline.node[local], turns)
+        corner[k] = local < block->outline_points ? cw_orbit_node(orbits, block->outline_node[local], turns)
                                                   : base + local - block->outline_points;
       }
       skeleton->wall_face[skeleton->wall_triangle_count] = cw_orbit_face(orbits, face, turns);
@@ -343,7 +347,6 @@ static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBloc
     }
   }
 done:
-  cw_outline_free(&outline);
   return status;
 }
 
@@ -369,13 +372,16 @@ done:
 
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
   CwStatus status = CW_OK;
-  int32_t faces = cw_cad_face_count(skeleton->cad), total = 0;
+  int32_t faces = cw_cad_face_count(skeleton->cad), total = 0, vertices = skeleton->wall_count;
   CwPatchBlock block;
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
+    int32_t copies = cw_orbit_face_copies(&skeleton->orbits, f);
     cw_patch_block(bytes[f], &block);
-    total += block.triangle_count * cw_orbit_face_copies(&skeleton->orbits, f);
+    total += block.triangle_count * copies;
+    vertices += block.point_count * copies;
   }
+  if (vertices > skeleton->wall_capacity) CW_TRY(reserve_wall(skeleton, vertices));
   CW_NEW(skeleton->wall_triangle, total);
   CW_NEW(skeleton->wall_face, total);
   CW_NEW(skeleton->wall_region, total);
@@ -401,17 +407,8 @@ static CwStatus add_cap_point(const CwSkeleton *skeleton, const CwCurve *curve, 
   return cw_outline_point(outline, curve->node[k], uv, x, local);
 }
 
-CwStatus cw_skeleton_mesh_cap(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
-  CwStatus status = CW_OK;
-  CwPatchOutline outline = {0};
-  CW_TRY(cw_skeleton_cap_outline(skeleton, face, &outline));
-  CW_TRY(mesh_face(skeleton, face, &outline, bytes, size));
-done:
-  cw_outline_free(&outline);
-  return status;
-}
-
-CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
+// The outline of a cap: the marched rim, and free curves on it.
+static CwStatus cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CW_TRY(cw_outline_start(outline, skeleton->node_count));
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
@@ -425,5 +422,15 @@ CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPat
     }
   }
 done:
+  return status;
+}
+
+CwStatus cw_skeleton_mesh_cap(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  CW_TRY(cap_outline(skeleton, face, &outline));
+  CW_TRY(mesh_face(skeleton, face, &outline, bytes, size));
+done:
+  cw_outline_free(&outline);
   return status;
 }
