@@ -215,12 +215,12 @@ done:
   return status;
 }
 
-CwStatus cw_domain_take_size(CwDomain *domain, void *const *bytes) {
+CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
   CwStatus status = CW_OK;
   CwSize *rims = NULL;
   cw_size_seeds_free(&domain->seeds);
-  CW_TRY(cw_size_unpack(bytes[0], &domain->size));
-  CW_TRY(cw_size_unpack(bytes[1], &rims));
+  CW_TRY(cw_size_unpack(&bytes[0], &domain->size));
+  CW_TRY(cw_size_unpack(&bytes[1], &rims));
   cw_size_join(domain->size, &rims);
   CW_TRY(integrate(domain));
 done:

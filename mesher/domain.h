@@ -64,7 +64,7 @@ CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **
 enum { CW_DOMAIN_SIZE_PARTS = 2 };
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, void *const *bytes); // collective
+CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);

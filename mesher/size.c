@@ -25,6 +25,8 @@ struct CwSize {
   CwSizeGrid rim;  // m, whatever the scale: what rims of walls allow; no nodes where they ask nothing
   double rim_asks; // mean along the rims of what they allow over what is wanted at scale 1
   CwScanlines lines;
+  void *block;     // that holds the arrays, where the field came packed
+  void *rim_block; // that holds those of rims that joined it
 };
 
 static CwStatus check_input(const CwSizeInput *input) {
@@ -220,101 +222,98 @@ done:
 
 void cw_size_join(CwSize *size, CwSize **rims) {
   size->rim = (*rims)->rim;
+  size->rim_block = (*rims)->block ? (*rims)->block : (*rims)->rim.value;
   (*rims)->rim = (CwSizeGrid){0};
+  (*rims)->block = NULL;
   cw_size_free(rims);
 }
 
-// The plain part of a field; arrays follow it: values of both grids, starts of the lines, crossings.
+// The plain part of a field; arrays follow it: starts of the lines, crossings, values of both grids.
 typedef struct {
   CwSize plain;
-  int64_t nodes, rim_nodes, lines, crossings;
+  size_t starts, crossings, nodes, rim_nodes;
 } Packed;
 
-static int64_t node_count(const CwSizeGrid *grid) {
-  return (int64_t)grid->count[0] * grid->count[1] * grid->count[2];
+static size_t node_count(const CwSizeGrid *grid) {
+  return (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
 }
 
 static Packed packed_head(const CwSize *size) {
   const CwScanlines *lines = &size->lines;
-  Packed head = {.plain = *size};
-  head.nodes = node_count(&size->grid);
-  head.rim_nodes = node_count(&size->rim);
-  head.lines = (int64_t)lines->count[0] * lines->count[1];
-  head.crossings = lines->start ? lines->start[head.lines] : 0;
+  Packed head = {.plain = *size, .nodes = node_count(&size->grid), .rim_nodes = node_count(&size->rim)};
+  if (lines->start) {
+    head.starts = (size_t)lines->count[0] * (size_t)lines->count[1] + 1;
+    head.crossings = (size_t)lines->start[head.starts - 1];
+  }
   return head;
 }
 
-enum { ARRAYS = 4 };
-
-static CwStatus arrays_new(const Packed *head, CwSize *size) {
-  CwStatus status = CW_OK;
-  if (head->nodes) CW_NEW(size->grid.value, head->nodes);
-  if (head->rim_nodes) CW_NEW(size->rim.value, head->rim_nodes);
-  if (head->lines) CW_NEW(size->lines.start, head->lines + 1);
-  if (head->lines) CW_NEW(size->lines.crossing, head->crossings);
-done:
-  return status;
+static size_t packed_size(const Packed *head) {
+  return sizeof *head + head->starts * sizeof(int64_t) + head->crossings * sizeof(double) +
+         (head->nodes + head->rim_nodes) * sizeof(float);
 }
 
-// The arrays and their sizes in bytes; returns the sum.
-static size_t arrays_of(const Packed *head, const CwSize *size, void *array[ARRAYS], size_t bytes[ARRAYS]) {
-  array[0] = size->grid.value, bytes[0] = (size_t)head->nodes * sizeof(float);
-  array[1] = size->rim.value, bytes[1] = (size_t)head->rim_nodes * sizeof(float);
-  array[2] = size->lines.start, bytes[2] = head->lines ? (size_t)(head->lines + 1) * sizeof(int64_t) : 0;
-  array[3] = size->lines.crossing, bytes[3] = (size_t)head->crossings * sizeof(double);
-  return bytes[0] + bytes[1] + bytes[2] + bytes[3];
+// The plain part with its arrays in the block, which it does not own yet.
+static CwSize arrays_in(const Packed *head, char *block) {
+  CwSize size = head->plain;
+  int64_t *start = (int64_t *)(block + sizeof *head);
+  double *crossing = (double *)(start + head->starts);
+  float *value = (float *)(crossing + head->crossings);
+  size.block = size.rim_block = NULL;
+  size.lines.start = head->starts ? start : NULL;
+  size.lines.crossing = head->starts ? crossing : NULL;
+  size.grid.value = head->nodes ? value : NULL;
+  size.rim.value = head->rim_nodes ? value + head->nodes : NULL;
+  return size;
+}
+
+static void copy_items(void *to, const void *from, size_t count, size_t width) {
+  if (count) memcpy(to, from, count * width);
 }
 
 CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   Packed head = packed_head(size);
-  void *array[ARRAYS];
-  size_t length[ARRAYS], all = sizeof head + arrays_of(&head, size, array, length);
-  char *block, *at;
-  CW_NEW(block, all);
-  head.plain.grid.value = head.plain.rim.value = NULL; // addresses mean nothing elsewhere
-  head.plain.lines.start = NULL;
-  head.plain.lines.crossing = NULL;
+  size_t all = packed_size(&head);
+  char *block;
+  CW_NEW_UNSET(block, all);
   memcpy(block, &head, sizeof head);
-  at = block + sizeof head;
-  for (int i = 0; i < ARRAYS; at += length[i++]) {
-    if (length[i]) memcpy(at, array[i], length[i]);
-  }
+  CwSize to = arrays_in(&head, block);
+  copy_items(to.lines.start, size->lines.start, head.starts, sizeof *to.lines.start);
+  copy_items(to.lines.crossing, size->lines.crossing, head.crossings, sizeof *to.lines.crossing);
+  copy_items(to.grid.value, size->grid.value, head.nodes, sizeof *to.grid.value);
+  copy_items(to.rim.value, size->rim.value, head.rim_nodes, sizeof *to.rim.value);
   *bytes = block;
   *byte_count = (int64_t)all;
 done:
   return status;
 }
 
-CwStatus cw_size_unpack(const void *bytes, CwSize **size) {
+CwStatus cw_size_unpack(void **bytes, CwSize **size) {
   CwStatus status = CW_OK;
   Packed head;
-  CwSize *made = NULL;
-  void *array[ARRAYS];
-  size_t length[ARRAYS];
-  const char *at = (const char *)bytes + sizeof head;
-  memcpy(&head, bytes, sizeof head);
+  CwSize *made;
   CW_NEW(made, 1);
-  *made = head.plain;
-  CW_TRY(arrays_new(&head, made));
-  arrays_of(&head, made, array, length);
-  for (int i = 0; i < ARRAYS; at += length[i++]) {
-    if (length[i]) memcpy(array[i], at, length[i]);
-  }
+  memcpy(&head, *bytes, sizeof head);
+  *made = arrays_in(&head, *bytes);
+  made->block = *bytes;
+  *bytes = NULL;
   *size = made;
-  made = NULL;
 done:
-  cw_size_free(&made);
   return status;
 }
 
 void cw_size_free(CwSize **size) {
-  if (!*size)
-    return;
-  cw_size_grid_free(&(*size)->grid);
-  cw_size_grid_free(&(*size)->rim);
-  cw_scanlines_free(&(*size)->lines);
-  free(*size);
+  CwSize *field = *size;
+  if (!field) return;
+  if (!field->block) {
+    cw_size_grid_free(&field->grid);
+    cw_scanlines_free(&field->lines);
+  }
+  if (!field->block && !field->rim_block) cw_size_grid_free(&field->rim);
+  free(field->block);
+  free(field->rim_block);
+  free(field);
   *size = NULL;
 }
 

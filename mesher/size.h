@@ -44,9 +44,10 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
 void cw_size_join(CwSize *size, CwSize **rims); // frees what is left of the rims
 void cw_size_free(CwSize **size);
 
-// The field in one block of bytes (malloc'd), to travel between ranks, and back. An unpacked field gives the same bits.
+// The field in one block of bytes (malloc'd), to travel between ranks, and back: it then stays in the block, which it
+// takes over (*bytes is NULL after). An unpacked field gives the same bits.
 CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count);
-CwStatus cw_size_unpack(const void *bytes, CwSize **size);
+CwStatus cw_size_unpack(void **bytes, CwSize **size);
 
 // The factor in front of the whole field; 1 after cw_size_make.
 void cw_size_set_scale(CwSize *size, double scale);

@@ -58,8 +58,8 @@ struct Model {
                          CW_SIZE_RIMS, &rims));
       check(cw_size_pack(rims, &rim_bytes, &bytes));
       cw_size_free(&rims);
-      check(cw_size_unpack(rim_bytes, &rims));
-      free(rim_bytes);
+      check(cw_size_unpack(&rim_bytes, &rims));
+      assert_null(rim_bytes);
       cw_size_join(size, &rims);
       assert_null(rims);
     }
@@ -233,12 +233,11 @@ static void rims_hold_at_any_scale(void **state) {
   int64_t count;
   CwSize *copy = nullptr;
   check(cw_size_pack(rim.size, &bytes, &count));
-  check(cw_size_unpack(bytes, &copy));
+  check(cw_size_unpack(&bytes, &copy));
   const double x[3] = {0.015, 0.001, 0.029};
   const double there = cw_size_at(copy, x), here = cw_size_at(rim.size, x);
   assert_memory_equal(&there, &here, sizeof here);
   cw_size_free(&copy);
-  free(bytes);
 }
 
 static void wrong_input_is_refused(void **state) {
