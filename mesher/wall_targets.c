@@ -12,13 +12,14 @@ CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
   json_error_t error;
   json_t *design = json_load_file(design_path, 0, &error);
   CW_REQUIRE(design, CW_ERR_IO, "%s: %s at line %d; made by cutwater-geometry", design_path, error.text, error.line);
-  double outlet_radius = 0;
+  double outlet_radius = 0, throat_speed = 0;
   const struct {
     const char *key;
     double *value;
   } wanted[] = {{"relative_speed_m_per_s", &scales->relative_speed},
                 {"volute_speed_m_per_s", &scales->volute_speed},
                 {"suction_speed_m_per_s", &scales->suction_speed},
+                {"throat_speed_m_per_s", &throat_speed},
                 {"discharge_speed_m_per_s", &scales->discharge_speed},
                 {"interface_radius_m", &outlet_radius}};
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
@@ -27,6 +28,8 @@ CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
                "%s: %s is missing or not a number above 0", design_path, wanted[i].key);
     *wanted[i].value = json_number_value(value);
   }
+  // The diffuser widens like a cone, from throat to discharge: along it the mean of Q / (pi r^2) is Q / (pi r0 r1).
+  scales->diffuser_speed = sqrt(throat_speed * scales->discharge_speed);
   // Lengths along which the boundary layers grow: a blade is a little longer than the outlet radius, the spiral runs
   // about three of them, the pipes some diameters.
   scales->blade_length = 1.2 * outlet_radius;
@@ -80,8 +83,10 @@ void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *
     } else if (!strcmp(name, "suction_pipe") || !strcmp(name, "inlet_pipe") || kind == CW_PATCH_INLET) {
       relative_size[p] = mesh->size_pipe;
       group = &table->walls.pipe, speed = scales->suction_speed, length = scales->pipe_length;
-    } else if (!strcmp(name, "discharge") || !strcmp(name, "diffuser") || !strcmp(name, "outlet_pipe") ||
-               kind == CW_PATCH_OUTLET) {
+    } else if (!strcmp(name, "diffuser")) {
+      relative_size[p] = mesh->size_pipe;
+      group = &table->walls.pipe, speed = scales->diffuser_speed, length = scales->pipe_length;
+    } else if (!strcmp(name, "discharge") || !strcmp(name, "outlet_pipe") || kind == CW_PATCH_OUTLET) {
       relative_size[p] = mesh->size_pipe;
       group = &table->walls.pipe, speed = scales->discharge_speed, length = scales->pipe_length;
     }

@@ -18,6 +18,7 @@ typedef struct {
   double relative_speed;  // m/s, mean along the blade
   double volute_speed;    // m/s
   double suction_speed;   // m/s
+  double diffuser_speed;  // m/s, mean along it
   double discharge_speed; // m/s
   double blade_length;    // m, scale for blade, hub and shroud
   double volute_length;   // m

@@ -86,6 +86,24 @@ static void each_patch_has_its_group(void **state) {
   cw_cad_close(&cad);
 }
 
+static std::string all_diffuser(const TopoDS_Face &face) {
+  return "diffuser,wall";
+}
+
+static void a_diffuser_has_the_mean_speed_along_it(void **state) {
+  CwCase table = water();
+  table.walls.pipe.y_plus = 2, table.mesh.size_pipe = 0.4;
+  const CwFlowScales scales = {.diffuser_speed = 6, .discharge_speed = 3, .pipe_length = 0.3};
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape(), all_diffuser);
+  double size;
+  CwLayerTarget layers;
+  assert_int_equal(cw_cad_patch_count(cad), 1);
+  cw_wall_targets(cad, &table, &scales, &size, &layers);
+  assert_near(size, 0.4, 0);
+  assert_near(layers.first_height, cw_first_height(2, 6, 0.3, 1e-6, 0), 1e-18);
+  cw_cad_close(&cad);
+}
+
 static CwStatus read_scales(const char *text, CwFlowScales *scales) {
   char path[] = "cutwater-design-XXXXXX";
   int file = mkstemp(path);
@@ -102,13 +120,16 @@ static void scales_of_the_design(void **state) {
   CwFlowScales scales;
   assert_int_equal(
       read_scales("{\"relative_speed_m_per_s\": 7, \"volute_speed_m_per_s\": 6,"
-                  "\"suction_speed_m_per_s\": 2, \"discharge_speed_m_per_s\": 3, \"interface_radius_m\": 0.1}",
+                  "\"suction_speed_m_per_s\": 2, \"throat_speed_m_per_s\": 12, \"discharge_speed_m_per_s\": 3,"
+                  "\"interface_radius_m\": 0.1}",
                   &scales),
       CW_OK);
   assert_near(scales.relative_speed, 7, 0);
   assert_near(scales.volute_speed, 6, 0);
   assert_near(scales.suction_speed, 2, 0);
   assert_near(scales.discharge_speed, 3, 0);
+  // Of 12 at the throat and 3 at the end of a cone: its radius doubles, and the mean of 12 / (1 + s)^2 over s is 6.
+  assert_near(scales.diffuser_speed, 6, 1e-14);
   assert_near(scales.blade_length, 0.12, 1e-15);
   assert_near(scales.volute_length, 0.3, 1e-15);
   assert_near(scales.pipe_length, 0.3, 1e-15);
@@ -122,6 +143,7 @@ int main() {
   const struct CMUnitTest tests[] = {cmocka_unit_test(first_height_by_hand),
                                      cmocka_unit_test(what_a_group_gives_goes_first),
                                      cmocka_unit_test(each_patch_has_its_group),
+                                     cmocka_unit_test(a_diffuser_has_the_mean_speed_along_it),
                                      cmocka_unit_test(scales_of_the_design)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
