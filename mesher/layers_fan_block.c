@@ -78,6 +78,7 @@ typedef struct {
   int32_t *near_start, *near;   // local numbers of the neighbours of members
   uint8_t *across;              // neighbour is a convex edge that leans along itself only
   double *weight, *weights;     // of neighbours; their sum
+  double *area;                 // of members
   double *reach;                // of members, where nothing is widened
   uint8_t *stirred, *changed;   // members to relax; those whose displacement changed since the columns were set
   uint8_t *touched;             // whose displacement changed at all
@@ -101,6 +102,7 @@ static void part_free(Part *part) {
   free(part->across);
   free(part->weight);
   free(part->weights);
+  free(part->area);
   free(part->reach);
   free(part->stirred);
   free(part->changed);
@@ -184,6 +186,7 @@ static CwStatus part_make(const CwFans *fans, int32_t block, int32_t *local, Par
   CW_NEW(part->across, links);
   CW_NEW(part->weight, links);
   CW_NEW(part->weights, count);
+  CW_NEW(part->area, count);
   CW_NEW(part->triangle, faces);
   CW_NEW(part->quality, faces);
   CW_NEW(part->stirred, count);
@@ -194,6 +197,7 @@ static CwStatus part_make(const CwFans *fans, int32_t block, int32_t *local, Par
   links = 0;
   for (int32_t i = 0; i < count; i++) {
     int32_t v = part->member[i];
+    cw_layers_weights(work, v, part->weight + links, &part->area[i]);
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++, links++) {
       int32_t w = work->near[k];
       if (!local[w]) {
@@ -202,8 +206,7 @@ static CwStatus part_make(const CwFans *fans, int32_t block, int32_t *local, Par
       }
       part->near[links] = local[w] - 1;
       part->across[links] = work->crease[w] == CW_CREASE_CONVEX && source_of(fans, w) != w;
-      part->weight[links] = work->weight[k];
-      part->weights[i] += work->weight[k];
+      part->weights[i] += part->weight[links];
     }
     part->near_start[i + 1] = links;
     for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
@@ -244,7 +247,7 @@ static double relax(Part *part, int32_t i) {
       for (int c = 0; c < 3; c++) sum[c] += weight * near[c];
     }
   }
-  double factor = l2 / (work->area[v] + l2 * part->weights[i]);
+  double factor = l2 / (part->area[i] + l2 * part->weights[i]);
   for (int c = 0; c < 3; c++) u[c] = factor * sum[c];
   if (own->source == v) {
     double h = dot3(own->line, u);

@@ -111,20 +111,23 @@ static int meet(void *context, int32_t f) {
   return 0;
 }
 
+// Columns to look along.
 typedef struct {
   const CwLayerWork *work;
   const CwBoxTree *tree;
+  int32_t count, *vertex;
 } Gaps;
 
-// Largest height that the gap along the column of v allows; INFINITY where nothing stands within reach.
-static CwStatus free_height(void *context, int32_t v, void *out) {
+// Largest height that the gap along the column allows; INFINITY where nothing stands within reach.
+static CwStatus free_height(void *context, int32_t i, void *out) {
   const Gaps *gaps = context;
   const CwLayerWork *work = gaps->work;
   const CwLayerInput *in = work->in;
+  int32_t v = gaps->vertex[i];
   Ray ray = {.work = work, .v = v, .guided = in->guide_count && in->guide_count[v] > 0, .best = INFINITY};
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = unit3(ray.g);
-  ray.offset = 1e-3 * work->edge_min[v];
+  ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
   ray.far = in->target[v] * ray.stretch / 0.35;
   cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
   *(double *)out = ray.best;
@@ -134,14 +137,27 @@ static CwStatus free_height(void *context, int32_t v, void *out) {
 CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
   CwStatus status = CW_OK;
   double *most = NULL;
-  Gaps gaps = {work, tree};
-  CW_NEW(most, work->n);
-  CW_TRY(cw_share("layers: gaps", work->n, sizeof *most, free_height, &gaps, most));
+  Gaps gaps = {.work = work, .tree = tree};
+  int again = work->gap != NULL;
+  if (!again) {
+    CW_NEW_UNSET(work->gap, work->n);
+    CW_NEW_UNSET(work->gap_column, work->n);
+  }
+  CW_NEW_UNSET(gaps.vertex, work->n);
   for (int32_t v = 0; v < work->n; v++) {
-    work->t[v] = fmin(work->most[v], most[v]);
+    if (again && memcmp(work->gap_column[v], work->column[v], sizeof *work->column) == 0) continue;
+    memcpy(work->gap_column[v], work->column[v], sizeof *work->column);
+    gaps.vertex[gaps.count++] = v;
+  }
+  CW_NEW_UNSET(most, gaps.count);
+  CW_TRY(cw_share("layers: gaps", gaps.count, sizeof *most, free_height, &gaps, most));
+  for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
+  for (int32_t v = 0; v < work->n; v++) {
+    work->t[v] = fmin(work->most[v], work->gap[v]);
     work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
   }
 done:
+  free(gaps.vertex);
   free(most);
   return status;
 }

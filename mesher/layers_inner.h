@@ -22,9 +22,6 @@ typedef struct {
   double (*face_normal)[3];            // unit
   int32_t *face_start, *face;          // triangles around each vertex, ascending
   int32_t *near_start, *near;          // neighbours of each vertex, ascending
-  double *weight;                      // cotangent weight of each entry of `near`, clamped
-  double *area;                        // a third of the incident triangles, m2
-  double *edge_min;                    // shortest incident edge, m
   double (*normal)[3], *normal_cos;    // most normal direction without guides; its least cosine to the normals
   double (*base)[3], *base_cos;        // the same inside the guides
   uint8_t *crease;                     // CwCrease
@@ -33,6 +30,7 @@ typedef struct {
   double *t;                           // height, m
   double *most;                        // the target, or less in a hollow: no height is greater, m
   int32_t *curve;                      // all vertices along a curve through space: near in the list, near in space
+  double *gap, (*gap_column)[3];       // height that the gap along a column allows, m, and that column; NULL at first
   struct CwFans *fans;                 // layers_fan.h; NULL before the first fan
   uint8_t *reason;                     // CwLayerReason
 } CwLayerWork;
@@ -69,6 +67,9 @@ static inline void flatten3(double a[3], const double n[3]) {
 // layers_topology.c: neighbourhoods, weights, face normals. `work` is zeroed before; freed with the other. Collective.
 CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work);
 void cw_layers_work_free(CwLayerWork *work);
+// Cotangent weights of v's entries of `near`, clamped; *area: a third of the triangles around, m2.
+void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, double *area);
+double cw_layers_shortest_edge(const CwLayerWork *work, int32_t v); // m
 
 // layers_normal.c
 // Most normal direction: the unit g that maximises the least n.g over `count` unit normals, exactly: the

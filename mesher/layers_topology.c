@@ -4,15 +4,6 @@
 #include "mesher/incident.h"
 #include "mesher/layers_inner.h"
 
-// Some ten numbers: by insertion.
-static void sort_few(int32_t count, int32_t *number) {
-  for (int32_t i = 1; i < count; i++) {
-    int32_t moved = number[i], at = i;
-    for (; at > 0 && number[at - 1] > moved; at--) number[at] = number[at - 1];
-    number[at] = moved;
-  }
-}
-
 static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
   int32_t low = work->near_start[v], high = work->near_start[v + 1];
   while (high - low > 1) {
@@ -56,53 +47,49 @@ done:
   return status;
 }
 
-// The next and the last corner of triangle f, seen from its corner v.
-static void beside(const CwLayerInput *in, int32_t f, int32_t v, int32_t *next, int32_t *last) {
-  const int32_t *corner = in->triangle[f];
+// The corners of a triangle but v: the next one and the last.
+static void others(const int32_t corner[3], int32_t v, int32_t other[2]) {
   int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
-  *next = corner[(i + 1) % 3];
-  *last = corner[(i + 2) % 3];
+  other[0] = corner[(i + 1) % 3];
+  other[1] = corner[(i + 2) % 3];
 }
 
-static int is_among(int32_t count, const int32_t *number, int32_t wanted) {
-  int found = 0;
-  for (int32_t i = 0; i < count; i++) found |= number[i] == wanted;
-  return found;
-}
-
+// Each vertex in turn puts itself on the lists of its neighbours, so that they come out ascending, and a neighbour by
+// two triangles is the last one twice.
 static CwStatus lists(CwLayerWork *work) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   CwIncident around = {0};
+  int32_t *end = NULL, count = 0;
   CW_TRY(cw_incident_make(work->n, in->triangle_count, in->triangle, &around));
   work->face_start = around.start;
   work->face = around.triangle;
   CW_NEW_UNSET(work->near_start, work->n + 1);
-  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count);
-  int32_t count = 0;
+  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count); // two of each triangle, at first
+  CW_NEW_UNSET(end, work->n);
   for (int32_t v = 0; v < work->n; v++) {
-    int32_t start = count, next, last;
     CW_REQUIRE(work->face_start[v + 1] > work->face_start[v], CW_ERR_INPUT,
                "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
                in->x[v][1] * 1e3, in->x[v][2] * 1e3);
-    work->near_start[v] = start;
+    end[v] = 2 * work->face_start[v];
+  }
+  for (int32_t v = 0; v < work->n; v++) {
     for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
-      beside(in, work->face[k], v, &next, &last);
-      work->near[count++] = next;
+      int32_t beside[2];
+      others(in->triangle[work->face[k]], v, beside);
+      for (int i = 0; i < 2; i++) {
+        int32_t w = beside[i];
+        if (end[w] == 2 * work->face_start[w] || work->near[end[w] - 1] != v) work->near[end[w]++] = v;
+      }
     }
-    int32_t nexts = count - start; // most of them, or all
-    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
-      beside(in, work->face[k], v, &next, &last);
-      if (!is_among(nexts, work->near + start, last)) work->near[count++] = last;
-    }
-    sort_few(count - start, work->near + start);
-    int32_t kept = start;
-    for (int32_t k = start; k < count; k++)
-      if (k == start || work->near[k] != work->near[kept - 1]) work->near[kept++] = work->near[k];
-    count = kept;
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    work->near_start[v] = count;
+    for (int32_t k = 2 * work->face_start[v]; k < end[v]; k++) work->near[count++] = work->near[k];
   }
   work->near_start[work->n] = count;
 done:
+  free(end);
   return status;
 }
 
@@ -135,66 +122,35 @@ static double twice_area(const CwLayerInput *in, int32_t f) {
 
 // Half the cotangent of the angle at corner i of f, which belongs to the opposite edge; clamped so that obtuse corners
 // keep the system monotone.
-static double half_cotangent(const CwLayerInput *in, int32_t f, int i) {
+static double half_cotangent(const CwLayerInput *in, int32_t f, int i, double twice_area) {
   const int32_t *corner = in->triangle[f];
   double e1[3], e2[3];
   sub3(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
   sub3(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
-  return 0.5 * fmin(fmax(dot3(e1, e2) / twice_area(in, f), 0.05), 5.0);
+  return 0.5 * fmin(fmax(dot3(e1, e2) / twice_area, 0.05), 5.0);
 }
 
-static CwStatus find_weights(void *context, int32_t v, void *out) {
-  const CwLayerWork *work = context;
-  double *weight = out;
+void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, double *area) {
+  int32_t start = work->near_start[v];
+  memset(weight, 0, (size_t)(work->near_start[v + 1] - start) * sizeof *weight);
+  *area = 0;
   for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
     int32_t f = work->face[k];
     const int32_t *corner = work->in->triangle[f];
     int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2, next = (i + 1) % 3, last = (i + 2) % 3;
-    weight[find_near(work, v, corner[next]) - work->near_start[v]] += half_cotangent(work->in, f, last);
-    weight[find_near(work, v, corner[last]) - work->near_start[v]] += half_cotangent(work->in, f, next);
+    double twice = twice_area(work->in, f);
+    weight[find_near(work, v, corner[next]) - start] += half_cotangent(work->in, f, last, twice);
+    weight[find_near(work, v, corner[last]) - start] += half_cotangent(work->in, f, next, twice);
+    *area += twice / 6;
   }
-  return CW_OK;
 }
 
-// Of a vertex.
-typedef struct {
-  double area, edge_min;
-} Measured;
-
-static CwStatus measure(void *context, int32_t v, void *out) {
-  const CwLayerWork *work = context;
-  const CwLayerInput *in = work->in;
-  Measured *made = out;
-  made->edge_min = INFINITY;
-  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++)
-    made->area += twice_area(in, work->face[k]) / 6;
+double cw_layers_shortest_edge(const CwLayerWork *work, int32_t v) {
+  double least = INFINITY;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-    made->edge_min = fmin(made->edge_min, distance3(in->x[work->near[k]], in->x[v]));
+    least = fmin(least, distance3(work->in->x[work->near[k]], work->in->x[v]));
   }
-  return CW_OK;
-}
-
-static CwStatus measures(CwLayerWork *work) {
-  CwStatus status = CW_OK;
-  const CwLayerInput *in = work->in;
-  Measured *measured = NULL;
-  CW_NEW(measured, work->n);
-  CW_NEW(work->face_normal, in->triangle_count);
-  CW_NEW(work->weight, work->near_start[work->n]);
-  CW_NEW(work->area, work->n);
-  CW_NEW(work->edge_min, work->n);
-  CW_TRY(cw_share("layers: normals", in->triangle_count, sizeof *work->face_normal, find_normal, work,
-                  work->face_normal));
-  CW_TRY(cw_share_lists("layers: weights", work->n, work->near_start, sizeof *work->weight, find_weights, work,
-                        work->weight));
-  CW_TRY(cw_share("layers: lengths", work->n, sizeof *measured, measure, work, measured));
-  for (int32_t v = 0; v < work->n; v++) {
-    work->area[v] = measured[v].area;
-    work->edge_min[v] = measured[v].edge_min;
-  }
-done:
-  free(measured);
-  return status;
+  return least;
 }
 
 CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
@@ -203,17 +159,19 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
   work->n = input->point_count;
   CW_TRY(check_input(input));
   CW_TRY(lists(work));
-  CW_TRY(measures(work));
-  CW_NEW(work->normal, work->n);
-  CW_NEW(work->normal_cos, work->n);
-  CW_NEW(work->base, work->n);
-  CW_NEW(work->base_cos, work->n);
-  CW_NEW(work->crease, work->n);
+  CW_NEW_UNSET(work->face_normal, input->triangle_count);
+  CW_TRY(cw_share("layers: normals", input->triangle_count, sizeof *work->face_normal, find_normal, work,
+                  work->face_normal));
+  CW_NEW_UNSET(work->normal, work->n);
+  CW_NEW_UNSET(work->normal_cos, work->n);
+  CW_NEW_UNSET(work->base, work->n);
+  CW_NEW_UNSET(work->base_cos, work->n);
+  CW_NEW_UNSET(work->crease, work->n);
   CW_NEW(work->along, work->n);
-  CW_NEW(work->column, work->n);
-  CW_NEW(work->t, work->n);
-  CW_NEW(work->most, work->n);
-  CW_NEW(work->reason, work->n);
+  CW_NEW_UNSET(work->column, work->n);
+  CW_NEW_UNSET(work->t, work->n);
+  CW_NEW_UNSET(work->most, work->n);
+  CW_NEW_UNSET(work->reason, work->n);
 done:
   return status;
 }
@@ -224,9 +182,6 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->face);
   free(work->near_start);
   free(work->near);
-  free(work->weight);
-  free(work->area);
-  free(work->edge_min);
   free(work->normal);
   free(work->normal_cos);
   free(work->base);
@@ -237,6 +192,8 @@ void cw_layers_work_free(CwLayerWork *work) {
   free(work->t);
   free(work->most);
   free(work->reason);
+  free(work->gap);
+  free(work->gap_column);
   free(work->curve);
   cw_fans_free(&work->fans);
   memset(work, 0, sizeof *work);
