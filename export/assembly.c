@@ -56,20 +56,6 @@ void cw_assembly_free(CwAssembly *assembly) {
   memset(assembly, 0, sizeof *assembly);
 }
 
-// Makes room for `more` items of `size` bytes beyond `count`.
-static CwStatus reserve(void **items, int64_t *room, int64_t count, int64_t more, size_t size) {
-  CwStatus status = CW_OK;
-  if (count + more > *room) {
-    int64_t wanted = count + more > 2 * *room ? count + more : 2 * *room;
-    void *grown = realloc(*items, (size_t)wanted * size);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %lld items of %zu bytes", (long long)wanted, size);
-    *items = grown;
-    *room = wanted;
-  }
-done:
-  return status;
-}
-
 // Numbers that follow from the manifest alone.
 static CwStatus number_regions(const CwMesh *mesh, CwAssembly *a) {
   CwStatus status = CW_OK;
@@ -139,8 +125,7 @@ static CwStatus collect_interface(const CwMesh *mesh, int region, const CwRegion
   int patch = mesh->interfaces[i].patch[side], local = patch - mesh->domains[data->domain].first_patch;
   const CwPatchPart *part = &a->parts[(size_t)region * (size_t)mesh->patch_count + (size_t)patch];
   int64_t *count = &c->interface_count[i][side], place = (int64_t)region << 32;
-  CW_TRY(reserve((void **)&c->interface[i][side], &c->interface_room[i][side], *count,
-                 part->triangles + part->quads, sizeof(CwInterfaceFace)));
+  CW_GROW(c->interface[i][side], c->interface_room[i][side], *count + part->triangles + part->quads);
   for (int32_t f = 0; f < data->triangle_count; ++f)
     if (data->triangle_patch[f] == local)
       add_interface_face(&c->interface[i][side][(*count)++], place++, data, data->triangles[f], 3);
@@ -197,7 +182,7 @@ static CwStatus collect_region(const CwMesh *mesh, int region, CwAssembly *a, Co
   triangles = 4 * (int64_t)(data.tetrahedron_count + data.pyramid_count) + 2 * (int64_t)data.prism_count;
   triangles -= data.triangle_count;
   quads = data.pyramid_count + 3 * (int64_t)data.prism_count - data.quad_count;
-  CW_TRY(reserve((void **)&c->open, &c->open_room, c->open_count, count, sizeof *c->open));
+  CW_GROW(c->open, c->open_room, c->open_count + count);
   for (int32_t i = 0; i < count; ++i) {
     OpenFace *face = &c->open[c->open_count++];
     *face = open_face(region, &data, i, open[i]);

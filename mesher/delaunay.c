@@ -42,24 +42,6 @@ typedef struct {
   int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
 } Work;
 
-static CwStatus grow(void **array, int32_t *space, int64_t wanted, size_t size) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(wanted < INT32_MAX / 2, CW_ERR_MEMORY, "a cavity of %lld items", (long long)wanted);
-  int64_t more = 2 * wanted + 64;
-  void *grown = realloc(*array, (size_t)more * size);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %lld items of %zu bytes", (long long)more, size);
-  *array = grown;
-  *space = (int32_t)more;
-done:
-  return status;
-}
-
-#define ROOM(array, space, wanted)                                                                           \
-  do {                                                                                                       \
-    if ((wanted) > (space))                                                                                  \
-      CW_TRY(grow((void **)&(array), &(space), (wanted), sizeof *(array)));                                  \
-  } while (0)
-
 // Aligned to cache lines, which realloc is not. Pages not yet touched cost nothing.
 static CwStatus make_pool(CwDelaunay *mesh, int64_t space) {
   CwStatus status = CW_OK;
@@ -201,13 +183,13 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
 static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3]) {
   CwStatus status = CW_OK;
   work->cavity_count = work->side_count = 0;
-  ROOM(work->cavity, work->cavity_space, 1);
+  CW_GROW(work->cavity, work->cavity_space, 1);
   work->cavity[work->cavity_count++] = start;
   mesh->tet[start].square = -1.0;
   for (int32_t head = 0; head < work->cavity_count; head++) {
     const CwDelaunayTet *tet = &mesh->tet[work->cavity[head]];
-    ROOM(work->cavity, work->cavity_space, work->cavity_count + 4);
-    ROOM(work->side, work->side_space, work->side_count + 4);
+    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
+    CW_GROW(work->side, work->side_space, work->side_count + 4);
     for (int i = 0; i < 4; i++) {
       int32_t outer = tet->neighbour[i];
       if (outer >= 0) {
@@ -248,7 +230,7 @@ static inline void join(CwDelaunay *mesh, int32_t one, int32_t other) {
 static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
   CwStatus status = CW_OK;
   int32_t count = 0;
-  ROOM(work->edge, work->edge_space, 3 * (int64_t)work->side_count);
+  CW_GROW(work->edge, work->edge_space, 3 * (int64_t)work->side_count);
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
     for (int i = 0; i < 3; i++) {
@@ -270,7 +252,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
   int32_t locals = 0, *table = work->table;
   for (int32_t k = 0; k < work->side_count; k++) {
     Side *side = &work->side[k];
-    ROOM(work->arm, work->arm_space, locals + 3);
+    CW_GROW(work->arm, work->arm_space, locals + 3);
     for (int i = 0; i < 3; i++) {
       CwDelaunayPoint *q = &mesh->point[side->corner[i]];
       if (q->mark >> 32 != (uint64_t)point) {
@@ -327,7 +309,7 @@ done:
 static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, const CwDelaunayTet *tet,
                                int32_t *space) {
   CwStatus status = CW_OK;
-  ROOM(mesh->duplicate, *space, mesh->duplicate_count + 1);
+  CW_GROW(mesh->duplicate, *space, mesh->duplicate_count + 1);
   int32_t *pair = mesh->duplicate[mesh->duplicate_count++];
   pair[0] = given;
   pair[1] = -1;

@@ -100,12 +100,7 @@ CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, 
   int64_t bin = (int64_t)bin_of(columns, 1, y) * columns->bins[0] + bin_of(columns, 0, x);
   int64_t members = columns->start[bin + 1] - columns->start[bin];
   *count = 0;
-  if (members > columns->z_space) {
-    double *grown = realloc(columns->z, (size_t)(2 * members) * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %lld crossings", (long long)(2 * members));
-    columns->z = grown;
-    columns->z_space = (int32_t)(2 * members);
-  }
+  CW_GROW(columns->z, columns->z_space, members);
   for (int64_t k = columns->start[bin]; k < columns->start[bin + 1]; k++) {
     const int32_t *t = columns->triangle[columns->member[k]];
     const double *a = columns->x[t[0]], *b = columns->x[t[1]], *c = columns->x[t[2]];

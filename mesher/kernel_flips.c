@@ -51,13 +51,7 @@ static int corner_of(const CwDelaunayTet *tet, int32_t point) {
 
 static CwStatus push(CwFlips *flips, int32_t t) {
   CwStatus status = CW_OK;
-  if (flips->star_count == flips->star_space) {
-    int32_t space = 2 * flips->star_space + 256;
-    int32_t *grown = realloc(flips->star, (size_t)space * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: star of %d tetrahedra", space);
-    flips->star = grown;
-    flips->star_space = space;
-  }
+  CW_GROW(flips->star, flips->star_space, flips->star_count + 1);
   flips->star[flips->star_count++] = t;
   flips->mesh->tet[t].square = flips->stamp;
 done:

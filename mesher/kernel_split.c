@@ -81,13 +81,7 @@ static int crossing(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t 
 static CwStatus push(Splitter *s, int32_t t) {
   CwStatus status = CW_OK;
   CwFlips *flips = &s->recovery.flips;
-  if (s->crossed_count == s->crossed_space) {
-    int32_t space = 2 * s->crossed_space + 64;
-    int32_t *grown = realloc(s->crossed, (size_t)space * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d tetrahedra across a boundary triangle", space);
-    s->crossed = grown;
-    s->crossed_space = space;
-  }
+  CW_GROW(s->crossed, s->crossed_space, s->crossed_count + 1);
   s->crossed[s->crossed_count++] = t;
   flips->mesh->tet[t].square = flips->stamp;
 done:
@@ -340,13 +334,7 @@ done:
 
 static CwStatus note_split(CwSplits *splits, const CwSplit *split) {
   CwStatus status = CW_OK;
-  if (splits->count == splits->space) {
-    int32_t space = 2 * splits->space + 64;
-    CwSplit *grown = realloc(splits->split, (size_t)space * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d divisions of the boundary", space);
-    splits->split = grown;
-    splits->space = space;
-  }
+  CW_GROW(splits->split, splits->space, splits->count + 1);
   splits->split[splits->count++] = *split;
 done:
   return status;

@@ -137,13 +137,7 @@ typedef struct {
 
 static CwStatus add_pair(Finder *finder, int kind_f, int kind_g, int32_t g) {
   CwStatus status = CW_OK;
-  if (finder->count == finder->capacity) {
-    size_t capacity = finder->capacity ? 2 * finder->capacity : 64;
-    CwLayerPair *pair = realloc(finder->pair, capacity * sizeof *pair);
-    CW_REQUIRE(pair, CW_ERR_MEMORY, "out of memory: %zu crossing pairs", capacity);
-    finder->pair = pair;
-    finder->capacity = capacity;
-  }
+  CW_GROW(finder->pair, finder->capacity, finder->count + 1);
   finder->pair[finder->count++] = (CwLayerPair){finder->f, g, kind_f, kind_g};
 done:
   return status;

@@ -144,12 +144,7 @@ static CwStatus gather_members(const CwFans *fans, int32_t block, Part *part) {
       for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
         int32_t w = work->near[k];
         if (fans->place[w] < 0 || part->local[w]) continue;
-        if (part->count == capacity) {
-          int32_t *grown = realloc(part->member, 2 * (size_t)capacity * sizeof *grown);
-          CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d vertices of a fan", 2 * capacity);
-          part->member = grown;
-          capacity *= 2;
-        }
+        CW_GROW(part->member, capacity, part->count + 1);
         part->local[w] = 1;
         part->member[part->count++] = w;
         part->all++;

@@ -71,13 +71,7 @@ const char *cw_ledger_part(const char *part) {
 
 static CwStatus new_entry(Account *account, Entry **entry) {
   CwStatus status = CW_OK;
-  if (account->entry_count == account->entry_capacity) {
-    int32_t capacity = account->entry_capacity ? 2 * account->entry_capacity : 256;
-    Entry *larger = realloc(account->entry, (size_t)capacity * sizeof *larger);
-    CW_REQUIRE(larger, CW_ERR_MEMORY, "out of memory: %d schedules", capacity);
-    account->entry = larger;
-    account->entry_capacity = capacity;
-  }
+  CW_GROW(account->entry, account->entry_capacity, account->entry_count + 1);
   *entry = &account->entry[account->entry_count++];
   **entry = (Entry){0};
 done:

@@ -123,13 +123,7 @@ static void curve_free(CwCurve *curve) {
 
 CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve) {
   CwStatus status = CW_OK;
-  if (network->curve_count == network->curve_capacity) {
-    int32_t capacity = network->curve_capacity ? 2 * network->curve_capacity : 256;
-    CwCurve *grown = realloc(network->curve, (size_t)capacity * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d curves", capacity);
-    network->curve = grown;
-    network->curve_capacity = capacity;
-  }
+  CW_GROW(network->curve, network->curve_capacity, network->curve_count + 1);
   if (!curve->fine_length) {
     CW_NEW(curve->fine_length, curve->fine_count);
     for (int32_t i = 1; i < curve->fine_count; i++) {

@@ -229,12 +229,7 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
                  1e3 * trace->x[i][2]);
       int32_t skip[1] = {node};
       if (below && !cw_plan_in_cell(plan, q, split.x, 1e-9, skip, 1)) continue;
-      if (*count == capacity) {
-        Split *grown = realloc(*splits, 2 * (size_t)capacity * sizeof **splits);
-        CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d splits of a curve", 2 * capacity);
-        *splits = grown;
-        capacity *= 2;
-      }
+      CW_GROW(*splits, capacity, *count + 1);
       (*splits)[(*count)++] = split;
     }
   }

@@ -46,13 +46,7 @@ static CwStatus push(Front *front, int32_t t, int32_t a, int32_t b) {
   CwStatus status = CW_OK;
   int32_t rows = front->row[a] + front->row[b], n = front->count;
   CW_TRY(open_queues(front, rows + 1));
-  if (n == front->room) {
-    int32_t room = n ? 2 * n : 1024;
-    Entry *grown = realloc(front->entry, (size_t)room * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: a front of %d edges", room);
-    front->entry = grown;
-    front->room = room;
-  }
+  CW_GROW(front->entry, front->room, n + 1);
   front->entry[n] = (Entry){t, a, b, -1};
   front->count++;
   int32_t *queue = front->queue[rows];
@@ -81,13 +75,7 @@ static int pop(Front *front, Entry *entry) {
 
 static CwStatus set_row(Front *front, int32_t p, int32_t row) {
   CwStatus status = CW_OK;
-  if (p >= front->row_room) {
-    int32_t room = 2 * p + 64;
-    int32_t *grown = realloc(front->row, (size_t)room * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: a front of %d points", room);
-    front->row = grown;
-    front->row_room = room;
-  }
+  CW_GROW(front->row, front->row_room, p + 1);
   front->row[p] = row;
 done:
   return status;

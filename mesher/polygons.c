@@ -257,12 +257,7 @@ CwStatus cw_polygons_crossings(int32_t point_count, const double (*point)[2], in
     for (int32_t j = i + 1; j < edge_count && span[j].low <= span[i].high; j++) {
       const int32_t *e = edge[span[i].edge], *f = edge[span[j].edge];
       if (!cross(point, e, f)) continue;
-      if (*crossing_count == capacity) {
-        void *grown = realloc(*crossing, 2 * (size_t)capacity * sizeof **crossing);
-        CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d crossings", capacity);
-        *crossing = grown;
-        capacity *= 2;
-      }
+      CW_GROW(*crossing, capacity, *crossing_count + 1);
       memcpy((*crossing)[(*crossing_count)++], (int32_t[4]){e[0], e[1], f[0], f[1]}, sizeof **crossing);
     }
   }

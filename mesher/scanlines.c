@@ -91,12 +91,7 @@ static CwStatus find_crossings(const CwBackground *background, const CwScanlines
         if (p[0] < range.low[0] || p[0] > range.high[0] || p[1] < range.low[1] || p[1] > range.high[1] ||
             !meets(background, t, p, &x))
           continue;
-        if (*count == room) {
-          room = 2 * room + 4096;
-          Crossing *grown = realloc(*crossing, room * sizeof *grown);
-          CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %zu crossings of lines", room);
-          *crossing = grown;
-        }
+        CW_GROW(*crossing, room, *count + 1);
         (*crossing)[(*count)++] = (Crossing){line, x};
       }
     }

@@ -85,13 +85,7 @@ static CwStatus add_crease(Surface *surface, const double a[3], const double b[3
   CwStatus status = CW_OK;
   double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   int count = (int)ceil(length(d) / surface->grid.spacing) + 1;
-  if (surface->crease_count + count + 1 > surface->crease_capacity) {
-    int32_t capacity = 2 * (surface->crease_capacity + count + 1);
-    double(*grown)[3] = realloc(surface->crease, (size_t)capacity * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d points of creases", capacity);
-    surface->crease = grown;
-    surface->crease_capacity = capacity;
-  }
+  CW_GROW(surface->crease, surface->crease_capacity, surface->crease_count + count + 1);
   for (int i = 0; i <= count; i++) {
     double s = (double)i / count;
     for (int k = 0; k < 3; k++)

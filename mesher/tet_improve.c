@@ -18,13 +18,7 @@ CwStatus cw_tet_push(CwTetWork *w, int32_t t) {
   if (w->mesh->tet[t].centre[1] == (double)w->pass)
     goto done;
   w->mesh->tet[t].centre[1] = (double)w->pass;
-  if (w->next_count == w->next_space) {
-    int32_t more = 2 * w->next_space + 1024;
-    int32_t *grown = realloc(w->next, (size_t)more * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: list of %d tetrahedra", more);
-    w->next = grown;
-    w->next_space = more;
-  }
+  CW_GROW(w->next, w->next_space, w->next_count + 1);
   w->next[w->next_count++] = t;
 done:
   return status;

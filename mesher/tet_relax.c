@@ -147,13 +147,7 @@ static CwStatus note_if_spoilt(const CwTetWork *w, int32_t t, const double (*old
   CwStatus status = CW_OK;
   if (!is_spoilt(w, t, old))
     goto done;
-  if (spoilt->count == spoilt->space) {
-    int32_t space = 2 * spoilt->space + 64;
-    int32_t *grown = realloc(spoilt->tet, (size_t)space * sizeof *grown);
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: list of %d tetrahedra", space);
-    spoilt->tet = grown;
-    spoilt->space = space;
-  }
+  CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
   spoilt->tet[spoilt->count++] = t;
 done:
   return status;

@@ -8,13 +8,7 @@ static int before(CwHeapItem a, CwHeapItem b) { return a.key < b.key || (a.key =
 
 CwStatus cw_heap_push(CwHeap *heap, double key, int32_t v) {
   CwStatus status = CW_OK;
-  if (heap->count == heap->capacity) {
-    size_t capacity = heap->capacity ? 2 * heap->capacity : 256;
-    CwHeapItem *item = realloc(heap->item, capacity * sizeof *item);
-    CW_REQUIRE(item, CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", capacity, sizeof *item);
-    heap->item = item;
-    heap->capacity = capacity;
-  }
+  CW_GROW(heap->item, heap->capacity, heap->count + 1);
   CwHeapItem new = {key, v};
   size_t i = heap->count++;
   for (; i > 0 && before(new, heap->item[(i - 1) / 2]); i = (i - 1) / 2) heap->item[i] = heap->item[(i - 1) / 2];

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -44,11 +45,57 @@ static void every_code_has_a_text(void **state) {
   CW_STATUS_LIST(CHECK_TEXT)
 }
 
+static CwStatus list_numbers(int32_t count, int32_t **list, int32_t *space, int *moves) {
+  CwStatus status = CW_OK;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t before = *space;
+    CW_GROW(*list, *space, i + 1);
+    *moves += *space != before;
+    (*list)[i] = i;
+  }
+done:
+  return status;
+}
+
+static void a_list_grows_by_doubling_and_keeps_its_items(void **state) {
+  int32_t *list = NULL, space = 0;
+  int moves = 0;
+  assert_int_equal(list_numbers(100000, &list, &space, &moves), CW_OK);
+  assert_in_range(space, 100000, 400000);
+  assert_in_range(moves, 1, 16);
+  for (int32_t i = 0; i < 100000; i++)
+    assert_int_equal(list[i], i);
+  free(list);
+}
+
+// Neither more than the memory nor more than the type of the count can hold; the list is still there.
+static CwStatus too_many(double **list, int32_t *space, int64_t wanted) {
+  CwStatus status = CW_OK;
+  CW_GROW(*list, *space, wanted);
+done:
+  return status;
+}
+
+static void a_list_that_cannot_grow_is_told(void **state) {
+  int32_t space = 0;
+  double *list = NULL;
+  assert_int_equal(too_many(&list, &space, 3), CW_OK);
+  double *before = list;
+  const int32_t room = space;
+  list[0] = 7;
+  assert_int_equal(too_many(&list, &space, (int64_t)1 << 30), CW_ERR_MEMORY);
+  assert_string_equal(cw_fail_message(), "out of memory: 2147483712 items of 8 bytes");
+  assert_true(list == before && space == room && list[0] == 7);
+  free(list);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(failure_carries_message_and_trace),
       cmocka_unit_test(message_may_be_built_from_the_old_one),
       cmocka_unit_test(every_code_has_a_text),
+      cmocka_unit_test(a_list_grows_by_doubling_and_keeps_its_items),
+      cmocka_unit_test(a_list_that_cannot_grow_is_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
