@@ -14,6 +14,7 @@ namespace {
 
 const double largest_mitre = 1.6;       // length of the mitre at a corner over L
 const double most_of_span = 0.85;       // that both fillets may take
+const double settles = 0.15;            // share of a patch over which it takes its own size from that of its end
 
 struct Vector {
   double m, t; // downstream along the wall and in the sense of theta, m
@@ -34,6 +35,9 @@ public:
   // Normals, tangent lengths and angles of a patch; `left`: the fluid lies to the left of the outline; `round`:
   // an edge that turns by half a circle.
   void normals(const CwBladePatch &patch, bool left, bool round);
+  // Lets size and angle of a side begin and end at rest, as those of round edges do: a rate that jumps there would
+  // be a kink across the fillet.
+  void rest_at_ends(const CwBladePatch &side);
   // Feet of the patch, with the mitres to the neighbours at its begin and end. `straight`: a facet, whose foot is
   // the line between them.
   void feet(CwBladePatch &patch, bool straight, const Fillets *before, bool before_end, const Fillets *after,
@@ -87,6 +91,18 @@ void Fillets::normals(const CwBladePatch &patch, bool left, bool round) {
   }
 }
 
+void Fillets::rest_at_ends(const CwBladePatch &side) {
+  for (std::vector<double> *value : {&length, &angle}) {
+    const double first = value->front(), last = value->back();
+    for (size_t i = 0; i < side.u.size(); i++) {
+      const double f = (side.u[i] - side.u.front()) / (side.u.back() - side.u.front());
+      double &own = (*value)[i];
+      own = first + smooth_step(f / settles) * (own - first);
+      own = last + smooth_step((1 - f) / settles) * (own - last);
+    }
+  }
+}
+
 // Where the feet of two neighbours meet. The neighbour gives its last or first point.
 Vector Fillets::mitre(size_t i, const Fillets *other, bool other_end) const {
   const size_t k = other_end ? other->normal.size() - 1 : 0;
@@ -106,7 +122,8 @@ void Fillets::feet(CwBladePatch &patch, bool straight, const Fillets *before, bo
   const double first_u = patch.u.front(), range = patch.u.back() - first_u;
   for (size_t i = 0; i < count; i++) {
     const double f = (patch.u[i] - first_u) / range;
-    const double wb = straight ? 1 - f : 1 - smooth_step(f / 0.15), we = straight ? f : smooth_step((f - 0.85) / 0.15);
+    const double wb = straight ? 1 - f : 1 - smooth_step(f / settles),
+                 we = straight ? f : 1 - smooth_step((1 - f) / settles);
     const auto ends = [&](double own, double at_begin, double own_begin, double at_end, double own_end) {
       return straight ? at_begin * wb + at_end * we
                     : own + wb * (at_begin - own_begin) + we * (at_end - own_end);
@@ -165,6 +182,9 @@ void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBlade
     pressure.normals(shape->pressure, true, false);
     leading.normals(shape->leading, true, true);
     suction.normals(shape->suction, false, false);
+    leading.rest_at_ends(shape->leading);
+    pressure.rest_at_ends(shape->pressure);
+    suction.rest_at_ends(shape->suction);
     if (shape->has_bevel)
       bevel.normals(shape->bevel, false, false);
     if (shape->has_trailing)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/mesh/cell.h"
 
+#include <math.h>
 #include <string.h>
 
 // Faces by the CGNS standard (SIDS 3.3), outward, ended by -1.
@@ -99,24 +100,62 @@ double cw_cell_volume(int count, const double *const *x) {
   return six / 6;
 }
 
+static inline void cross(const double a[3], const double b[3], double c[3]) {
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+// Centre of a face, the mean of its triangles weighed by their areas, and twice its area vector. The triangles of a
+// quadrilateral are four about the mean of its nodes.
+static void face_centre(const double *const *x, const signed char face[4], double centre[3], double twice[3]) {
+  const double *a = x[face[0]], *b = x[face[1]], *c = x[face[2]], *d = face[3] < 0 ? a : x[face[3]];
+  const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
+  cross(u, v, twice);
+  if (face[3] < 0) {
+    for (int k = 0; k < 3; ++k)
+      centre[k] = (a[k] + b[k] + c[k]) / 3;
+    return;
+  }
+  double area = 0, moment[3] = {0}, to[4][3];
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = (a[k] + b[k] + c[k] + d[k]) / 4;
+    for (int i = 0; i < 4; ++i)
+      to[i][k] = x[face[i]][k] - centre[k];
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double *from = to[i], *next = to[(i + 1) % 4];
+    double normal[3];
+    cross(from, next, normal);
+    double one = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    area += one;
+    for (int k = 0; k < 3; ++k)
+      moment[k] += one * (from[k] + next[k]);
+  }
+  for (int k = 0; k < 3; ++k)
+    centre[k] += moment[k] / (3 * area);
+}
+
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
-  // Pyramid and prism in tetrahedra, all of them with corner 0.
-  static const signed char of_pyramid[2][3] = {{1, 2, 4}, {2, 3, 4}};
-  static const signed char of_prism[3][3] = {{1, 2, 5}, {1, 5, 4}, {4, 5, 3}};
-  const signed char(*part)[3] = count == 5 ? of_pyramid : of_prism;
-  double six = 0, moment[3] = {0};
+  double centre[CW_CELL_FACES][3], twice[CW_CELL_FACES][3], apex[3] = {0}, volume = 0, moment[3] = {0};
   if (count == 4) {
     for (int k = 0; k < 3; ++k)
       centroid[k] = (x[0][k] + x[1][k] + x[2][k] + x[3][k]) / 4;
     return;
   }
-  for (int p = 0; p < count - 3; ++p) {
-    const double *a = x[part[p][0]], *b = x[part[p][1]], *c = x[part[p][2]];
-    double one = six_volumes(x[0], a, b, c);
-    six += one;
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    face_centre(x, cw_cell_face_table(count)[f], centre[f], twice[f]);
     for (int k = 0; k < 3; ++k)
-      moment[k] += one * ((a[k] - x[0][k]) + (b[k] - x[0][k]) + (c[k] - x[0][k]));
+      apex[k] += centre[f][k] / CW_CELL_FACES;
+  }
+  for (int f = 0; f < CW_CELL_FACES; ++f) {
+    double one = 0;
+    for (int k = 0; k < 3; ++k)
+      one += twice[f][k] * (centre[f][k] - apex[k]);
+    volume += one;
+    for (int k = 0; k < 3; ++k)
+      moment[k] += one * (centre[f][k] - apex[k]);
   }
   for (int k = 0; k < 3; ++k)
-    centroid[k] = x[0][k] + moment[k] / (4 * six);
+    centroid[k] = apex[k] + 0.75 * moment[k] / volume;
 }

@@ -35,7 +35,9 @@ void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, do
 // takes them: volumes of cells add up to the volume enclosed, without gaps.
 double cw_cell_volume(int count, const double *const *x);
 
-// Centroid of such a cell of positive volume, m.
+// Centroid of such a cell of positive volume, m, as OpenFOAM reckons it (primitiveMesh::makeCellCentresAndVols), so that
+// what is measured with it is what checkMesh says: pyramids from the mean of the face centres to the faces, weighed by
+// volume. That is the true centroid where the faces are flat.
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]);
 
 // The places of the nodes of a cell; returns their number.

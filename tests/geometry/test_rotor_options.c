@@ -61,7 +61,7 @@ static void fillets_are_tangent_and_named(void **state) {
   measure(&design, &solid, &measured);
   near_to(measured.hub_crease.angle, 180 * degree, 0.35 * degree);
   near_to(measured.shroud_crease.angle, 180 * degree, 0.35 * degree);
-  assert_true(measured.kink.angle < 0.6 * degree);
+  assert_true(measured.kink.angle < 0.15 * degree);
   near_to(measured.wrap_angle, 71 * degree, 0.01 * degree);
   assert_int_equal(cw_rotor_build(&design, &rotor), CW_OK);
   for (int w = 0; w < 2; w++) {

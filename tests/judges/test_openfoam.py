@@ -38,6 +38,12 @@ class OpenFoam(unittest.TestCase):
         self.assertEqual(int(told["points"]), sum(domain["points"] for domain in mesh["domains"]))
         self.assertRegex(self.check, r"Number of regions: 2\b|\*Number of regions: 2")
 
+    def test_2_the_exporter_measures_as_checkmesh_does(self):
+        told = float(re.search(r"non-orthogonality Max: (\S+)", self.check)[1])
+        results = record(RUN, "export")["results"]
+        greatest = max(results[domain]["greatest_non_orthogonality_deg"] for domain in ("rotor", "stator"))
+        self.assertAlmostEqual(greatest, told, delta=1e-4 * told)
+
     def test_3_every_face_of_the_interface_meets_the_other_side(self):
         weights = re.findall(r"AMI: Patch (source|target) sum\(weights\) min:(\S+) max:(\S+)", self.check)
         self.assertEqual({side for side, _, _ in weights}, {"source", "target"}, self.check[-2000:])
