@@ -10,34 +10,44 @@
 // Sines of dihedral angles.
 static const double wanted = 0.2250;  // 13 degrees: a search begins where there is less
 static const double reached = 0.2419; // 14 degrees: it ends
-static const double pressing = 0.2079; // 12 degrees: below it goes on twice as long
+static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again
 static const double counted = 0.3746; // 22 degrees: what is less counts in a patch
 static const double sound = 0.02;     // what a disturbance leaves, at least; flatter ones are no matter of this search
 static const double alike = 0.05;     // above the worst: those that are disturbed, too
 static const double shaken = 0.3;     // of an edge: the farthest that points are moved by a disturbance
+static const int32_t patch_size[2] = {300, 100}; // tetrahedra, in turn: few are searched more thoroughly
 enum {
-  PATCH = 300,   // tetrahedra
-  PATCHES = 6,   // of a mesh
-  TRIES = 400,   // of a patch
-  IDLE = 250,    // of these, without a gain
-  SHARE = 25,    // one try for as many tetrahedra of the mesh
-  FEW = 250,     // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
-  CHANGES = 3,   // of one disturbance, at most
-  AWAY = 4,      // faces to step over from a bad tetrahedron, at most
+  PLACES = 6,      // of a mesh
+  TRIES = 400,     // of a beginning
+  IDLE = 250,      // of these, without a gain
+  SHARE = 25,      // one try for as many tetrahedra of the mesh,
+  PRESSED = 3000,  // and so many more where an angle is pressing
+  BEGINNINGS = 8,  // of a place where one is
+  MIXED = 3,       // in one beginning of as many points do not only go in
+  FEW = 250,       // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
+  CHANGES = 3,     // of one disturbance, at most
+  AWAY = 4,        // faces to step over from a bad tetrahedron, at most
   PASSES = 4,
 };
 
 typedef struct {
-  CwDelaunay *mesh;
   double least, deficit; // least sine; what all lack, the worst by far the most
 } Rated;
 
+// A patch, changed or not.
+typedef struct {
+  CwTetPatch patch;
+  Rated rated;
+  double gain; // in deficit
+} Found;
+
 typedef struct {
   CwTetWork *whole, work; // of the mesh; of a trial
-  CwTetPatch patch;
+  Found now, best;        // of this beginning; of all of a place
   CwDelaunay trial;
   uint64_t random;
-  int32_t tries; // left
+  int32_t tries, pressed; // left: of all, and of those for pressing angles alone
+  int mixed;              // all kinds of disturbances, though an angle is pressing
 } Search;
 
 // In [0, 1).
@@ -66,8 +76,8 @@ static double mean_edge(const CwDelaunay *mesh, int32_t t) {
   return sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
 }
 
-static Rated rate(CwDelaunay *mesh) {
-  Rated rated = {mesh, INFINITY, 0.0};
+static Rated rate(const CwDelaunay *mesh) {
+  Rated rated = {INFINITY, 0.0};
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     if (mesh->tet[t].corner[0] < 0) continue;
     double sine = least_sine(mesh, t), lack = fmax(0.0, 1.0 - sine / counted);
@@ -135,7 +145,7 @@ done:
 }
 
 static CwStatus insert(Search *s, int32_t t) {
-  double place[3], edge = mean_edge(&s->trial, t);
+  double place[3], edge = next_random(s) * mean_edge(&s->trial, t); // mostly near: room in a corner is small
   for (int i = 0; i < 3; i++) {
     place[i] = edge * (2.0 * next_random(s) - 1.0);
     for (int k = 0; k < 4; k++) place[i] += 0.25 * s->trial.point[s->trial.tet[t].corner[k]].x[i];
@@ -166,13 +176,13 @@ static void shake(Search *s) {
 
 static CwStatus try_disturbed(Search *s, double least, Rated *result) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_tet_patch_copy_mesh(&s->patch.mesh, &s->trial));
+  CW_TRY(cw_tet_patch_copy_mesh(&s->now.patch.mesh, &s->trial));
   for (int changes = 1 + choose(s, CHANGES); changes > 0; changes--) {
     int32_t t = choose_tet(s, least), kind = choose(s, 3);
-    if (kind == 0)
-      CW_TRY(contract(s, t));
-    else if (kind == 1)
+    if (kind == 0 || (least < pressing && !s->mixed)) // in the worst corners a point more is what helps
       CW_TRY(insert(s, t));
+    else if (kind == 1)
+      CW_TRY(contract(s, t));
     else
       shake(s);
   }
@@ -184,13 +194,13 @@ done:
   return status;
 }
 
-// Puts the patch back, and its tetrahedra below the limit into the list.
+// Puts the best patch back, and its tetrahedra below the limit into the list.
 static CwStatus put_back(Search *s) {
   CwStatus status = CW_OK;
   int32_t *place = NULL;
   CwTetWork *w = s->whole;
-  CW_TRY(cw_tet_patch_put(&s->patch, w->mesh, &w->source_count, &place));
-  for (int32_t k = 0; k < s->patch.mesh.tet_count; k++) {
+  CW_TRY(cw_tet_patch_put(&s->best.patch, w->mesh, &w->source_count, &place));
+  for (int32_t k = 0; k < s->best.patch.mesh.tet_count; k++) {
     if (place[k] < 0) continue;
     const int32_t *c = w->mesh->tet[place[k]].corner;
     w->mesh->tet[place[k]].centre[0] = 0.0;
@@ -203,28 +213,52 @@ done:
   return status;
 }
 
+static int may_try(Search *s, double least) {
+  int32_t *left = s->tries > 0 || least >= pressing ? &s->tries : &s->pressed;
+  return *left > 0 ? (*left)-- : 0;
+}
+
 // Goes on from the best that was found (iterated local search; H. Lourenco, O. Martin and T. Stuetzle, in: Handbook of
 // Metaheuristics, 2003).
-static CwStatus search_patch(Search *s, int32_t t) {
+static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   CwStatus status = CW_OK;
-  Rated trial;
-  CW_TRY(cw_tet_patch_take(s->whole->mesh, t, PATCH, s->whole->fixed_count, &s->patch));
-  Rated best = rate(&s->patch.mesh);
-  double before = best.deficit;
-  for (int k = 0, idle = 0; best.least < reached && s->tries > 0; k++, idle++, s->tries--) {
-    int longer = best.least < pressing ? 2 : 1;
-    if (k >= longer * TRIES || idle >= longer * IDLE) break;
-    CW_TRY(try_disturbed(s, best.least, &trial));
-    if (trial.least < best.least || trial.deficit > 0.999 * best.deficit) continue;
-    CwDelaunay swap = s->patch.mesh;
-    s->patch.mesh = s->trial;
+  Rated trial, *best = &s->now.rated;
+  CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
+  *best = rate(&s->now.patch.mesh);
+  s->now.gain = best->deficit;
+  for (int k = 0, idle = 0; best->least < reached && k < TRIES && idle < IDLE; k++, idle++) {
+    if (!may_try(s, best->least)) break;
+    CW_TRY(try_disturbed(s, best->least, &trial));
+    if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
+    CwDelaunay swap = s->now.patch.mesh;
+    s->now.patch.mesh = s->trial;
     s->trial = swap;
-    best = trial;
+    *best = trial;
     idle = 0;
   }
-  if (best.deficit < before) CW_TRY(put_back(s));
+  s->now.gain -= best->deficit;
 done:
-  cw_tet_patch_free(&s->patch);
+  return status;
+}
+
+// What leads nowhere from one beginning may do from another.
+static CwStatus search_place(Search *s, int32_t t) {
+  CwStatus status = CW_OK;
+  for (int k = 0; k < BEGINNINGS && (k == 0 || s->best.rated.least < pressing); k++) {
+    s->mixed = k % MIXED == MIXED - 1;
+    CW_TRY(search_patch(s, t, patch_size[k % 2]));
+    double more = s->now.rated.least - s->best.rated.least;
+    if (k == 0 || more > 0.0 || (more == 0.0 && s->now.gain > s->best.gain)) {
+      Found swap = s->best;
+      s->best = s->now;
+      s->now = swap;
+    }
+    cw_tet_patch_free(&s->now.patch);
+  }
+  if (s->best.gain > 0.0) CW_TRY(put_back(s));
+done:
+  cw_tet_patch_free(&s->now.patch);
+  cw_tet_patch_free(&s->best.patch);
   return status;
 }
 
@@ -250,11 +284,14 @@ static int32_t count_bad(const CwTetWork *w) {
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
   Search s = {.whole = w, .work = {.limit = counted, .insert = wanted, .insert_round = wanted, .fixed_count = 1}};
-  double place[PATCHES][3], reach[PATCHES];
+  double place[PLACES][3], reach[PLACES];
   s.work.mesh = s.work.flips.mesh = &s.trial;
   s.work.source_count = 1;
-  s.tries = count_bad(w) <= w->mesh->tet_count / FEW ? w->mesh->tet_count / SHARE : 0;
-  for (int n = 0; n < PATCHES && s.tries > 0; n++) {
+  if (count_bad(w) <= w->mesh->tet_count / FEW) {
+    s.tries = w->mesh->tet_count / SHARE;
+    s.pressed = PRESSED;
+  }
+  for (int n = 0; n < PLACES && (s.tries > 0 || s.pressed > 0); n++) {
     double least = wanted;
     int32_t worst = -1;
     for (int32_t k = 0; k < w->next_count; k++) {
@@ -266,7 +303,7 @@ CwStatus cw_tet_search(CwTetWork *w) {
     if (worst < 0) break;
     memcpy(place[n], cw_tet_at(w, w->mesh->tet[worst].corner[0]), sizeof place[n]);
     reach[n] = 2.0 * mean_edge(w->mesh, worst); // what else is bad there was before the same search
-    CW_TRY(search_patch(&s, worst));
+    CW_TRY(search_place(&s, worst));
   }
 done:
   cw_delaunay_free(&s.trial);
