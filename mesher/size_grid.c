@@ -104,25 +104,32 @@ double cw_size_grid_at(const CwSizeGrid *grid, const double x[3]) {
   return a + p[2] * (c - a);
 }
 
-// The root of sum over the upwind directions (f - value)^2 = step^2, with as many of the three values, a <= b <= c, as
-// lie under it.
-static double upwind(double a, double b, double c, double step) {
-  double f = a + step;
-  if (f <= b)
-    return f;
-  f = 0.5 * (a + b + sqrt(2 * step * step - (a - b) * (a - b)));
-  if (f <= c)
-    return f;
-  double sum = a + b + c;
-  return (sum + sqrt(fmax(0.0, sum * sum - 3 * (a * a + b * b + c * c - step * step)))) / 3;
-}
-
 static float least(float a, float b) {
   return a < b ? a : b;
 }
 
 static float most(float a, float b) {
   return a < b ? b : a;
+}
+
+// The root f of sum over x, y and z of max(0, f - value)^2 = step^2, with the values in any order.
+static double upwind(float x, float y, float z, double step) {
+  float lower = least(x, y), higher = most(x, y);
+  double a = least(lower, z), b = least(higher, most(lower, z)), c = most(higher, z), square = step * step;
+  if (a + step <= b) return a + step;
+  if ((c - a) * (c - a) + (c - b) * (c - b) >= square) return 0.5 * (a + b + sqrt(2 * square - (a - b) * (a - b)));
+  double sum = a + b + c;
+  return (sum + sqrt(fmax(0.0, sum * sum - 3 * (a * a + b * b + c * c - square)))) / 3;
+}
+
+static float twice_positive(float a) {
+  return a + fabsf(a);
+}
+
+// Whether that root is under f, by the sum, which grows with f; square: of two steps. Without a branch.
+static int is_under(float f, float x, float y, float z, float square) {
+  float p = twice_positive(f - x), q = twice_positive(f - y), r = twice_positive(f - z);
+  return p * p + q * q + r * r > square;
 }
 
 // The nodes that take part, as runs along x: run r of line l covers begin[r] .. end[r], start[l] <= r < start[l + 1].
@@ -136,29 +143,32 @@ static void runs_free(Runs *runs) {
   free(runs->end);
 }
 
+// The next node of a line, from i on, that takes part (wanted 1) or does not (0); `along` where there is none.
+static int32_t next_node(const uint8_t *in, int32_t i, int32_t along, int wanted) {
+  if (!in) return wanted ? i : along;
+  const uint8_t *found = memchr(in + i, wanted, (size_t)(along - i));
+  return found ? (int32_t)(found - in) : along;
+}
+
+// within: 1 for nodes that take part, else 0; NULL: all do.
 static CwStatus runs_make(const CwSizeGrid *grid, const uint8_t *within, Runs *runs) {
   CwStatus status = CW_OK;
-  int32_t along = grid->count[0], lines = grid->count[1] * grid->count[2], count = 0;
+  int32_t along = grid->count[0], lines = grid->count[1] * grid->count[2];
+  CW_NEW(runs->start, lines + 1);
   for (int store = 0; store < 2; store++) {
-    count = 0;
-    if (store) CW_NEW(runs->start, lines + 1);
+    int32_t count = 0;
     for (int32_t line = 0; line < lines; line++) {
       const uint8_t *in = within ? within + (size_t)line * (size_t)along : NULL;
-      if (store) runs->start[line] = count;
-      for (int32_t i = 0; i < along; i++) {
-        if (in && !in[i]) continue;
-        int32_t begin = i;
-        while (i + 1 < along && (!in || in[i + 1])) i++;
-        if (store) runs->begin[count] = begin, runs->end[count] = i;
+      for (int32_t i = next_node(in, 0, along, 1), end; i < along; i = next_node(in, end, along, 1)) {
+        end = next_node(in, i, along, 0);
+        if (store) runs->begin[count] = i, runs->end[count] = end - 1;
         count++;
       }
+      runs->start[line + 1] = count;
     }
-    if (store) {
-      runs->start[lines] = count;
-    } else {
-      CW_NEW(runs->begin, count);
-      CW_NEW(runs->end, count);
-    }
+    if (store) break;
+    CW_NEW(runs->begin, count);
+    CW_NEW(runs->end, count);
   }
 done:
   return status;
@@ -178,37 +188,40 @@ static int is_settled(const Clock *clock, const int32_t n[3], int32_t j, int32_t
          (k + 1 == n[2] || seen > clock->lowered[line + n[1]]);
 }
 
-// What a line along x is held against, while a sweep is on it: for each node the lower and the higher of the lower
-// values beside it along y and along z, and whether the values around, as they are, may lower it.
+// What a line along x is held against, while a sweep is on it: for each node the lower of the values beside it along y
+// and along z, and whether the values around, as they are, may lower it.
 typedef struct {
-  float *lower, *higher;
+  float *y, *z;
   int32_t *low;
 } Beside;
 
-// For a run: no root is under the lowest value around by `rise`. Lines that are not there are full of unset values. In
-// a loop of its own, which the compiler makes vectors of.
+// A node changes by more than `least`, which with the rounding of float numbers is not less than `sure`.
+typedef struct {
+  double step;
+  float square, least, sure;
+} Slope;
+
+// For a run. Lines that are not there are full of unset values. In a loop of its own, which the compiler makes vectors
+// of.
 static void look_beside(const float *restrict line, const float *const around[4], int32_t along, int32_t begin,
-                        int32_t end, float rise, const Beside *beside) {
+                        int32_t end, const Slope *slope, const Beside *beside) {
   const float *restrict p = around[0], *restrict q = around[1], *restrict r = around[2], *restrict s = around[3];
-  float *restrict lower = beside->lower, *restrict higher = beside->higher;
+  float *restrict y = beside->y, *restrict z = beside->z, square = slope->square, sure = slope->sure;
   int32_t *restrict low = beside->low;
   for (int32_t i = begin; i <= end; i++) {
-    float y = least(p[i], q[i]), z = least(r[i], s[i]);
-    lower[i] = least(y, z);
-    higher[i] = most(y, z);
+    y[i] = least(p[i], q[i]);
+    z[i] = least(r[i], s[i]);
   }
   int32_t from = begin > 0 ? begin : 1, to = end + 1 < along ? end : along - 2;
   low[begin] = low[end] = 1; // these may lack a neighbour
   for (int32_t i = from; i <= to; i++) {
-    float around_least = least(least(line[i - 1], line[i + 1]), lower[i]);
-    low[i] = around_least + rise < line[i];
+    low[i] = is_under(line[i] - sure, least(line[i - 1], line[i + 1]), y[i], z[i], square);
   }
 }
 
 // Lowers the nodes of a run, forwards or back along x; returns how many went lower.
-static int64_t sweep_run(float *line, int32_t along, int32_t begin, int32_t end, int back, double step,
+static int64_t sweep_run(float *line, int32_t along, int32_t begin, int32_t end, int back, const Slope *slope,
                          const Beside *beside) {
-  float least_change = (float)(1e-3 * step), least_rise = (float)(0.57 * step);
   int64_t lowered = 0;
   int lowered_last = 0; // then the next may be lowered too
   for (int32_t ii = begin; ii <= end; ii++) {
@@ -216,12 +229,10 @@ static int64_t sweep_run(float *line, int32_t along, int32_t begin, int32_t end,
     if (!beside->low[i] && !lowered_last) continue;
     lowered_last = 0;
     float before = i > 0 ? line[i - 1] : unset, after = i + 1 < along ? line[i + 1] : unset;
-    float x = least(before, after), b = beside->lower[i], c = beside->higher[i];
-    float lowest = least(x, b);
-    if (lowest + least_rise >= line[i])
-      continue; // no root is under lowest + step / sqrt(3)
-    double f = upwind(lowest, least(most(x, b), c), most(x, c), step);
-    if (f < line[i] - least_change) {
+    float x = least(before, after), y = beside->y[i], z = beside->z[i];
+    if (!is_under(line[i] - slope->sure, x, y, z, slope->square)) continue;
+    double f = upwind(x, y, z, slope->step);
+    if (f < line[i] - slope->least) {
       line[i] = (float)f;
       lowered++;
       lowered_last = 1;
@@ -231,7 +242,7 @@ static int64_t sweep_run(float *line, int32_t along, int32_t begin, int32_t end,
 }
 
 // One sweep in the direction of bits of `sweep`; returns how many nodes went lower. `nothing`: a line of unset values.
-static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double step, Clock *clock,
+static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, const Slope *slope, Clock *clock,
                           const Beside *beside, const float *nothing) {
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
@@ -249,8 +260,8 @@ static int64_t sweep_once(CwSizeGrid *grid, const Runs *runs, int sweep, double 
                                       k > 0 ? line - slab : nothing, k + 1 < n[2] ? line + slab : nothing};
       for (int32_t rr = first; rr <= last; rr++) {
         int32_t r = sweep & 1 ? first + last - rr : rr;
-        look_beside(line, around, n[0], runs->begin[r], runs->end[r], (float)(0.57 * step), beside);
-        lowered += sweep_run(line, n[0], runs->begin[r], runs->end[r], sweep & 1, step, beside);
+        look_beside(line, around, n[0], runs->begin[r], runs->end[r], slope, beside);
+        lowered += sweep_run(line, n[0], runs->begin[r], runs->end[r], sweep & 1, slope, beside);
       }
       if (lowered > before) clock->lowered[k * n[1] + j] = clock->now;
     }
@@ -305,8 +316,9 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
   Beside beside = {0};
   float *nothing = NULL;
   double step = slope * grid->spacing;
-  CW_NEW(beside.lower, grid->count[0]);
-  CW_NEW(beside.higher, grid->count[0]);
+  const Slope steep = {step, (float)(4 * step * step), (float)(1e-3 * step), (float)(0.99e-3 * step)};
+  CW_NEW(beside.y, grid->count[0]);
+  CW_NEW(beside.z, grid->count[0]);
   CW_NEW(beside.low, grid->count[0]);
   CW_NEW(nothing, grid->count[0]);
   for (int32_t i = 0; i < grid->count[0]; i++) nothing[i] = unset;
@@ -314,12 +326,12 @@ CwStatus cw_size_grid_spread(CwSizeGrid *grid, double slope, const uint8_t *with
   CW_NEW(clock.seen, (size_t)grid->count[1] * (size_t)grid->count[2]);
   CW_NEW(clock.lowered, (size_t)grid->count[1] * (size_t)grid->count[2]);
   for (int quiet = 0, sweep = 0; quiet < 8; sweep = (sweep + 1) % 8) {
-    quiet = sweep_once(grid, &runs, sweep, step, &clock, &beside, nothing) > 0 ? 0 : quiet + 1;
+    quiet = sweep_once(grid, &runs, sweep, &steep, &clock, &beside, nothing) > 0 ? 0 : quiet + 1;
   }
   if (within) go_on_outside(grid, within, (float)step);
 done:
-  free(beside.lower);
-  free(beside.higher);
+  free(beside.y);
+  free(beside.z);
   free(beside.low);
   free(nothing);
   runs_free(&runs);
