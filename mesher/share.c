@@ -6,7 +6,8 @@
 
 #include "mesher/schedule.h"
 
-enum { BLOCK = 4096 };
+// Blocks enough for dozens of ranks to end together, none so small that to take it is as much work as to do it.
+enum { BLOCKS = 256, LEAST_BLOCK = 64, MOST_BLOCK = 4096 };
 
 typedef struct {
   CwShareBody body;
@@ -14,7 +15,13 @@ typedef struct {
   int32_t count;
   const int32_t *start; // of each item's list; NULL: one each
   size_t width;
+  int32_t block; // items of one
 } Share;
+
+static int32_t block_of(int32_t count) {
+  int32_t block = count / BLOCKS;
+  return block < LEAST_BLOCK ? LEAST_BLOCK : block > MOST_BLOCK ? MOST_BLOCK : block;
+}
 
 // Where the bytes of an item begin.
 static size_t place_of(const Share *share, int32_t item) {
@@ -24,7 +31,8 @@ static size_t place_of(const Share *share, int32_t item) {
 static CwStatus run_block(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const Share *share = context;
-  int32_t first = block * BLOCK, last = share->count - first < BLOCK ? share->count : first + BLOCK;
+  int32_t first = block * share->block, left = share->count - first;
+  int32_t last = left < share->block ? share->count : first + share->block;
   size_t length = place_of(share, last) - place_of(share, first);
   char *result = NULL;
   CW_NEW(result, length);
@@ -45,15 +53,17 @@ CwStatus cw_share(const char *step, int32_t count, size_t width, CwShareBody bod
 CwStatus cw_share_lists(const char *step, int32_t count, const int32_t *start, size_t width, CwShareBody body,
                         void *context, void *out) {
   CwStatus status = CW_OK;
-  Share share = {body, context, count, start, width};
-  int32_t blocks = (count + BLOCK - 1) / BLOCK;
+  Share share = {body, context, count, start, width, block_of(count)};
+  int32_t blocks = (count + share.block - 1) / share.block;
   void **bytes = NULL;
   int64_t *size = NULL;
   CW_NEW(bytes, blocks);
   CW_NEW(size, blocks);
   CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  for (int32_t i = 0; i < blocks; i++) memcpy((char *)out + place_of(&share, i * BLOCK), bytes[i], (size_t)size[i]);
+  for (int32_t i = 0; i < blocks; i++) {
+    memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
+  }
 done:
   for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
   free(bytes);
