@@ -9,7 +9,11 @@
 #include "mesher/vec.h"
 
 enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
-enum { SAMPLES_LEAST = 30000, SAMPLES_PER_REGION = 1500 };
+enum {
+  SAMPLES_OF_REGION = 1000, // of the volume
+  TOGETHER = 8,             // places of the size field in one sample, at most
+  PARTS_ALONG = 4           // parts of a place along each side, at most
+};
 static const double EDGE_STEP = 0.5e-3;   // m between points along CAD edges
 static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
@@ -275,41 +279,85 @@ done:
   return status;
 }
 
-// Predicted tetrahedra of a sample.
+// The places where the size field is sampled.
 typedef struct {
-  const CwPlanModel *model;
+  const CwSize *size;
   double tet_factor;
-} Samples;
+  int32_t count;
+  double (*x)[3], *volume, *work; // m3; predicted tetrahedra, layers or not
+} Places;
 
 static CwStatus find_work(void *context, int32_t i, void *out) {
-  const Samples *samples = context;
-  const CwPlanModel *model = samples->model;
-  double h = cw_size_at(model->size, model->sample_x[i]);
-  CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest);
-  if (wall.distance >= wall.thickness) *(double *)out = samples->tet_factor * model->sample_volume[i] / (h * h * h);
+  const Places *places = context;
+  double h = cw_size_at(places->size, places->x[i]);
+  *(double *)out = places->tet_factor * places->volume[i] / (h * h * h);
   return CW_OK;
 }
 
-// Of the samples of the size field every n-th: planes need no finer picture. Collective.
+static CwStatus find_work_outside_layers(void *context, int32_t i, void *out) {
+  const CwPlanModel *model = context;
+  CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest);
+  *(double *)out = wall.distance >= wall.thickness ? model->sample_work[i] : 0;
+  return CW_OK;
+}
+
+static void add_sample(CwPlanModel *model, const double x[3], double volume, double work) {
+  int32_t at = model->sample_count++;
+  if (!model->sample_x) return;
+  cw_copy(x, model->sample_x[at]);
+  model->sample_volume[at] = volume;
+  model->sample_work[at] = work;
+  model->sample_spacing = fmax(model->sample_spacing, cbrt(volume));
+}
+
+// The parts of a place, so many along each side of the cube that it stands for.
+static void add_parts(CwPlanModel *model, const double x[3], double volume, double work, int32_t along) {
+  int32_t count = along * along * along;
+  double step = cbrt(volume) / along, first = -step * (along - 1) / 2;
+  for (int32_t i = 0; i < count; i++) {
+    double part[3] = {x[0] + first + step * (i % along), x[1] + first + step * (i / along % along),
+                      x[2] + first + step * (i / along / along)};
+    add_sample(model, part, volume / count, work / count);
+  }
+}
+
+// Visits samples of about `even` work each: a place, some together, or parts of one; stores them where there is room.
+static void visit_samples(const Places *places, double even, CwPlanModel *model) {
+  double work = 0, volume = 0;
+  int32_t together = 0;
+  model->sample_count = 0;
+  for (int32_t i = 0; i < places->count; i++) {
+    int32_t along = (int32_t)fmin(round(cbrt(places->work[i] / even)), PARTS_ALONG);
+    if (along > 1) add_parts(model, places->x[i], places->volume[i], places->work[i], along);
+    if (along <= 1) work += places->work[i], volume += places->volume[i], together++;
+    if (together == 0 || (together < TOGETHER && work < even && i + 1 < places->count)) continue;
+    add_sample(model, places->x[i - together / 2], volume, work);
+    work = volume = together = 0;
+  }
+}
+
+// Samples of the volume, about as many in every region to be, wherever it will lie. Collective.
 static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
-  int32_t all = 0;
-  CW_TRY(cw_size_samples(model->size, &all, &model->sample_x, &model->sample_volume));
-  int64_t wanted = SAMPLES_LEAST + (int64_t)SAMPLES_PER_REGION * options->region_count;
-  int32_t stride = (int32_t)(all / wanted) + 1;
-  for (int32_t i = 0; i < all; i += stride) {
-    cw_copy(model->sample_x[i], model->sample_x[model->sample_count]);
-    model->sample_volume[model->sample_count++] = stride * model->sample_volume[i];
-  }
+  Places places = {.size = model->size, .tet_factor = options->tet_factor};
+  double even = 0, *outside = NULL;
+  CW_TRY(cw_size_samples(model->size, &places.count, &places.x, &places.volume));
+  CW_NEW(places.work, places.count);
+  CW_TRY(cw_share("decomposition", places.count, sizeof *places.work, find_work, &places, places.work));
+  for (int32_t i = 0; i < places.count; i++) even += places.work[i] / SAMPLES_OF_REGION / options->region_count;
+  visit_samples(&places, even, model);
+  CW_NEW(model->sample_volume, model->sample_count);
   CW_NEW(model->sample_work, model->sample_count);
-  for (int32_t i = 0; i < model->sample_count; i++) {
-    model->sample_spacing = fmax(model->sample_spacing, model->sample_volume[i]);
-  }
-  model->sample_spacing = cbrt(model->sample_spacing);
-  Samples samples = {model, options->tet_factor};
-  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *model->sample_work, find_work, &samples,
-                  model->sample_work));
+  CW_NEW(outside, model->sample_count);
+  CW_NEW(model->sample_x, model->sample_count);
+  visit_samples(&places, even, model);
+  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *outside, find_work_outside_layers, model, outside));
+  memcpy(model->sample_work, outside, (size_t)model->sample_count * sizeof *outside);
 done:
+  free(places.x);
+  free(places.volume);
+  free(places.work);
+  free(outside);
   return status;
 }
 

@@ -125,7 +125,6 @@ static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const 
     profile->area[bin] += model->sample_volume[s];
   }
   int width = (int)(model->sample_spacing * cbrt(stride) / profile->width);
-  smooth(work, width);
   smooth(profile->area, width);
   for (int b = 0; b < CW_PROFILE_BINS; b++) cells += work[b], volume += profile->area[b];
   // What is left out counts like what is seen.
