@@ -153,26 +153,34 @@ gp_Pnt mid_span(const CwSolid *rotor, const char *name, double u) {
 void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
   const int samples = 24;
   measured->shortest_edge = measured->narrowest_face = HUGE_VAL;
-  for (const CwSolidFace &face : solid->faces) {
+  for (size_t i = 0; i < solid->faces.size(); i++) {
+    const TopoDS_Face &face = solid->faces[i].face;
     double around = 0;
     gp_Vec area(0, 0, 0);
-    for (TopExp_Explorer explorer(face.face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
+    for (TopExp_Explorer explorer(face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
       double first, last, length = 0;
       const TopoDS_Edge edge = TopoDS::Edge(explorer.Current());
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
       gp_Pnt before = curve->Value(first);
       gp_Vec swept(0, 0, 0);
-      for (int i = 1; i <= samples; i++) {
-        const gp_Pnt next = curve->Value(first + (last - first) * i / samples);
+      for (int k = 1; k <= samples; k++) {
+        const gp_Pnt next = curve->Value(first + (last - first) * k / samples);
         swept += gp_Vec(gp::Origin(), before).Crossed(gp_Vec(gp::Origin(), next));
         length += next.Distance(before);
         before = next;
       }
       area += swept * (edge.Orientation() == TopAbs_REVERSED ? -0.5 : 0.5);
       around += length;
-      measured->shortest_edge = std::min(measured->shortest_edge, length * metre);
+      if (length * metre < measured->shortest_edge) {
+        measured->shortest_edge = length * metre;
+        measured->shortest_of = (int)i;
+      }
     }
-    measured->narrowest_face = std::min(measured->narrowest_face, area.Magnitude() / (around / 2) * metre);
+    const double width = area.Magnitude() / (around / 2) * metre;
+    if (width < measured->narrowest_face) {
+      measured->narrowest_face = width;
+      measured->narrowest = (int)i;
+    }
   }
 }
 

@@ -24,6 +24,7 @@ typedef struct {
   double volume;            // m3
   double shortest_edge;     // m
   double narrowest_face;    // vector area over half the circumference: at most a narrow face's width, m
+  int shortest_of, narrowest; // a face of that edge, and that face
 } CwMeasuredSolid;
 
 typedef struct {

@@ -2,6 +2,7 @@
 #include "geometry/pump.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "geometry/meridian.h"
 #include "geometry/pipe_zone.h"
@@ -96,6 +97,21 @@ void cw_pump_free(CwPump *pump) {
   pump->count = pump->interface_count = 0;
 }
 
+// The keys of the case that make a face too small, by a part of its name.
+static const char *maker_of(const char *face) {
+  static const char *const makers[][2] = {
+      {"_root", "root_fillet_radius_mm, or leave it out"},
+      {"hub_nut", "hub_nut_flat_diameter_mm"},
+      {"trailing", "trailing_edge_thickness_mm or trailing_edge_bevel_mm"},
+      {"leading", "leading_edge_thickness_mm"},
+      {"tongue", "tongue_radius_mm"},
+  };
+  for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
+    if (strstr(face, makers[i][0]))
+      return makers[i][1];
+  return "the dimension that makes it";
+}
+
 static CwStatus check_solid(const CwDesign *design, const CwSolid *solid, const CwMeasuredSolid *measured) {
   CwStatus status = CW_OK;
   const double edge = CW_PUMP_LEAST_EDGE * design->outlet_diameter,
@@ -107,11 +123,14 @@ static CwStatus check_solid(const CwDesign *design, const CwSolid *solid, const 
              cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
              measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3,
              CW_PUMP_LARGEST_TOLERANCE * 1e3);
-  CW_REQUIRE(measured->shortest_edge > edge && measured->narrowest_face > face, CW_ERR_GEOMETRY,
-             "%s: the shortest edge is %.3g mm long, the narrowest face %.3g mm wide; at least %.3g and %.3g mm "
-             "are allowed: raise the thickness, bevel or radius that makes it",
-             cw_solid_domain(solid), measured->shortest_edge * 1e3, measured->narrowest_face * 1e3, edge * 1e3,
-             face * 1e3);
+  CW_REQUIRE(measured->shortest_edge > edge, CW_ERR_GEOMETRY,
+             "%s: the shortest edge, of %s, is %.3g mm long; at least %.3g mm are allowed: raise %s",
+             cw_solid_domain(solid), cw_solid_face_name(solid, measured->shortest_of), measured->shortest_edge * 1e3,
+             edge * 1e3, maker_of(cw_solid_face_name(solid, measured->shortest_of)));
+  CW_REQUIRE(measured->narrowest_face > face, CW_ERR_GEOMETRY,
+             "%s: the narrowest face, %s, is %.3g mm wide; at least %.3g mm are allowed: raise %s",
+             cw_solid_domain(solid), cw_solid_face_name(solid, measured->narrowest), measured->narrowest_face * 1e3,
+             face * 1e3, maker_of(cw_solid_face_name(solid, measured->narrowest)));
 done:
   return status;
 }

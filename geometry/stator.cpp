@@ -199,7 +199,7 @@ private:
       flank_vertex_[side] = b_.vertex(surface->Value(1, side));
       gp_Pnt p = b_.point(flank_vertex_[side]);
       if (std::hypot(p.X(), p.Y()) < TONGUE_SIDE * r3())
-        throw std::runtime_error("the tongue's side comes nearer than 1 % to D3/2; raise tongue_gap");
+        throw std::runtime_error("the tongue's side comes nearer than 1 % to D3/2; raise tongue_gap_mm");
       nose_side_[side] = b_.edge(surface->VIso(side), 0, 1, kink_vertex_[0][side], flank_vertex_[side]);
     }
     nose_flank_ = b_.edge(surface->UIso(1), 0, 1, flank_vertex_[BOTTOM], flank_vertex_[TOP]);
@@ -368,8 +368,8 @@ private:
           continue;
         char text[160];
         snprintf(text, sizeof text,
-                 "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length or "
-                 "tongue_gap, or lower outlet_diameter",
+                 "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length_mm or "
+                 "tongue_gap_mm, or lower outlet_diameter_mm",
                  p.X(), p.Y(), p.Z());
         throw std::runtime_error(text);
       }

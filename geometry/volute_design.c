@@ -206,22 +206,22 @@ static CwStatus check_input(const CwVoluteInput *in) {
       {"flow rate", in->flow_rate, 1e-6, 100, 1, "m3/s", 0},
       {"angular momentum c_u2 r2", in->angular_momentum, 1e-4, 1e3, 1, "m2/s", velocity},
       {"speed in the sections (K3 sqrt(2 g H))", in->section_speed, 0.1, 200, 1, "m/s", !velocity},
-      {"base_diameter (D3)", in->base_diameter, 0.02, 5, 1e3, "mm", 0},
+      {"base_diameter_mm (D3)", in->base_diameter, 0.02, 5, 1e3, "mm", 0},
       {"interface radius", in->interface_radius, 0.0095, 2.5, 1e3, "mm", 0},
       {"outlet width of the impeller (b2)", in->neck_width, 1e-3, 1, 1e3, "mm", 0},
-      {"inlet_width (b3)", in->inlet_width, 1e-3, 1, 1e3, "mm", 0},
-      {"side_wall_angle", in->side_wall_angle, rectangle ? 0 : PI / 36, PI / 5, 180 / PI, "deg", 0},
-      {"corner_radius", in->corner_radius, 0.5e-3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
-      {"throat_area", in->throat_area, 1e-6, 10, 1e6, "mm2", 1},
-      {"tongue_radius", in->tongue_radius, 0.2e-3, 0.02, 1e3, "mm", 0},
-      {"tongue_gap", in->tongue_gap, 0, 1, 1e3, "mm", 1},
-      {"tongue_angle", in->tongue_angle, 0, 0.45 * PI, 180 / PI, "deg", 1},
+      {"inlet_width_mm (b3)", in->inlet_width, 1e-3, 1, 1e3, "mm", 0},
+      {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : PI / 36, PI / 5, 180 / PI, "deg", 0},
+      {"corner_radius_mm", in->corner_radius, 0.5e-3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
+      {"throat_area_mm2", in->throat_area, 1e-6, 10, 1e6, "mm2", 1},
+      {"tongue_radius_mm", in->tongue_radius, 0.2e-3, 0.02, 1e3, "mm", 0},
+      {"tongue_gap_mm", in->tongue_gap, 0, 1, 1e3, "mm", 1},
+      {"tongue_angle_deg", in->tongue_angle, 0, 0.45 * PI, 180 / PI, "deg", 1},
       {"least gap of the tongue", in->least_tongue_gap, 0, 1, 1e3, "mm", 1},
-      {"diffuser_length", in->diffuser_length, 5e-3, 10, 1e3, "mm", 1},
-      {"diffuser angle", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
-      {"outlet_diameter", in->outlet_diameter, 5e-3, 5, 1e3, "mm", 1},
+      {"diffuser_length_mm", in->diffuser_length, 5e-3, 10, 1e3, "mm", 1},
+      {"diffuser_angle_deg", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
+      {"outlet_diameter_mm", in->outlet_diameter, 5e-3, 5, 1e3, "mm", 1},
       {"diffuser_area_ratio", in->diffuser_area_ratio, 1.05, 4, 1, "", 1},
-      {"discharge_pipe_length", in->discharge_pipe_length, 1e-3, 50, 1e3, "mm", 0},
+      {"discharge_pipe_length_mm", in->discharge_pipe_length, 1e-3, 50, 1e3, "mm", 0},
   };
   for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
     if (ranges[i].optional && isnan(ranges[i].value))
@@ -232,25 +232,24 @@ static CwStatus check_input(const CwVoluteInput *in) {
                ranges[i].unit_name);
   }
   CW_REQUIRE(in->inlet_width >= in->neck_width + 1e-3 - 1e-9, CW_ERR_DESIGN,
-             "volute: inlet_width (b3) is %g mm; allowed: at least b2 + 1 mm = %g mm", in->inlet_width * 1e3,
+             "volute: inlet_width_mm (b3) is %g mm; allowed: at least b2 + 1 mm = %g mm", in->inlet_width * 1e3,
              in->neck_width * 1e3 + 1);
   CW_REQUIRE(0.5 * in->base_diameter >= in->interface_radius + 0.25e-3, CW_ERR_DESIGN,
-             "volute: base_diameter (D3) is %g mm; allowed: at least %g mm, so that the neck between the "
-             "interface at "
-             "r = %g mm and D3/2 has 0.25 mm",
+             "volute: base_diameter_mm (D3) is %g mm; allowed: at least %g mm, so that the neck between the "
+             "interface at r = %g mm and D3/2 has 0.25 mm",
              in->base_diameter * 1e3, 2e3 * in->interface_radius + 0.5, in->interface_radius * 1e3);
   CW_REQUIRE(in->inlet_width <= 0.4 * in->base_diameter, CW_ERR_DESIGN,
-             "volute: inlet_width (b3) is %g mm; allowed: at most 0.4 D3 = %g mm", in->inlet_width * 1e3,
+             "volute: inlet_width_mm (b3) is %g mm; allowed: at most 0.4 D3 = %g mm", in->inlet_width * 1e3,
              400 * in->base_diameter);
   CW_REQUIRE(
       in->section != CW_SECTION_CIRCLE || isnan(in->corner_radius), CW_ERR_DESIGN,
-      "volute: corner_radius is %g mm, but a circle has no corners; allowed: with section trapezoid or "
+      "volute: corner_radius_mm is %g mm, but a circle has no corners; allowed: with section trapezoid or "
       "rectangle",
       in->corner_radius * 1e3);
   CW_REQUIRE(isnan(in->tongue_gap) || isnan(in->tongue_angle), CW_ERR_DESIGN,
-             "volute: tongue_gap and tongue_angle both place the tongue; allowed: one of them");
+             "volute: tongue_gap_mm and tongue_angle_deg both place the tongue; allowed: one of them");
   CW_REQUIRE(isnan(in->outlet_diameter) != isnan(in->diffuser_area_ratio), CW_ERR_DESIGN,
-             "volute: outlet_diameter and diffuser_area_ratio both give the outlet; allowed: one of them");
+             "volute: outlet_diameter_mm and diffuser_area_ratio both give the outlet; allowed: one of them");
 done:
   return status;
 }
@@ -265,8 +264,7 @@ static CwStatus solve_spiral(CwVolute *volute) {
   double largest = cw_volute_law(volute, LARGEST_SPIRAL * r3, volute->end_half_angle);
   CW_REQUIRE(end < largest, CW_ERR_DESIGN,
              "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s (raise the head "
-             "or b3, or "
-             "lower the flow rate)",
+             "or b3, or lower the flow rate)",
              velocity ? "Q / (K3 sqrt(2 g H))" : "Q / (c_u2 r2)", scale * (end - volute->law_start),
              velocity ? "mm2" : "mm", LARGEST_SPIRAL, scale * (largest - volute->law_start),
              velocity ? "mm2" : "mm");
@@ -281,12 +279,12 @@ static CwStatus solve_spiral(CwVolute *volute) {
     while (isnan(largest_excess = throat_area_excess(largest, &context)) && largest > low)
       largest = volute->law_start + 0.8 * (largest - volute->law_start);
     CW_REQUIRE(!isnan(least_excess) && !isnan(largest_excess), CW_ERR_DESIGN,
-               "volute: no spiral with this D3 and b3 has room for its tongue%s; lower inlet_width or %s",
+               "volute: no spiral with this D3 and b3 has room for its tongue%s; lower inlet_width_mm or %s",
                cw_volute_has_corners(volute) ? " and corners" : "",
-               cw_volute_has_corners(volute) ? "corner_radius" : "tongue_radius");
+               cw_volute_has_corners(volute) ? "corner_radius_mm" : "tongue_radius_mm");
     end = cw_root_find(throat_area_excess, &context, low, largest);
     CW_REQUIRE(!isnan(end), CW_ERR_DESIGN,
-               "volute: throat_area is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
+               "volute: throat_area_mm2 is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
                "%.0f mm2",
                in->throat_area * 1e6, (least_excess + in->throat_area) * 1e6,
                (largest_excess + in->throat_area) * 1e6);
@@ -303,10 +301,10 @@ static CwStatus check_tongue(const CwVolute *volute) {
   double gap = volute->tip_radius - base_radius(volute);
   double least = tongue_at(LEAST_WEDGE, volute), largest = tongue_at(LARGEST_WEDGE, volute);
   CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap - in->tongue_gap) < 1e-7, CW_ERR_DESIGN,
-             "volute: tongue_gap is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
+             "volute: tongue_gap_mm is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
              in->tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
   CW_REQUIRE(isnan(in->tongue_angle) || fabs(volute->tip_angle - in->tongue_angle) < 1e-7, CW_ERR_DESIGN,
-             "volute: tongue_angle is %g deg; allowed for this spiral: %.2f to %.2f deg (or leave it out)",
+             "volute: tongue_angle_deg is %g deg; allowed for this spiral: %.2f to %.2f deg (or leave it out)",
              in->tongue_angle * 180 / PI, least * 180 / PI, largest * 180 / PI);
   double corner[3] = {volute->inner_wall_x};
   if (!isnan(volute->throat_width))
@@ -316,15 +314,14 @@ static CwStatus check_tongue(const CwVolute *volute) {
       volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
           corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
       CW_ERR_DESIGN,
-      "volute: %s too little side wall at the throat; lower inlet_width or %s, or take section trapezoid%s",
+      "volute: %s too little side wall at the throat; lower inlet_width_mm or %s, or take section trapezoid%s",
       cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
-      cw_volute_has_corners(volute) ? "corner_radius" : "side_wall_angle",
-      cw_volute_has_corners(volute) ? " without corner_radius" : "");
+      cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
+      cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
   CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) &&
                  volute->throat_width > 4 * in->tongue_radius,
              CW_ERR_DESIGN,
-             "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius or raise "
-             "throat_area",
+             "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius_mm or raise throat_area_mm2",
              in->tongue_radius * 1e3);
 done:
   return status;
@@ -339,10 +336,10 @@ static CwStatus check_sections(const CwVolute *volute) {
     double gap = cw_volute_section(volute, phi).kink_radius - base_radius(volute);
     CW_REQUIRE(gap > START_MARGIN * base_radius(volute), CW_ERR_DESIGN,
                "volute: the section %.0f deg behind the spiral's start is too small for %s; lower %s or "
-               "inlet_width, or take section trapezoid%s",
+               "inlet_width_mm, or take section trapezoid%s",
                phi * 180 / PI, cw_volute_has_corners(volute) ? "its corners" : "a circle",
-               cw_volute_has_corners(volute) ? "corner_radius" : "side_wall_angle",
-               cw_volute_has_corners(volute) ? " without corner_radius" : "");
+               cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
+               cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
   }
 done:
   return status;
@@ -372,9 +369,8 @@ static CwStatus solve_diffuser(CwVolute *volute) {
     volute->input.outlet_diameter = sqrt(in->diffuser_area_ratio * volute->throat_area * 4 / PI);
   double x[3], x_phi[3], radius = 0.5 * in->outlet_diameter, throat_radius = sqrt(volute->throat_area / PI);
   CW_REQUIRE(radius > throat_radius, CW_ERR_DESIGN,
-             "volute: outlet_diameter is %g mm, less than the throat's equal-area diameter %.2f mm; raise "
-             "it, or lower "
-             "throat_area (%.0f mm2)",
+             "volute: outlet_diameter_mm is %g mm, less than the throat's equal-area diameter %.2f mm; raise "
+             "it, or lower throat_area_mm2 (%.0f mm2)",
              2e3 * radius, 2e3 * throat_radius, volute->throat_area * 1e6);
   volute->diffuser_length = in->diffuser_length;
   if (isnan(in->diffuser_length))
@@ -382,7 +378,7 @@ static CwStatus solve_diffuser(CwVolute *volute) {
                                    in->discharge == CW_DISCHARGE_RADIAL ? 4 * radius : 0.5 * radius);
   volute->diffuser_angle = 2 * atan((radius - throat_radius) / volute->diffuser_length);
   CW_REQUIRE(volute->diffuser_angle < PI / 6, CW_ERR_DESIGN,
-             "volute: diffuser_length %g mm opens the diffuser by %.1f deg; allowed: at most 30 deg (at "
+             "volute: diffuser_length_mm %g mm opens the diffuser by %.1f deg; allowed: at most 30 deg (at "
              "least %.1f mm)",
              volute->diffuser_length * 1e3, volute->diffuser_angle * 180 / PI,
              1e3 * (radius - throat_radius) / tan(PI / 12));
@@ -398,7 +394,7 @@ static CwStatus solve_diffuser(CwVolute *volute) {
     bend = cw_root_find(bend_excess, &context, 1e-3, 0.6 * PI);
     CW_REQUIRE(
         volute->diffuser_length >= 1.5 * radius * bend, CW_ERR_DESIGN,
-        "volute: diffuser_length %g mm is too short for a radial discharge, which bends it by %.0f deg; "
+        "volute: diffuser_length_mm %g mm is too short for a radial discharge, which bends it by %.0f deg; "
         "allowed: at least %.1f mm",
         volute->diffuser_length * 1e3, bend * 180 / PI, 1.5e3 * radius * bend);
   }

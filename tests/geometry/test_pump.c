@@ -12,6 +12,7 @@
 
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
+#include "geometry/pump.h"
 #include "geometry/rotor.h"
 #include "geometry/stator.h"
 #include "geometry/step_file.h"
@@ -84,11 +85,31 @@ static void missing_patch_is_named(void **state) {
   cw_fail_clear();
 }
 
+// A nose that ends in a flat as small as a pinhead, which six blades divide: the line names edge, face and key.
+static void too_short_an_edge_is_named(void **state) {
+  CwPump pump = {.count = 2, .solid = {rotor, stator}, .stubs = {design.suction_pipe_length, 0}};
+  CwMeasuredPump measured;
+  CwDesign small = design;
+  CwSolid *with_small_flat = NULL;
+  assert_int_equal(cw_pump_measure(&design, &pump, &measured), CW_OK);
+  small.nut_disk_radius = 0.085e-3;
+  assert_int_equal(cw_rotor_build(&small, &with_small_flat), CW_OK);
+  pump.solid[0] = with_small_flat;
+  assert_int_equal(cw_pump_measure(&small, &pump, &measured), CW_ERR_GEOMETRY);
+  const char *message = cw_fail_message();
+  if (!strstr(message, "rotor: the shortest edge, of hub_nut_") || !strstr(message, "0.089 mm") ||
+      !strstr(message, "raise hub_nut_flat_diameter_mm"))
+    fail_msg("unexpected message: %s", message);
+  cw_fail_clear();
+  cw_solid_free(&with_small_flat);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stator_dimensions_and_interface),
       cmocka_unit_test(both_solids_survive_step),
       cmocka_unit_test(missing_patch_is_named),
+      cmocka_unit_test(too_short_an_edge_is_named),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
