@@ -201,17 +201,14 @@ done:
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count) {
   CwStatus status = CW_OK;
-  CwSize *size = NULL;
   double *rim_size = NULL;
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(rim_size, patches);
   for (int p = 0; p < patches; p++) rim_size[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
   CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
-                      (CwSizePart)part, &size));
-  CW_TRY(cw_size_pack(size, bytes, byte_count));
+                      (CwSizePart)part, bytes, byte_count));
 done:
   free(rim_size);
-  cw_size_free(&size);
   return status;
 }
 

@@ -25,7 +25,7 @@ struct CwSize {
   CwSizeGrid rim;  // m, whatever the scale: what rims of walls allow; no nodes where they ask nothing
   double rim_asks; // mean along the rims of what they allow over what is wanted at scale 1
   CwScanlines lines;
-  void *block;     // that holds the arrays, where the field came packed
+  void *block;     // that holds the arrays
   void *rim_block; // that holds those of rims that joined it
 };
 
@@ -77,19 +77,13 @@ done:
   return status;
 }
 
-static CwStatus unpack_lines(const void *bytes, CwScanlines *lines) {
-  CwStatus status = CW_OK;
-  const char *at = (const char *)bytes + sizeof *lines;
-  memcpy(lines, bytes, sizeof *lines);
-  lines->start = NULL; // addresses mean nothing elsewhere
-  lines->crossing = NULL;
-  size_t count = (size_t)lines->count[0] * (size_t)lines->count[1];
-  CW_NEW(lines->start, count + 1);
-  memcpy(lines->start, at, (count + 1) * sizeof *lines->start);
-  CW_NEW(lines->crossing, lines->start[count]);
-  memcpy(lines->crossing, at + (count + 1) * sizeof *lines->start, (size_t)lines->start[count] * sizeof(double));
-done:
-  return status;
+// The lines where they came packed.
+static CwScanlines lines_in(void *bytes) {
+  CwScanlines lines;
+  memcpy(&lines, bytes, sizeof lines);
+  lines.start = (int64_t *)((char *)bytes + sizeof lines);
+  lines.crossing = (double *)(lines.start + (size_t)lines.count[0] * (size_t)lines.count[1] + 1);
+  return lines;
 }
 
 enum { MORE_PARTS = 2 }; // than faces: edges and lines
@@ -147,10 +141,8 @@ static void widen_across(uint8_t *row, size_t length, int32_t count, uint8_t *ol
 }
 
 // Sets a byte for the nodes of the cells that lie in the domain, as the lines see it, and of those beside.
-static CwStatus mark_inside(const CwSize *size, uint8_t **within) {
+static CwStatus mark_inside(const CwSizeGrid *grid, const CwScanlines *lines, uint8_t **within) {
   CwStatus status = CW_OK;
-  const CwSizeGrid *grid = &size->grid;
-  const CwScanlines *lines = &size->lines;
   const int32_t *n = grid->count;
   size_t row = (size_t)n[0], slab = row * (size_t)n[1];
   uint8_t *old = NULL;
@@ -183,70 +175,11 @@ done:
   return status;
 }
 
-CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
-                      CwSizePart part, CwSize **size) {
-  CwStatus status = CW_OK;
-  const CwSizeInput input = {cad, background, table, patch_size, base_size, rim_size};
-  CwSize *made = NULL;
-  uint8_t *within = NULL;
-  *size = NULL;
-  CW_TRY(check_input(&input));
-  CW_NEW(made, 1);
-  made->scale = 1;
-  CW_TRY(cw_size_surface_grid(&input, &made->grid));
-  CwSizeGrid *grid = &made->grid;
-  int lists = cw_cad_face_count(cad) + 1; // with that of the edges
-  for (int i = 0; i < lists; i++)
-    cw_size_take_seeds(grid, seeds[i]);
-  CW_TRY(unpack_lines(seeds[lists], &made->lines));
-  CW_TRY(mark_inside(made, &within));
-  if (part == CW_SIZE_SEEDS) {
-    CW_TRY(cw_size_grid_spread(grid, table->gradation, within));
-    if (rim_size) made->rim_asks = cw_size_rims_ask(&input, grid);
-  } else {
-    cw_size_grid_clear(grid);
-    made->rim = made->grid;
-    made->grid = (CwSizeGrid){0};
-    cw_scanlines_free(&made->lines);
-    cw_size_seed_rims(&input, &made->rim);
-    CW_TRY(cw_size_grid_spread(&made->rim, table->gradation, within));
-  }
-  *size = made;
-  made = NULL;
-done:
-  free(within);
-  cw_size_free(&made);
-  return status;
-}
-
-void cw_size_join(CwSize *size, CwSize **rims) {
-  size->rim = (*rims)->rim;
-  size->rim_block = (*rims)->block ? (*rims)->block : (*rims)->rim.value;
-  (*rims)->rim = (CwSizeGrid){0};
-  (*rims)->block = NULL;
-  cw_size_free(rims);
-}
-
 // The plain part of a field; arrays follow it: starts of the lines, crossings, values of both grids.
 typedef struct {
   CwSize plain;
   size_t starts, crossings, nodes, rim_nodes;
 } Packed;
-
-static size_t node_count(const CwSizeGrid *grid) {
-  return (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
-}
-
-static Packed packed_head(const CwSize *size) {
-  const CwScanlines *lines = &size->lines;
-  Packed head = {.plain = *size, .nodes = node_count(&size->grid), .rim_nodes = node_count(&size->rim)};
-  if (lines->start) {
-    head.starts = (size_t)lines->count[0] * (size_t)lines->count[1] + 1;
-    head.crossings = (size_t)lines->start[head.starts - 1];
-  }
-  return head;
-}
 
 static size_t packed_size(const Packed *head) {
   return sizeof *head + head->starts * sizeof(int64_t) + head->crossings * sizeof(double) +
@@ -259,7 +192,6 @@ static CwSize arrays_in(const Packed *head, char *block) {
   int64_t *start = (int64_t *)(block + sizeof *head);
   double *crossing = (double *)(start + head->starts);
   float *value = (float *)(crossing + head->crossings);
-  size.block = size.rim_block = NULL;
   size.lines.start = head->starts ? start : NULL;
   size.lines.crossing = head->starts ? crossing : NULL;
   size.grid.value = head->nodes ? value : NULL;
@@ -267,25 +199,61 @@ static CwSize arrays_in(const Packed *head, char *block) {
   return size;
 }
 
-static void copy_items(void *to, const void *from, size_t count, size_t width) {
-  if (count) memcpy(to, from, count * width);
+// The plain part of a field as it begins: the seeds' field has lines and their grid, that of the rims its own grid.
+static Packed packed_head(const CwSizeGrid *grid, const CwScanlines *lines, CwSizePart part) {
+  Packed head = {.plain = {.scale = 1}};
+  if (part == CW_SIZE_RIMS) {
+    head.plain.rim = *grid;
+    head.rim_nodes = cw_size_grid_nodes(grid);
+    return head;
+  }
+  head.plain.grid = *grid;
+  head.plain.lines = *lines;
+  head.plain.lines.start = NULL; // addresses mean nothing elsewhere
+  head.plain.lines.crossing = NULL;
+  head.nodes = cw_size_grid_nodes(grid);
+  head.starts = (size_t)lines->count[0] * (size_t)lines->count[1] + 1;
+  head.crossings = (size_t)lines->start[head.starts - 1];
+  return head;
 }
 
-CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count) {
+CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
+                      const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
+                      CwSizePart part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
-  Packed head = packed_head(size);
-  size_t all = packed_size(&head);
-  char *block;
-  CW_NEW_UNSET(block, all);
+  const CwSizeInput input = {cad, background, table, patch_size, base_size, rim_size};
+  CwSizeGrid grid;
+  char *block = NULL;
+  uint8_t *within = NULL;
+  CW_TRY(check_input(&input));
+  int lists = cw_cad_face_count(cad) + 1; // with that of the edges
+  CwScanlines lines = lines_in(seeds[lists]);
+  cw_size_surface_grid(&input, &grid);
+  Packed head = packed_head(&grid, &lines, part);
+  CW_NEW_UNSET(block, packed_size(&head));
+  CwSize made = arrays_in(&head, block);
+  grid.value = part == CW_SIZE_SEEDS ? made.grid.value : made.rim.value;
+  cw_size_grid_clear(&grid);
+  for (int i = 0; i < lists; i++)
+    cw_size_take_seeds(&grid, seeds[i]);
+  CW_TRY(mark_inside(&grid, &lines, &within));
+  if (part == CW_SIZE_SEEDS) {
+    memcpy(made.lines.start, lines.start, head.starts * sizeof *lines.start);
+    memcpy(made.lines.crossing, lines.crossing, head.crossings * sizeof *lines.crossing);
+    CW_TRY(cw_size_grid_spread(&grid, table->gradation, within));
+    if (rim_size) head.plain.rim_asks = cw_size_rims_ask(&input, &grid);
+  } else {
+    cw_size_grid_clear(&grid);
+    cw_size_seed_rims(&input, &grid);
+    CW_TRY(cw_size_grid_spread(&grid, table->gradation, within));
+  }
   memcpy(block, &head, sizeof head);
-  CwSize to = arrays_in(&head, block);
-  copy_items(to.lines.start, size->lines.start, head.starts, sizeof *to.lines.start);
-  copy_items(to.lines.crossing, size->lines.crossing, head.crossings, sizeof *to.lines.crossing);
-  copy_items(to.grid.value, size->grid.value, head.nodes, sizeof *to.grid.value);
-  copy_items(to.rim.value, size->rim.value, head.rim_nodes, sizeof *to.rim.value);
   *bytes = block;
-  *byte_count = (int64_t)all;
+  *byte_count = (int64_t)packed_size(&head);
+  block = NULL;
 done:
+  free(within);
+  free(block);
   return status;
 }
 
@@ -303,17 +271,19 @@ done:
   return status;
 }
 
+void cw_size_join(CwSize *size, CwSize **rims) {
+  size->rim = (*rims)->rim;
+  size->rim_block = (*rims)->block;
+  (*rims)->block = NULL;
+  cw_size_free(rims);
+}
+
 void cw_size_free(CwSize **size) {
-  CwSize *field = *size;
-  if (!field) return;
-  if (!field->block) {
-    cw_size_grid_free(&field->grid);
-    cw_scanlines_free(&field->lines);
-  }
-  if (!field->block && !field->rim_block) cw_size_grid_free(&field->rim);
-  free(field->block);
-  free(field->rim_block);
-  free(field);
+  if (!*size)
+    return;
+  free((*size)->block);
+  free((*size)->rim_block);
+  free(*size);
   *size = NULL;
 }
 

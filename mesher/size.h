@@ -36,20 +36,18 @@ void cw_size_seeds_free(CwSizeSeeds **seeds);
 // have a side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims
 // are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of
 // it in the mean.
-// Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it.
+// Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it. They come in one
+// block of bytes (malloc'd), to travel between ranks.
 typedef enum { CW_SIZE_SEEDS, CW_SIZE_RIMS } CwSizePart;
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                       const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
-                      CwSizePart part, CwSize **size);
+                      CwSizePart part, void **bytes, int64_t *byte_count);
+// The field in its block, which it takes over (*bytes is NULL after).
+CwStatus cw_size_unpack(void **bytes, CwSize **size);
 void cw_size_join(CwSize *size, CwSize **rims); // frees what is left of the rims
 void cw_size_free(CwSize **size);
 
-// The field in one block of bytes (malloc'd), to travel between ranks, and back: it then stays in the block, which it
-// takes over (*bytes is NULL after). An unpacked field gives the same bits.
-CwStatus cw_size_pack(const CwSize *size, void **bytes, int64_t *byte_count);
-CwStatus cw_size_unpack(void **bytes, CwSize **size);
-
-// The factor in front of the whole field; 1 after cw_size_make.
+// The factor in front of the whole field; 1 at first.
 void cw_size_set_scale(CwSize *size, double scale);
 
 // Edge length at x, m. Fast (trilinear); any x. Signature fits CwSizeAt of patch_mesh.h and fill.h, with the

@@ -17,9 +17,8 @@ static double node_count(const double extent[3], double spacing, int32_t count[3
   return nodes;
 }
 
-CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
-                           CwSizeGrid *grid) {
-  CwStatus status = CW_OK;
+void cw_size_grid_shape(const double low[3], const double high[3], double spacing, int64_t node_limit,
+                        CwSizeGrid *grid) {
   memset(grid, 0, sizeof *grid);
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
   while (node_count(extent, spacing, grid->count) > (double)node_limit)
@@ -27,15 +26,20 @@ CwStatus cw_size_grid_make(const double low[3], const double high[3], double spa
   grid->spacing = spacing;
   for (int k = 0; k < 3; k++)
     grid->low[k] = low[k] - spacing;
-  size_t nodes = (size_t)grid->count[0] * grid->count[1] * grid->count[2];
-  CW_NEW(grid->value, nodes);
+}
+
+CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
+                           CwSizeGrid *grid) {
+  CwStatus status = CW_OK;
+  cw_size_grid_shape(low, high, spacing, node_limit, grid);
+  CW_NEW_UNSET(grid->value, cw_size_grid_nodes(grid));
   cw_size_grid_clear(grid);
 done:
   return status;
 }
 
 void cw_size_grid_clear(CwSizeGrid *grid) {
-  size_t nodes = (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
+  size_t nodes = cw_size_grid_nodes(grid);
   for (size_t i = 0; i < nodes; i++)
     grid->value[i] = unset;
 }
@@ -62,7 +66,7 @@ void cw_size_grid_unset(CwSizeGrid *grid, int64_t node) {
 void cw_size_grid_mark_set(const CwSizeGrid *grid, uint8_t *mark) {
   const float *restrict value = grid->value;
   uint8_t *restrict to = mark;
-  size_t nodes = (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
+  size_t nodes = cw_size_grid_nodes(grid);
   for (size_t i = 0; i < nodes; i++) to[i] |= value[i] < unset;
 }
 

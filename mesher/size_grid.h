@@ -4,6 +4,7 @@
 #ifndef CUTWATER_MESHER_SIZE_GRID_H
 #define CUTWATER_MESHER_SIZE_GRID_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "pipeline/status.h"
@@ -19,10 +20,17 @@ typedef struct {
   float *value;     // x fastest
 } CwSizeGrid;
 
+static inline size_t cw_size_grid_nodes(const CwSizeGrid *grid) {
+  return (size_t)grid->count[0] * (size_t)grid->count[1] * (size_t)grid->count[2];
+}
+
 // Covers the box low..high and one spacing around it. Where that takes more than `node_limit` nodes, the
 // spacing becomes as coarse as needed. All values begin at 1e30.
 CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
                            CwSizeGrid *grid);
+// The same grid without values, for those that have a place of their own.
+void cw_size_grid_shape(const double low[3], const double high[3], double spacing, int64_t node_limit,
+                        CwSizeGrid *grid);
 void cw_size_grid_clear(CwSizeGrid *grid); // no value anywhere
 void cw_size_grid_free(CwSizeGrid *grid);
 

@@ -39,8 +39,8 @@ void cw_size_surface_free(CwSizeSurface **surface);
 // Box of the domain, m.
 void cw_size_box(const CwBackground *background, double low[3], double high[3]);
 
-// Makes an unseeded grid over the domain; every rank comes to the same one.
-CwStatus cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
+// The grid over the domain, without values; every rank comes to the same one.
+void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
 
 // Seeds of one face, packed (malloc'd): min(patch size, curvature, gap) all over it. Curvature asks for at
 // least two fifths of the patch size. A gap is seen by a ray along the inward normal that leaves the domain

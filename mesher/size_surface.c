@@ -271,10 +271,10 @@ void cw_size_box(const CwBackground *background, double low[3], double high[3]) 
   }
 }
 
-CwStatus cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid) {
+void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid) {
   double low[3], high[3];
   cw_size_box(input->background, low, high);
-  return cw_size_grid_make(low, high, spacing_share * input->base_size, node_limit, grid);
+  cw_size_grid_shape(low, high, spacing_share * input->base_size, node_limit, grid);
 }
 
 CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) {
@@ -284,7 +284,9 @@ CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) 
   int faces = cw_cad_face_count(input->cad);
   CW_NEW(surface, 1);
   surface->input = *input;
-  CW_TRY(cw_size_surface_grid(input, &surface->grid));
+  cw_size_surface_grid(input, &surface->grid);
+  CW_NEW_UNSET(surface->grid.value, cw_size_grid_nodes(&surface->grid));
+  cw_size_grid_clear(&surface->grid);
   CW_NEW(surface->curvature, b->point_count);
   CW_NEW(surface->face_start, faces + 1);
   CW_NEW(surface->face_triangle, b->triangle_count);

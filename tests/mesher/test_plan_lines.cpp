@@ -30,6 +30,7 @@ struct Box {
     CwMeshTable table = {};
     const double relative = 1, thickness = 1e-3;
     int64_t bytes;
+    void *block = nullptr;
     table.gradation = 0.2;
     table.curvature_angle = 0.3;
     table.cells_across_gap = 1;
@@ -41,7 +42,9 @@ struct Box {
     check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
     for (size_t i = 0; i < seed.size(); i++) check(cw_size_seeds_part(seeds, (int)i, &seed[i], &bytes));
     cw_size_seeds_free(&seeds);
-    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &size));
+    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block,
+                       &bytes));
+    check(cw_size_unpack(&block, &size));
     for (void *one : seed) free(one);
     CwPlanOptions options = {3, &thickness, nullptr, 0, 11, 12};
     check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
