@@ -136,41 +136,22 @@ done:
   return status;
 }
 
-CwStatus cw_domain_start_measures(CwDomain *domain) {
+CwStatus cw_domain_start_background(CwDomain *domain) {
   return cw_tessellation_start(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->tessellation);
 }
 
-double cw_domain_measure_cost(const CwDomain *domain, int part) {
-  int faces = cw_cad_face_count(domain->cad);
-  double triangles = cw_tessellation_cost(domain->tessellation, part % faces);
-  return part < faces ? triangles : triangles / 4;
+double cw_domain_background_cost(const CwDomain *domain, int face) {
+  return cw_tessellation_cost(domain->tessellation, face);
 }
 
-CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count) {
-  CwStatus status = CW_OK;
-  double *volume = NULL;
-  int faces = cw_cad_face_count(domain->cad);
-  if (part < faces) {
-    CW_TRY(cw_tessellation_face(domain->tessellation, part, bytes, byte_count));
-  } else {
-    CW_NEW(volume, 1);
-    *volume = cw_cad_face_volume(domain->cad, part - faces);
-    *bytes = volume;
-    *byte_count = sizeof *volume;
-  }
-done:
-  return status;
+CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count) {
+  return cw_tessellation_face(domain->tessellation, face, bytes, byte_count);
 }
 
-CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes) {
+CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes) {
   CwStatus status = CW_OK;
-  int faces = cw_cad_face_count(domain->cad);
   cw_tessellation_free(&domain->tessellation);
   CW_TRY(cw_background_join(domain->cad, bytes, &domain->background));
-  domain->solid_volume = 0;
-  for (int f = 0; f < faces; f++) domain->solid_volume += *(const double *)bytes[faces + f];
-  domain->solid_volume = fabs(domain->solid_volume); // measured before the faces were turned
-  CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
   CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
                         domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
                         &domain->inside));
@@ -198,9 +179,33 @@ done:
   return status;
 }
 
+enum { SIZE_FIELDS = 2 }; // parts of the size field; volumes of faces follow
+
+int cw_domain_size_parts(const CwDomain *domain) {
+  return SIZE_FIELDS + cw_cad_face_count(domain->cad);
+}
+
+void cw_domain_size_costs(const CwDomain *domain, double *cost) {
+  const CwBackground *background = &domain->background;
+  for (int i = 0; i < SIZE_FIELDS; i++) cost[i] = background->triangle_count;
+  for (int32_t t = 0; t < background->triangle_count; t++) cost[SIZE_FIELDS + background->face[t]]++;
+}
+
+static CwStatus measure_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  double *volume;
+  CW_NEW(volume, 1);
+  *volume = cw_cad_face_volume(domain->cad, face);
+  *bytes = volume;
+  *byte_count = sizeof *volume;
+done:
+  return status;
+}
+
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count) {
   CwStatus status = CW_OK;
+  if (part >= SIZE_FIELDS) return measure_face(domain, part - SIZE_FIELDS, bytes, byte_count);
   double *rim_size = NULL;
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(rim_size, patches);
@@ -219,6 +224,9 @@ CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
   CW_TRY(cw_size_unpack(&bytes[0], &domain->size));
   CW_TRY(cw_size_unpack(&bytes[1], &rims));
   cw_size_join(domain->size, &rims);
+  domain->solid_volume = 0;
+  for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
+  CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
   CW_TRY(integrate(domain));
 done:
   cw_size_free(&rims);

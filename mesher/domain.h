@@ -52,16 +52,17 @@ typedef struct {
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
                         const CwFlowScales *scales);
 
-// What one rank makes for all, packed, and how all take it up. First the background triangulation and the exact volume:
-// a part for each face, then one for what each face adds to the volume. Then a part of the seeds
-// of the size field; the field from all of them, a part for each CwSizePart.
-CwStatus cw_domain_start_measures(CwDomain *domain);
-double cw_domain_measure_cost(const CwDomain *domain, int part);
-CwStatus cw_domain_measure(const CwDomain *domain, int part, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_measures(CwDomain *domain, void *const *bytes);
+// What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
+// part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these few,
+// for ranks that none is left for, what each face adds to the exact volume.
+CwStatus cw_domain_start_background(CwDomain *domain);
+double cw_domain_background_cost(const CwDomain *domain, int face);
+CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);
 void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part, zeroed
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
-enum { CW_DOMAIN_SIZE_PARTS = 2 };
+int cw_domain_size_parts(const CwDomain *domain);
+void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
                              int64_t *byte_count);
 CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective

@@ -13,29 +13,30 @@
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
 static const double OWN_PLAN = 0.2; // of the work on a plan, what every rank does for itself
 
-// Background triangulations and exact volumes, face by face.
-static CwStatus measure_domains(CwMeshRun *run) {
+// Background triangulations, face by face.
+static CwStatus triangulate_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults results = {0};
   CwMeshTask *task = NULL;
-  int32_t parts[CW_DOMAINS_MOST], count = 0, all = 0;
+  int32_t faces[CW_DOMAINS_MOST], count = 0, all = 0;
   cw_ledger_part("edges of the background");
+  cw_face_counts(run, faces);
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_start_measures(&run->domain[d]));
-    all += parts[d] = 2 * cw_cad_face_count(run->domain[d].cad);
+    CW_TRY(cw_domain_start_background(&run->domain[d]));
+    all += faces[d];
   }
-  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  CW_TRY(cw_results_make(&results, run->domains.count, faces));
   CW_NEW(task, all);
   for (int d = 0; d < run->domains.count; d++) {
-    for (int part = 0; part < parts[d]; part++) {
-      task[count++] = (CwMeshTask){d, part, cw_domain_measure_cost(&run->domain[d], part)};
+    for (int f = 0; f < faces[d]; f++) {
+      task[count++] = (CwMeshTask){d, f, cw_domain_background_cost(&run->domain[d], f)};
     }
   }
-  CW_TRY(cw_run_step(run, "background", "parts", cw_step_measure, count, task, NULL, results.bytes, NULL));
+  CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
   cw_ledger_part("background joined");
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_take_measures(&run->domain[d], results.bytes[d]));
-    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, cw_cad_face_count(run->domain[d].cad),
+    CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
+    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
            run->domain[d].background.triangle_count);
   }
 done:
@@ -60,41 +61,51 @@ done:
   return status;
 }
 
-// The size fields: seeds face by face, of the edges, and lines through the domain; then the fields they spread to.
-static CwStatus make_sizes(CwMeshRun *run) {
+typedef void PartCosts(const CwDomain *domain, double *cost);
+
+// Runs a step of so many parts of each domain.
+static CwStatus run_parts(CwMeshRun *run, const char *name, CwMeshStep body, const int32_t *parts, PartCosts *costs,
+                          CwResults *results) {
   CwStatus status = CW_OK;
-  CwResults seeds = {0}, results = {0};
   CwMeshTask *task = NULL;
   double *cost = NULL;
-  CwMeshTask part[CW_DOMAINS_MOST * CW_DOMAIN_SIZE_PARTS];
-  int32_t count = 0, all = 0, made = 0, parts[CW_DOMAINS_MOST];
-  for (int d = 0; d < run->domains.count; d++) all += parts[d] = cw_size_seed_parts(run->domain[d].cad);
-  CW_TRY(cw_results_make(&seeds, run->domains.count, parts));
+  int32_t count = 0, all = 0;
+  for (int d = 0; d < run->domains.count; d++) all += parts[d];
+  CW_TRY(cw_results_make(results, run->domains.count, parts));
   CW_NEW(task, all);
   for (int d = 0; d < run->domains.count; d++) {
     CW_NEW(cost, parts[d]);
-    cw_domain_seed_costs(&run->domain[d], cost);
-    for (int32_t i = 0; i < parts[d]; i++) task[count + i] = (CwMeshTask){d, i, cost[i]};
+    costs(&run->domain[d], cost);
+    for (int32_t i = 0; i < parts[d]; i++) task[count++] = (CwMeshTask){d, i, cost[i]};
     free(cost);
     cost = NULL;
-    count += parts[d];
-    run->seeds[d] = seeds.bytes[d];
   }
-  CW_TRY(cw_run_step(run, "size seeds", "parts", cw_step_seed, count, task, NULL, seeds.bytes, NULL));
+  CW_TRY(cw_run_step(run, name, "parts", body, count, task, NULL, results->bytes, NULL));
+done:
+  free(cost);
+  free(task);
+  return status;
+}
+
+// The size fields: seeds face by face, of the edges, and lines through the domain; then the fields they spread to, with
+// the exact volumes beside them.
+static CwStatus make_sizes(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults seeds = {0}, results = {0};
+  int32_t parts[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
+  CW_TRY(run_parts(run, "size seeds", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
   for (int d = 0; d < run->domains.count; d++) {
-    parts[d] = CW_DOMAIN_SIZE_PARTS;
-    for (int i = 0; i < parts[d]; i++) part[made++] = (CwMeshTask){d, i, run->domain[d].background.triangle_count};
+    run->seeds[d] = seeds.bytes[d];
+    parts[d] = cw_domain_size_parts(&run->domain[d]);
   }
-  CW_TRY(cw_results_make(&results, run->domains.count, parts));
-  CW_TRY(cw_run_step(run, "size field", "parts", cw_step_size, made, part, NULL, results.bytes, NULL));
+  CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
   cw_ledger_part("integrals of the size");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
 done:
   for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
   cw_results_free(&seeds);
   cw_results_free(&results);
-  free(cost);
-  free(task);
   return status;
 }
 
@@ -116,7 +127,7 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   }
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
-  CW_TRY(measure_domains(run));
+  CW_TRY(triangulate_domains(run));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
 done:

@@ -65,7 +65,7 @@ typedef struct {
 
 // The steps that run as tasks; each a CwTask body over run->domain[task.domain].
 typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);

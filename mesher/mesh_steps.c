@@ -12,8 +12,8 @@
 #include "mesher/vec.h"
 #include "pipeline/log.h"
 
-CwStatus cw_step_measure(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_measure(&run->domain[task.domain], task.index, bytes, size);
+CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_background_face(&run->domain[task.domain], task.index, bytes, size);
 }
 
 CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {

@@ -36,26 +36,30 @@ static void check(CwStatus status) {
 }
 
 static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
-  void **part, **seed, *field[CW_DOMAIN_SIZE_PARTS];
+  void **part, **seed, **field;
   int64_t size;
   check(cw_domain_open(made, name, folder, &table, scales));
   int faces = cw_cad_face_count(made->cad);
-  part = calloc(2 * (size_t)faces, sizeof *part);
+  part = calloc((size_t)faces, sizeof *part);
   assert_non_null(part);
-  check(cw_domain_start_measures(made));
-  for (int i = 0; i < 2 * faces; i++) check(cw_domain_measure(made, i, &part[i], &size));
-  check(cw_domain_take_measures(made, part));
-  for (int i = 0; i < 2 * faces; i++) free(part[i]);
+  check(cw_domain_start_background(made));
+  for (int f = 0; f < faces; f++) check(cw_domain_background_face(made, f, &part[f], &size));
+  check(cw_domain_take_background(made, part));
+  for (int f = 0; f < faces; f++) free(part[f]);
   free(part);
   int seeds = cw_size_seed_parts(made->cad);
   seed = calloc((size_t)seeds, sizeof *seed);
   assert_non_null(seed);
   for (int i = 0; i < seeds; i++) check(cw_domain_seed(made, &table, i, &seed[i], &size));
-  for (int i = 0; i < CW_DOMAIN_SIZE_PARTS; i++) check(cw_domain_make_size(made, &table, seed, i, &field[i], &size));
+  int parts = cw_domain_size_parts(made);
+  field = calloc((size_t)parts, sizeof *field);
+  assert_non_null(field);
+  for (int i = 0; i < parts; i++) check(cw_domain_make_size(made, &table, seed, i, &field[i], &size));
   check(cw_domain_take_size(made, field));
   for (int i = 0; i < seeds; i++) free(seed[i]);
   free(seed);
-  for (int i = 0; i < CW_DOMAIN_SIZE_PARTS; i++) free(field[i]);
+  for (int i = 0; i < parts; i++) free(field[i]);
+  free(field);
 }
 
 static int open_pump(void **state) {
