@@ -15,7 +15,7 @@
 #include "mesher/vec.h"
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
-static const double LEAST_REGION_CELLS = 400e3, MOST_REGIONS = 140;
+static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1

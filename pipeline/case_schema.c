@@ -200,7 +200,7 @@ const CwCaseKey cw_case_keys[] = {
     {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
      "cells of all zones together; --cells on the command line goes before it"},
     {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_COMPUTED, "", 5000, 4e6, 0, NULL,
-     AT(mesh.cells_per_region), "about this many cells a region; computed: 400,000, above 56 million a 140th of all"},
+     AT(mesh.cells_per_region), "about this many cells a region; computed: 270,000, above 38 million a 140th of all"},
     {"mesh", "least_regions", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 1000, 4, NULL, AT(mesh.least_regions),
      "least number of regions of a domain; with 1 and few cells a domain is not divided"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
