@@ -5,8 +5,9 @@
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
 enum { MANY = 8192 }; // prisms that are worth handing round the ranks
-enum { FOR_FRONT = 1, FOR_PRISM }; // what a column is turned and thinned for: the shape of the front alone, or more
+enum { FOR_SHAPE = 1, FOR_SOUNDNESS }; // what a column is turned and thinned for
 static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
+static const double KEPT = 0.08;         // the same where columns would have to give up their first height for more
 static const double FRONT = 0.4;         // what the quality of the front counts beside that of prisms: 0.3 is good
 static const double MUCH = 100;          // more than any quality
 static const double THIN = 0.8;          // what a thinned column keeps
@@ -165,10 +166,10 @@ typedef struct {
   CwLayerCrossing crossing;
 } Repair;
 
-// Height down to which column v may be thinned for the shape of the front.
+// Height down to which column v may be thinned for a better shape.
 static double least_height(const CwLayerWork *work, int32_t v) { return work->in->least ? work->in->least[v] : 0; }
 
-// The front counts as long as one of the columns can still give way.
+// The front, and rounder prisms, count as long as one of the columns can still give way.
 static double judge(const Repair *repair, int32_t f) {
   const CwLayerWork *work = repair->work;
   const double (*front)[3] = (const double (*)[3])repair->front;
@@ -177,7 +178,7 @@ static double judge(const Repair *repair, int32_t f) {
     int32_t v = work->in->triangle[f][k];
     if (work->t[v] > least_height(work, v)) return fmin(prism, front_quality(work, f, front));
   }
-  return prism;
+  return prism < KEPT ? prism : fmax(prism, GOOD);
 }
 
 static CwStatus judge_prism(void *repair, int32_t f, void *out) {
@@ -230,10 +231,10 @@ static CwStatus find_bad(Repair *repair) {
   memset(repair->mark, 0, (size_t)work->n);
   for (int32_t i = 0; i < kept; i++) {
     int32_t f = repair->bad[i];
-    int sound = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= repair->limit;
+    int sound = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= fmin(KEPT, repair->limit);
     for (int k = 0; k < 3; k++) {
       uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
-      if (*mark != FOR_PRISM) *mark = sound ? FOR_FRONT : FOR_PRISM;
+      if (*mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
     }
   }
 done:
@@ -256,7 +257,7 @@ static CwStatus thin_marked(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
   for (int32_t v = 0; v < work->n; v++) {
-    double least = repair->mark[v] == FOR_FRONT ? least_height(work, v) : 0;
+    double least = repair->mark[v] == FOR_SHAPE ? least_height(work, v) : 0;
     if (!repair->mark[v] || work->t[v] <= least) continue;
     work->t[v] = fmax(THIN * work->t[v], least);
     work->reason[v] = CW_LAYER_REPAIR;
@@ -285,11 +286,11 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
     double share = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = in->triangle[pair->f][k];
-      repair->mark[v] = FOR_PRISM;
+      repair->mark[v] = FOR_SOUNDNESS;
       share = fmax(share, work->t[v] / in->target[v]);
       if (pair->kind_g == 0) {
         v = in->triangle[pair->g][k];
-        repair->mark[v] = FOR_PRISM;
+        repair->mark[v] = FOR_SOUNDNESS;
         share = fmax(share, work->t[v] / in->target[v]);
       }
     }

@@ -20,7 +20,7 @@ typedef int (*CaseGuide)(const void *context, const double x[3], double normal[2
 
 typedef struct {
   Surface wall, cap;
-  double target;
+  double target, lowest; // lowest: the least height, 0 for none
   CaseGuide guide;
   const void *guide_context;
   void (*snap)(const void *context, int32_t v, double x[3]);
@@ -34,10 +34,11 @@ static inline CwStatus case_make(Case *c) {
   surface_weld(&c->wall);
   surface_weld(&c->cap);
   int32_t n = c->wall.point_count, *guide_count = calloc(n, sizeof *guide_count);
-  double *target = malloc(n * sizeof *target);
+  double *target = malloc(n * sizeof *target), *lowest = c->lowest > 0 ? malloc(n * sizeof *lowest) : NULL;
   double (*guide_normal)[2][3] = calloc(n, sizeof *guide_normal);
   for (int32_t v = 0; v < n; v++) {
     target[v] = c->target;
+    if (lowest) lowest[v] = c->lowest;
     if (c->guide) guide_count[v] = c->guide(c->guide_context, c->wall.x[v], guide_normal[v]);
   }
   c->in = (CwLayerInput){.point_count = n,
@@ -45,6 +46,7 @@ static inline CwStatus case_make(Case *c) {
                          .triangle_count = c->wall.triangle_count,
                          .triangle = (const int32_t (*)[3])c->wall.triangle,
                          .target = target,
+                         .least = lowest,
                          .guide_count = guide_count,
                          .guide_normal = (const double (*)[2][3])guide_normal,
                          .snap = c->snap,
@@ -58,6 +60,7 @@ static inline CwStatus case_make(Case *c) {
 
 static inline void case_free(Case *c) {
   free((void *)c->in.target);
+  free((void *)c->in.least);
   free((void *)c->in.guide_count);
   free((void *)c->in.guide_normal);
   surface_free(&c->wall);

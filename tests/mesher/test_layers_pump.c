@@ -203,14 +203,33 @@ static int walk(int corners, const double (*p)[2], double h, double (*out)[2]) {
   return count;
 }
 
-// Blade 2 mm thick with a blunt end and bevels on both sides of it, on hub and shroud, straight and leaning
-// by 30 degrees (wedges of
-// 60 degrees on one side).
+static const double HALF = 1 * MM, BEVEL = 0.6 * MM, LENGTH = 12 * MM; // of the blade below
+
+// Blade 2 mm thick with a blunt end and bevels on both sides of it, on hub and shroud, leaning by an angle whose tangent
+// is `lean`; edges of h.
+static void blade_wall(Surface *wall, double lean, double h) {
+  const double outline[8][2] = {{0, -HALF + BEVEL},      {BEVEL, -HALF},         {LENGTH - BEVEL, -HALF},
+                                {LENGTH, -HALF + BEVEL}, {LENGTH, HALF - BEVEL}, {LENGTH - BEVEL, HALF},
+                                {BEVEL, HALF},           {0, HALF - BEVEL}};
+  Blade b = {.lean = lean, .height = 8 * MM};
+  b.outline = malloc(4096 * sizeof *b.outline);
+  b.around = malloc(4096 * sizeof *b.around);
+  b.count = walk(8, outline, h, b.outline);
+  for (int k = 0; k < b.count; k++) { // a rounded box 6 mm further out
+    const double *p = b.outline[k];
+    double centre = fmin(fmax(p[0], HALF), LENGTH - HALF), d[2] = {p[0] - centre, p[1]}, r = hypot(d[0], d[1]);
+    for (int m = 0; m < 2; m++) b.around[k][m] = (m ? 0 : centre) + d[m] / r * 7 * MM;
+  }
+  int rings = (int)lround(5 * MM / h);
+  surface_grid(wall, blade_face, &b, b.count, (int)lround(b.height / h), 1);
+  surface_grid(wall, hub, &b, b.count, rings, 0);
+  surface_grid(wall, shroud, &b, b.count, rings, 1);
+  free(b.outline);
+  free(b.around);
+}
+
+// Straight and leaning by 30 and 45 degrees (wedges of 60 and 45 degrees on one side).
 static void trailing_edge(void **state) {
-  const double half = 1 * MM, bevel = 0.6 * MM, length = 12 * MM;
-  const double outline[8][2] = {{0, -half + bevel},      {bevel, -half},         {length - bevel, -half},
-                                {length, -half + bevel}, {length, half - bevel}, {length - bevel, half},
-                                {bevel, half},           {0, half - bevel}};
   const double lean[3] = {0, tan(30 * M_PI / 180), tan(45 * M_PI / 180)}, h[3] = {0.5 * MM, 0.3 * MM, 0.15 * MM};
   // Layers 4 times as thick as the mesh is wide and more, in a wedge of 45 degrees, are beyond what a front can do in
   // full with prisms as round as OpenFOAM wants them and a front without needles; the mesher asks for 3 at most. The
@@ -220,37 +239,44 @@ static void trailing_edge(void **state) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       Case c = {.target = 0.6 * MM};
-      Blade b = {.lean = lean[i], .height = 8 * MM};
-      b.outline = malloc(4096 * sizeof *b.outline);
-      b.around = malloc(4096 * sizeof *b.around);
-      b.count = walk(8, outline, h[j], b.outline);
-      for (int k = 0; k < b.count; k++) { // a rounded box 6 mm further out
-        const double *p = b.outline[k];
-        double centre = fmin(fmax(p[0], half), length - half), d[2] = {p[0] - centre, p[1]}, r = hypot(d[0], d[1]);
-        for (int m = 0; m < 2; m++) b.around[k][m] = (m ? 0 : centre) + d[m] / r * 7 * MM;
-      }
-      int rings = (int)lround(5 * MM / h[j]);
-      surface_grid(&c.wall, blade_face, &b, b.count, (int)lround(b.height / h[j]), 1);
-      surface_grid(&c.wall, hub, &b, b.count, rings, 0);
-      surface_grid(&c.wall, shroud, &b, b.count, rings, 1);
+      blade_wall(&c.wall, lean[i], h[j]);
       char name[40];
       snprintf(name, sizeof name, "blade, lean %.0f, h %.2f", atan(lean[i]) * 180 / M_PI, h[j] / MM);
       case_run(&c, name);
       double mean = c.mean;
       if (j == 1) { // the blunt end between hub and shroud, and the end itself in a section normal to it
         const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
-        const double end[3] = {length, 1.3e-6 + 0.5 * b.height * lean[i], 0.5 * b.height + 1.7e-6};
+        const double end[3] = {LENGTH, 1.3e-6 + 4 * MM * lean[i], 4 * MM + 1.7e-6};
         char path[64];
         snprintf(path, sizeof path, "layers-trailing-edge-%d-along.svg", i);
         case_picture(&c, path, end, x, z, 6 * MM);
         snprintf(path, sizeof path, "layers-trailing-edge-%d-across.svg", i);
         case_picture(&c, path, end, x, y, 6 * MM);
       }
-      free(b.outline);
-      free(b.around);
       case_free(&c);
       assert_true(mean >= least[i][j]);
     }
+}
+
+static int32_t count_lower(const Case *c, double height) {
+  int32_t count = 0;
+  for (int32_t v = 0; v < c->wall.point_count; v++) count += c->out.height[v] < height;
+  return count;
+}
+
+// Columns are not thinned below the height that keeps their first one for rounder prisms, only for valid ones.
+static void least_height_of_blade(void **state) {
+  const double least = 0.52 * MM, lower = 0.9 * least;
+  int32_t count[2];
+  for (int i = 0; i < 2; i++) {
+    Case c = {.target = 0.6 * MM, .lowest = i ? least : 0};
+    blade_wall(&c.wall, tan(30 * M_PI / 180), 0.15 * MM);
+    case_run(&c, i ? "blade, least height" : "blade");
+    count[i] = count_lower(&c, lower);
+    print_message("  %d columns lower than %.2f mm\n", count[i], lower / MM);
+    case_free(&c);
+  }
+  assert_true(count[1] < 0.56 * count[0]);
 }
 
 // Sphere of six grids with bumps: random waves of a fixed seed.
@@ -299,7 +325,7 @@ static void bumpy_spheres(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(neck_sector),   cmocka_unit_test(neck_ring),     cmocka_unit_test(cylinder_rims),
-      cmocka_unit_test(trailing_edge), cmocka_unit_test(bumpy_spheres),
+      cmocka_unit_test(trailing_edge), cmocka_unit_test(least_height_of_blade), cmocka_unit_test(bumpy_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
