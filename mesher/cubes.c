@@ -23,15 +23,14 @@ CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes
   size_t all = 1;
   memset(cubes, 0, sizeof *cubes);
   cubes->size = size;
-  for (int k = 0; k < 3; k++) {
-    cubes->low[k] = count ? INFINITY : 0;
-    high[k] = count ? -INFINITY : 0;
-    for (int32_t i = 0; i < count; i++) {
-      cubes->low[k] = fmin(cubes->low[k], x[i][k]);
-      high[k] = fmax(high[k], x[i][k]);
+  for (int k = 0; k < 3; k++) cubes->low[k] = high[k] = count ? x[0][k] : 0;
+  for (int32_t i = 0; i < count; i++) {
+    for (int k = 0; k < 3; k++) {
+      cubes->low[k] = x[i][k] < cubes->low[k] ? x[i][k] : cubes->low[k];
+      high[k] = x[i][k] > high[k] ? x[i][k] : high[k];
     }
-    cubes->size = fmax(cubes->size, (high[k] - cubes->low[k]) / ALONG_MOST);
   }
+  for (int k = 0; k < 3; k++) cubes->size = fmax(cubes->size, (high[k] - cubes->low[k]) / ALONG_MOST);
   for (int k = 0; k < 3; k++) {
     cubes->count[k] = (int32_t)((high[k] - cubes->low[k]) / cubes->size) + 1;
     all *= (size_t)cubes->count[k];

@@ -118,41 +118,62 @@ static int halve(Facet *facet, double limit, Facet *other) {
   return 1;
 }
 
-// Visits points all over the walls; stores them where there is room for them.
-static void visit_walls(CwPlanModel *model) {
+// Points all over a triangle of a wall, in order; stores them where there is room for them. Returns their number.
+static int32_t divide_triangle(const CwPlanModel *model, int32_t t, double (*point)[3]) {
   const CwBackground *background = model->background;
-  model->wall_count = 0;
-  for (int32_t t = 0; t < background->triangle_count; t++) {
-    Facet stack[PIECE_STACK];
-    int top = 1;
-    if (!model->wall[t]) continue;
-    for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], stack[0].x[k]);
-    while (top > 0) {
-      Facet facet = stack[--top], other;
-      if (top + 2 <= PIECE_STACK && halve(&facet, WALL_STEP, &other)) {
-        stack[top++] = other;
-        stack[top++] = facet;
-        continue;
-      }
-      int32_t at = model->wall_count++;
-      if (!model->wall_x) continue;
-      for (int k = 0; k < 3; k++) model->wall_x[at][k] = (facet.x[0][k] + facet.x[1][k] + facet.x[2][k]) / 3;
-      model->wall_triangle[at] = t;
+  Facet stack[PIECE_STACK];
+  int32_t count = 0;
+  int top = 1;
+  for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], stack[0].x[k]);
+  while (top > 0) {
+    Facet facet = stack[--top], other;
+    if (top + 2 <= PIECE_STACK && halve(&facet, WALL_STEP, &other)) {
+      stack[top++] = other;
+      stack[top++] = facet;
+      continue;
     }
+    if (point) {
+      for (int k = 0; k < 3; k++) point[count][k] = (facet.x[0][k] + facet.x[1][k] + facet.x[2][k]) / 3;
+    }
+    count++;
   }
+  return count;
+}
+
+static CwStatus count_points(void *context, int32_t t, void *out) {
+  const CwPlanModel *model = context;
+  if (model->wall[t]) *(int32_t *)out = divide_triangle(model, t, NULL);
+  return CW_OK;
+}
+
+static CwStatus find_points(void *context, int32_t t, void *out) {
+  const CwPlanModel *model = context;
+  if (model->wall[t]) divide_triangle(model, t, out);
+  return CW_OK;
 }
 
 static CwStatus sample_walls(CwPlanModel *model) {
   CwStatus status = CW_OK;
-  visit_walls(model);
-  CW_NEW(model->wall_triangle, model->wall_count);
-  CW_NEW(model->wall_x, model->wall_count);
-  visit_walls(model);
-  for (int32_t t = 0; t < model->background->triangle_count; t++) {
+  int32_t triangles = model->background->triangle_count, *count = NULL, *start = NULL;
+  CW_NEW_UNSET(count, triangles);
+  CW_NEW_UNSET(start, triangles + 1);
+  CW_TRY(cw_share("decomposition", triangles, sizeof *count, count_points, model, count));
+  start[0] = 0;
+  for (int32_t t = 0; t < triangles; t++) {
+    start[t + 1] = start[t] + count[t];
     model->thickest = fmax(model->thickest, model->thickness[t]);
   }
+  model->wall_count = start[triangles];
+  CW_NEW_UNSET(model->wall_triangle, model->wall_count);
+  CW_NEW_UNSET(model->wall_x, model->wall_count);
+  for (int32_t t = 0; t < triangles; t++) {
+    for (int32_t i = start[t]; i < start[t + 1]; i++) model->wall_triangle[i] = t;
+  }
+  CW_TRY(cw_share_lists("decomposition", triangles, start, sizeof *model->wall_x, find_points, model, model->wall_x));
   CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP, &model->walls));
 done:
+  free(count);
+  free(start);
   return status;
 }
 
@@ -254,28 +275,57 @@ static CwStatus sort_triangles(CwPlanModel *model) {
   return cw_box_tree_make(background->triangle_count, &within, box_of, background, &model->triangles);
 }
 
+// Of a background triangle.
+typedef struct {
+  double normal[3], density, thickness;
+} Measured;
+
+typedef struct {
+  const CwCad *cad;
+  const CwPlanOptions *options;
+  const CwPlanModel *model;
+} Walls;
+
+static CwStatus measure(void *context, int32_t t, void *out) {
+  const Walls *walls = context;
+  const CwPlanOptions *options = walls->options;
+  const CwBackground *background = walls->model->background;
+  Measured *made = out;
+  double centre[3] = {0, 0, 0};
+  triangle_normal(background, t, made->normal);
+  if (!walls->model->wall[t]) return CW_OK;
+  int patch = cw_cad_face_patch(walls->cad, background->face[t]);
+  for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
+  double h = cw_size_at(walls->model->size, centre);
+  made->density = options->prism_factor / (h * h);
+  made->thickness = options->thickness[patch];
+  if (options->least_thickness) {
+    made->thickness = fmin(made->thickness, fmax(options->least_thickness[patch], options->tallest * h));
+  }
+  return CW_OK;
+}
+
 static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   const CwBackground *background = model->background;
-  CW_NEW(model->wall, background->triangle_count);
-  CW_NEW(model->density, background->triangle_count);
-  CW_NEW(model->thickness, background->triangle_count);
-  CW_NEW(model->normal, background->triangle_count);
+  Measured *made = NULL;
+  CW_NEW_UNSET(made, background->triangle_count);
+  CW_NEW_UNSET(model->wall, background->triangle_count);
+  CW_NEW_UNSET(model->density, background->triangle_count);
+  CW_NEW_UNSET(model->thickness, background->triangle_count);
+  CW_NEW_UNSET(model->normal, background->triangle_count);
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    double centre[3] = {0, 0, 0};
-    int patch = cw_cad_face_patch(cad, background->face[t]);
-    triangle_normal(background, t, model->normal[t]);
-    model->wall[t] = cw_cad_patch_kind(cad, patch) == CW_PATCH_WALL;
-    if (!model->wall[t]) continue;
-    for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
-    double h = cw_size_at(model->size, centre);
-    model->density[t] = options->prism_factor / (h * h);
-    model->thickness[t] = options->thickness[patch];
-    if (options->least_thickness) {
-      model->thickness[t] = fmin(model->thickness[t], fmax(options->least_thickness[patch], options->tallest * h));
-    }
+    model->wall[t] = cw_cad_patch_kind(cad, cw_cad_face_patch(cad, background->face[t])) == CW_PATCH_WALL;
+  }
+  CW_TRY(cw_share("decomposition", background->triangle_count, sizeof *made, measure, &(Walls){cad, options, model},
+                  made));
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    cw_copy(made[t].normal, model->normal[t]);
+    model->density[t] = made[t].density;
+    model->thickness[t] = made[t].thickness;
   }
 done:
+  free(made);
   return status;
 }
 
@@ -307,7 +357,6 @@ static void add_sample(CwPlanModel *model, const double x[3], double volume, dou
   cw_copy(x, model->sample_x[at]);
   model->sample_volume[at] = volume;
   model->sample_work[at] = work;
-  model->sample_spacing = fmax(model->sample_spacing, cbrt(volume));
 }
 
 // The parts of a place, so many along each side of the cube that it stands for.
@@ -327,7 +376,8 @@ static void visit_samples(const Places *places, double even, CwPlanModel *model)
   int32_t together = 0;
   model->sample_count = 0;
   for (int32_t i = 0; i < places->count; i++) {
-    int32_t along = (int32_t)fmin(round(cbrt(places->work[i] / even)), PARTS_ALONG);
+    int32_t along = 1; // where less than 1.5^3 is in it: no root needed
+    if (places->work[i] > 3 * even) along = (int32_t)fmin(round(cbrt(places->work[i] / even)), PARTS_ALONG);
     if (along > 1) add_parts(model, places->x[i], places->volume[i], places->work[i], along);
     if (along <= 1) work += places->work[i], volume += places->volume[i], together++;
     if (together == 0 || (together < TOGETHER && work < even && i + 1 < places->count)) continue;
@@ -351,6 +401,10 @@ static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) 
   CW_NEW(outside, model->sample_count);
   CW_NEW(model->sample_x, model->sample_count);
   visit_samples(&places, even, model);
+  for (int32_t i = 0; i < model->sample_count; i++) {
+    if (model->sample_volume[i] > model->sample_spacing) model->sample_spacing = model->sample_volume[i];
+  }
+  model->sample_spacing = cbrt(model->sample_spacing);
   CW_TRY(cw_share("decomposition", model->sample_count, sizeof *outside, find_work_outside_layers, model, outside));
   memcpy(model->sample_work, outside, (size_t)model->sample_count * sizeof *outside);
 done:
