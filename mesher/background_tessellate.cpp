@@ -12,6 +12,8 @@
 #include <BRepMesh_MeshAlgoFactory.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <IMeshData_Curve.hxx>
 #include <IMeshData_Edge.hxx>
 #include <IMeshData_Face.hxx>
 #include <IMeshData_Model.hxx>
@@ -35,6 +37,8 @@ struct CwTessellation {
 };
 
 namespace {
+
+const double POINTS_FOR_AREA = 0.14; // 1/mm2: of a face that bends both ways, by that of its box
 
 // A face as it travels between ranks: head, nodes, triangles, and for each of its edges, ascending, number, count of
 // nodes and the nodes in the order of the edge's parameter.
@@ -320,12 +324,18 @@ CwStatus cw_tessellation_start(const CwCad *cad, double deflection, double angle
 }
 
 double cw_tessellation_cost(const CwTessellation *tessellation, int face) {
+  const CwCad *cad = tessellation->cad;
   double points = 0;
+  Bnd_Box box;
   for (int e : tessellation->face_edge[face]) {
-    int i = tessellation->model_edges.at(tessellation->cad->edge_map(e + 1).TShape().get()).front();
-    points += tessellation->context->GetModel()->GetEdge(i)->GetCurve()->ParametersNb();
+    int i = tessellation->model_edges.at(cad->edge_map(e + 1).TShape().get()).front();
+    const IMeshData::ICurveHandle &curve = tessellation->context->GetModel()->GetEdge(i)->GetCurve();
+    points += curve->ParametersNb();
+    for (int k = 0; k < curve->ParametersNb(); k++) box.Add(curve->GetPoint(k));
   }
-  return points;
+  GeomAbs_SurfaceType type = cad->face[face].surface.GetType();
+  bool ruled = type == GeomAbs_Plane || type == GeomAbs_Cylinder || type == GeomAbs_Cone; // no points inside
+  return ruled || box.IsVoid() ? points : points + POINTS_FOR_AREA * box.SquareExtent();
 }
 
 CwStatus cw_tessellation_face(const CwTessellation *tessellation, int face, void **bytes, int64_t *byte_count) {
