@@ -35,7 +35,7 @@ static double triangle_area(const CwBackground *background, int32_t t, double ce
   return cw_norm(n) / 2;
 }
 
-// A background triangle of a wall; all zero where it is on a cap.
+// A background triangle.
 typedef struct {
   double area, size;
 } WallPiece;
@@ -44,7 +44,6 @@ static CwStatus find_piece(void *context, int32_t t, void *out) {
   const CwDomain *domain = context;
   WallPiece *piece = out;
   double centre[3];
-  if (!cw_face_is_wall(domain->cad, domain->background.face[t])) return CW_OK;
   piece->area = triangle_area(&domain->background, t, centre);
   piece->size = cw_size_at(domain->size, centre);
   return CW_OK;
@@ -56,14 +55,16 @@ static CwStatus find_line(void *context, int32_t line, void *out) {
   return CW_OK;
 }
 
-// Pieces of one patch and nearly one size together.
+// What a face is to have in triangles, and of walls pieces of one patch and nearly one size together.
 static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CwStatus status = CW_OK;
   const CwBackground *background = &domain->background;
   CwLayerSample *sample = NULL;
   double least = INFINITY, greatest = 0;
+  CW_NEW(domain->face_triangles, cw_cad_face_count(domain->cad));
   for (int32_t t = 0; t < background->triangle_count; t++) {
-    if (piece[t].size == 0) continue;
+    domain->face_triangles[background->face[t]] += piece[t].area / (piece[t].size * piece[t].size);
+    if (!cw_face_is_wall(domain->cad, background->face[t])) continue;
     least = fmin(least, piece[t].size);
     greatest = fmax(greatest, piece[t].size);
   }
@@ -72,7 +73,7 @@ static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
   CW_NEW(sample, (size_t)patches * (size_t)steps);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     double h = piece[t].size;
-    if (h == 0) continue;
+    if (!cw_face_is_wall(domain->cad, background->face[t])) continue;
     int patch = cw_cad_face_patch(domain->cad, background->face[t]);
     CwLayerSample *of = &sample[patch * steps + (int)(log(h / least) / log(SAMPLE_STEP))];
     domain->prism_integral += piece[t].area / (h * h);
@@ -394,6 +395,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_background_free(&domain->background);
   cw_cad_close(&domain->cad);
   free(domain->layer_sample);
+  free(domain->face_triangles);
   free(domain->relative_size);
   free(domain->patch_layers);
 }

@@ -34,6 +34,7 @@ typedef struct {
   CwLayerTarget *patch_layers;                // of each patch
   int layer_count;
   double prism_integral;                      // sum over walls of area / h^2, at scale 1
+  double *face_triangles;                     // area / h^2 of each face, at scale 1
   double volume_integral;                     // integral of h^-3 over the domain, at scale 1
   CwLayerSample *layer_sample;                // what the layers take of it
   int32_t layer_sample_count;

@@ -85,9 +85,7 @@ static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMe
     for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
       if (cw_face_is_wall(domain->cad, f) != walls) continue;
       if (domain->symmetry && domain->symmetry->face.first[f] != f) continue;
-      double cost = 0; // background triangles stand for area and curvature well enough
-      for (int32_t t = 0; t < domain->background.triangle_count; t++) cost += domain->background.face[t] == f;
-      (*tasks)[(*count)++] = (CwMeshTask){d, f, cost};
+      (*tasks)[(*count)++] = (CwMeshTask){d, f, domain->face_triangles[f]};
     }
   }
 done:
