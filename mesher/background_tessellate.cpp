@@ -280,10 +280,17 @@ CwStatus make_face(const CwTessellation &tessellation, int face, void **bytes, i
 
 CwStatus weld_faces(const CwCad *cad, void *const *bytes, CwBackground *background) {
   Weld weld;
+  size_t points = (size_t)cw_cad_vertex_count(cad), triangles = 0;
   for (int f = 0; f < cw_cad_face_count(cad); f++) {
     weld.block.push_back(block_of(bytes[f]));
     weld.node.emplace_back(weld.block[f].head.nodes, -1);
+    points += (size_t)weld.block[f].head.nodes;
+    triangles += (size_t)weld.block[f].head.triangles;
   }
+  weld.x.reserve(points);
+  weld.triangle.reserve(triangles);
+  weld.face.reserve(triangles);
+  weld.uv.reserve(triangles);
   for (int v = 0; v < cw_cad_vertex_count(cad); v++) {
     double x[3];
     cw_cad_vertex_point(cad, v, x);
