@@ -97,6 +97,8 @@ typedef struct {
   int64_t reason[CW_LAYER_REASONS];     // by CwLayerReason: why not the full thickness; [0]: it is
   int64_t missed[CW_LAYER_REASONS];     // why not the first height
   double thickness, least;              // sum over the faces, least of all, m
+  int64_t thin;                         // prisms whose determinant checkMesh calls small (thin_prism)
+  double thin_wanted;                   // how many times as tall the thinnest would have to be
 } CwLayerCoverage;
 // Of the patches up to `patches`, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);

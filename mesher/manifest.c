@@ -101,6 +101,8 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
       sum.reason[i] += made->reason[i];
       sum.missed[i] += made->missed[i];
     }
+    sum.thin += made->thin;
+    sum.thin_wanted = fmax(sum.thin_wanted, made->thin_wanted);
   }
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
     const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
@@ -122,6 +124,13 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
                       json_integer((json_int_t)sum.missed[CW_LAYER_GRADATION]));
   json_object_set_new(result, "first_height_missed_by_repair_faces",
                       json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
+  json_object_set_new(result, "thin_prisms", json_integer((json_int_t)sum.thin));
+  if (sum.thin > 0) {
+    json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
+    cw_log_warn("%s: %lld prisms on %s are so long for their height that checkMesh calls their determinant small. They "
+                "are sound; none would be with %.2g times the first height, or edges as much shorter",
+                domain->name, (long long)sum.thin, cw_cad_patch_name(domain->cad, patch), sum.thin_wanted);
+  }
   const int64_t *bin = ratio.bin;
   json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
   json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
