@@ -317,36 +317,47 @@ done:
   return status;
 }
 
+// Appends the triangles of a copy of a face, whose points have the numbers `vertex`.
+static void append_triangles(CwSkeleton *skeleton, int32_t face, int32_t turns, int32_t source,
+                             const CwPatchBlock *block, const int32_t *vertex) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  int32_t on = cw_orbit_face(orbits, face, turns), label = -1, region = -1;
+  for (int32_t t = 0; t < block->triangle_count; t++) {
+    int32_t at = skeleton->wall_triangle_count++;
+    if (block->label[t] != label) { // those of one region mostly follow one another
+      label = block->label[t];
+      region = cw_orbit_region(orbits, skeleton->plan, label, turns);
+    }
+    for (int k = 0; k < 3; k++) skeleton->wall_triangle[at][k] = vertex[block->triangle[t][k]];
+    skeleton->wall_face[at] = on;
+    skeleton->wall_source[at] = source + t;
+    skeleton->wall_region[at] = region;
+  }
+}
+
 // Appends the mesh of a face for itself and its turned copies.
 static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t copies = cw_orbit_face_copies(orbits, face), first = skeleton->wall_count;
-  int32_t source = skeleton->wall_triangle_count;
+  int32_t source = skeleton->wall_triangle_count, *vertex = NULL;
+  CW_NEW(vertex, block->outline_points + block->point_count);
   for (int32_t turns = 0; turns < copies; turns++) {
-    int32_t base = skeleton->wall_count;
+    for (int32_t i = 0; i < block->outline_points; i++) {
+      vertex[i] = cw_orbit_node(orbits, block->outline_node[i], turns);
+    }
     for (int32_t i = 0; i < block->point_count; i++) {
-      int32_t vertex = -1;
+      int32_t *made = &vertex[block->outline_points + i];
       double x[3];
       cw_orbit_point(orbits, turns, block->x[i], x);
-      CW_TRY(add_wall_vertex(skeleton, x, (CwGuide){CW_GUIDE_NONE, -1}, &vertex));
-      if (turns > 0) CW_TRY(cw_orbit_link(orbits, vertex - block->point_count, vertex, turns));
-      if (turns > 0 && turns == copies - 1) CW_TRY(cw_orbit_link(orbits, vertex, first + i, 0));
+      CW_TRY(add_wall_vertex(skeleton, x, (CwGuide){CW_GUIDE_NONE, -1}, made));
+      if (turns > 0) CW_TRY(cw_orbit_link(orbits, *made - block->point_count, *made, turns));
+      if (turns > 0 && turns == copies - 1) CW_TRY(cw_orbit_link(orbits, *made, first + i, 0));
     }
-    for (int32_t t = 0; t < block->triangle_count; t++) {
-      int32_t *corner = skeleton->wall_triangle[skeleton->wall_triangle_count];
-      for (int k = 0; k < 3; k++) {
-        int32_t local = block->triangle[t][k];
-        corner[k] = local < block->outline_points ? cw_orbit_node(orbits, block->outline_node[local], turns)
-                                                  : base + local - block->outline_points;
-      }
-      skeleton->wall_face[skeleton->wall_triangle_count] = cw_orbit_face(orbits, face, turns);
-      skeleton->wall_source[skeleton->wall_triangle_count] = source + t;
-      skeleton->wall_region[skeleton->wall_triangle_count++] =
-          cw_orbit_region(orbits, skeleton->plan, block->label[t], turns);
-    }
+    append_triangles(skeleton, face, turns, source, block, vertex);
   }
 done:
+  free(vertex);
   return status;
 }
 
