@@ -20,8 +20,9 @@ enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9, SEEN = 13 };
 // A cell of the octree that is not cut for the sake of the boundary any more.
 typedef struct {
   int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
-  int32_t list_count;   // items that reach it, from list; 0: all of it is inside
+  int32_t list_count;   // items that reach it, from list
   int64_t list;
+  int whole;  // no item reaches it: all of it is inside
   int clear;  // no item is in it
   int counts; // its centre is inside: its leaves count for the fit of the spacing
 } Cell;
@@ -115,14 +116,14 @@ static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3], i
   const CwFillInput *input = tree->input;
   double h = tree->clearance * size_at(input, x), apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
-  for (int32_t k = 0; k < cell->list_count; k++) {
-    int32_t t = tree->list[cell->list + k];
-    if (!cw_reach_holds(&tree->box[t], p))
+  for (int32_t k = cell->list_count - 1; k >= 0; k--) { // the row first: it is soon asked
+    int32_t t = tree->list[cell->list + k], place = t - input->triangle_count;
+    if ((place >= 0 && !tree->row[place].chosen) || !cw_reach_holds(&tree->box[t], p))
       continue;
-    if (t >= input->triangle_count) {
-      const RowPoint *point = &tree->row[t - input->triangle_count];
-      double nearest = apart * point->place.spacing;
-      if (point->chosen && distance_square(x, point->place.x) < nearest * nearest)
+    if (place >= 0) {
+      const CwRowPlace *point = &tree->row[place].place;
+      double nearest = apart * point->spacing;
+      if (distance_square(x, point->x) < nearest * nearest)
         return 1;
       continue;
     }
@@ -198,7 +199,7 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
     if (list_count == 0 && !inside)
       goto done;
     ROOM(tree->cell, tree->cell_space, tree->cell_count + 1);
-    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, clear, inside};
+    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, list_count == 0, clear, inside};
     *kept = 1;
     goto done;
   }
@@ -359,6 +360,20 @@ static void find_cells(Tree *tree) {
   }
 }
 
+// Takes the places that were not chosen out of the lists.
+static void shorten_lists(Tree *tree) {
+  int32_t first = tree->input->triangle_count;
+  for (int32_t c = 0; c < tree->cell_count; c++) {
+    Cell *cell = &tree->cell[c];
+    int32_t *list = tree->list + cell->list, count = 0;
+    for (int32_t k = 0; k < cell->list_count; k++) {
+      if (list[k] < first || tree->row[list[k] - first].chosen)
+        list[count++] = list[k];
+    }
+    cell->list_count = count;
+  }
+}
+
 // Of the places of the row, one after the other, those that are inside and that neither the boundary nor those chosen
 // before forbid.
 static CwStatus choose_row(Tree *tree, int32_t *chosen) {
@@ -372,6 +387,7 @@ static CwStatus choose_row(Tree *tree, int32_t *chosen) {
     CW_TRY(test_inside(tree, point->place.x, &point->chosen));
     *chosen += point->chosen;
   }
+  shorten_lists(tree);
 done:
   return status;
 }
@@ -406,7 +422,7 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSi
       fixed[i] = tree->origin[i] + tree->unit * 0.5 * half[i];
       p[i] = fixed[i] + tree->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
     }
-    if (cell->list_count) {
+    if (!cell->whole) {
       if (place->key >> 21 != cut) {
         cut = place->key >> 21;
         CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));

@@ -24,14 +24,14 @@ static const double COPY_COST = 0.07;       // of a turned copy of a region, by 
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
 // (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
 // A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise, and with the many
-// regions of small scales those on interfaces (measured from 0.3 to 100 million cells: 16.8 at scale 2.01, 13.1 at 1.17,
-// 11.4 at 0.73, 10.4 at 0.50, 9.7 at 0.35, 9.4 at 0.20).
+// regions of small scales those on interfaces (measured from 0.3 to 20 million cells: 21.6 at scale 2.10, 15.7 at 1.21,
+// 12.9 at 0.75, 11.4 at 0.51, 10.5 at 0.36).
 static double prisms_per_layer(double scale) {
   return 2.33 + 0.1 * scale;
 }
 
 static double tets_per_volume(double scale) {
-  return 8.25 + 4.2 * scale + 0.011 / (scale * scale);
+  return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {

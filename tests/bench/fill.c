@@ -405,6 +405,7 @@ int main(int argc, char **argv) {
                          .x = (const double(*)[3])mesh.x,
                          .triangle_count = mesh.triangle_count,
                          .triangle = (const int32_t(*)[3])mesh.triangle,
+                         .row_count = mesh.triangle_count,
                          .size = size_at,
                          .size_context = &grid,
                          .name = "surface"};
