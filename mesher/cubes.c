@@ -18,7 +18,7 @@ static size_t cube_of(const CwCubes *cubes, const double x[3]) {
 
 CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes *cubes) {
   CwStatus status = CW_OK;
-  int32_t *next = NULL;
+  size_t *of = NULL; // of each point
   double high[3];
   size_t all = 1;
   memset(cubes, 0, sizeof *cubes);
@@ -36,16 +36,17 @@ CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes
     all *= (size_t)cubes->count[k];
   }
   CW_NEW(cubes->start, all + 1);
-  CW_NEW(cubes->member, count);
-  CW_NEW(next, all);
-  for (int32_t i = 0; i < count; i++) cubes->start[cube_of(cubes, x[i]) + 1]++;
-  for (size_t c = 0; c < all; c++) {
-    cubes->start[c + 1] += cubes->start[c];
-    next[c] = cubes->start[c];
+  CW_NEW_UNSET(cubes->member, count);
+  CW_NEW_UNSET(of, count);
+  int32_t *end = cubes->start; // where the lists end, until they are filled from behind
+  for (int32_t i = 0; i < count; i++) {
+    of[i] = cube_of(cubes, x[i]);
+    end[of[i]]++;
   }
-  for (int32_t i = 0; i < count; i++) cubes->member[next[cube_of(cubes, x[i])]++] = i;
+  for (size_t c = 0; c < all; c++) end[c + 1] += end[c];
+  for (int32_t i = count - 1; i >= 0; i--) cubes->member[--end[of[i]]] = i;
 done:
-  free(next);
+  free(of);
   if (status != CW_OK) cw_cubes_free(cubes);
   return status;
 }

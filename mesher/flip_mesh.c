@@ -10,54 +10,64 @@ int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
   return -1;
 }
 
-// A side of a triangle, kept with the lesser of its two vertices.
+// An edge, listed with the lesser of its two vertices.
 typedef struct {
-  int32_t other, side; // the greater vertex; 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
-} Side;
+  int32_t other, next;    // its greater vertex; the next edge of the list, or -1
+  int32_t first, second;  // its sides: 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
+} Edge;
+
+enum { NONE = -1, MANY = -2 }; // in place of a second side
+
+static void set_across(CwFlipMesh *mesh, int32_t side, int32_t triangle) {
+  mesh->near[side / 6][side / 2 % 3] = triangle;
+}
+
+// Another side of an edge.
+static void add_side(CwFlipMesh *mesh, Edge *edge, int32_t side) {
+  if (edge->second == NONE) {
+    edge->second = side;
+    if (!((edge->first ^ side) & 1)) return; // the same way twice
+    set_across(mesh, edge->first, side / 6);
+    set_across(mesh, side, edge->first / 6);
+  } else if (edge->second != MANY) {
+    set_across(mesh, edge->first, -1);
+    set_across(mesh, edge->second, -1);
+    edge->second = MANY;
+  }
+}
 
 CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
-  int32_t *start = NULL;
-  uint8_t *wanted = NULL; // vertices
-  Side *side = NULL;
+  int32_t *list = NULL, count = 0; // first edge of each vertex
+  uint8_t *wanted = NULL;          // vertices
+  Edge *edge = NULL;
   if (!mesh->near) CW_NEW_UNSET(mesh->near, triangle_count);
-  CW_NEW(start, (size_t)point_count + 2);
+  CW_NEW_UNSET(list, point_count);
+  CW_NEW_UNSET(edge, 3 * (size_t)triangle_count); // as a rule half as many
   CW_NEW(wanted, point_count);
   for (int32_t t = 0; t < triangle_count; t++) {
     for (int k = 0; k < 3; k++) wanted[mesh->triangle[t][k]] |= !group || group[t] >= 0;
   }
-  for (int store = 0; store < 2; store++) {
-    for (int32_t t = 0; t < triangle_count; t++) {
-      for (int k = 0; k < 3; k++) {
-        int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3], low = a < b ? a : b;
-        if (!store) mesh->near[t][k] = -1;
-        if (!wanted[a] && !wanted[b]) continue;
-        if (store) {
-          side[start[low + 1]++] = (Side){a < b ? b : a, 2 * (3 * t + k) + (a < b)};
-        } else {
-          start[low + 2]++;
-        }
+  for (int32_t v = 0; v < point_count; v++) list[v] = -1;
+  for (int32_t t = 0; t < triangle_count; t++) {
+    for (int k = 0; k < 3; k++) {
+      int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3];
+      int32_t low = a < b ? a : b, high = a < b ? b : a, side = 2 * (3 * t + k) + (a < b), at;
+      mesh->near[t][k] = -1;
+      if (!wanted[a] && !wanted[b]) continue;
+      for (at = list[low]; at >= 0 && edge[at].other != high; at = edge[at].next) continue;
+      if (at >= 0) {
+        add_side(mesh, &edge[at], side);
+      } else {
+        edge[count] = (Edge){high, list[low], side, NONE};
+        list[low] = count++;
       }
-    }
-    for (int32_t v = 0; !store && v < point_count; v++) start[v + 2] += start[v + 1];
-    if (!store) CW_NEW_UNSET(side, start[point_count + 1]);
-  }
-  for (int32_t v = 0; v < point_count; v++) { // sides kept with v stand from start[v] to start[v + 1]
-    for (int32_t s = start[v]; s < start[v + 1]; s++) {
-      int32_t found = -1, others = 0;
-      for (int32_t i = start[v]; i < start[v + 1]; i++) {
-        if (side[i].other != side[s].other || i == s) continue;
-        if ((side[i].side ^ side[s].side) & 1) found = side[i].side / 6;
-        others++;
-      }
-      int32_t own = side[s].side / 2;
-      if (others == 1) mesh->near[own / 3][own % 3] = found;
     }
   }
 done:
-  free(start);
+  free(list);
+  free(edge);
   free(wanted);
-  free(side);
   return status;
 }
 
