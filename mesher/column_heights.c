@@ -129,22 +129,31 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   return CW_OK;
 }
 
+// Values at wall vertices. Of a triangle the corners lie where `place` says; those of the same number in `corner` have
+// one value.
 typedef struct {
   const CwSkeleton *skeleton;
-  const CwIncident *around;
+  const CwIncident *around; // of `corner`
+  const int32_t (*corner)[3], (*place)[3];
   double slope;
   double *value;
 } Grading;
 
-// The most that the value at w may be beside v, if that is less than it is; else 0.
-static double most_beside(const Grading *grading, int32_t v, int32_t w) {
-  double rise = grading->value[w] - grading->value[v], slope = grading->slope, edge[3];
+// The most that the value at corner j of a triangle may be beside corner i, if that is less than it is; else 0.
+static double most_beside(const Grading *grading, int32_t t, int i, int j) {
+  double least = grading->value[grading->corner[t][i]], value = grading->value[grading->corner[t][j]];
+  double rise = value - least, slope = grading->slope, edge[3];
   if (rise <= 0) return 0;
-  cw_sub(grading->skeleton->wall_x[v], grading->skeleton->wall_x[w], edge);
+  cw_sub(grading->skeleton->wall_x[grading->place[t][i]], grading->skeleton->wall_x[grading->place[t][j]], edge);
   double square = cw_dot(edge, edge);
   if (rise * rise < 0.99 * slope * slope * square) return 0; // most edges, without a root
-  double most = grading->value[v] + slope * sqrt(square);
-  return grading->value[w] > most ? most : 0;
+  double most = least + slope * sqrt(square);
+  return value > most ? most : 0;
+}
+
+static int corner_of(const Grading *grading, int32_t t, int32_t v) {
+  const int32_t *corner = grading->corner[t];
+  return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
 }
 
 // Whether a vertex beside v is too high.
@@ -152,22 +161,25 @@ static CwStatus find_steep(void *context, int32_t v, void *out) {
   const Grading *grading = context;
   uint8_t *steep = out;
   for (int32_t i = grading->around->start[v]; i < grading->around->start[v + 1] && !*steep; i++) {
-    const int32_t *corner = grading->skeleton->wall_triangle[grading->around->triangle[i]];
-    for (int k = 0; k < 3; k++) *steep |= corner[k] != v && most_beside(grading, v, corner[k]) > 0;
+    int32_t t = grading->around->triangle[i];
+    int own = corner_of(grading, t, v);
+    for (int k = 0; k < 3; k++) *steep |= k != own && most_beside(grading, t, own, k) > 0;
   }
   return CW_OK;
 }
 
-// Lowers the values at wall vertices, all above 0, until they change by no more than `slope` per distance along any
-// edge, from the lowest on. Collective.
-static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
+// Lowers the values, all above 0, until they change by no more than `slope` per distance along any edge, from the
+// lowest on. Collective.
+static CwStatus grade_values(const Grading *grading) {
   CwStatus status = CW_OK;
-  Grading grading = {skeleton, around, slope, value};
+  const CwIncident *around = grading->around;
+  double *value = grading->value;
+  int32_t count = grading->skeleton->wall_count;
   CwHeap heap = {0};
   uint8_t *steep = NULL;
-  CW_NEW(steep, skeleton->wall_count);
-  CW_TRY(cw_share("heights: steep", skeleton->wall_count, sizeof *steep, find_steep, &grading, steep));
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+  CW_NEW(steep, count);
+  CW_TRY(cw_share("heights: steep", count, sizeof *steep, find_steep, (void *)grading, steep));
+  for (int32_t v = 0; v < count; v++) {
     if (steep[v]) CW_TRY(cw_heap_push(&heap, value[v], v));
   }
   while (heap.count) {
@@ -175,18 +187,59 @@ static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, doub
     int32_t v = least.v;
     if (least.key > value[v]) continue; // it was lowered since
     for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
-      const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
+      int32_t t = around->triangle[i];
+      int own = corner_of(grading, t, v);
       for (int k = 0; k < 3; k++) {
-        double most = corner[k] == v ? 0 : most_beside(&grading, v, corner[k]);
+        double most = k == own ? 0 : most_beside(grading, t, own, k);
         if (most <= 0) continue;
-        value[corner[k]] = most;
-        CW_TRY(cw_heap_push(&heap, most, corner[k]));
+        value[grading->corner[t][k]] = most;
+        CW_TRY(cw_heap_push(&heap, most, grading->corner[t][k]));
       }
     }
   }
 done:
   cw_heap_free(&heap);
   free(steep);
+  return status;
+}
+
+// The same for a value at each wall vertex.
+static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->wall_triangle;
+  return grade_values(&(Grading){skeleton, around, triangle, triangle, slope, value});
+}
+
+// The same on the triangles that are no turned copies, where the copies of a vertex have its value.
+static CwStatus grade_firsts(const CwSkeleton *skeleton, double slope, double *value) {
+  CwStatus status = CW_OK;
+  CwIncident around = {0};
+  int32_t *first = NULL, (*corner)[3] = NULL, (*place)[3] = NULL, count = 0;
+  CW_NEW_UNSET(first, skeleton->wall_count);
+  CW_NEW_UNSET(corner, skeleton->wall_triangle_count);
+  CW_NEW_UNSET(place, skeleton->wall_triangle_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) first[v] = v;
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
+    for (int32_t at = cw_orbit_node(&skeleton->orbits, v, 1); at >= 0 && at != v;
+         at = cw_orbit_node(&skeleton->orbits, at, 1)) {
+      first[at] = v;
+    }
+  }
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    if (skeleton->wall_source[t] != t) continue;
+    memcpy(place[count], skeleton->wall_triangle[t], sizeof *place);
+    for (int k = 0; k < 3; k++) corner[count][k] = first[place[count][k]];
+    count++;
+  }
+  CW_TRY(cw_incident_make(skeleton->wall_count, count, (const int32_t(*)[3])corner, &around));
+  Grading grading = {skeleton, &around, (const int32_t(*)[3])corner, (const int32_t(*)[3])place, slope, value};
+  CW_TRY(grade_values(&grading));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) value[v] = value[first[v]];
+done:
+  cw_incident_free(&around);
+  free(first);
+  free(corner);
+  free(place);
   return status;
 }
 
@@ -303,18 +356,14 @@ done:
 
 CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
-  CwIncident around = {0};
-  CW_TRY(cw_incident_make(skeleton->wall_count, skeleton->wall_triangle_count,
-                          (const int32_t(*)[3])skeleton->wall_triangle, &around));
   CW_NEW(heights->room, skeleton->wall_count);
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
     int thinned = skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
     heights->room[v] = thinned ? skeleton->height[v]
                                : cw_layer_thickness(heights->first_height[v], heights->layer_count, heights->growth[v]);
   }
-  CW_TRY(grade(skeleton, &around, HEIGHT_SLOPE, heights->room));
+  CW_TRY(grade_firsts(skeleton, HEIGHT_SLOPE, heights->room));
 done:
-  cw_incident_free(&around);
   return status;
 }
 

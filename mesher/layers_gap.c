@@ -210,7 +210,8 @@ static CwStatus find_steep(void *context, int32_t v, void *out) {
   const CwLayerWork *work = context;
   uint8_t *steep = out;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !*steep; k++) {
-    *steep = work->t[work->near[k]] > most_beside(work, v, work->near[k]);
+    int32_t w = work->near[k];
+    *steep = work->t[w] > work->t[v] && work->t[w] > most_beside(work, v, w);
   }
   return CW_OK;
 }
@@ -236,6 +237,7 @@ CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
     if (top.key > work->t[v]) continue;
     for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
       int32_t w = work->near[k];
+      if (work->t[w] <= work->t[v]) continue;
       double most = most_beside(work, v, w);
       if (work->t[w] <= most) continue;
       work->t[w] = most;
