@@ -125,18 +125,37 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   json_object_set_new(result, "first_height_missed_by_repair_faces",
                       json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
   json_object_set_new(result, "thin_prisms", json_integer((json_int_t)sum.thin));
-  if (sum.thin > 0) {
-    json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
-    cw_log_warn("%s: %lld prisms on %s are so long for their height that checkMesh calls their determinant small. They "
-                "are sound; none would be with %.2g times the first height, or edges as much shorter",
-                domain->name, (long long)sum.thin, cw_cad_patch_name(domain->cad, patch), sum.thin_wanted);
-  }
+  if (sum.thin > 0) json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
   const int64_t *bin = ratio.bin;
   json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
   json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
   json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)ratio.within));
   json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio.fair_within));
   return result;
+}
+
+// One line for the user on all patches that have thin prisms.
+static void warn_of_thin(const char *domain, const json_t *coverage) {
+  char where[64 * CW_PATCH_LIMIT] = "";
+  int length = 0;
+  json_int_t sum = 0;
+  double wanted = 0;
+  size_t k;
+  json_t *patch;
+  json_array_foreach(coverage, k, patch) {
+    json_int_t thin = json_integer_value(json_object_get(patch, "thin_prisms"));
+    if (thin == 0) continue;
+    int left = (int)sizeof where - length;
+    int added = snprintf(where + length, (size_t)left, "%s%.40s %lld", sum ? ", " : "",
+                         json_string_value(json_object_get(patch, "patch")), (long long)thin);
+    length += added < left ? added : left - 1;
+    wanted = fmax(wanted, json_number_value(json_object_get(patch, "thin_prisms_height_wanted")));
+    sum += thin;
+  }
+  if (sum == 0) return;
+  cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s). They "
+              "are sound; it would name none with %.1f times the first height, or with edges as much shorter",
+              domain, (long long)sum, where, wanted);
 }
 
 static json_t *domain_json(const CwMeshRun *run, int d) {
@@ -189,6 +208,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
                                                 cw_json_number(area[p])));
     if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
+  warn_of_thin(domain->name, coverage);
   double solid = domain->solid_volume;
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,

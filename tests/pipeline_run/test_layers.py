@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from cutwater import BIN, RUN, execute
+from cutwater import BIN, PAPER, RUN, done, execute, record, with_geometry
 
 # Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves
 # 1 mm for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
@@ -44,9 +44,24 @@ class Layers(unittest.TestCase):
         self.assertGreater(within, 0)
         self.assertGreater(total("last_layer_within_reach_fair_faces"), 0.75 * within)
         self.assertGreater(total("first_height_met_faces"), 0.995 * faces)
+        self.assertEqual(total("thin_prisms"), 0)
         for patch in patches:
             with self.subTest(patch["patch"]):
                 self.assertLessEqual(patch["last_layer_within_reach_faces"], patch["wall_faces"])
+
+    def test_thin_prisms(self):
+        """First layers of 1/100 of the edges in the volute: the user is told where, and how much would spare them."""
+        folder = with_geometry("thin-prisms")
+        case = folder / "case.yaml"
+        case.write_text(PAPER.read_text().replace("y_plus_volute: 30", "first_height_volute_um: 40", 1))
+        done(self, "mesh", folder, case=case, cells=100000)
+        results, warnings = (record(folder, "mesh")[key] for key in ("results", "warnings"))
+        thin = {patch["patch"]: patch["thin_prisms"] for patch in results["domains"][1]["layer_coverage"]}
+        self.assertGreater(thin["volute"], 1000)
+        told = [line for line in warnings if "prisms" in line]
+        self.assertEqual(len(told), 1)
+        self.assertIn(f"stator: {sum(thin.values())} prisms", told[0])
+        self.assertIn(f"volute {thin['volute']}", told[0])
 
 
 if __name__ == "__main__":
