@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/vec.h"
+
 struct CwInside {
   const double (*x)[3];
   const int32_t (*triangle)[3];
@@ -18,20 +20,12 @@ static int32_t bin_of(const CwInside *inside, int axis, double value) {
   return place < 0.0 ? 0 : place >= inside->cells[axis] ? inside->cells[axis] - 1 : (int32_t)place;
 }
 
-static double lesser(double a, double b) {
-  return a < b ? a : b;
-}
-
-static double greater(double a, double b) {
-  return a < b ? b : a;
-}
-
 static void bins_of(const CwInside *inside, int32_t t, int32_t from[2], int32_t to[2]) {
   const int32_t *p = inside->triangle[t];
   for (int i = 0; i < 2; i++) {
     double a = inside->x[p[0]][i], b = inside->x[p[1]][i], c = inside->x[p[2]][i];
-    from[i] = bin_of(inside, i, lesser(lesser(a, b), c));
-    to[i] = bin_of(inside, i, greater(greater(a, b), c));
+    from[i] = bin_of(inside, i, cw_lesser(cw_lesser(a, b), c));
+    to[i] = bin_of(inside, i, cw_greater(cw_greater(a, b), c));
   }
 }
 
@@ -46,8 +40,8 @@ CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t trian
   for (int i = 0; i < 2; i++) {
     double low = INFINITY, high = -INFINITY;
     for (int32_t p = 0; p < point_count; p++) {
-      low = lesser(low, x[p][i]);
-      high = greater(high, x[p][i]);
+      low = cw_lesser(low, x[p][i]);
+      high = cw_greater(high, x[p][i]);
     }
     inside->low[i] = point_count ? low : 0.0;
     inside->cells[i] = side;

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/vec.h"
+
 enum { LEAF_SIZE = 4, STACK_SIZE = 64 };
 
 typedef struct {
@@ -36,8 +38,8 @@ static Box empty_box(void) {
 
 static void box_add(Box *box, const double x[3]) {
   for (int k = 0; k < 3; k++) {
-    box->low[k] = fmin(box->low[k], x[k]);
-    box->high[k] = fmax(box->high[k], x[k]);
+    box->low[k] = cw_lesser(box->low[k], x[k]);
+    box->high[k] = cw_greater(box->high[k], x[k]);
   }
 }
 

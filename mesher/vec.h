@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Vectors of three doubles.
+// Vectors of three doubles, and what goes with them.
 #ifndef CUTWATER_MESHER_VEC_H
 #define CUTWATER_MESHER_VEC_H
 
 #include <math.h>
+
+// Of numbers, for inner loops: fmin and fmax, which look for NaN, are calls.
+static inline double cw_lesser(double a, double b) {
+  return a < b ? a : b;
+}
+
+static inline double cw_greater(double a, double b) {
+  return a < b ? b : a;
+}
 
 static inline double cw_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
