@@ -6,6 +6,20 @@
 #include "mesher/layers_inner.h"
 #include "mesher/ledger.h"
 
+// The columns as they came out.
+typedef struct {
+  const CwLayerWork *work;
+  const CwLayers *layers;
+} Columns;
+
+static CwStatus find_height(void *context, int32_t v, void *out) {
+  const Columns *columns = context;
+  double d[3];
+  sub3(columns->layers->front[v], columns->work->in->x[v], d);
+  *(double *)out = cw_layers_least_cosine(columns->work, v, d);
+  return CW_OK;
+}
+
 CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   CwStatus status = CW_OK;
   CwLayerWork work = {0};
@@ -32,10 +46,9 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   }
   cw_ledger_part("layers: repair");
   CW_TRY(cw_layers_repair(&work, &tree, layers->front, &layers->repair_rounds));
+  CW_TRY(cw_share("layers: heights", work.n, sizeof *layers->height, find_height, &(Columns){&work, layers},
+                  layers->height));
   for (int32_t v = 0; v < work.n; v++) {
-    double d[3];
-    sub3(layers->front[v], input->x[v], d);
-    layers->height[v] = cw_layers_least_cosine(&work, v, d);
     layers->reason[v] = work.reason[v];
     if (layers->height[v] >= 0.99 * input->target[v]) continue;
     layers->thinned_count++;

@@ -205,38 +205,68 @@ static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
   for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
 }
 
+// The part with the columns as they were spread.
+typedef struct {
+  const Part *part;
+  CwLayerWork work;
+  double (*front)[3];
+  double *off;    // of each point: how far from where it was made, m
+  uint8_t *moved; // more than rounding
+} Spread;
+
+// Of a triangle with a first point, how far its columns are off; whether it is no sound prism any more.
+typedef struct {
+  double off;
+  int32_t bad;
+} Checked;
+
+static CwStatus check_triangle(void *context, int32_t f, void *out) {
+  const Spread *spread = context;
+  const int32_t *corner = spread->part->in.triangle[f];
+  Checked *made = out;
+  int beside = 0, changed = 0;
+  for (int k = 0; k < 3; k++) {
+    beside |= spread->part->is_first[spread->part->global[corner[k]]];
+    changed |= spread->moved[corner[k]];
+  }
+  for (int k = 0; k < 3 && beside; k++) made->off = fmax(made->off, spread->off[corner[k]]);
+  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, (const double(*)[3])spread->front) >= VALID);
+  return CW_OK;
+}
+
 // Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What
-// has not moved was checked as it was made.
+// has not moved was checked as it was made. Collective.
 static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad,
                       int32_t *bad_count) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = &part->in;
-  CwLayerWork work = {.in = in, .n = in->point_count};
+  Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}};
   CwLayerCrossing crossing = {0};
-  uint8_t *moved = NULL;
-  double (*front)[3] = NULL, most = 0;
+  Checked *checked = NULL;
+  double most = 0;
   *bad_count = 0;
   memset(bad, 0, (size_t)part->whole->point_count);
-  CW_NEW(front, in->point_count);
-  CW_NEW(moved, in->point_count);
+  CW_NEW_UNSET(spread.front, in->point_count);
+  CW_NEW_UNSET(spread.off, in->point_count);
+  CW_NEW_UNSET(spread.moved, in->point_count);
+  CW_NEW_UNSET(checked, in->triangle_count);
   for (int32_t i = 0; i < in->point_count; i++) {
-    memcpy(front[i], layers->front[part->global[i]], sizeof *front);
-    moved[i] = distance3(front[i], made->front[i]) >= SAME;
+    memcpy(spread.front[i], layers->front[part->global[i]], sizeof *spread.front);
+    spread.off[i] = distance3(spread.front[i], made->front[i]);
+    spread.moved[i] = spread.off[i] >= SAME;
   }
+  CW_TRY(cw_share("layers: copies", in->triangle_count, sizeof *checked, check_triangle, &spread, checked));
   for (int32_t f = 0; f < in->triangle_count; f++) {
-    const int32_t *corner = in->triangle[f];
-    int beside = 0, changed = moved[corner[0]] || moved[corner[1]] || moved[corner[2]];
-    for (int k = 0; k < 3; k++) beside |= part->is_first[part->global[corner[k]]];
-    for (int k = 0; k < 3 && beside; k++) most = fmax(most, distance3(front[corner[k]], made->front[corner[k]]));
-    if (!changed || cw_layers_prism_quality(&work, f, (const double(*)[3])front) >= VALID) continue;
+    if (checked[f].off > most) most = checked[f].off;
+    if (!checked[f].bad) continue;
     ++*bad_count;
     mark(part, f, bad);
   }
   cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
                in->triangle_count, part->whole->triangle_count, 1e3 * most);
   if (*bad_count || most < SAME) goto done; // crossings only between sound prisms
-  CW_TRY(cw_layers_crossing_make(&work, &crossing));
-  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])front, moved));
+  CW_TRY(cw_layers_crossing_make(&spread.work, &crossing));
+  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])spread.front, spread.moved));
   for (int32_t i = 0; i < crossing.pair_count; i++) {
     const CwLayerPair *pair = &crossing.pair[i];
     if (pair->kind_f == 1 && pair->kind_g == 1) continue; // the wall is as it is
@@ -246,8 +276,10 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
   }
 done:
   cw_layers_crossing_free(&crossing);
-  free(front);
-  free(moved);
+  free(spread.front);
+  free(spread.off);
+  free(spread.moved);
+  free(checked);
   return status;
 }
 

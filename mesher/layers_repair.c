@@ -4,7 +4,7 @@
 #include "mesher/layers_inner.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
-enum { MANY = 8192 }; // prisms that are worth handing round the ranks
+enum { MANY = 2048 }; // prisms that are worth handing round the ranks
 enum { FOR_SHAPE = 1, FOR_SOUNDNESS }; // what a column is turned and thinned for
 static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
 static const double KEPT = 0.08;         // the same where columns would have to give up their first height for more
