@@ -7,6 +7,7 @@
 
 #include "mesher/ledger.h"
 #include "mesher/schedule.h"
+#include "pipeline/log.h"
 
 enum { LEAST_RANKS = 2, MESSAGE_SIZE = 1024 };
 
@@ -99,6 +100,23 @@ done:
   return status;
 }
 
+// Rank 0 prints the lines that the first rank of a group has kept.
+static CwStatus print_kept(int from) {
+  CwStatus status = CW_OK;
+  int64_t size = (int64_t)strlen(cw_log_kept()) + 1;
+  char *lines = NULL;
+  cw_mpi_broadcast(&size, sizeof size, from);
+  CW_NEW_UNSET(lines, size);
+  if (cw_mpi_rank() == from) memcpy(lines, cw_log_kept(), (size_t)size);
+  if (size > 1) cw_mpi_broadcast(lines, size, from);
+  for (char *line = lines, *end; cw_mpi_rank() == 0 && size > 1 && (end = strchr(line, '\n')); line = end + 1) {
+    cw_log_debug("%.*s", (int)(end - line), line);
+  }
+done:
+  free(lines);
+  return status;
+}
+
 CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome) {
   CwStatus status = CW_OK;
   Told *told = NULL;
@@ -113,15 +131,19 @@ CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome) {
     if (cw_mpi_rank() >= first[g]) mine = g;
   }
   if (groups > 1) cw_mpi_split(mine);
+  cw_log_keep(cw_mpi_rank() == first[mine]);
   for (int32_t s = 0; s < sides->count; s++) {
     if (group_of[s] == mine) CW_TRY(run_side(sides, s, &told[s]));
   }
+  cw_log_keep(0);
   if (groups > 1) cw_mpi_join();
   const char *part = cw_ledger_part("exchange");
   for (int32_t s = 0; s < sides->count && groups > 1; s++) {
     CwSideHand hand = {.side = s, .mine = group_of[s] == mine, .from = first[group_of[s]]};
     CW_TRY(hand_over(sides, &hand, &told[s]));
   }
+  for (int g = 1; g < groups; g++) CW_TRY(print_kept(first[g]));
+  cw_log_drop_kept();
   cw_ledger_part(part);
   cw_fail_clear();
   for (int32_t s = sides->count - 1; s >= 0; s--) {

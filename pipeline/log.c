@@ -29,6 +29,9 @@ static struct {
   int terminal;
   char **warnings;
   size_t warning_count;
+  int keeps;
+  char *kept; // lines, each with its newline; NULL: none
+  size_t kept_size;
 } logger = {.speaks = 1};
 
 static struct {
@@ -112,6 +115,7 @@ void cw_log_close(void) {
   if (logger.copy) fclose(logger.copy);
   for (size_t i = 0; i < logger.warning_count; ++i) free(logger.warnings[i]);
   free(logger.warnings);
+  free(logger.kept);
   memset(&logger, 0, sizeof logger);
   logger.speaks = 1;
 }
@@ -127,15 +131,43 @@ void cw_log(const char *format, ...) {
   write_line("", text);
 }
 
+static void keep_line(const char *text) {
+  size_t size = strlen(text) + 1; // with the newline
+  char *grown = realloc(logger.kept, logger.kept_size + size + 1);
+  if (!grown) return; // a line that only tells more
+  memcpy(grown + logger.kept_size, text, size);
+  logger.kept = grown;
+  logger.kept_size += size;
+  memcpy(logger.kept + logger.kept_size - 1, "\n", 2);
+}
+
+void cw_log_keep(int keeps) {
+  logger.keeps = keeps;
+}
+
+const char *cw_log_kept(void) {
+  return logger.kept ? logger.kept : "";
+}
+
+void cw_log_drop_kept(void) {
+  free(logger.kept);
+  logger.kept = NULL;
+  logger.kept_size = 0;
+}
+
 void cw_log_debug(const char *format, ...) {
-  if (!logger.speaks || !logger.verbose) return;
+  if (!logger.verbose || !(logger.speaks || logger.keeps)) return;
   char text[LINE_SIZE];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   make_one_line(text);
-  write_line("", text);
+  if (logger.speaks) {
+    write_line("", text);
+  } else {
+    keep_line(text);
+  }
 }
 
 static void keep_warning(const char *text) {

@@ -27,6 +27,12 @@ void cw_log(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void cw_log_debug(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void cw_log_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+// On a rank that does not speak: whether cw_log_debug lines are kept from here on, for another rank to print; those
+// kept, each with its newline; and forgets them.
+void cw_log_keep(int keeps);
+const char *cw_log_kept(void);
+void cw_log_drop_kept(void);
+
 // The warnings since cw_log_open (at most the first 1000, those of ranks that do not speak too), oldest
 // first; "" past the last. They stand until cw_log_close. record.h writes them down.
 size_t cw_log_warning_count(void);

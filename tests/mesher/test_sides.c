@@ -39,6 +39,7 @@ static CwStatus work_on(void *context, int32_t side) {
   Work *work = context;
   int failing = side == 1;
   work->ran[side]++;
+  cw_log_debug("work on side %d", side);
   cw_ledger_part(side == 1 ? "of the second" : "of the others");
   CW_TRY(cw_share("items", count_of(side), sizeof(int64_t), fill, &side, work->made[side]));
   CW_REQUIRE(!failing || strcmp(work->mode, "retry"), CW_RETRY, "no column on side %d", side);
@@ -89,7 +90,7 @@ static int be_a_rank(int argc, char **argv) {
   const double cost[SIDES] = {3, 2, 1};
   int rank, ranks, wrong = 0, retry = !strcmp(argv[1], "retry"), ran = 0;
   cw_mpi_start(&argc, &argv, &rank, &ranks);
-  cw_log_open("test", NULL, rank == 0, 0);
+  cw_log_open("test", NULL, rank == 0, !strcmp(argv[1], "work"));
   CwSides sides = {.step = "sides", .count = SIDES, .cost = cost, .own = 0.5, .run = work_on, .hand = hand_over,
                    .context = &work};
   for (int repeat = 0; repeat < 2; repeat++) {
@@ -126,6 +127,7 @@ static void all_ranks_get_all(void **state) {
     if (code) fail_msg("%d ranks, exit status %d: %s", ranks[i], code, output);
     assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
     assert_int_equal(lines, ranks[i]);
+    assert_int_equal(count_lines_with(output, "cutwater-test: work on side "), 2 * SIDES); // whichever rank it was
     assert_int_equal(sum_of(output, " RAN ", &lines), ran[i]); // 5: three of them on one side, two on the others
   }
 }

@@ -122,6 +122,23 @@ static void verbose_adds_debug_lines_and_the_trace(void **state) {
   assert_non_null(strstr(seen, "test_log.c:"));
 }
 
+static void quiet_ranks_keep_lines_for_others(void **state) {
+  cw_log_open("mesh", NULL, 0, 1);
+  cw_log_keep(1);
+  cw_log_debug("one");
+  cw_log_debug("two\nlines");
+  cw_log_keep(0);
+  cw_log_debug("not kept");
+  assert_string_equal(cw_log_kept(), "one\ntwo lines\n");
+  cw_log_drop_kept();
+  assert_string_equal(cw_log_kept(), "");
+  cw_log_open("mesh", NULL, 0, 0);
+  cw_log_keep(1);
+  cw_log_debug("nobody asked");
+  assert_string_equal(cw_log_kept(), "");
+  cw_log_close();
+}
+
 static void quiet_ranks_print_errors_only(void **state) {
   char seen[TEXT_SIZE];
   int file = open_capture();
@@ -273,6 +290,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lines_go_to_standard_error_and_to_the_copy),
       cmocka_unit_test(verbose_adds_debug_lines_and_the_trace),
+      cmocka_unit_test(quiet_ranks_keep_lines_for_others),
       cmocka_unit_test(quiet_ranks_print_errors_only),
       cmocka_unit_test(copy_that_cannot_be_written_is_an_error),
       cmocka_unit_test(progress_off_a_terminal_prints_few_plain_lines),
