@@ -2,8 +2,10 @@
 #include <stdlib.h>
 
 #include "mesher/layers_inner.h"
+#include "mesher/schedule.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
+enum { TOGETHER = 16 };   // columns at least that are turned in one task
 enum { MANY = 2048 }; // prisms that are worth handing round the ranks
 enum { FOR_SHAPE = 1, FOR_SOUNDNESS }; // what a column is turned and thinned for
 static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
@@ -302,16 +304,119 @@ done:
   return status;
 }
 
-// Turns marked columns one after the other, so that each sees what the last one did.
-static void turn_marked(Repair *repair) {
-  CwLayerWork *work = repair->work;
-  for (int32_t v = 0; v < work->n; v++) {
-    if (!repair->mark[v]) continue;
-    double before[3];
-    memcpy(before, repair->front[v], sizeof before);
-    turn(work, v, repair->front);
-    if (memcmp(before, repair->front[v], sizeof before) != 0) set_moved(repair, v);
+// Marked columns by groups: neighbours, of which each sees what the last one did, are in one. Groups do not see one
+// another.
+typedef struct {
+  Repair *repair;
+  int32_t count, *start, *vertex; // vertices of group g: start[g] .. start[g + 1] - 1
+} Groups;
+
+// What one column has become.
+typedef struct {
+  double front[3], column[3];
+  int32_t changed;
+} Turned;
+
+static int by_number(const void *a, const void *b) {
+  int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
+  return (p > q) - (p < q);
+}
+
+// Lists the marked vertices that hang together with v by edges, in ascending order from place `first` on; returns where
+// they end.
+static int32_t list_group(const Repair *repair, int32_t v, uint8_t *listed, int32_t first, int32_t *vertex) {
+  const CwLayerWork *work = repair->work;
+  int32_t end = first;
+  vertex[end++] = v;
+  listed[v] = 1;
+  for (int32_t i = first; i < end; i++) {
+    for (int32_t k = work->near_start[vertex[i]]; k < work->near_start[vertex[i] + 1]; k++) {
+      int32_t w = work->near[k];
+      if (!repair->mark[w] || listed[w]) continue;
+      listed[w] = 1;
+      vertex[end++] = w;
+    }
   }
+  qsort(vertex + first, (size_t)(end - first), sizeof *vertex, by_number);
+  return end;
+}
+
+static CwStatus group_marked(Repair *repair, Groups *groups) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = repair->work;
+  uint8_t *listed = NULL;
+  int32_t end = 0;
+  CW_NEW(listed, work->n);
+  CW_NEW_UNSET(groups->vertex, work->n);
+  CW_NEW_UNSET(groups->start, work->n + 1);
+  groups->start[0] = 0;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (!repair->mark[v] || listed[v]) continue;
+    end = list_group(repair, v, listed, end, groups->vertex);
+    if (end - groups->start[groups->count] >= TOGETHER) groups->start[++groups->count] = end;
+  }
+  if (end > groups->start[groups->count]) groups->start[++groups->count] = end;
+done:
+  free(listed);
+  return status;
+}
+
+static CwStatus turn_group(void *context, int32_t group, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Groups *groups = context;
+  CwLayerWork *work = groups->repair->work;
+  double(*front)[3] = groups->repair->front;
+  int32_t first = groups->start[group], count = groups->start[group + 1] - first;
+  Turned *made = NULL;
+  CW_NEW(made, count);
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = groups->vertex[first + i];
+    memcpy(made[i].front, front[v], sizeof *front);
+    turn(work, v, front);
+    made[i].changed = memcmp(made[i].front, front[v], sizeof *front) != 0;
+    memcpy(made[i].front, front[v], sizeof *front);
+    memcpy(made[i].column, work->column[v], sizeof made[i].column);
+  }
+  *bytes = made;
+  *size = count * (int64_t)sizeof *made;
+done:
+  return status;
+}
+
+// Turns marked columns, the groups over the ranks. Collective.
+static CwStatus turn_marked(Repair *repair) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  Groups groups = {.repair = repair};
+  double *cost = NULL;
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  CW_TRY(group_marked(repair, &groups));
+  CW_NEW(cost, groups.count);
+  CW_NEW(bytes, groups.count);
+  CW_NEW(size, groups.count);
+  for (int32_t g = 0; g < groups.count; g++) cost[g] = groups.start[g + 1] - groups.start[g];
+  CwSchedule schedule = {.step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group,
+                         .context = &groups, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t g = 0; g < groups.count; g++) {
+    const Turned *made = bytes[g];
+    for (int32_t i = groups.start[g]; i < groups.start[g + 1]; i++, made++) {
+      int32_t v = groups.vertex[i];
+      if (!made->changed) continue;
+      memcpy(repair->front[v], made->front, sizeof made->front);
+      memcpy(work->column[v], made->column, sizeof made->column);
+      set_moved(repair, v);
+    }
+  }
+done:
+  for (int32_t g = 0; bytes && g < groups.count; g++) free(bytes[g]);
+  free(bytes);
+  free(size);
+  free(cost);
+  free(groups.vertex);
+  free(groups.start);
+  return status;
 }
 
 // Fans the columns anew for the heights as they are now.
@@ -359,7 +464,7 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
     CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
       for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
-        turn_marked(&repair);
+        CW_TRY(turn_marked(&repair));
         CW_TRY(find_bad(&repair));
       }
       if (!repair.bad_count) continue;
