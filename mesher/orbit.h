@@ -30,9 +30,6 @@ int32_t cw_orbit_node_turns(const CwSkeletonOrbits *orbits, int32_t node);
 static inline int32_t cw_orbit_copies(const CwSkeletonOrbits *orbits, const CwOrbits *of, int32_t item) {
   return orbits->symmetry ? cw_orbits_size(of, orbits->symmetry->count, item) : 1;
 }
-static inline int32_t cw_orbit_copy(const CwSkeletonOrbits *orbits, const CwOrbits *of, int32_t item, int32_t turns) {
-  return orbits->symmetry ? cw_orbits_turned(of, item, turns) : item;
-}
 static inline int32_t cw_orbit_turns(const CwSkeletonOrbits *orbits, const CwOrbits *of, int32_t item) {
   return orbits->symmetry ? of->turns[item] : 0;
 }

@@ -13,7 +13,7 @@ struct CwRecord {
   char stage[33];
   double started;
   int64_t peak_memory_bytes; // 0: ask the system
-  json_t *steps, *warnings, *results;
+  json_t *steps, *results;
 };
 
 CwStatus cw_record_start(const char *stage, CwRecord **record) {
@@ -24,9 +24,8 @@ CwStatus cw_record_start(const char *stage, CwRecord **record) {
   snprintf(made->stage, sizeof made->stage, "%s", stage);
   made->started = cw_seconds();
   made->steps = json_array();
-  made->warnings = json_array();
   made->results = json_object();
-  CW_REQUIRE(made->steps && made->warnings && made->results, CW_ERR_MEMORY, "out of memory: the record");
+  CW_REQUIRE(made->steps && made->results, CW_ERR_MEMORY, "out of memory: the record");
   *record = made;
   made = NULL;
 done:
@@ -37,7 +36,6 @@ done:
 void cw_record_free(CwRecord *record) {
   if (!record) return;
   json_decref(record->steps);
-  json_decref(record->warnings);
   json_decref(record->results);
   free(record);
 }
@@ -69,14 +67,6 @@ done:
   return status;
 }
 
-CwStatus cw_record_warning(CwRecord *record, const char *text) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(!json_array_append_new(record->warnings, json_text(text)), CW_ERR_MEMORY,
-             "out of memory: the record of a warning");
-done:
-  return status;
-}
-
 void cw_record_set_peak_memory(CwRecord *record, int64_t bytes) {
   record->peak_memory_bytes = bytes;
 }
@@ -95,10 +85,6 @@ CwStatus cw_record_number(CwRecord *record, const char *key, double value) {
 
 CwStatus cw_record_integer(CwRecord *record, const char *key, int64_t value) {
   return cw_record_json(record, key, json_integer(value));
-}
-
-CwStatus cw_record_text(CwRecord *record, const char *key, const char *value) {
-  return cw_record_json(record, key, json_text(value));
 }
 
 CwStatus cw_json_write(const json_t *value, const char *path) {
@@ -122,7 +108,6 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
   for (size_t i = 0; i < cw_log_warning_count(); ++i)
     CW_REQUIRE(!json_array_append_new(warnings, json_text(cw_log_warning(i))), CW_ERR_MEMORY,
                "out of memory: the record of a warning");
-  CW_REQUIRE(!json_array_extend(warnings, record->warnings), CW_ERR_MEMORY, "out of memory: the record");
   int64_t peak = record->peak_memory_bytes ? record->peak_memory_bytes : cw_peak_memory_bytes();
   root = json_pack("{so so sI sO sO sO}", "stage", json_text(record->stage), "seconds",
                    cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak,

@@ -23,23 +23,18 @@ void cw_record_free(CwRecord *record);
 // calls.
 CwStatus cw_record_step(CwRecord *record, const char *name, double seconds, int64_t items, const char *unit);
 
-// Adds a warning that the log of this process does not hold, such as one gathered from another rank.
-CwStatus cw_record_warning(CwRecord *record, const char *text);
-
 // Sets the peak memory to write, such as the sum over the ranks; without it that of this process is written.
 void cw_record_set_peak_memory(CwRecord *record, int64_t bytes);
 
 // Set one result. A number that is not finite becomes null. Keys keep the order of their first setting.
 CwStatus cw_record_number(CwRecord *record, const char *key, double value);
 CwStatus cw_record_integer(CwRecord *record, const char *key, int64_t value);
-CwStatus cw_record_text(CwRecord *record, const char *key, const char *value);
 
 // Sets one result to any JSON value and takes over the reference, also on failure. NULL fails with
 // CW_ERR_MEMORY.
 CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value);
 
-// Writes the record whole: the seconds since cw_record_start and the warnings of the log first, then those
-// added.
+// Writes the record whole: the seconds since cw_record_start and the warnings of the log first.
 CwStatus cw_record_write(const CwRecord *record, const char *path);
 
 // A JSON number; null for NAN and infinities, which JSON does not know.

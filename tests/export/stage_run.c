@@ -7,7 +7,8 @@
 #include <string.h>
 #include <sys/wait.h>
 
-int stage_folder_make(char folder[STAGE_PATH_SIZE]) {
+int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
+  char run[STAGE_PATH_SIZE + 10];
   const char *base = getenv("TMPDIR");
   snprintf(folder, STAGE_PATH_SIZE, "%s/cutwater-export-XXXXXX", base ? base : P_tmpdir);
   // As root and with more ranks than cores; OpenFOAM must find its etc folder.
@@ -15,7 +16,10 @@ int stage_folder_make(char folder[STAGE_PATH_SIZE]) {
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
   setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
-  return mkdtemp(folder) ? 0 : -1;
+  if (!mkdtemp(folder))
+    return -1;
+  snprintf(run, sizeof run, "%s/run", folder);
+  return synthetic_run_write(run, pump);
 }
 
 void stage_folder_remove(const char *folder) {

@@ -3,10 +3,12 @@
 #ifndef CUTWATER_TESTS_EXPORT_STAGE_RUN_H
 #define CUTWATER_TESTS_EXPORT_STAGE_RUN_H
 
+#include "tests/export/synthetic_run.h"
+
 enum { STAGE_OUTPUT_SIZE = 1 << 18, STAGE_PATH_SIZE = 400 };
 
-// Makes an empty folder for the files of a test; its path in `folder`. Returns 0, or -1.
-int stage_folder_make(char folder[STAGE_PATH_SIZE]);
+// Makes a folder for the files of a test, with the meshed toy pump in its `run`; its path in `folder`. Returns 0, or -1.
+int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump);
 void stage_folder_remove(const char *folder);
 
 // Runs a shell command (printf style) and keeps what it prints on both streams, cut to STAGE_OUTPUT_SIZE.

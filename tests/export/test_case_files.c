@@ -11,19 +11,14 @@
 #include "export/foam_case.h"
 #include "pipeline/atomic_file.h"
 #include "tests/export/stage_run.h"
-#include "tests/export/synthetic_run.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
 
 static int make_run(void **state) {
   (void)state;
-  char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
-  if (stage_folder_make(folder))
-    return -1;
-  snprintf(run, sizeof run, "%s/run", folder);
-  return synthetic_run_write(run, &pump);
+  return stage_run_make(folder, &pump);
 }
 
 static int remove_run(void **state) {

@@ -16,7 +16,6 @@
 #include <jansson.h>
 
 #include "tests/export/stage_run.h"
-#include "tests/export/synthetic_run.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
@@ -44,10 +43,10 @@ static int open_export(void **state) {
   char path[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
-  if (stage_folder_make(folder))
+  if (stage_run_make(folder, &pump))
     return -1;
   snprintf(path, sizeof path, "%s/run", folder);
-  if (synthetic_run_write(path, &pump) || stage_export(path, 2, output))
+  if (stage_export(path, 2, output))
     return -1;
   snprintf(path, sizeof path, "%s/run/export/pump.cgns", folder);
   return cg_open(path, CG_MODE_READ, &file);

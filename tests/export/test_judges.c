@@ -9,7 +9,6 @@
 #include <cmocka.h>
 
 #include "tests/export/stage_run.h"
-#include "tests/export/synthetic_run.h"
 
 static char folder[STAGE_PATH_SIZE];
 static char output[STAGE_OUTPUT_SIZE];
@@ -18,11 +17,9 @@ static int make_export(void **state) {
   (void)state;
   char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
-  if (stage_folder_make(folder))
+  if (stage_run_make(folder, &pump))
     return -1;
   snprintf(run, sizeof run, "%s/run", folder);
-  if (synthetic_run_write(run, &pump))
-    return -1;
   return stage_export(run, 2, output);
 }
 
