@@ -3,6 +3,9 @@
 # record.json last, so the record stands for all its files. Included with ROOT, the top of the source, and BIN, the
 # folder of the programs, set.
 NP ?= 2
+ifeq ($(shell expr '$(NP)' : '[1-9][0-9]*$$'),0)
+$(error NP is '$(NP)'; allowed: a number of ranks, from 1 on)
+endif
 
 # All ranks on this machine, also as root and also more than it has cores. Without binding, so that runs side by side
 # do not share a core while another is free; without copies across processes, which containers forbid.
