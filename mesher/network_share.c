@@ -9,9 +9,9 @@
 
 enum { MESSAGE_SIZE = 1024, DOUBLES = 6 }; // of a fine point: place, two parameters, length
 
-// Corners, curves and then the arrays of each curve follow it.
+// Corners, curves and then the arrays of each curve follow it, aligned as numbers need it.
 typedef struct {
-  CwStatus outcome; // CW_OK, or CW_RETRY with its message
+  _Alignas(double) CwStatus outcome; // CW_OK, or CW_RETRY with its message
   int32_t corners, curves;
   char message[MESSAGE_SIZE];
 } Head;
