@@ -22,7 +22,7 @@ done:
 
 CwStatus cw_cgns_close(hid_t file) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(H5Fclose(file) >= 0, CW_ERR_IO, "the CGNS file cannot be written to its end");
+  CW_REQUIRE(H5Fclose(file) >= 0, CW_ERR_IO, "the CGNS file cannot be written to its end (is the disk full?)");
 done:
   return status;
 }
@@ -40,7 +40,7 @@ static CwStatus write_stretch(hid_t file, const char *path, hid_t type, int64_t 
   H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count},
                       NULL);
   CW_REQUIRE(H5Dwrite(set, type, here, there, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
-             "%lld values cannot be written to '%s' of the CGNS file", (long long)count, path);
+             "%lld values cannot be written to '%s' of the CGNS file (is the disk full?)", (long long)count, path);
 done:
   if (here >= 0)
     H5Sclose(here);

@@ -74,9 +74,10 @@ done:
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {};
+  std::ofstream stream;
   try {
     CW_TRY(cw_atomic_file_name(path, &file));
-    std::ofstream stream(file.temporary_path, std::ios::binary);
+    stream.open(file.temporary_path, std::ios::binary);
     BRepTools::Write(solid->solid, stream);
     stream.close();
     CW_REQUIRE(stream, CW_ERR_IO, "%s: cannot be written: %s", path, std::strerror(errno));
@@ -84,7 +85,9 @@ CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path) {
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
   } catch (const std::exception &failure) {
-    status = CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what());
+    // OpenCASCADE may throw what it likes where a stream has failed.
+    status = stream ? CW_FAIL(CW_ERR_LIBRARY, "%s: %s", path, failure.what())
+                    : CW_FAIL(CW_ERR_IO, "%s: cannot be written (is the disk full?)", path);
   }
 done:
   cw_atomic_file_abandon(&file);
