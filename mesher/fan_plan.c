@@ -13,17 +13,19 @@
 enum {
   AXIS_SAMPLES = 400,
   STATIONS = 80,   // places tried for the plane across the axis
-  STEPS = 24,      // of equal work in a slice, where planes between slices may stand
+  STEPS = 36,      // of equal work in a slice, where planes between slices may stand
   WINDOW = 3,      // slices to either side of its even place in which such a plane is looked for
   ANGLES = 120         // places tried for half-planes in one pitch
 };
 // What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a
 // slice too large is better than a plane along a wall.
 static const double UNEVEN = 0.33;
-// Where regions are more than EVEN off their mean, numbers of regions in a pitch beside the wanted one are tried.
-enum { NUMBERS = 4 };
-static const int32_t BESIDE[NUMBERS] = {0, 1, -1, 2};
-static const double EVEN = 0.15, BESIDE_MOST = 0.12;
+static const double OFF_MOST = 0.14,  OFF_FAR = 100; // but past that share of its work a slice costs so much more
+static const double OFF_COST = 3;                    // at most
+// Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
+enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
+static const double EVEN = 0.15, SHARP = 0.643; // sine of 40 degrees
+static const double OTHER_NUMBER = 12;          // what an e-th of the asked number of regions costs, or e times of it
 
 typedef struct {
   double cost, worst;
@@ -43,6 +45,11 @@ typedef struct {
 
 static CwPlane across(const Fan *fan, double place) {
   return (CwPlane){{0, 0, fan->up}, place};
+}
+
+// What a slice costs that is so much larger or smaller than wanted.
+static double slice_cost(double work, double wanted) {
+  return UNEVEN * cw_plan_unevenness(work, wanted, 1) + fmin(OFF_FAR * fmax(0, fabs(work / wanted - 1) - OFF_MOST), OFF_COST);
 }
 
 // What a plane across the axis costs.
@@ -98,7 +105,7 @@ static double step_place(const Fan *fan, int32_t slices, int32_t step) {
 }
 
 // Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn
-// the best way to every step. Returns what they cost.
+// the best way to every step; slices have half to one and a half of their even work.
 static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t *step, double *cost) {
   CwStatus status = CW_OK;
   int32_t steps = slices * STEPS, *from = NULL; // of each plane and step, the step of the plane before
@@ -108,7 +115,7 @@ static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t
   CW_NEW(least, (slices + 1) * (steps + 1));
   CW_NEW(place_cost, steps + 1);
   CW_NEW(uneven, steps + 1);
-  for (int32_t s = 1; s <= steps; s++) uneven[s] = UNEVEN * cw_plan_unevenness(all * s / steps, mean, 1);
+  for (int32_t s = 1; s <= steps; s++) uneven[s] = slice_cost(all * s / steps, mean);
   for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(fan, step_place(fan, slices, s), &worst);
   for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
   least[0] = 0;
@@ -116,7 +123,7 @@ static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t
     double *now = least + i * (steps + 1), *before = now - (steps + 1);
     int32_t first = (i - WINDOW) * STEPS, last = i < slices ? (i + WINDOW) * STEPS : steps;
     for (int32_t s = i < slices ? (first > i ? first : i) : steps; s <= last && s <= steps; s++) {
-      for (int32_t b = s - 1; b >= 0 && b >= s - 2 * STEPS; b--) {
+      for (int32_t b = s - STEPS / 2; b >= 0 && b >= s - STEPS - STEPS / 2; b--) {
         double sum = before[b] + uneven[s - b] + place_cost[s];
         if (sum < now[s]) now[s] = sum, from[i * (steps + 1) + s] = b;
       }
@@ -156,37 +163,33 @@ done:
   return status;
 }
 
-static int32_t slices_beside(double pipe, double pitch, int32_t regions) {
-  return (int32_t)fmax(1, floor(pipe / pitch * regions + 0.5));
-}
-
 // The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
-// slices that are as large as the regions of a pitch (0: as they come).
+// slices that are as large as the regions of a pitch (0: one slice as it comes).
 static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
-  double best = INFINITY, all = fan->along.below[CW_PROFILE_BINS], chosen = 0;
+  double all = fan->along.below[CW_PROFILE_BINS], chosen = 0, best = INFINITY, cost;
+  *slices = 1;
   for (int i = 1; i < STATIONS; i++) {
     double place = fan->nose + (fan->high - fan->nose) * i / STATIONS;
-    double before = cw_profile_below(&fan->along, place), score = before * (fan->count - 1) / all;
-    if (!(before > 0 && before < all) || score >= best) continue;
+    double before = cw_profile_below(&fan->along, place), alone = before * (fan->count - 1) / all;
+    if (!(before > 0 && before < all) || alone >= best) continue;
     plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
-    score += judge_across(fan, place, &plan->worst_angle[0]);
-    if (regions > 0 && score < best) {
-      double pitch = (all - before) / fan->count, cost;
-      int32_t count = slices_beside(before, pitch, regions);
-      if (count > fan->slices_most) continue;
+    alone += judge_across(fan, place, &plan->worst_angle[0]);
+    if (regions == 0 && alone < best) best = alone, chosen = place;
+    double pitch = (all - before) / fan->count;
+    int32_t few = (int32_t)fmax(1, floor(before / pitch * regions));
+    for (int32_t count = few; count <= few + 1 && count <= fan->slices_most && regions && alone < best; count++) {
       double mean = all / (count + fan->count * regions);
       CW_TRY(place_slices(fan, count, mean, &cost));
-      score += cost + UNEVEN * cw_plan_unevenness(pitch, regions * mean, regions);
+      cost += alone + UNEVEN * cw_plan_unevenness(pitch, regions * mean, regions);
+      if (cost < best) best = cost, chosen = place, *slices = count;
     }
-    if (score < best) best = score, chosen = place;
   }
   CW_REQUIRE(best < INFINITY, CW_RETRY, "no plane across the axis fits");
-  double before = cw_profile_below(&fan->along, chosen), cost;
   plan->node[0] = (CwPlanNode){across(fan, chosen), -1, {-1, 1}};
   judge_across(fan, chosen, &plan->worst_angle[0]);
-  *slices = slices_beside(before, (all - before) / fan->count, regions);
+  double before = cw_profile_below(&fan->along, chosen);
   CW_TRY(place_slices(fan, *slices, regions > 0 ? all / (*slices + fan->count * regions) : before, &cost));
 done:
   return status;
@@ -308,6 +311,13 @@ static void turn_wedges(const Fan *fan, int wedges) {
   }
 }
 
+// Makes the predicted cells of some regions sum up to what they are together.
+static void make_sum(CwPlan *plan, int32_t first, int32_t end, double wanted) {
+  double sum = 0;
+  for (int32_t r = first; r < end; r++) sum += plan->predicted_cells[r];
+  for (int32_t r = first; r < end; r++) plan->predicted_cells[r] *= wanted / sum;
+}
+
 // The plan with so many regions in one pitch.
 static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, int32_t regions) {
   CwStatus status = CW_OK;
@@ -319,20 +329,24 @@ static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, in
   model->mean_work = whole->work / (slices + fan->count * regions);
   CW_TRY(place_fan(fan, &wheel, wedges));
   CW_TRY(divide_wedges(fan, &wheel, wedges, wheel.work / fan->count / regions));
+  // The samples of all pitches together tell the work of one better than its own.
+  make_sum(fan->plan, 0, slices, whole->work - wheel.work);
+  make_sum(fan->plan, slices, fan->plan->region_count, wheel.work / fan->count);
   turn_wedges(fan, wedges);
 done:
   cw_plan_part_free(&wheel);
   return status;
 }
 
-// How far the work of a region is off the mean, at most.
-static double unevenness(const CwPlan *plan) {
-  double sum = 0, most = 0;
+// How far the work of a region is off the mean, at most; more, where a plane within the wedges is sharp on walls.
+static double badness(const CwPlan *plan) {
+  double sum = 0, most = 0, worst = 1;
   for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
   for (int32_t r = 0; r < plan->region_count; r++) {
     most = fmax(most, fabs(plan->predicted_cells[r] / sum * plan->region_count - 1));
   }
-  return most;
+  for (int32_t n = plan->fan_first; n < plan->node_count; n++) worst = fmin(worst, plan->worst_angle[n]);
+  return most + (worst < SHARP ? EVEN + SHARP - worst : 0);
 }
 
 static CwStatus new_plan(size_t room, CwPlan *plan) {
@@ -345,20 +359,56 @@ done:
   return status;
 }
 
-// The number of regions in one pitch with which, and the slices beside, all come near the asked number, all about as
-// large.
-static int32_t choose_number(double pipe, double pitch, int32_t count, int32_t asked) {
-  int32_t chosen = 1;
-  double region = (pipe + count * pitch) / asked, best = INFINITY;
-  for (int32_t n = (int32_t)fmax(1, 0.7 * pitch / region); n <= fmax(1, 1.4 * pitch / region); n++) {
-    int32_t s = slices_beside(pipe, pitch, n), all = s + count * n;
-    double mean = (pipe + count * pitch) / all;
-    double cost = fmax(fabs(pipe / s / mean - 1), fabs(pitch / n / mean - 1)) + 0.3 * fabs(log((double)all / asked));
-    if (cost >= best) continue;
-    best = cost;
-    chosen = n;
+// A number of regions in one pitch, and what it costs.
+typedef struct {
+  int32_t regions;
+  double cost;
+} Number;
+
+static int by_cost(const void *a, const void *b) {
+  const Number *p = a, *q = b;
+  return p->cost != q->cost ? (p->cost < q->cost ? -1 : 1) : (p->regions > q->regions) - (p->regions < q->regions);
+}
+
+// What the slices and the planes across the axis that are in the plan cost: nothing where they are even and stand well.
+static double pipe_cost(const Fan *fan, int32_t slices, double mean) {
+  const CwPlan *plan = fan->plan;
+  double off = 0, worst = 1;
+  for (int32_t i = 0; i < slices; i++) {
+    off = fmax(off, fabs(plan->predicted_cells[i] / mean - 1));
+    worst = fmin(worst, plan->worst_angle[i]);
   }
-  return chosen;
+  return 30 * fmax(0, off - EVEN) + (worst < SHARP ? 4 + 30 * (SHARP - worst) : 0);
+}
+
+// The numbers of regions in one pitch that bring the plan near the asked number, best first: those with which regions
+// and slices would be about as large if `pipe` were the work of the slices, and of these, those with the best slices.
+static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked, Number number[NUMBERS],
+                              int32_t *count) {
+  CwStatus status = CW_OK;
+  Number *all = NULL;
+  double whole = pipe + fan->count * pitch, wanted = pitch / whole * asked;
+  int32_t least = (int32_t)fmax(1, 0.85 * wanted), found = 0;
+  int32_t most = (int32_t)fmax(1, fmin(2 * wanted, ceil(1.15 * wanted) + 1));
+  CW_NEW(all, most - least + 1);
+  for (int32_t n = least; n <= most; n++) {
+    double slices = fmax(1, round(pipe / pitch * n)), regions = slices + fan->count * n, mean = whole / regions;
+    double off = fmax(fabs(pipe / slices / mean - 1), fabs(pitch / n / mean - 1));
+    all[found++] = (Number){n, off + 0.3 * fabs(log(regions / asked))};
+  }
+  qsort(all, (size_t)found, sizeof *all, by_cost);
+  *count = found < NUMBERS ? found : NUMBERS;
+  for (int32_t i = 0; i < *count && *count > 1; i++) {
+    int32_t slices;
+    CW_TRY(place_root(fan, all[i].regions, &slices));
+    int32_t regions = slices + fan->count * all[i].regions;
+    all[i].cost = pipe_cost(fan, slices, whole / regions) + OTHER_NUMBER * fabs(log((double)regions / asked));
+  }
+  qsort(all, (size_t)*count, sizeof *all, by_cost);
+  memcpy(number, all, (size_t)*count * sizeof *number);
+done:
+  free(all);
+  return status;
 }
 
 CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
@@ -368,9 +418,10 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CwPlanPart whole = {0};
   CwPlan tried = {0};
   Fan fan = {.model = &model, .plan = &tried, .count = count, .slices_most = options->region_count};
-  size_t room = 2 * (size_t)options->region_count + 4 * (size_t)count;
+  Number number[NUMBERS];
+  size_t room = 3 * (size_t)options->region_count + 4 * (size_t)count;
   double least = INFINITY;
-  int32_t slices;
+  int32_t slices, numbers = 0;
   CW_TRY(new_plan(room, plan));
   CW_TRY(new_plan(room, &tried));
   CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
@@ -380,17 +431,15 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   cw_plan_profile(&model, &whole, along.normal, &fan.along);
   CW_TRY(place_root(&fan, 0, &slices));
   double pipe = cw_profile_below(&fan.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
-  int32_t number = choose_number(pipe, pitch, count, options->region_count);
-  for (int k = 0; k < NUMBERS && least > EVEN; k++) {
-    int32_t regions = number + BESIDE[k];
-    if (regions < 1 || abs(BESIDE[k]) > BESIDE_MOST * number) continue;
-    CW_TRY(divide(&fan, &model, &whole, regions));
-    double uneven = unevenness(&tried);
-    if (uneven >= least) continue;
+  CW_TRY(weigh_numbers(&fan, pipe, pitch, options->region_count, number, &numbers));
+  for (int k = 0; k < numbers && k < NUMBERS_TRIED && least > EVEN; k++) {
+    CW_TRY(divide(&fan, &model, &whole, number[k].regions));
+    double bad = badness(&tried);
+    if (bad >= least) continue;
     CwPlan better = tried;
     tried = *plan;
     *plan = better;
-    least = uneven;
+    least = bad;
   }
 done:
   cw_plan_part_free(&whole);

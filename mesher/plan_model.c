@@ -422,6 +422,7 @@ CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, co
   model->background = background;
   model->inside = inside;
   model->size = size;
+  model->region_count = options->region_count;
   CW_TRY(measure_walls(cad, options, model));
   CW_TRY(sample_walls(model));
   CW_TRY(sort_triangles(model));

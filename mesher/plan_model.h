@@ -32,6 +32,7 @@ typedef struct {
   double thickest;                     // m, of the layers anywhere
   CwCubes walls;
   CwBoxTree triangles;                 // all of the background
+  int32_t region_count;                // asked
   double mean_work;                    // of the regions to be
 } CwPlanModel;
 

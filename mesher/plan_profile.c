@@ -36,6 +36,21 @@ double cw_profile_place(const CwPlanProfile *profile, double cells) {
   return profile->low + (low + part) * profile->width;
 }
 
+typedef struct {
+  double low, high;
+} Extent;
+
+// Of a piece along n.
+static Extent extent_of(const CwPieces *pieces, int32_t i, const double n[3]) {
+  Extent extent = {INFINITY, -INFINITY};
+  for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
+    double place = cw_dot(n, pieces->corner[c]);
+    extent.low = place < extent.low ? place : extent.low;
+    extent.high = place > extent.high ? place : extent.high;
+  }
+  return extent;
+}
+
 // Spreads an amount evenly over the bins from..to, given in bins.
 static void spread(double *bins, double from, double to, double amount) {
   int first = (int)from, last = (int)to;
@@ -51,14 +66,8 @@ static void add_pieces(const CwPlanModel *model, const CwPlanPart *part, const d
   const double scale = 1 / profile->width, origin = profile->low, end = CW_PROFILE_BINS - 1e-6;
   double steepest[CW_PROFILE_BINS] = {0}; // greatest (n.m)^2
   for (int32_t i = 0; i < pieces->count; i++) {
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
-      double place = cw_dot(n, pieces->corner[c]);
-      low = place < low ? place : low;
-      high = place > high ? place : high;
-    }
-    low = (low - origin) * scale;
-    high = (high - origin) * scale;
+    Extent extent = extent_of(pieces, i, n);
+    double low = (extent.low - origin) * scale, high = (extent.high - origin) * scale;
     low = low < 0 ? 0 : low > end ? end : low;
     high = high < 0 ? 0 : high > end ? end : high;
     if ((int)low == (int)high) {
@@ -162,14 +171,10 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   CwPlanPlace place = {0};
   double steepest = 0;
   for (int32_t i = 0; i < pieces->count; i++) {
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t c = pieces->start[i]; c < pieces->start[i + 1]; c++) {
-      double distance = cw_plane_distance(plane, pieces->corner[c]);
-      low = distance < low ? distance : low;
-      high = distance > high ? distance : high;
-    }
+    Extent extent = extent_of(pieces, i, plane->normal);
     int32_t t = pieces->triangle[i];
     double dot = cw_dot(plane->normal, model->normal[t]), layers = CW_LAYER_ROOM * model->thickness[t] * dot;
+    double low = extent.low - plane->offset, high = extent.high - plane->offset;
     if (low - fmax(layers, 0) > 0 || high - fmin(layers, 0) <= 0 || dot * dot <= steepest) continue;
     int within = end == NULL;
     for (int32_t c = pieces->start[i]; c < pieces->start[i + 1] && !within; c++) {

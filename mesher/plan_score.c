@@ -18,7 +18,7 @@ enum {
   SHARED_LEAST = 40000, // pieces and samples, over all directions looked along, that are worth sharing among the ranks
   LINES_JUDGED = 200, // candidates whose lines are looked at, best first
   SMALL_PART = 12,    // regions to come of a part for which other planes are tried
-  TRIES = 6           // of them
+  TRIES = 4, TRIES_MOST = 6, MANY = 150 // of them; more, and for so many regions, which find less room
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                       // shifts until they are twice as wide
@@ -170,7 +170,7 @@ typedef struct {
   Candidate *candidate; // best first
   uint8_t looked[CW_DIRECTIONS];
   int32_t tried_count;
-  Best tried[TRIES];
+  Best tried[TRIES_MOST];
 } Choice;
 
 static int like_one_tried(const Choice *choice, const CwPlane *plane, int32_t below) {
@@ -308,25 +308,25 @@ static void kept_free(Kept *kept) {
 }
 
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                       int side, double limit, double *worst);
+                       int side, double limit, double *bad);
 
-// Divides the part by this plane, and both sides further. *worst: the score of the worst plane. Gives up once that is
-// `limit` or more.
+// Divides the part by this plane, and both sides further. *bad: by how much all planes together score more than they
+// should. Gives up once that is `limit` or more.
 static CwStatus divide_by(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions,
-                          const Best *by, double limit, double *worst) {
+                          const Best *by, double limit, double *bad) {
   CwStatus status = CW_OK;
   CwPlanPart half[2] = {0};
   int32_t node = plan->node_count++, first[2] = {by->below, regions - by->below};
-  *worst = by->score;
+  *bad = fmax(by->score - BAD, 0);
   plan->node[node].plane = by->plane;
   plan->node[node].child[0] = plan->node[node].child[1] = INT32_MIN; // not known yet
   plan->worst_angle[node] = cw_plan_place(model, part, &by->plane, NULL).worst;
   for (int s = 0; s < 2; s++) CW_TRY(cw_plan_part_clip(model, part, &by->plane, s, &half[s]));
-  for (int s = 0; s < 2 && *worst < limit; s++) {
-    double below;
-    CW_TRY(divide(model, plan, &half[s], first[s], node, s, limit, &below));
+  for (int s = 0; s < 2 && *bad < limit; s++) {
+    double further;
+    CW_TRY(divide(model, plan, &half[s], first[s], node, s, limit - *bad, &further));
     cw_plan_part_free(&half[s]);
-    *worst = fmax(*worst, below);
+    *bad += further;
   }
 done:
   for (int s = 0; s < 2; s++) cw_plan_part_free(&half[s]);
@@ -334,40 +334,40 @@ done:
 }
 
 // Divides the part, or leaves it whole where no plane will do. Where a small part, or what comes of it, divides badly
-// by the best plane, others are tried: the best of them may leave a part that no plane divides well. *worst is `limit`
+// by the best plane, others are tried: the best of them may leave a part that no plane divides well. *bad is `limit`
 // or more, and the subtree of no use, where it would not be less.
 static CwStatus divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                       int side, double limit, double *worst) {
+                       int side, double limit, double *bad) {
   CwStatus status = CW_OK;
   const int32_t node = plan->node_count, region = plan->region_count;
   Choice choice = {.model = model, .plan = plan, .part = part, .node = node, .regions = regions};
   Kept kept = {0};
   Best best;
   double least = limit;
-  int32_t tries = regions <= SMALL_PART ? TRIES : 1;
+  int32_t tries = regions > SMALL_PART ? 1 : model->region_count < MANY ? TRIES : TRIES_MOST;
   int found = 0, last = 0; // whether some plane did; whether its subtree stands in the plan
-  *worst = 0;
+  *bad = 0;
   if (parent >= 0) plan->node[parent].child[side] = node; // it tells on which side the node's cell lies
-  while (regions > 1 && choice.tried_count < tries && (!found || least > BAD)) {
-    double score;
+  while (regions > 1 && choice.tried_count < tries && (!found || least > 0)) {
+    double further;
     plan->node_count = node;
     plan->region_count = region;
     plan->node[node].parent = parent;
-    CW_TRY(next_best(&choice, least, &best));
+    CW_TRY(next_best(&choice, BAD + least, &best));
     last = 0;
     if (best.below == 0) break;
-    CW_TRY(divide_by(model, plan, part, regions, &best, least, &score));
-    if (score >= least) continue;
-    least = score;
+    CW_TRY(divide_by(model, plan, part, regions, &best, least, &further));
+    if (further >= least) continue;
+    least = further;
     found = last = 1;
-    if (choice.tried_count < tries && least > BAD) CW_TRY(keep(plan, node, region, &kept));
+    if (choice.tried_count < tries && least > 0) CW_TRY(keep(plan, node, region, &kept));
   }
   if (found) {
     if (!last) put_back(&kept, node, region, plan);
-    *worst = least;
+    *bad = least;
     goto done;
   }
-  if (regions > 1) *worst = limit < INFINITY ? fmax(limit, WHOLE) : WHOLE;
+  if (regions > 1) *bad = limit < INFINITY ? fmax(limit, WHOLE) : WHOLE;
   plan->node_count = node;
   plan->region_count = region;
   if (parent >= 0) plan->node[parent].child[side] = -1 - region;
@@ -381,6 +381,6 @@ done:
 
 CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
                         int side) {
-  double worst;
-  return divide(model, plan, part, regions, parent, side, INFINITY, &worst);
+  double bad;
+  return divide(model, plan, part, regions, parent, side, INFINITY, &bad);
 }
