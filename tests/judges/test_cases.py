@@ -5,7 +5,8 @@ import unittest
 
 from cutwater import SOURCE, done, execute, fresh, record
 
-CASES = (("splitters", None), ("nq24", None), ("ns200", None), ("paper", 8000000))  # cells; None: the case's own
+# Cells; None: the case's own.
+CASES = (("splitters", None), ("nq24", None), ("ns40", None), ("ns200", None), ("paper", 8000000))
 LEAST_DIHEDRAL = 12  # degrees
 
 
