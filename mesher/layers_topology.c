@@ -47,49 +47,46 @@ done:
   return status;
 }
 
-// The corners of a triangle but v: the next one and the last.
-static void others(const int32_t corner[3], int32_t v, int32_t other[2]) {
-  int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
-  other[0] = corner[(i + 1) % 3];
-  other[1] = corner[(i + 2) % 3];
-}
-
 // Each vertex in turn puts itself on the lists of its neighbours, so that they come out ascending, and a neighbour by
-// two triangles is the last one twice.
+// two triangles is the last one twice. Whether it stays on a list is reckoned, not asked: no branch could foretell it.
 static CwStatus lists(CwLayerWork *work) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   CwIncident around = {0};
-  int32_t *end = NULL, count = 0;
+  int32_t *end = NULL, *last = NULL, count = 0; // of each list: its end, and the vertex that was last there
   CW_TRY(cw_incident_make(work->n, in->triangle_count, in->triangle, &around));
   work->face_start = around.start;
   work->face = around.triangle;
   CW_NEW_UNSET(work->near_start, work->n + 1);
-  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count); // two of each triangle, at first
+  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count + (size_t)work->n); // at first one to spare on each list
   CW_NEW_UNSET(end, work->n);
+  CW_NEW_UNSET(last, work->n);
   for (int32_t v = 0; v < work->n; v++) {
     CW_REQUIRE(work->face_start[v + 1] > work->face_start[v], CW_ERR_INPUT,
                "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
                in->x[v][1] * 1e3, in->x[v][2] * 1e3);
-    end[v] = 2 * work->face_start[v];
+    end[v] = 2 * work->face_start[v] + v;
+    last[v] = -1;
   }
   for (int32_t v = 0; v < work->n; v++) {
     for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
-      int32_t beside[2];
-      others(in->triangle[work->face[k]], v, beside);
-      for (int i = 0; i < 2; i++) {
-        int32_t w = beside[i];
-        if (end[w] == 2 * work->face_start[w] || work->near[end[w] - 1] != v) work->near[end[w]++] = v;
+      const int32_t *corner = in->triangle[work->face[k]];
+      for (int i = 0; i < 3; i++) {
+        int32_t w = corner[i];
+        work->near[end[w]] = v;
+        end[w] += (last[w] != v) & (w != v);
+        last[w] = v;
       }
     }
   }
   for (int32_t v = 0; v < work->n; v++) {
     work->near_start[v] = count;
-    for (int32_t k = 2 * work->face_start[v]; k < end[v]; k++) work->near[count++] = work->near[k];
+    for (int32_t k = 2 * work->face_start[v] + v; k < end[v]; k++) work->near[count++] = work->near[k];
   }
   work->near_start[work->n] = count;
 done:
   free(end);
+  free(last);
   return status;
 }
 
