@@ -236,6 +236,9 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
     status = cw_design_complete_case(path, &whole);
   if (status == CW_OK)
     status = cw_mesh_manifest_read(run, &mesh);
+  if (status == CW_OK && strcmp(mesh.case_name, table->name) != 0)
+    status = CW_FAIL(CW_ERR_INPUT, "%s/mesh: holds the mesh of case '%s'; allowed: that of the case file, '%s'", run,
+                     mesh.case_name, table->name);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
   checked = cw_seconds();

@@ -11,7 +11,8 @@ CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
   CwStatus status = CW_OK;
   json_error_t error;
   json_t *design = json_load_file(design_path, 0, &error);
-  CW_REQUIRE(design, CW_ERR_IO, "%s: %s at line %d; made by cutwater-geometry", design_path, error.text, error.line);
+  CW_REQUIRE(design || error.line >= 0, CW_ERR_IO, "%s; made by cutwater-geometry", error.text); // names the file
+  CW_REQUIRE(design, CW_ERR_IO, "%s:%d: %s; made by cutwater-geometry", design_path, error.line, error.text);
   double outlet_radius = 0, throat_speed = 0;
   const struct {
     const char *key;

@@ -19,7 +19,11 @@ define cutwater_run
 $(1): $(3)/report/record.json
 	@python3 $(ROOT)/pipeline/summary.py $(3)
 
-$(3)/geometry/record.json: $(2) $(BIN)/cutwater-geometry
+# Changes where the folder gets another case, whose file may be older than what lies there.
+$(3)/log/case: FORCE
+	@mkdir -p $$(@D) && echo '$(2)' | cmp -s - $$@ || echo '$(2)' > $$@
+
+$(3)/geometry/record.json: $(2) $(3)/log/case $(BIN)/cutwater-geometry
 	@$(BIN)/cutwater-geometry --case $(2) --run $(3)
 
 # Changes only when the asked number does.

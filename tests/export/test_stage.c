@@ -106,6 +106,9 @@ static void files_that_are_missing_or_cut_are_told(void **state) {
   (void)state;
   char run[STAGE_PATH_SIZE + 40];
   copy_run("bad", run);
+  assert_int_equal(stage_shell(output, "sed -i '0,/paper/s//other/' '%s/mesh/manifest.json'", run), 0);
+  expect_error(run, "holds the mesh of case 'other'; allowed: that of the case file, 'paper'");
+  copy_run("bad", run);
   stage_shell(output, "rm '%s/mesh/stator-0002.h5'", run);
   expect_error(run, "stator-0002.h5: is missing");
   copy_run("bad", run);

@@ -84,6 +84,15 @@ class MakeRules(unittest.TestCase):
         self.assertEqual(self.make("CELLS=200k")[1], ["mesh", "export", "report"])
         self.assertEqual(self.make()[1], ["mesh", "export", "report"])
 
+    def test_another_case_in_the_same_folder_begins_anew(self):
+        other = self.case.with_name("other.yaml")
+        other.write_text("name: other\n")  # older than all that the first run makes
+        time.sleep(0.02)
+        self.assertEqual(self.make()[1], list(STAGES))
+        self.makefile.write_text(self.makefile.read_text().replace(str(self.case), str(other)))
+        self.assertEqual(self.make()[1], list(STAGES))
+        self.assertEqual(self.make()[1], [])
+
     def test_other_ranks_change_nothing(self):
         self.make("NP=1")
         self.assertEqual(self.make("NP=3")[1], [])
