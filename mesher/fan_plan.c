@@ -428,7 +428,7 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CW_TRY(cw_plan_part_whole(&model, &whole));
   CW_TRY(find_axis(&fan));
   CwPlane along = across(&fan, 0);
-  cw_plan_profile(&model, &whole, along.normal, &fan.along);
+  cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &fan.along);
   CW_TRY(place_root(&fan, 0, &slices));
   double pipe = cw_profile_below(&fan.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
   CW_TRY(weigh_numbers(&fan, pipe, pitch, options->region_count, number, &numbers));

@@ -6,7 +6,6 @@
 
 #include "mesher/vec.h"
 
-enum { SAMPLES_MOST = 16000 }; // a section is seen well enough with these; smaller parts use all they have
 static const double END_WEIGHT = 6;    // of an end of a CAD edge, in points along it
 static const double ALONG_EDGE = 0.35; // sine of the least angle between a plane and a CAD edge that it crosses
 
@@ -123,9 +122,9 @@ static void smooth(double *bins, int width) {
   }
 }
 
-static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const double n[3], double *work,
-                        CwPlanProfile *profile) {
-  int32_t stride = part->sample_count / SAMPLES_MOST + 1;
+static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const double n[3], int32_t most,
+                        double *work, CwPlanProfile *profile) {
+  int32_t stride = part->sample_count / most + 1;
   double volume = 0, cells = 0, all = part->work, scale = 1 / profile->width;
   for (int32_t i = 0; i < part->sample_count; i += stride) {
     int32_t s = part->sample[i];
@@ -144,7 +143,7 @@ static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const 
   }
 }
 
-void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const double direction[3],
+void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const double direction[3], int32_t samples_most,
                      CwPlanProfile *profile) {
   double low = INFINITY, high = -INFINITY, work[CW_PROFILE_BINS] = {0}, margin = model->sample_spacing;
   memset(profile, 0, sizeof *profile);
@@ -156,7 +155,7 @@ void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const dou
   if (!(high > low)) return;
   profile->low = low - margin;
   profile->width = (high - low + 2 * margin) / CW_PROFILE_BINS;
-  add_samples(model, part, direction, work, profile);
+  add_samples(model, part, direction, samples_most, work, profile);
   add_pieces(model, part, direction, work, profile);
   add_edges(model, part, direction, profile);
   for (int b = 0; b < CW_PROFILE_BINS; b++) profile->below[b + 1] = profile->below[b] + fmax(work[b], 0);

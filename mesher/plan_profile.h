@@ -18,8 +18,9 @@ typedef struct {
   double cut[CW_PROFILE_BINS];        // of those on sharp edges the one nearest: 1 within the layers, 0 at its room
 } CwPlanProfile;
 
-// Fails with nothing: a part without extent along the direction has width 0 and is of no use.
-void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const double direction[3],
+// From about samples_most of the part's samples, or all of fewer. Fails with nothing: a part without extent along the
+// direction has width 0 and is of no use.
+void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const double direction[3], int32_t samples_most,
                      CwPlanProfile *profile);
 
 // Cells below a place, and the place below which so many cells are.

@@ -15,6 +15,7 @@ enum {
   STEP = 4,          // turns and half as many tilts: first steps from the best plane where it does not do well
   SPLITS_MOST = 5,   // numbers of regions tried below the plane
   SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
+  SAMPLES_MOST = 16000, // a section is seen well enough with these; smaller parts use all they have
   SHARED_LEAST = 40000, // pieces and samples, over all directions looked along, that are worth sharing among the ranks
   LINES_JUDGED = 200, // candidates whose lines are looked at, best first
   SMALL_PART = 12,    // regions to come of a part for which other planes are tried
@@ -85,7 +86,7 @@ static int32_t add_candidates(const CwPlanModel *model, const CwPlanPart *part, 
   double direction[3];
   int32_t split[SPLITS_MOST], splits = splits_of(regions, split), count = 0;
   cw_direction(d, direction);
-  cw_plan_profile(model, part, direction, &profile);
+  cw_plan_profile(model, part, direction, SAMPLES_MOST, &profile);
   double all = profile.below[CW_PROFILE_BINS], shift = SHIFT[regions <= 3 ? 0 : regions <= 8 ? 1 : 2];
   if (!(profile.width > 0) || !(all > 0)) return 0;
   for (int32_t i = 0; i < splits; i++) {
