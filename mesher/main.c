@@ -3,9 +3,9 @@
 #include <mpi.h>
 #include <stdlib.h>
 
-#include "mesher/ledger.h"
-#include "mesher/mesh_run.h"
-#include "mesher/schedule.h"
+#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/schedule.h"
+#include "mesher/run/mesh_run.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # Writes OUT, which defines the hash of source_hash.h over the sources in ROOT.
-file(GLOB names RELATIVE ${ROOT} ${ROOT}/*.c ${ROOT}/*.cpp ${ROOT}/*.h)
+file(GLOB_RECURSE names RELATIVE ${ROOT} ${ROOT}/*.c ${ROOT}/*.cpp ${ROOT}/*.h)
 list(SORT names)
 set(all "")
 foreach(name ${names})

@@ -16,12 +16,12 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "mesher/fill.h"
-#include "mesher/fill_shape.h"
-#include "mesher/kernel.h"
-#include "mesher/quality.h"
-#include "mesher/region_file.h"
-#include "mesher/size_grid.h"
+#include "mesher/common/quality.h"
+#include "mesher/fill/fill.h"
+#include "mesher/fill/fill_shape.h"
+#include "mesher/fill/kernel.h"
+#include "mesher/region/region_file.h"
+#include "mesher/size/size_grid.h"
 #include "pipeline/log.h"
 #include "tests/mesher/closed_surfaces.h"
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "mesher/patch_mesh.h"
+#include "mesher/surface/patch_mesh.h"
 
 typedef struct {
   double length;

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/background.h"
-#include "mesher/rays.h"
-#include "mesher/vec.h"
+#include "mesher/cad/background.h"
+#include "mesher/cad/rays.h"
+#include "mesher/common/vec.h"
 #include "tests/measure/domain_mesh.h"
 
 static const double FACING = 0.9; // cosine between the ray and the wall it meets

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_TESTS_MEASURE_DOMAIN_MESH_H
 #define CUTWATER_TESTS_MEASURE_DOMAIN_MESH_H
 
-#include "mesher/region_file.h"
+#include "mesher/region/region_file.h"
 
 typedef struct {
   int32_t region_count;

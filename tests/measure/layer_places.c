@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/cad.h"
-#include "mesher/quality.h"
-#include "mesher/vec.h"
+#include "mesher/cad/cad.h"
+#include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
 #include "tests/measure/domain_mesh.h"
 
 typedef enum { ACROSS_EDGE, MERIDIAN, NORMAL_TO_AXIS } Section;

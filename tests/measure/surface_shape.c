@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/background.h"
-#include "mesher/vec.h"
+#include "mesher/cad/background.h"
+#include "mesher/common/vec.h"
 #include "tests/measure/domain_mesh.h"
 
 static const double RAD = 180 / M_PI;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "fill_fault.h"
 
-#include "mesher/fill_shape.h"
-#include "mesher/predicates.h"
-#include "mesher/quality.h"
+#include "mesher/common/predicates.h"
+#include "mesher/common/quality.h"
+#include "mesher/fill/fill_shape.h"
 
 static double constant_size(const void *length, const double x[3]) {
   return *(const double *)length;

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_TESTS_MESHER_FILL_FAULT_H
 #define CUTWATER_TESTS_MESHER_FILL_FAULT_H
 
-#include "mesher/fill.h"
+#include "mesher/fill/fill.h"
 #include "closed_surfaces.h"
 
 // Size field of a constant length; both must outlive the input.

@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
-#include "mesher/intersect.h"
-#include "mesher/layers.h"
+#include "mesher/common/intersect.h"
+#include "mesher/layers/layers.h"
 #include "surfaces.h"
 
 // Unit normals of the caps and planes that hold a column at x; returns their count.

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "mesher/background.h"
+#include "mesher/cad/background.h"
 
 typedef struct {
   double x[12][3];

@@ -22,7 +22,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
-#include "mesher/cad.h"
+#include "mesher/cad/cad.h"
 
 // Last: its macro named fail breaks the C++ headers. So this header comes last in a test as well.
 extern "C" {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The background triangulation: a fine tessellation of each CAD face, welded into one closed surface, with
+// (u,v) kept for every corner. What the size field samples and the planner clips; no node of it goes into the
+// mesh.
+#ifndef CUTWATER_MESHER_CAD_BACKGROUND_H
+#define CUTWATER_MESHER_CAD_BACKGROUND_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/cad/cad.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t point_count, triangle_count;
+  double (*x)[3];         // m
+  int32_t (*triangle)[3]; // normal out of the domain
+  int32_t *face;          // CAD face of each triangle
+  double (*uv)[3][2];     // of each corner on that face
+  int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
+} CwBackground;
+
+// Tessellates with the given chord deflection (m) and angle (rad). Deterministic: the same bits as from faces that
+// other ranks have made.
+CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
+
+// From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with CW_ERR_GEOMETRY where the result is not closed (the place is
+// named).
+CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
+void cw_background_free(CwBackground *background);
+
+// Volume enclosed, m3.
+double cw_background_volume(const CwBackground *background);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/cad/cad.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <BRepGProp_Domain.hxx>
+#include <BRepGProp_Face.hxx>
+#include <BRepGProp_Vinert.hxx>
+#include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <gp_Pnt.hxx>
+#include <gp_Pnt2d.hxx>
+#include <gp_Vec.hxx>
+
+#include "mesher/cad/cad_shape.h"
+
+static const double metre_per_mm = 1e-3;
+static const double pcurve_tolerance = 1e-7; // m: past it the point of an edge is projected onto its face
+
+double CwCadKnots::snap(double parameter) const {
+  if (knot.empty())
+    return parameter;
+  double tolerance = 1e-12 * (knot.back() - knot.front());
+  auto next = std::lower_bound(knot.begin(), knot.end(), parameter);
+  if (next != knot.end() && *next - parameter < tolerance)
+    return *next;
+  if (next != knot.begin() && parameter - *(next - 1) < tolerance)
+    return *(next - 1);
+  return parameter;
+}
+
+static CwStatus open_cad(const std::string &folder, const char *domain, CwCad *cad) {
+  std::string path = folder + "/" + domain + ".brep";
+  CwStatus status = cw_cad_read_shape(path.c_str(), cad);
+  if (status != CW_OK)
+    return status;
+  status = cw_face_table_read((folder + "/faces.csv").c_str(), domain, cad->face_map.Extent(), &cad->table);
+  if (status != CW_OK)
+    return status;
+  return cw_cad_read_parts(path.c_str(), cad);
+}
+
+CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad) {
+  CwStatus status = CW_OK;
+  *cad = nullptr;
+  try {
+    *cad = new CwCad();
+    status = open_cad(geometry_dir, domain, *cad);
+  } catch (const Standard_Failure &failure) {
+    const char *text = failure.GetMessageString();
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s/%s.brep: OpenCASCADE failed: %s", geometry_dir, domain,
+                     text ? text : "?");
+  } catch (const std::exception &failure) {
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s/%s.brep: %s", geometry_dir, domain, failure.what());
+  }
+  if (status != CW_OK)
+    cw_cad_close(cad);
+  return status;
+}
+
+void cw_cad_close(CwCad **cad) {
+  if (!*cad)
+    return;
+  cw_face_table_free(&(*cad)->table);
+  delete *cad;
+  *cad = nullptr;
+}
+
+int cw_cad_patch_count(const CwCad *cad) {
+  return cad->table.patch_count;
+}
+
+const char *cw_cad_patch_name(const CwCad *cad, int patch) {
+  return cad->table.patch[patch].name;
+}
+
+CwPatchKind cw_cad_patch_kind(const CwCad *cad, int patch) {
+  return cad->table.patch[patch].kind;
+}
+
+int cw_cad_face_count(const CwCad *cad) {
+  return cad->table.face_count;
+}
+
+int cw_cad_face_patch(const CwCad *cad, int face) {
+  return cad->table.face[face].patch;
+}
+
+const char *cw_cad_face_name(const CwCad *cad, int face) {
+  return cad->table.face[face].name;
+}
+
+int cw_cad_face_reversed(const CwCad *cad, int face) {
+  return cad->face[face].reversed;
+}
+
+void cw_cad_turn(CwCad *cad) {
+  cad->inside_out = !cad->inside_out;
+  for (CwCadFace &face : cad->face) face.reversed = !face.reversed;
+}
+
+static void to_metres(const gp_XYZ &mm, double x[3]) {
+  x[0] = mm.X() * metre_per_mm;
+  x[1] = mm.Y() * metre_per_mm;
+  x[2] = mm.Z() * metre_per_mm;
+}
+
+void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
+                       double xv[3]) {
+  const CwCadFace &f = cad->face[face];
+  double u = f.u_knots.snap(uv[0]), v = f.v_knots.snap(uv[1]);
+  gp_Pnt p;
+  if (!xu && !xv) {
+    f.surface.D0(u, v, p);
+  } else {
+    gp_Vec du, dv;
+    f.surface.D1(u, v, p, du, dv);
+    if (xu)
+      to_metres(du.XYZ(), xu);
+    if (xv)
+      to_metres(dv.XYZ(), xv);
+  }
+  to_metres(p.XYZ(), x);
+}
+
+double cw_cad_face_volume(const CwCad *cad, int face) {
+  try {
+    const TopoDS_Face &shape = TopoDS::Face(cad->face_map(face + 1));
+    BRepGProp_Face integrand(shape);
+    BRepGProp_Domain edges(shape);
+    double volume = BRepGProp_Vinert(integrand, edges, gp_Pnt(0, 0, 0)).Mass();
+    return (cad->inside_out ? -volume : volume) * metre_per_mm * metre_per_mm * metre_per_mm;
+  } catch (const Standard_Failure &) {
+    return 0;
+  }
+}
+
+double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
+  const CwCadFace &f = cad->face[face];
+  if (f.surface.GetType() == GeomAbs_Plane)
+    return 0;
+  gp_Pnt p;
+  gp_Vec su, sv, suu, svv, suv;
+  f.surface.D2(f.u_knots.snap(uv[0]), f.v_knots.snap(uv[1]), p, su, sv, suu, svv, suv);
+  gp_Vec normal = su.Crossed(sv);
+  double area = normal.Magnitude();
+  // A pole has no curvature of its own.
+  if (!(area > 1e-12 * su.Magnitude() * sv.Magnitude()) || !(area > 0))
+    return 0;
+  // Principal curvatures from the fundamental forms: mean H and Gauss K, k = H +- sqrt(H^2 - K).
+  double e = su.SquareMagnitude(), g = sv.SquareMagnitude(), m = su.Dot(sv), det = e * g - m * m;
+  double l = suu.Dot(normal) / area, n = svv.Dot(normal) / area, k = suv.Dot(normal) / area;
+  double mean = (e * n - 2 * m * k + g * l) / (2 * det);
+  double gauss = (l * n - k * k) / det;
+  return (std::fabs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss))) / metre_per_mm;
+}
+
+// One damped Newton step for the nearest point, in mm: from u, v with the vector d from x to the surface.
+static void nearest_step(const gp_Vec &d, const gp_Vec &su, const gp_Vec &sv, const gp_Vec &suu,
+                         const gp_Vec &svv, const gp_Vec &suv, const bool fixed[2], double step[2]) {
+  double gu = d.Dot(su), gv = d.Dot(sv);
+  double a = su.Dot(su) + d.Dot(suu), b = su.Dot(sv) + d.Dot(suv), c = sv.Dot(sv) + d.Dot(svv);
+  if (!(a > 0 && c > 0 && a * c - b * b > 1e-6 * a * c)) {
+    // Not convex here: Gauss-Newton, kept from being singular.
+    a = su.Dot(su) * (1 + 1e-9) + 1e-30;
+    b = su.Dot(sv);
+    c = sv.Dot(sv) * (1 + 1e-9) + 1e-30;
+  }
+  double det = a * c - b * b;
+  step[0] = fixed[0] ? 0 : fixed[1] ? -gu / a : -(c * gu - b * gv) / det;
+  step[1] = fixed[1] ? 0 : fixed[0] ? -gv / c : -(a * gv - b * gu) / det;
+}
+
+static bool pushes_out(double value, const double range[2], double gradient) {
+  return (value <= range[0] && gradient > 0) || (value >= range[1] && gradient < 0);
+}
+
+double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]) {
+  const CwCadFace &f = cad->face[face];
+  const gp_Pnt target(x[0] / metre_per_mm, x[1] / metre_per_mm, x[2] / metre_per_mm);
+  double u = std::clamp(uv[0], f.u_range[0], f.u_range[1]), v = std::clamp(uv[1], f.v_range[0], f.v_range[1]);
+  gp_Pnt p;
+  gp_Vec su, sv, suu, svv, suv;
+  f.surface.D2(f.u_knots.snap(u), f.v_knots.snap(v), p, su, sv, suu, svv, suv);
+  double distance = p.Distance(target);
+  for (int iteration = 0; iteration < 50 && distance > 0; iteration++) {
+    gp_Vec d(target, p);
+    bool fixed[2] = {pushes_out(u, f.u_range, d.Dot(su)), pushes_out(v, f.v_range, d.Dot(sv))};
+    double step[2];
+    nearest_step(d, su, sv, suu, svv, suv, fixed, step);
+    double moved = (su * step[0] + sv * step[1]).Magnitude();
+    if (!(moved > 1e-11))
+      break; // mm
+    bool nearer = false;
+    for (int halving = 0; halving < 12 && !nearer; halving++, step[0] /= 2, step[1] /= 2) {
+      double un = std::clamp(u + step[0], f.u_range[0], f.u_range[1]);
+      double vn = std::clamp(v + step[1], f.v_range[0], f.v_range[1]);
+      gp_Pnt pn;
+      f.surface.D0(f.u_knots.snap(un), f.v_knots.snap(vn), pn);
+      if (pn.Distance(target) >= distance)
+        continue;
+      nearer = true;
+      u = un;
+      v = vn;
+    }
+    if (!nearer)
+      break;
+    f.surface.D2(f.u_knots.snap(u), f.v_knots.snap(v), p, su, sv, suu, svv, suv);
+    distance = p.Distance(target);
+  }
+  uv[0] = u;
+  uv[1] = v;
+  return distance * metre_per_mm;
+}
+
+int cw_cad_edge_count(const CwCad *cad) {
+  return (int)cad->edge.size();
+}
+
+void cw_cad_edge_range(const CwCad *cad, int edge, double t[2]) {
+  t[0] = cad->edge[edge].range[0];
+  t[1] = cad->edge[edge].range[1];
+}
+
+void cw_cad_edge_vertices(const CwCad *cad, int edge, int vertex[2]) {
+  vertex[0] = cad->edge[edge].vertex[0];
+  vertex[1] = cad->edge[edge].vertex[1];
+}
+
+void cw_cad_edge_faces(const CwCad *cad, int edge, int face[2]) {
+  face[0] = cad->edge[edge].face[0];
+  face[1] = cad->edge[edge].face[1];
+}
+
+void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double xt[3]) {
+  const CwCadEdge &e = cad->edge[edge];
+  gp_Pnt p;
+  if (xt) {
+    gp_Vec tangent;
+    e.curve.D1(e.knots.snap(t), p, tangent);
+    to_metres(tangent.XYZ(), xt);
+  } else {
+    e.curve.D0(e.knots.snap(t), p);
+  }
+  to_metres(p.XYZ(), x);
+}
+
+void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]) {
+  const CwCadEdge &e = cad->edge[edge];
+  int side = e.face[0] == face ? 0 : 1;
+  gp_Pnt2d p;
+  e.pcurve[side].D0(e.pcurve_knots[side].snap(t), p);
+  uv[0] = p.X();
+  uv[1] = p.Y();
+  double on_edge[3], on_face[3];
+  cw_cad_edge_point(cad, edge, t, on_edge, nullptr);
+  cw_cad_face_point(cad, face, uv, on_face, nullptr, nullptr);
+  double off = std::hypot(on_edge[0] - on_face[0], on_edge[1] - on_face[1], on_edge[2] - on_face[2]);
+  if (off > pcurve_tolerance)
+    cw_cad_face_project(cad, face, on_edge, uv);
+}
+
+int cw_cad_vertex_count(const CwCad *cad) {
+  return cad->vertex_map.Extent();
+}
+
+void cw_cad_vertex_point(const CwCad *cad, int vertex, double x[3]) {
+  to_metres(BRep_Tool::Pnt(TopoDS::Vertex(cad->vertex_map(vertex + 1))).XYZ(), x);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The exact geometry of one domain (rotor, stator or a pipe), read from the geometry stage. The one bridge of the
+// mesher to OpenCASCADE. All lengths are metres here; the B-rep itself is in millimetres. Indices are
+// 0-based.
+#ifndef CUTWATER_MESHER_CAD_CAD_H
+#define CUTWATER_MESHER_CAD_CAD_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum { CW_PATCH_WALL, CW_PATCH_INLET, CW_PATCH_OUTLET, CW_PATCH_INTERFACE } CwPatchKind;
+
+typedef struct CwCad CwCad;
+
+// Opens GEOMETRY_DIR/DOMAIN.brep and its rows of GEOMETRY_DIR/faces.csv. Fails with CW_ERR_IO or CW_ERR_INPUT
+// (a face with a seam or a degenerate edge, a face without a row).
+CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
+void cw_cad_close(CwCad **cad);
+
+int cw_cad_patch_count(const CwCad *cad);
+const char *cw_cad_patch_name(const CwCad *cad, int patch);
+CwPatchKind cw_cad_patch_kind(const CwCad *cad, int patch);
+
+int cw_cad_face_count(const CwCad *cad);
+int cw_cad_face_patch(const CwCad *cad, int face);
+const char *cw_cad_face_name(const CwCad *cad, int face);
+
+// True where xu x xv points into the fluid, so that triangles that are counter-clockwise in (u,v) must be
+// turned to have their normal out of the domain.
+int cw_cad_face_reversed(const CwCad *cad, int face);
+
+// Takes the file for one whose faces point into the solid: turns them all. Whether it is one only a volume tells, so
+// that it is cw_background_join that finds it; before that the faces are as the file has them.
+void cw_cad_turn(CwCad *cad);
+
+// Point of a face at (u,v); with the first derivatives where xu and xv are not NULL.
+void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
+                       double xv[3]);
+
+// What the exact face adds to the volume of the solid: the integral of x.n / 3 over it, n out of the domain, m3; 0
+// where OpenCASCADE cannot have it.
+double cw_cad_face_volume(const CwCad *cad, int face);
+
+// Greatest absolute principal curvature, 1/m.
+double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]);
+
+// Nearest point of the face's surface to x by Newton from the given (u,v), which it updates. Returns the
+// distance, m.
+double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]);
+
+int cw_cad_edge_count(const CwCad *cad);
+// Ends of the edge's parameter; vertices at those ends; its two faces (both differ: there are no seams).
+void cw_cad_edge_range(const CwCad *cad, int edge, double t[2]);
+void cw_cad_edge_vertices(const CwCad *cad, int edge, int vertex[2]);
+void cw_cad_edge_faces(const CwCad *cad, int edge, int face[2]);
+// Point and tangent dx/dt (NULL: not wanted) at t; (u,v) of that point on one of its faces.
+void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double xt[3]);
+void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]);
+
+int cw_cad_vertex_count(const CwCad *cad);
+void cw_cad_vertex_point(const CwCad *cad, int vertex, double x[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

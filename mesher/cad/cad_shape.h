@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, background_tessellate.cpp).
+// Lengths in here are the millimetres of the B-rep; only the C functions speak metres.
+#ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
+#define CUTWATER_MESHER_CAD_CAD_SHAPE_H
+
+#include <vector>
+
+#include <Geom2dAdaptor_Curve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include "mesher/cad/cad.h"
+#include "mesher/cad/face_table.h"
+
+// Parameters at which a spline changes its polynomial. An adaptor keeps the polynomial of its last span; at a
+// parameter a rounding error off a knot the span, and with it the last bits, would follow from the call
+// before. So such parameters are put on the knot.
+struct CwCadKnots {
+  std::vector<double> knot; // ascending; empty for anything but splines
+  double snap(double parameter) const;
+};
+
+struct CwCadFace {
+  GeomAdaptor_Surface surface; // location applied
+  CwCadKnots u_knots, v_knots;
+  double u_range[2], v_range[2]; // of the surface; infinite where it is unbounded or periodic
+  int reversed;
+};
+
+struct CwCadEdge {
+  GeomAdaptor_Curve curve; // location applied
+  CwCadKnots knots;
+  double range[2];
+  int vertex[2];
+  int face[2];
+  Geom2dAdaptor_Curve pcurve[2]; // on face[0], face[1], with the parameter of the curve
+  CwCadKnots pcurve_knots[2];
+};
+
+struct CwCad {
+  TopoDS_Shape solid;
+  TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based
+  std::vector<CwCadFace> face;
+  std::vector<CwCadEdge> edge;
+  bool inside_out; // faces of the file point into the solid (cw_cad_turn)
+  CwFaceTable table;
+};
+
+// Fills everything but the table from the B-rep file; throws Standard_Failure where OpenCASCADE does.
+CwStatus cw_cad_read_shape(const char *path, CwCad *cad);
+// Checks edges and builds face and edge evaluators; needs the table for its messages.
+CwStatus cw_cad_read_parts(const char *path, CwCad *cad);
+
+#endif

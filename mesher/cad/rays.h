@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Rays through the fluid: where a ray leaves the domain, by a tree of boxes over the background triangles.
+#ifndef CUTWATER_MESHER_CAD_RAYS_H
+#define CUTWATER_MESHER_CAD_RAYS_H
+
+#include <stdint.h>
+
+#include "mesher/cad/background.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct CwRays CwRays;
+
+// The background must outlive the rays.
+CwStatus cw_rays_make(const CwBackground *background, CwRays **rays);
+void cw_rays_free(CwRays **rays);
+
+// First triangle through which x + s * direction (unit vector) leaves the domain, from < s < to; -1: none.
+// Hits from outside in are passed over: from a point on the wall they can only be rounding. *distance gets s.
+int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double direction[3], double from, double to,
+                     double *distance);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

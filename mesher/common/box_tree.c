@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/common/box_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/hilbert.h"
+#include "mesher/parallel/share.h"
+
+enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGITS = 1 << BITS };
+
+// An item, with what is left of its place on the curve once it is sorted by the last digit.
+typedef struct {
+  uint32_t key;
+  int32_t item;
+} Place;
+
+// Makes counts the places where those counted begin.
+static void begin(int32_t start[DIGITS]) {
+  int32_t sum = 0;
+  for (int32_t d = 0; d < DIGITS; d++) {
+    int32_t found = start[d];
+    start[d] = sum;
+    sum += found;
+  }
+}
+
+// Lists the items by key, digit by digit from the last; equal keys keep their order.
+static CwStatus sort_items(int32_t count, const uint64_t *key, int32_t *item) {
+  CwStatus status = CW_OK;
+  Place *once = NULL, *twice = NULL;
+  int32_t(*start)[DIGITS] = NULL;
+  CW_NEW(start, 3);
+  CW_NEW_UNSET(once, count);
+  CW_NEW_UNSET(twice, count);
+  for (int32_t i = 0; i < count; i++) {
+    for (int digit = 0; digit < 3; digit++) start[digit][key[i] >> digit * BITS & (DIGITS - 1)]++;
+  }
+  for (int digit = 0; digit < 3; digit++) begin(start[digit]);
+  for (int32_t i = 0; i < count; i++) {
+    once[start[0][key[i] & (DIGITS - 1)]++] = (Place){(uint32_t)(key[i] >> BITS), i};
+  }
+  for (int32_t i = 0; i < count; i++) twice[start[1][once[i].key & (DIGITS - 1)]++] = once[i];
+  for (int32_t i = 0; i < count; i++) item[start[2][twice[i].key >> BITS]++] = twice[i].item;
+done:
+  free(start);
+  free(once);
+  free(twice);
+  return status;
+}
+
+void cw_box_add(CwBox *sum, const CwBox *box) {
+  for (int k = 0; k < 3; k++) {
+    if (box->low[k] < sum->low[k]) sum->low[k] = box->low[k];
+    if (box->high[k] > sum->high[k]) sum->high[k] = box->high[k];
+  }
+}
+
+// What the tasks below read.
+typedef struct {
+  CwBoxOf box_of;
+  const void *context;
+  const CwBoxTree *tree;
+  const double *low;
+  double cells; // a metre
+} Boxes;
+
+static CwStatus find_key(void *context, int32_t i, void *out) {
+  const Boxes *boxes = context;
+  CwBox box = boxes->box_of(boxes->context, i);
+  uint32_t cell[3];
+  for (int k = 0; k < 3; k++) cell[k] = (uint32_t)(boxes->cells * (0.5 * (box.low[k] + box.high[k]) - boxes->low[k]));
+  *(uint64_t *)out = cw_hilbert_place(cell, BITS);
+  return CW_OK;
+}
+
+CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  uint64_t *key = NULL;
+  memset(tree, 0, sizeof *tree);
+  tree->count = count;
+  tree->leaves = 1;
+  while ((int64_t)tree->leaves * LEAF < count) tree->leaves *= 2;
+  CW_NEW_UNSET(key, count);
+  CW_NEW_UNSET(tree->item, count);
+  CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
+  double side = 0;
+  for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
+  Boxes boxes = {box_of, context, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
+  CW_TRY(cw_share("places of boxes", count, sizeof *key, find_key, &boxes, key));
+  CW_TRY(sort_items(count, key, tree->item));
+  CW_TRY(cw_box_tree_fit(tree, box_of, context));
+done:
+  free(key);
+  if (status != CW_OK) cw_box_tree_free(tree);
+  return status;
+}
+
+static CwStatus find_leaf(void *context, int32_t leaf, void *out) {
+  const Boxes *boxes = context;
+  CwBox sum = cw_box_empty();
+  for (int32_t i = leaf * LEAF; i < leaf * LEAF + LEAF && i < boxes->tree->count; i++) {
+    CwBox box = boxes->box_of(boxes->context, boxes->tree->item[i]);
+    cw_box_add(&sum, &box);
+  }
+  *(CwBox *)out = sum;
+  return CW_OK;
+}
+
+// The boxes of all nodes but the leaves.
+static void join_nodes(CwBoxTree *tree) {
+  for (int32_t k = tree->leaves - 1; k > 0; k--) {
+    tree->node[k] = tree->node[2 * k];
+    cw_box_add(&tree->node[k], &tree->node[2 * k + 1]);
+  }
+}
+
+CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context) {
+  CwStatus status = CW_OK;
+  Boxes boxes = {.box_of = box_of, .context = context, .tree = tree};
+  int32_t used = (tree->count + LEAF - 1) / LEAF;
+  for (int32_t k = tree->leaves + used; k < 2 * tree->leaves; k++) tree->node[k] = cw_box_empty();
+  CW_TRY(cw_share("boxes of leaves", used, sizeof *tree->node, find_leaf, &boxes, tree->node + tree->leaves));
+  join_nodes(tree);
+done:
+  return status;
+}
+
+void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,
+                        const void *context) {
+  Boxes boxes = {.box_of = box_of, .context = context, .tree = tree};
+  for (int32_t i = 0; i < tree->count; i++) {
+    int32_t leaf = i / LEAF;
+    if (tree->item[i] >= moved_count || !moved[tree->item[i]]) continue;
+    find_leaf(&boxes, leaf, &tree->node[tree->leaves + leaf]);
+    i = leaf * LEAF + LEAF - 1; // on to the next
+  }
+  join_nodes(tree);
+}
+
+void cw_box_tree_free(CwBoxTree *tree) {
+  free(tree->item);
+  free(tree->node);
+  memset(tree, 0, sizeof *tree);
+}
+
+// Visits the items of leaf node k; whether the walk ends.
+static int visit_leaf(const CwBoxTree *tree, int32_t k, CwBoxVisit visit, void *context) {
+  int32_t first = (k - tree->leaves) * LEAF;
+  for (int32_t i = first; i < first + LEAF && i < tree->count; i++) {
+    if (visit(context, tree->item[i])) return 1;
+  }
+  return 0;
+}
+
+void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit visit, void *context) {
+  int32_t stack[DEPTH], depth = 0;
+  if (tree->count) stack[depth++] = 1;
+  while (depth) {
+    int32_t k = stack[--depth];
+    if (!cw_boxes_meet(&tree->node[k], box)) continue;
+    if (k >= tree->leaves) {
+      if (visit_leaf(tree, k, visit, context)) return;
+      continue;
+    }
+    stack[depth++] = 2 * k + 1;
+    stack[depth++] = 2 * k;
+  }
+}
+
+static int ray_meets(const CwBox *box, const double x[3], const double g[3], const double inverse[3], double far) {
+  double enter = 0, leave = far;
+  for (int k = 0; k < 3; k++) {
+    double hair = 1e-9 * (box->high[k] - box->low[k]) + 1e-15;
+    if (!(box->low[k] <= box->high[k])) return 0;
+    if (g[k] == 0) {
+      if (x[k] < box->low[k] - hair || x[k] > box->high[k] + hair) return 0;
+      continue;
+    }
+    double a = (box->low[k] - hair - x[k]) * inverse[k], b = (box->high[k] + hair - x[k]) * inverse[k];
+    double near = a < b ? a : b, away = a < b ? b : a;
+    if (near > enter) enter = near;
+    if (away < leave) leave = away;
+  }
+  return enter <= leave * (1 + 1e-12);
+}
+
+void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
+                     void *context) {
+  int32_t stack[DEPTH], depth = 0;
+  double inverse[3];
+  for (int k = 0; k < 3; k++) inverse[k] = 1 / g[k];
+  if (tree->count) stack[depth++] = 1;
+  while (depth) {
+    int32_t k = stack[--depth];
+    if (!ray_meets(&tree->node[k], x, g, inverse, *far)) continue;
+    if (k >= tree->leaves) {
+      if (visit_leaf(tree, k, visit, context)) return;
+      continue;
+    }
+    stack[depth++] = 2 * k + 1;
+    stack[depth++] = 2 * k;
+  }
+}

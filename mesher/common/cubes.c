@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/common/cubes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALONG_MOST = 256 };
+
+static size_t cube_of(const CwCubes *cubes, const double x[3]) {
+  int32_t place[3];
+  for (int k = 0; k < 3; k++) {
+    int32_t at = (int32_t)((x[k] - cubes->low[k]) / cubes->size);
+    place[k] = at < cubes->count[k] ? at : cubes->count[k] - 1;
+  }
+  return cw_cube(cubes, place[0], place[1], place[2]);
+}
+
+CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes *cubes) {
+  CwStatus status = CW_OK;
+  size_t *of = NULL; // of each point
+  double high[3];
+  size_t all = 1;
+  memset(cubes, 0, sizeof *cubes);
+  cubes->size = size;
+  for (int k = 0; k < 3; k++) cubes->low[k] = high[k] = count ? x[0][k] : 0;
+  for (int32_t i = 0; i < count; i++) {
+    for (int k = 0; k < 3; k++) {
+      cubes->low[k] = x[i][k] < cubes->low[k] ? x[i][k] : cubes->low[k];
+      high[k] = x[i][k] > high[k] ? x[i][k] : high[k];
+    }
+  }
+  for (int k = 0; k < 3; k++) cubes->size = fmax(cubes->size, (high[k] - cubes->low[k]) / ALONG_MOST);
+  for (int k = 0; k < 3; k++) {
+    cubes->count[k] = (int32_t)((high[k] - cubes->low[k]) / cubes->size) + 1;
+    all *= (size_t)cubes->count[k];
+  }
+  CW_NEW(cubes->start, all + 1);
+  CW_NEW_UNSET(cubes->member, count);
+  CW_NEW_UNSET(of, count);
+  int32_t *end = cubes->start; // where the lists end, until they are filled from behind
+  for (int32_t i = 0; i < count; i++) {
+    of[i] = cube_of(cubes, x[i]);
+    end[of[i]]++;
+  }
+  for (size_t c = 0; c < all; c++) end[c + 1] += end[c];
+  for (int32_t i = count - 1; i >= 0; i--) cubes->member[--end[of[i]]] = i;
+done:
+  free(of);
+  if (status != CW_OK) cw_cubes_free(cubes);
+  return status;
+}
+
+void cw_cubes_free(CwCubes *cubes) {
+  free(cubes->start);
+  free(cubes->member);
+  memset(cubes, 0, sizeof *cubes);
+}
+
+void cw_cubes_near(const CwCubes *cubes, const double x[3], double radius, int32_t from[3], int32_t to[3]) {
+  for (int k = 0; k < 3; k++) {
+    double first = floor((x[k] - radius - cubes->low[k]) / cubes->size);
+    double last = floor((x[k] + radius - cubes->low[k]) / cubes->size);
+    from[k] = (int32_t)fmin(fmax(first, 0), cubes->count[k]);
+    to[k] = (int32_t)fmax(fmin(last, cubes->count[k] - 1), -1);
+  }
+}

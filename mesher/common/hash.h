@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Fingerprints: two 64-bit FNV-1a sums with different starts, 128 bits against chance, not against malice.
+#ifndef CUTWATER_MESHER_COMMON_HASH_H
+#define CUTWATER_MESHER_COMMON_HASH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+  uint64_t sum[2];
+} CwHash;
+
+CwHash cw_hash_start(void);
+void cw_hash_bytes(CwHash *hash, const void *data, size_t size);
+void cw_hash_hex(const CwHash *hash, char text[33]);
+
+#endif

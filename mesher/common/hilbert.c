@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/common/hilbert.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/mix.h"
+
+enum { BITS = 13, ROUND_BITS = 5, DIGIT = 11, DIGITS = (3 * BITS + ROUND_BITS + DIGIT - 1) / DIGIT };
+
+typedef struct {
+  uint64_t key;
+  int32_t point;
+} Place;
+
+// J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004): Gray code of the interleaved bits,
+// each cube turned so that its part of the curve begins where the one before ends.
+uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
+  uint32_t c[3] = {cell[0], cell[1], cell[2]};
+  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
+    uint32_t below = bit - 1;
+    for (int i = 0; i < 3; i++) {
+      if (c[i] & bit) {
+        c[0] ^= below;
+      } else {
+        uint32_t t = (c[0] ^ c[i]) & below;
+        c[0] ^= t;
+        c[i] ^= t;
+      }
+    }
+  }
+  c[1] ^= c[0];
+  c[2] ^= c[1];
+  uint32_t turn = 0;
+  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
+    if (c[2] & bit)
+      turn ^= bit - 1;
+  }
+  uint64_t place = 0;
+  for (int b = bits - 1; b >= 0; b--) {
+    for (int i = 0; i < 3; i++)
+      place = place << 1 | ((c[i] ^ turn) >> b & 1);
+  }
+  return place;
+}
+
+// Every point stays with probability 7/8 for the last round, every other one for the round before, and so on.
+static int round_of(uint64_t number, int rounds) {
+  uint64_t z = cw_mix(number + CW_MIX_STEP);
+  int round = rounds - 1;
+  while (round > 0 && (z & 7) == 0) {
+    round--;
+    z >>= 3;
+  }
+  return round;
+}
+
+CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
+  CwStatus status = CW_OK;
+  Place *from = NULL, *to = NULL;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, extent = 0.0;
+  int rounds = 1;
+  CW_NEW(from, count);
+  CW_NEW(to, count);
+  for (int i = 0; i < 3; i++) {
+    double high = -INFINITY;
+    for (int32_t p = 0; p < count; p++) {
+      low[i] = fmin(low[i], x[p][i]);
+      high = fmax(high, x[p][i]);
+    }
+    extent = fmax(extent, high - low[i]);
+  }
+  for (int32_t n = count; n > 64; n /= 8)
+    rounds++;
+  double cells = extent > 0.0 ? (double)(1 << BITS) / extent : 0.0;
+  for (int32_t p = 0; p < count; p++) {
+    uint32_t cell[3];
+    for (int i = 0; i < 3; i++) {
+      double place = (x[p][i] - low[i]) * cells;
+      cell[i] = place < (double)((1 << BITS) - 1) ? (uint32_t)place : (1u << BITS) - 1;
+    }
+    from[p].key = (uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | cw_hilbert_place(cell, BITS);
+    from[p].point = p;
+  }
+  for (int digit = 0; digit < DIGITS; digit++) { // sorts by digits from the lowest; stable
+    int32_t start[(1 << DIGIT) + 1] = {0};
+    int shift = digit * DIGIT;
+    uint64_t mask = (1u << DIGIT) - 1;
+    for (int32_t k = 0; k < count; k++)
+      start[(from[k].key >> shift & mask) + 1]++;
+    for (int d = 0; d < 1 << DIGIT; d++)
+      start[d + 1] += start[d];
+    for (int32_t k = 0; k < count; k++)
+      to[start[from[k].key >> shift & mask]++] = from[k];
+    Place *swap = from;
+    from = to;
+    to = swap;
+  }
+  for (int32_t k = 0; k < count; k++)
+    order[k] = from[k].point;
+done:
+  free(from);
+  free(to);
+  return status;
+}

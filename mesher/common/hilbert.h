@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// An order of points in which neighbours in memory are neighbours in space, and which is random enough for
+// incremental insertion: rounds of eight times as many points each, along Hilbert's curve within a round (N.
+// Amenta, S. Choi, G. Rote, Incremental constructions con BRIO, 2003).
+#ifndef CUTWATER_MESHER_COMMON_HILBERT_H
+#define CUTWATER_MESHER_COMMON_HILBERT_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// order[k] is the point that comes k-th. Deterministic.
+CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order);
+
+// Place of cell (i, j, k) of a cube with 2^bits cells along each axis on Hilbert's curve; cells next to each
+// other on the curve share a face. bits <= 21.
+uint64_t cw_hilbert_place(const uint32_t cell[3], int bits);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The triangles around each vertex of a surface.
+#ifndef CUTWATER_MESHER_COMMON_INCIDENT_H
+#define CUTWATER_MESHER_COMMON_INCIDENT_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+typedef struct {
+  int32_t *start;    // point_count + 1
+  int32_t *triangle; // of vertex v: start[v] .. start[v + 1] - 1, ascending
+} CwIncident;
+
+CwStatus cw_incident_make(int32_t point_count, int32_t triangle_count, const int32_t (*triangle)[3], CwIncident *made);
+void cw_incident_free(CwIncident *incident);
+
+#endif

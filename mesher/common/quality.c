@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/common/quality.h"
+
+#include <float.h>
+#include <math.h>
+
+static void subtract(const double a[3], const double b[3], double d[3]) {
+  for (int i = 0; i < 3; i++)
+    d[i] = a[i] - b[i];
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double c[3]) {
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+double cw_tet_volume6(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  double u[3], v[3], w[3], n[3];
+  subtract(b, a, u);
+  subtract(c, a, v);
+  subtract(d, a, w);
+  cross(u, v, n);
+  return dot(n, w);
+}
+
+double cw_tet_volume6_error(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  double u[3], v[3], w[3], permanent = 0.0;
+  subtract(b, a, u);
+  subtract(c, a, v);
+  subtract(d, a, w);
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    permanent += (fabs(u[j] * v[k]) + fabs(u[k] * v[j])) * fabs(w[i]);
+  }
+  // Shewchuk's bound of the plain determinant is (7 + 56 eps) eps with eps = 2^-53.
+  return 4.0 * DBL_EPSILON * permanent;
+}
+
+void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
+  static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; // outward, opposite corner i
+  double normal[4][3], square[4], longest = 0.0, shortest = INFINITY, squares = 0.0;
+  for (int i = 0; i < 4; i++) {
+    double u[3], v[3];
+    subtract(x[face[i][1]], x[face[i][0]], u);
+    subtract(x[face[i][2]], x[face[i][0]], v);
+    cross(u, v, normal[i]);
+    square[i] = dot(normal[i], normal[i]);
+    for (int j = i + 1; j < 4; j++) {
+      subtract(x[j], x[i], u);
+      double length = dot(u, u);
+      squares += length;
+      longest = fmax(longest, length);
+      shortest = fmin(shortest, length);
+    }
+  }
+  shape->volume = cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0;
+  double root = cbrt(3.0 * fmax(shape->volume, 0.0));
+  shape->mean_ratio = squares > 0.0 ? 12.0 * root * root / squares : 0.0;
+  shape->edge_longest = sqrt(longest);
+  shape->edge_shortest = sqrt(shortest);
+  double most = -1.0, least = 1.0; // cosines
+  for (int i = 0; i < 4; i++) {
+    for (int j = i + 1; j < 4; j++) {
+      double cosine = -dot(normal[i], normal[j]) / sqrt(square[i] * square[j]);
+      most = fmax(most, cosine);
+      least = fmin(least, cosine);
+    }
+  }
+  const double degrees = 180.0 / 3.14159265358979323846;
+  int flat = !(shape->volume > 0.0);
+  shape->dihedral_least = flat ? 0.0 : acos(fmin(most, 1.0)) * degrees;
+  shape->dihedral_greatest = flat ? 180.0 : acos(fmax(least, -1.0)) * degrees;
+}
+
+double cw_prism_scaled_jacobian(const double *const x[6]) {
+  double least = INFINITY;
+  for (int corner = 0; corner < 6; corner++) {
+    int top = corner / 3, at = corner % 3;
+    double u[3], v[3], w[3], n[3];
+    subtract(x[3 * top + (at + 1) % 3], x[corner], u);
+    subtract(x[3 * top + (at + 2) % 3], x[corner], v);
+    subtract(x[at + 3], x[at], w);
+    cross(u, v, n);
+    double scale = sqrt(dot(u, u) * dot(v, v) * dot(w, w));
+    double jacobian = scale > 0.0 ? dot(n, w) / scale : 0.0;
+    least = fmin(least, jacobian);
+  }
+  return least * 2.0 / sqrt(3.0); // sin 60 degrees is the best corner
+}

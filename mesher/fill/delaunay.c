@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/delaunay.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/hilbert.h"
+#include "mesher/common/predicates.h"
+
+// Relative band of the stored sphere within which the exact predicate decides, and the two conditions under
+// which the error of the sphere is within it: with P the product of the three edge lengths from one corner,
+// the error of the centre is below 32 eps P / |det| radii plus eps of its coordinates, and counts four times.
+static const double band = 1e-9;
+static const double slender = 2.4e9;    // on P^2 / det^2
+static const double far_centre = 5e-12; // on radius^2 / centre^2
+
+// Corners of the face opposite corner i, outward.
+static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+enum { LOCAL = 64 }; // points round a cavity that the edge table holds
+
+typedef struct {
+  int32_t corner[3]; // seen counter-clockwise from outside of the cavity
+  int32_t outer;     // 4 * tetrahedron + face beyond it
+  int32_t tet;       // the new one on it
+  int32_t local[3];
+} Side;
+
+typedef struct {
+  int32_t low, high, owner;
+} Edge;
+
+typedef struct {
+  int32_t *cavity, cavity_count, cavity_space;
+  Side *side;
+  int32_t side_count, side_space;
+  Edge *edge;
+  int32_t edge_space;
+  double (*arm)[4]; // from the new point to each point round the cavity, and its square
+  int32_t arm_space;
+  int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
+} Work;
+
+// Aligned to cache lines, which realloc is not. Pages not yet touched cost nothing.
+static CwStatus make_pool(CwDelaunay *mesh, int64_t space) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
+  CwDelaunayTet *pool = aligned_alloc(sizeof *pool, (size_t)space * sizeof *pool);
+  CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
+  if (mesh->tet_count)
+    memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
+  free(mesh->tet);
+  mesh->tet = pool;
+  mesh->tet_space = (int32_t)space;
+done:
+  return status;
+}
+
+CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
+  CwStatus status = CW_OK;
+  if (mesh->spare) {
+    *tet = mesh->spare - 1;
+    mesh->spare = mesh->tet[*tet].corner[1];
+    goto done;
+  }
+  if (mesh->tet_count == mesh->tet_space)
+    CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64));
+  *tet = mesh->tet_count++;
+  mesh->tet[*tet] = (CwDelaunayTet){.square = 0.0};
+done:
+  return status;
+}
+
+void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
+  mesh->tet[tet].corner[0] = -1;
+  mesh->tet[tet].corner[1] = mesh->spare;
+  mesh->spare = tet + 1;
+}
+
+CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point) {
+  CwStatus status = CW_OK;
+  if (mesh->point_count == mesh->point_space) {
+    int32_t space = mesh->point_space + mesh->point_space / 8 + 64;
+    CwDelaunayPoint *points = realloc(mesh->point, (size_t)space * sizeof *points);
+    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", space);
+    mesh->point = points;
+    int32_t *sources = realloc(mesh->source, (size_t)space * sizeof *sources);
+    CW_REQUIRE(sources, CW_ERR_MEMORY, "out of memory: %d points", space);
+    mesh->source = sources;
+    mesh->point_space = space;
+  }
+  *point = mesh->point_count++;
+  memcpy(mesh->point[*point].x, x, sizeof mesh->point->x);
+  mesh->point[*point].mark = 0;
+  mesh->source[*point] = source;
+done:
+  return status;
+}
+
+static inline const double *at(const CwDelaunay *mesh, int32_t p) {
+  return mesh->point[p].x;
+}
+
+static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
+  const int32_t *c = t->corner;
+  return cw_insphere(at(mesh, c[0]), at(mesh, c[1]), at(mesh, c[2]), at(mesh, c[3]), p) > 0;
+}
+
+static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
+  double x = p[0] - t->centre[0], y = p[1] - t->centre[1], z = p[2] - t->centre[2];
+  double square = x * x + y * y + z * z;
+  if (square > t->square * (1.0 + band))
+    return 0;
+  if (square < t->square * (1.0 - band))
+    return 1;
+  return in_sphere_exactly(mesh, t, p);
+}
+
+// The sphere through p and three points at a, b, c from it.
+static inline void set_sphere(CwDelaunayTet *t, const double p[3], const double a[4], const double b[4],
+                              const double c[4]) {
+  double bcx = b[1] * c[2] - b[2] * c[1], bcy = b[2] * c[0] - b[0] * c[2], bcz = b[0] * c[1] - b[1] * c[0];
+  double cax = c[1] * a[2] - c[2] * a[1], cay = c[2] * a[0] - c[0] * a[2], caz = c[0] * a[1] - c[1] * a[0];
+  double abx = a[1] * b[2] - a[2] * b[1], aby = a[2] * b[0] - a[0] * b[2], abz = a[0] * b[1] - a[1] * b[0];
+  double det = a[0] * bcx + a[1] * bcy + a[2] * bcz, half = 0.5 / det;
+  double x = (a[3] * bcx + b[3] * cax + c[3] * abx) * half;
+  double y = (a[3] * bcy + b[3] * cay + c[3] * aby) * half;
+  double z = (a[3] * bcz + b[3] * caz + c[3] * abz) * half;
+  double square = x * x + y * y + z * z;
+  t->centre[0] = x += p[0];
+  t->centre[1] = y += p[1];
+  t->centre[2] = z += p[2];
+  int good = a[3] * b[3] * c[3] < slender * det * det && square > far_centre * (x * x + y * y + z * z);
+  t->square = good ? square : NAN;
+}
+
+// A tetrahedron whose sphere holds p, from `start`: towards p through any face that has p beyond it. -1: p is
+// a corner of *last.
+static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], int32_t *last) {
+  int32_t t = start, from = -1;
+  uint32_t turn = 0;
+  int exact = 0;
+  for (int64_t step = 0;; step++) {
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    if (in_sphere(mesh, tet, p))
+      return t;
+    int32_t next = -1;
+    exact |= step > 4 * (int64_t)mesh->tet_count; // rounding might lead in circles
+    for (int again = exact; again < 2 && next < 0; again++) {
+      exact = again;
+      for (int k = 0; k < 4 && next < 0; k++) {
+        int i = (int)((turn + (uint32_t)k) & 3);
+        if (tet->neighbour[i] < 0 || (!again && tet->neighbour[i] >> 2 == from))
+          continue;
+        const double *a = at(mesh, tet->corner[tet_face[i][0]]), *b = at(mesh, tet->corner[tet_face[i][1]]);
+        const double *c = at(mesh, tet->corner[tet_face[i][2]]);
+        int beyond;
+        if (again) {
+          beyond = cw_orient3d(a, b, c, p) > 0;
+        } else {
+          double ax = a[0] - p[0], ay = a[1] - p[1], az = a[2] - p[2];
+          double bx = b[0] - p[0], by = b[1] - p[1], bz = b[2] - p[2];
+          double cx = c[0] - p[0], cy = c[1] - p[1], cz = c[2] - p[2];
+          beyond = (ay * bz - az * by) * cx + (az * bx - ax * bz) * cy + (ax * by - ay * bx) * cz < 0.0;
+        }
+        if (beyond)
+          next = tet->neighbour[i] >> 2;
+      }
+    }
+    if (next < 0) {
+      *last = t;
+      return -1;
+    }
+    from = t;
+    t = next;
+    turn = turn * 1664525u + 1013904223u;
+    turn ^= turn >> 16;
+  }
+}
+
+// All tetrahedra whose spheres hold p, from one of them; their square becomes -1.
+static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3]) {
+  CwStatus status = CW_OK;
+  work->cavity_count = work->side_count = 0;
+  CW_GROW(work->cavity, work->cavity_space, 1);
+  work->cavity[work->cavity_count++] = start;
+  mesh->tet[start].square = -1.0;
+  for (int32_t head = 0; head < work->cavity_count; head++) {
+    const CwDelaunayTet *tet = &mesh->tet[work->cavity[head]];
+    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
+    CW_GROW(work->side, work->side_space, work->side_count + 4);
+    for (int i = 0; i < 4; i++) {
+      int32_t outer = tet->neighbour[i];
+      if (outer >= 0) {
+        CwDelaunayTet *next = &mesh->tet[outer >> 2];
+        if (next->square == -1.0)
+          continue;
+        if (in_sphere(mesh, next, p)) {
+          next->square = -1.0;
+          work->cavity[work->cavity_count++] = outer >> 2;
+          continue;
+        }
+      }
+      Side *side = &work->side[work->side_count++];
+      for (int k = 0; k < 3; k++)
+        side->corner[k] = tet->corner[tet_face[i][k]];
+      side->outer = outer;
+    }
+  }
+done:
+  return status;
+}
+
+static int compare_edges(const void *left, const void *right) {
+  const Edge *a = left, *b = right;
+  if (a->low != b->low)
+    return a->low < b->low ? -1 : 1;
+  if (a->high != b->high)
+    return a->high < b->high ? -1 : 1;
+  return a->owner < b->owner ? -1 : 1;
+}
+
+static inline void join(CwDelaunay *mesh, int32_t one, int32_t other) {
+  mesh->tet[one >> 2].neighbour[one & 3] = other;
+  mesh->tet[other >> 2].neighbour[other & 3] = one;
+}
+
+// Joins the new tetrahedra at the edges of a cavity with more points than the table holds.
+static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
+  CwStatus status = CW_OK;
+  int32_t count = 0;
+  CW_GROW(work->edge, work->edge_space, 3 * (int64_t)work->side_count);
+  for (int32_t k = 0; k < work->side_count; k++) {
+    const Side *side = &work->side[k];
+    for (int i = 0; i < 3; i++) {
+      int32_t a = side->corner[(i + 1) % 3], b = side->corner[(i + 2) % 3];
+      work->edge[count++] = (Edge){a < b ? a : b, a < b ? b : a, 4 * side->tet + (i == 0 ? 0 : 3 - i)};
+    }
+  }
+  qsort(work->edge, (size_t)count, sizeof *work->edge, compare_edges);
+  for (int32_t k = 0; k + 1 < count; k += 2)
+    join(mesh, work->edge[k].owner, work->edge[k + 1].owner);
+done:
+  return status;
+}
+
+// Tetrahedra from the new point to all sides of the cavity, which it sees.
+static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
+  CwStatus status = CW_OK;
+  const double *p = mesh->point[point].x;
+  int32_t locals = 0, *table = work->table;
+  for (int32_t k = 0; k < work->side_count; k++) {
+    Side *side = &work->side[k];
+    CW_GROW(work->arm, work->arm_space, locals + 3);
+    for (int i = 0; i < 3; i++) {
+      CwDelaunayPoint *q = &mesh->point[side->corner[i]];
+      if (q->mark >> 32 != (uint64_t)point) {
+        double *arm = work->arm[locals];
+        q->mark = (uint64_t)point << 32 | (uint64_t)locals++;
+        for (int j = 0; j < 3; j++)
+          arm[j] = q->x[j] - p[j];
+        arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
+      }
+      side->local[i] = (int32_t)(uint32_t)q->mark;
+    }
+    if (k < work->cavity_count)
+      side->tet = work->cavity[k];
+    else
+      CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
+  }
+  for (int32_t k = work->side_count; k < work->cavity_count; k++)
+    cw_delaunay_free_tet(mesh, work->cavity[k]);
+  int tabled = locals <= LOCAL;
+  for (int32_t k = 0; k < work->side_count; k++) {
+    const Side *side = &work->side[k];
+    CwDelaunayTet *tet = &mesh->tet[side->tet];
+    const int32_t *l = side->local;
+    tet->corner[0] = side->corner[0];
+    tet->corner[1] = side->corner[2];
+    tet->corner[2] = side->corner[1];
+    tet->corner[3] = point;
+    tet->neighbour[3] = side->outer;
+    if (side->outer >= 0)
+      mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
+    set_sphere(tet, p, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
+    if (!tabled)
+      continue;
+    table[l[1] * LOCAL + l[2]] = 4 * side->tet;
+    table[l[2] * LOCAL + l[0]] = 4 * side->tet + 2;
+    table[l[0] * LOCAL + l[1]] = 4 * side->tet + 1;
+  }
+  if (!tabled) {
+    CW_TRY(join_by_sorting(mesh, work));
+    goto done;
+  }
+  for (int32_t k = 0; k < work->side_count; k++) {
+    const Side *side = &work->side[k];
+    const int32_t *l = side->local;
+    int32_t *neighbour = mesh->tet[side->tet].neighbour;
+    neighbour[0] = table[l[2] * LOCAL + l[1]];
+    neighbour[2] = table[l[0] * LOCAL + l[2]];
+    neighbour[1] = table[l[1] * LOCAL + l[0]];
+  }
+done:
+  return status;
+}
+
+static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, const CwDelaunayTet *tet,
+                               int32_t *space) {
+  CwStatus status = CW_OK;
+  CW_GROW(mesh->duplicate, *space, mesh->duplicate_count + 1);
+  int32_t *pair = mesh->duplicate[mesh->duplicate_count++];
+  pair[0] = given;
+  pair[1] = -1;
+  for (int i = 0; i < 4; i++) {
+    const double *a = at(mesh, tet->corner[i]), *b = at(mesh, point);
+    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2])
+      pair[1] = mesh->source[tet->corner[i]];
+  }
+done:
+  return status;
+}
+
+// Points of a tetrahedron with corners at (1, 1, 1), (1, -1, -1), ... times `reach` round the others; its
+// inscribed sphere has the radius reach / sqrt(3).
+static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
+  CwStatus status = CW_OK;
+  static const int sign[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
+  double middle[3], reach = 0.0, size = 0.0;
+  for (int i = 0; i < 3; i++) {
+    double low = x[0][i], high = x[0][i];
+    for (int32_t p = 0; p < count; p++) {
+      CW_REQUIRE(isfinite(x[p][i]), CW_ERR_MESH, "point %d is not finite", p);
+      low = fmin(low, x[p][i]);
+      high = fmax(high, x[p][i]);
+    }
+    middle[i] = 0.5 * (low + high);
+    reach += 0.25 * (high - low) * (high - low);
+    size = fmax(size, fabs(middle[i]));
+  }
+  reach = 4.0 * sqrt(reach) + 1e-3 * size;
+  if (!(reach > 0.0))
+    reach = 1.0;
+  for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
+    for (int i = 0; i < 3; i++)
+      mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
+    mesh->source[k] = -1;
+  }
+done:
+  return status;
+}
+
+static void first_tet(CwDelaunay *mesh) {
+  CwDelaunayTet *tet = &mesh->tet[0];
+  *tet = (CwDelaunayTet){.square = NAN};
+  for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
+    tet->neighbour[k] = -1;
+    tet->corner[k] = k;
+  }
+  if (cw_orient3d(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3)) < 0) {
+    tet->corner[0] = 1;
+    tet->corner[1] = 0;
+  }
+  mesh->tet_count = 1;
+}
+
+CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  int32_t *order = NULL;
+  memset(mesh, 0, sizeof *mesh);
+  CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed",
+             count, INT32_MAX / 32 - 1);
+  CW_NEW(order, count);
+  CW_TRY(cw_hilbert_order(count, x, order));
+  CW_NEW(mesh->point, count + CW_DELAUNAY_CORNERS);
+  CW_NEW(mesh->source, count + CW_DELAUNAY_CORNERS);
+  mesh->point_count = mesh->point_space = count + CW_DELAUNAY_CORNERS;
+  CW_TRY(enclose(mesh, count, x));
+  for (int32_t k = 0; k < count; k++) {
+    memcpy(mesh->point[CW_DELAUNAY_CORNERS + k].x, x[order[k]], sizeof *x);
+    mesh->source[CW_DELAUNAY_CORNERS + k] = order[k];
+  }
+done:
+  free(order);
+  if (status != CW_OK)
+    cw_delaunay_free(mesh);
+  return status;
+}
+
+CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  Work *work = NULL;
+  int32_t last = 0, duplicate_space = 0, end = mesh->point_count;
+  CW_NEW(work, 1);
+  CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256)); // 6.8 as a rule; pages that are not used cost nothing
+  first_tet(mesh);
+  mesh->point_count = CW_DELAUNAY_CORNERS;
+  for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
+    int32_t point = mesh->point_count, found = 0;
+    mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
+    mesh->source[point] = mesh->source[k];
+    int32_t start = walk(mesh, last, mesh->point[point].x, &found);
+    if (start < 0) {
+      CW_TRY(note_duplicate(mesh, mesh->source[k], point, &mesh->tet[found], &duplicate_space));
+      continue;
+    }
+    mesh->point_count++;
+    CW_TRY(find_cavity(mesh, work, start, mesh->point[point].x));
+    CW_TRY(fill_cavity(mesh, work, point));
+    last = work->side[0].tet;
+  }
+done:
+  if (work) {
+    free(work->cavity);
+    free(work->side);
+    free(work->edge);
+    free(work->arm);
+  }
+  free(work);
+  if (status != CW_OK)
+    cw_delaunay_free(mesh);
+  return status;
+}
+
+CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_delaunay_order(count, x, mesh));
+  CW_TRY(cw_delaunay_connect(mesh));
+done:
+  return status;
+}
+
+void cw_delaunay_free(CwDelaunay *mesh) {
+  free(mesh->point);
+  free(mesh->source);
+  free(mesh->tet);
+  free(mesh->duplicate);
+  memset(mesh, 0, sizeof *mesh);
+}

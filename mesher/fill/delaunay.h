@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Delaunay tetrahedra of points: incremental insertion (Bowyer, Watson) in a biased randomised order along
+// Hilbert's curve, with exact signs. The points lie inside one large tetrahedron, whose corners are points 0
+// to 3 here.
+#ifndef CUTWATER_MESHER_FILL_DELAUNAY_H
+#define CUTWATER_MESHER_FILL_DELAUNAY_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { CW_DELAUNAY_CORNERS = 4 }; // of the enclosing tetrahedron
+
+// One cache line, so that the test of a sphere touches no other.
+typedef struct {
+  double centre[3], square; // of the circumscribed sphere, radius^2; square is NaN where it is not known well
+                            // enough; of no use once the mesh is made, and free for marks
+  int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
+  int32_t neighbour[4]; // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
+} CwDelaunayTet;
+
+typedef struct {
+  double x[3];
+  uint64_t mark; // inner use: insertion number and local number of the last cavity that it bounded
+} CwDelaunayPoint;
+
+typedef struct {
+  int32_t point_count, point_space; // given ones and the four corners
+  CwDelaunayPoint *point;           // in the order of insertion
+  int32_t *source;                  // the given point that each is; -1 for the corners
+  int32_t tet_count, tet_space;     // with free places
+  CwDelaunayTet *tet;
+  int32_t spare; // 1 + the free place to use next, 0: none; corner[1] of each leads on likewise
+  int32_t duplicate_count;
+  int32_t (*duplicate)[2]; // given points that were left out, and the one at the same place
+} CwDelaunay;
+
+// Empty sphere of every tetrahedron, exactly; ties are broken by the order of insertion. Deterministic.
+// Memory: 64 bytes a tetrahedron and 36 a point.
+CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh);
+// The same in two steps: after the first the mesh has its own copy of the points, and x may be freed before
+// the tetrahedra take their memory. Each leaves the mesh empty where it fails.
+CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh);
+CwStatus cw_delaunay_connect(CwDelaunay *mesh);
+void cw_delaunay_free(CwDelaunay *mesh);
+
+// A free place for a tetrahedron; the caller fills it.
+CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet);
+void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet);
+// A point that no tetrahedron has yet.
+CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Fills a closed triangulated boundary with tetrahedra; the boundary is kept as it is. The one bridge to
+// TetGen.
+#ifndef CUTWATER_MESHER_FILL_FILL_H
+#define CUTWATER_MESHER_FILL_FILL_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/common/size_at.h"
+#include "mesher/fill/lattice_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t point_count;
+  const double (*x)[3];
+  int32_t triangle_count;
+  const int32_t (*triangle)[3]; // closed, normal out of the region
+  CwSizeAt size;
+  const void *size_context;
+  const char *name; // for messages: "rotor region 3"
+  // The last `row_count` triangles have a row of points over them (fill_row.h). The last `open_count` keep points of
+  // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the
+  // inner points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
+  int32_t row_count, open_count, inner_count;
+  const double (*inner)[3];
+  const CwLatticeSite *inner_site;
+} CwFillInput;
+
+// How the boundary was recovered.
+typedef struct {
+  int32_t missing; // boundary triangles that the Delaunay mesh did not have
+  int32_t flips;   // to bring them in
+  int32_t cleared; // triangles recovered by a hollow cleared and filled from new points
+  int32_t divided; // points that divided the boundary for a while, and were then moved inside
+  int32_t tetgen;  // 1: by TetGen, after all; the others then tell of the kernel's try
+} CwFillWay;
+
+typedef struct {
+  int32_t point_count; // the given points first, in their order
+  double (*x)[3];
+  int32_t tetrahedron_count;
+  int32_t (*tetrahedron)[4]; // (x1 - x0) x (x2 - x0) points towards x3: positive volume
+  CwFillWay way;
+} CwFill;
+
+// TetGen alone. Fails with CW_ERR_MESH naming the region and a place (mm) where the boundary is open or crosses
+// itself.
+// Deterministic. Not thread-safe: the size callback of TetGen carries no context.
+CwStatus cw_fill(const CwFillInput *input, CwFill *fill);
+void cw_fill_free(CwFill *fill);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,527 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/fill_points.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/mix.h"
+#include "mesher/common/vec.h"
+#include "mesher/fill/fill_columns.h"
+#include "mesher/fill/fill_reach.h"
+#include "mesher/fill/fill_row.h"
+
+// Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
+static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
+static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
+static const double coarse = 2.2;        // cells of lists, over wanted cells
+enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9, SEEN = 13 };
+
+// A cell of the octree that is not cut for the sake of the boundary any more.
+typedef struct {
+  int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
+  int32_t list_count;   // items that reach it, from list
+  int64_t list;
+  int whole;  // no item reaches it: all of it is inside
+  int clear;  // no item is in it
+  int counts; // its centre is inside: its leaves count for the fit of the spacing
+} Cell;
+
+typedef struct {
+  uint64_t key; // as in CwLatticeSite
+  int32_t cell, level;
+} Place;
+
+// Of the row, where it is chosen.
+typedef struct {
+  CwRowPlace place;
+  int32_t cell; // that it lies in, or -1
+  int chosen;
+} RowPoint;
+
+// Items: the triangles of the boundary, then the places of the row.
+typedef struct {
+  const CwFillInput *input;
+  CwColumns *columns;
+  CwReachBox *box;   // of each item
+  CwReachBall *ball; // of each triangle
+  RowPoint *row;
+  double origin[3], unit; // finest cell, m
+  double fit;             // factor on the wanted spacing
+  double clearance;       // factor on the distances to the boundary
+  double wanted, found;   // cells that the size field asks for, and cells found
+  Cell *cell;
+  int32_t cell_count, cell_space;
+  int32_t *list;
+  int64_t list_count, list_space;
+  Place *place;
+  int64_t place_count, place_space;
+  uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
+} Tree;
+
+#define ROOM(array, space, wanted)                                                                           \
+  do {                                                                                                       \
+    if ((wanted) > (space)) {                                                                                \
+      size_t more = 3 * (size_t)(wanted) / 2 + 1024;                                                         \
+      void *grown = realloc((array), more * sizeof *(array));                                                \
+      CW_REQUIRE(grown, CW_ERR_MEMORY, "%s: out of memory: %zu places", tree->input->name, more);            \
+      (array) = grown;                                                                                       \
+      (space) = (__typeof__(space))more;                                                                     \
+    }                                                                                                        \
+  } while (0)
+
+static double size_at(const CwFillInput *input, const double x[3]) {
+  return input->size(input->size_context, x);
+}
+
+// Fails where the field gives no length.
+static CwStatus wanted_size(const CwFillInput *input, const double x[3], double *size) {
+  CwStatus status = CW_OK;
+  *size = size_at(input, x);
+  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH,
+             "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm", input->name, *size, 1e3 * x[0],
+             1e3 * x[1], 1e3 * x[2]);
+done:
+  return status;
+}
+
+static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
+  CwStatus status = CW_OK;
+  const CwFillInput *input = tree->input;
+  const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
+  const double *c = input->x[input->triangle[t][2]];
+  double u[3], v[3], normal[3], mean[3], h;
+  for (int i = 0; i < 3; i++)
+    mean[i] = (a[i] + b[i] + c[i]) / 3.0;
+  CW_TRY(wanted_size(input, mean, &h));
+  cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, &tree->box[t], &tree->ball[t]);
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_cross(u, v, normal);
+  double here = cw_norm(normal);
+  *area += here;
+  *weight += here * log(h);
+done:
+  return status;
+}
+
+static double distance_square(const double a[3], const double b[3]) {
+  double d[3];
+  cw_sub(a, b, d);
+  return cw_dot(d, d);
+}
+
+// Whether an item of the cell keeps a point of the lattice, or of the row, away from x.
+static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3], int of_row) {
+  const CwFillInput *input = tree->input;
+  double h = tree->clearance * size_at(input, x), apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
+  float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
+  for (int32_t k = cell->list_count - 1; k >= 0; k--) { // the row first: it is soon asked
+    int32_t t = tree->list[cell->list + k], place = t - input->triangle_count;
+    if ((place >= 0 && !tree->row[place].chosen) || !cw_reach_holds(&tree->box[t], p))
+      continue;
+    if (place >= 0) {
+      const CwRowPlace *point = &tree->row[place].place;
+      double nearest = apart * point->spacing;
+      if (distance_square(x, point->x) < nearest * nearest)
+        return 1;
+      continue;
+    }
+    int open = !of_row && t >= input->triangle_count - input->open_count;
+    const int32_t *q = input->triangle[t];
+    if ((!open && cw_reach_in_ball(&tree->ball[t], x)) ||
+        cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], &tree->ball[t], h, tree->clearance, x))
+      return 1;
+  }
+  return 0;
+}
+
+// 1 where x lies inside.
+static CwStatus test_inside(Tree *tree, const double x[3], int *inside) {
+  CwStatus status = CW_OK;
+  int32_t count;
+  const double *z;
+  *inside = 0;
+  CW_TRY(cw_columns_cut(tree->columns, x[0], x[1], &count, &z));
+  for (int32_t k = 0; k < count; k++)
+    *inside ^= z[k] > x[2];
+done:
+  return status;
+}
+
+static void centre_of(const Tree *tree, const int32_t at[3], int level, double x[3]) {
+  for (int i = 0; i < 3; i++)
+    x[i] = tree->origin[i] + tree->unit * (at[i] + 0.5 * (double)(1 << level));
+}
+
+static void child_of(const int32_t at[3], int level, int child, int32_t corner[3]) {
+  for (int i = 0; i < 3; i++)
+    corner[i] = at[i] + ((child >> i & 1) << (level - 1));
+}
+
+// Whether no item reaches into the box of a cell, as far as their own boxes tell. They keep no distance here, as
+// those in the tree do.
+static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
+  const CwFillInput *input = tree->input;
+  double low[3], high[3];
+  for (int i = 0; i < 3; i++) {
+    low[i] = tree->origin[i] + tree->unit * at[i];
+    high[i] = tree->origin[i] + tree->unit * (at[i] + (1 << level));
+  }
+  for (int32_t k = 0; k < list_count; k++) {
+    int32_t t = tree->list[list + k], of_row = t - input->triangle_count;
+    const int32_t *q = of_row < 0 ? input->triangle[t] : NULL;
+    const double *a = q ? input->x[q[0]] : tree->row[of_row].place.x, *b = q ? input->x[q[1]] : a;
+    const double *c = q ? input->x[q[2]] : a;
+    int apart = 0;
+    for (int i = 0; i < 3; i++)
+      apart |= ((a[i] < low[i]) & (b[i] < low[i]) & (c[i] < low[i])) |
+               ((a[i] > high[i]) & (b[i] > high[i]) & (c[i] > high[i]));
+    if (!apart)
+      return 0;
+  }
+  return 1;
+}
+
+// Cuts down to coarse cells; the list of the cell's items stands at the end of tree->list. *kept: it is
+// in use there.
+static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
+                           int *kept) {
+  CwStatus status = CW_OK;
+  double centre[3], size, edge = tree->unit * (double)(1 << level);
+  int inside;
+  *kept = 0;
+  centre_of(tree, at, level, centre);
+  CW_TRY(wanted_size(tree->input, centre, &size));
+  if (list_count == 0 || level == 0 || edge <= coarse * lattice_constant * size) {
+    int clear = is_clear(tree, at, level, list, list_count);
+    CW_TRY(test_inside(tree, centre, &inside));
+    if (list_count == 0 && !inside)
+      goto done;
+    ROOM(tree->cell, tree->cell_space, tree->cell_count + 1);
+    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, list_count == 0, clear, inside};
+    *kept = 1;
+    goto done;
+  }
+  for (int child = 0; child < 8; child++) {
+    int32_t corner[3], count = 0;
+    int64_t from = tree->list_count;
+    float low[3], high[3];
+    int kept_child;
+    child_of(at, level, child, corner);
+    for (int i = 0; i < 3; i++) {
+      low[i] = nextafterf((float)(tree->origin[i] + tree->unit * corner[i]), -INFINITY);
+      high[i] = nextafterf((float)(tree->origin[i] + tree->unit * corner[i] + 0.5 * edge), INFINITY);
+    }
+    ROOM(tree->list, tree->list_space, from + list_count);
+    for (int32_t k = 0; k < list_count; k++) {
+      int32_t t = tree->list[list + k];
+      const CwReachBox *b = &tree->box[t];
+      tree->list[from + count] = t;
+      count += (b->low[0] <= high[0]) & (b->high[0] >= low[0]) & (b->low[1] <= high[1]) &
+               (b->high[1] >= low[1]) & (b->low[2] <= high[2]) & (b->high[2] >= low[2]);
+    }
+    tree->list_count += count;
+    CW_TRY(cut_coarse(tree, corner, level - 1, from, count, &kept_child));
+    if (!kept_child)
+      tree->list_count = from;
+    *kept |= kept_child;
+  }
+done:
+  return status;
+}
+
+// Cuts down to the wanted spacing; counts, or stores the corners and centres of the leaves.
+static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int level, int store) {
+  CwStatus status = CW_OK;
+  double centre[3], asked, edge = tree->unit * (double)(1 << level);
+  centre_of(tree, at, level, centre);
+  CW_TRY(wanted_size(tree->input, centre, &asked));
+  asked *= lattice_constant;
+  if (level > 0 && edge > 1.4142135623730951 * tree->fit * asked) {
+    for (int child = 0; child < 8; child++) {
+      int32_t corner[3];
+      child_of(at, level, child, corner);
+      CW_TRY(cut_fine(tree, cell, corner, level - 1, store));
+    }
+    goto done;
+  }
+  if (!store) {
+    tree->found += 1.0;
+    tree->wanted += edge / asked * (edge / asked) * (edge / asked);
+    goto done;
+  }
+  ROOM(tree->place, tree->place_space, tree->place_count + 9);
+  for (int k = 0; k < 9; k++) {
+    int32_t there[3];
+    for (int i = 0; i < 3; i++)
+      there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
+    uint64_t key = cw_lattice_key(there), *seen = &tree->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
+    if (*seen != key) // of equal places the first one counts
+      tree->place[tree->place_count++] = (Place){key, cell, level};
+    *seen = key;
+  }
+done:
+  return status;
+}
+
+static CwStatus cut_cells(Tree *tree, int store) {
+  CwStatus status = CW_OK;
+  tree->wanted = tree->found = 0.0;
+  for (int32_t c = 0; c < tree->cell_count; c++) {
+    const Cell *cell = &tree->cell[c];
+    if (store || cell->counts)
+      CW_TRY(cut_fine(tree, c, cell->at, cell->level, store));
+  }
+done:
+  return status;
+}
+
+// Finds the factor on the wanted spacing with which there are as many cells as the size field asks for. The
+// count falls with the factor, but in steps where sizes are nearly uniform: the best of the tried ones is
+// taken.
+static CwStatus fit_spacing(Tree *tree) {
+  CwStatus status = CW_OK;
+  double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
+  for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
+    CW_TRY(cut_cells(tree, 0));
+    if (!(tree->wanted > 0.0))
+      break;
+    double ratio = tree->found / tree->wanted, error = fabs(log(ratio));
+    if (error < best_error) {
+      best = tree->fit;
+      best_error = error;
+    }
+    if (ratio > 1.0)
+      low = tree->fit;
+    else
+      high = tree->fit;
+    double next = tree->fit * cbrt(ratio);
+    tree->fit = next > low && next < high && round < 3 ? next : sqrt(low * high);
+  }
+  tree->fit = best;
+done:
+  return status;
+}
+
+// By key, stable. Bits that all keys have in common are left out.
+static CwStatus sort_places(Tree *tree) {
+  CwStatus status = CW_OK;
+  Place *other = NULL, *swap;
+  uint64_t any = 0, all = ~0ull, mask = (1 << DIGIT) - 1;
+  for (int64_t k = 0; k < tree->place_count; k++) {
+    any |= tree->place[k].key;
+    all &= tree->place[k].key;
+  }
+  CW_NEW(other, tree->place_count);
+  for (int shift = 0; shift < 63;) {
+    if (!((any ^ all) >> shift & 1)) {
+      shift++;
+      continue;
+    }
+    int64_t start[(1 << DIGIT) + 1] = {0};
+    for (int64_t k = 0; k < tree->place_count; k++)
+      start[(tree->place[k].key >> shift & mask) + 1]++;
+    for (int d = 0; d < 1 << DIGIT; d++)
+      start[d + 1] += start[d];
+    for (int64_t k = 0; k < tree->place_count; k++)
+      other[start[tree->place[k].key >> shift & mask]++] = tree->place[k];
+    swap = tree->place;
+    tree->place = other;
+    other = swap;
+    tree->place_space = tree->place_count;
+    shift += DIGIT;
+  }
+done:
+  free(other);
+  return status;
+}
+
+static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alone
+  uint64_t z = cw_mix(key + CW_MIX_STEP * (uint64_t)(axis + 1));
+  return (double)(z >> 11) * 0x1p-52 - 1.0;
+}
+
+// Which cell each place of the row lies in.
+static void find_cells(Tree *tree) {
+  int32_t first = tree->input->triangle_count;
+  for (int32_t c = 0; c < tree->cell_count; c++) {
+    const Cell *cell = &tree->cell[c];
+    for (int32_t k = 0; k < cell->list_count; k++) {
+      int32_t p = tree->list[cell->list + k] - first;
+      int within = p >= 0;
+      for (int i = 0; i < 3 && within; i++) {
+        double at = floor((tree->row[p].place.x[i] - tree->origin[i]) / tree->unit) - cell->at[i];
+        within = at >= 0.0 && at < (double)(1 << cell->level);
+      }
+      if (within)
+        tree->row[p].cell = c;
+    }
+  }
+}
+
+// Takes the places that were not chosen out of the lists.
+static void shorten_lists(Tree *tree) {
+  int32_t first = tree->input->triangle_count;
+  for (int32_t c = 0; c < tree->cell_count; c++) {
+    Cell *cell = &tree->cell[c];
+    int32_t *list = tree->list + cell->list, count = 0;
+    for (int32_t k = 0; k < cell->list_count; k++) {
+      if (list[k] < first || tree->row[list[k] - first].chosen)
+        list[count++] = list[k];
+    }
+    cell->list_count = count;
+  }
+}
+
+// Of the places of the row, one after the other, those that are inside and that neither the boundary nor those chosen
+// before forbid.
+static CwStatus choose_row(Tree *tree, int32_t *chosen) {
+  CwStatus status = CW_OK;
+  *chosen = 0;
+  find_cells(tree);
+  for (int32_t p = 0; p < tree->input->row_count; p++) {
+    RowPoint *point = &tree->row[p];
+    if (point->cell < 0 || is_forbidden(tree, &tree->cell[point->cell], point->place.x, 1))
+      continue;
+    CW_TRY(test_inside(tree, point->place.x, &point->chosen));
+    *chosen += point->chosen;
+  }
+  shorten_lists(tree);
+done:
+  return status;
+}
+
+// Of all places, each once, those that are inside and not forbidden. A line along z is cut once for all its
+// places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
+static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSite **site) {
+  CwStatus status = CW_OK;
+  double(*points)[3] = NULL;
+  CwLatticeSite *sites = NULL;
+  const double *z = NULL;
+  int64_t unique = 0;
+  int32_t kept = 0, crossings = 0, chosen;
+  uint64_t cut = ~0ull;
+  CW_TRY(choose_row(tree, &chosen));
+  for (int64_t k = 0; k < tree->place_count; k++)
+    unique += k == 0 || tree->place[k].key != tree->place[k - 1].key;
+  CW_REQUIRE(unique < INT32_MAX / 16, CW_ERR_MESH,
+             "%s: the size field asks for more than 100 million points in one region", tree->input->name);
+  CW_NEW(points, unique + chosen);
+  if (site)
+    CW_NEW(sites, unique + chosen);
+  for (int64_t k = 0; k < tree->place_count; k++) {
+    const Place *place = &tree->place[k];
+    if (k && place->key == place[-1].key)
+      continue;
+    const Cell *cell = &tree->cell[place->cell];
+    int32_t half[3];
+    double p[3], fixed[3];
+    cw_lattice_at(place->key, half);
+    for (int i = 0; i < 3; i++) {
+      fixed[i] = tree->origin[i] + tree->unit * 0.5 * half[i];
+      p[i] = fixed[i] + tree->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
+    }
+    if (!cell->whole) {
+      if (place->key >> 21 != cut) {
+        cut = place->key >> 21;
+        CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));
+      }
+      int inside = 0;
+      for (int32_t c = 0; c < crossings; c++)
+        inside ^= z[c] > fixed[2];
+      if (!inside || is_forbidden(tree, cell, p, 0))
+        continue;
+    }
+    if (site)
+      sites[kept] = (CwLatticeSite){place->key, place->level, cell->clear};
+    memcpy(points[kept++], p, sizeof p);
+  }
+  for (int32_t p = 0; p < tree->input->row_count; p++) {
+    if (!tree->row[p].chosen)
+      continue;
+    if (site)
+      sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
+    memcpy(points[kept++], tree->row[p].place.x, sizeof *points);
+  }
+  *count = kept;
+  *x = points;
+  points = NULL;
+  if (site)
+    *site = sites;
+  sites = NULL;
+done:
+  free(points);
+  free(sites);
+  return status;
+}
+
+static int compare_row(const void *p, const void *q) {
+  return cw_row_compare(&((const RowPoint *)p)->place, &((const RowPoint *)q)->place);
+}
+
+CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3],
+                        CwLatticeSite **site) {
+  CwStatus status = CW_OK;
+  Tree whole = {.input = input, .fit = 1.0, .clearance = clearance}, *tree = &whole;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  double area = 0.0, weight = 0.0, extent = 0.0;
+  int above = 0, kept;
+  *count = 0;
+  *x = NULL;
+  if (site)
+    *site = NULL;
+  CW_TRY(cw_columns_make(input, &tree->columns));
+  int32_t items = input->triangle_count + input->row_count;
+  CW_NEW(tree->box, items);
+  CW_NEW(tree->ball, input->triangle_count);
+  CW_NEW(tree->row, input->row_count);
+  ROOM(tree->list, tree->list_space, items);
+  for (int32_t t = 0; t < input->triangle_count; t++) {
+    tree->list[tree->list_count++] = t;
+    CW_TRY(reach_of(tree, t, &area, &weight));
+    for (int k = 0; k < 9; k++) {
+      double value = input->x[input->triangle[t][k / 3]][k % 3];
+      low[k % 3] = value < low[k % 3] ? value : low[k % 3];
+      high[k % 3] = value > high[k % 3] ? value : high[k % 3];
+    }
+  }
+  for (int32_t p = 0; p < input->row_count; p++)
+    tree->row[p] = (RowPoint){cw_row_place(input, input->triangle_count - input->row_count + p), -1, 0};
+  qsort(tree->row, (size_t)input->row_count, sizeof *tree->row, compare_row);
+  for (int32_t p = 0; p < input->row_count; p++) {
+    tree->box[input->triangle_count + p] =
+        cw_reach_box(tree->row[p].place.x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * tree->row[p].place.spacing);
+    tree->list[tree->list_count++] = input->triangle_count + p;
+  }
+  for (int i = 0; i < 3; i++)
+    extent = fmax(extent, high[i] - low[i]);
+  // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
+  double edge = lattice_constant * exp(weight / area);
+  while (edge * (double)(1 << above) < 1.001 * extent) {
+    above++;
+    CW_REQUIRE(above <= DEPTH, CW_ERR_MESH, "%s: the size field is below 1e-5 of the region", input->name);
+  }
+  int below = DEPTH - above < 8 ? DEPTH - above : 8;
+  tree->unit = edge / (double)(1 << below);
+  for (int i = 0; i < 3; i++) {
+    tree->origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->unit * (double)(1 << (above + below));
+  }
+  CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items, &kept));
+  CW_TRY(fit_spacing(tree));
+  CW_NEW(tree->seen, 1 << SEEN);
+  memset(tree->seen, 0xff, sizeof *tree->seen << SEEN);
+  CW_TRY(cut_cells(tree, 1));
+  CW_TRY(sort_places(tree));
+  CW_TRY(collect(tree, count, x, site));
+done:
+  free(tree->box);
+  free(tree->ball);
+  free(tree->row);
+  free(tree->cell);
+  free(tree->list);
+  free(tree->place);
+  free(tree->seen);
+  cw_columns_free(&tree->columns);
+  return status;
+}

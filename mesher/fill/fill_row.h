@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The first row of inner points over triangles of a region's boundary: fronts, caps and both sides of interfaces.
+// Lattice points that are merely kept at a distance stand at any height between half a length and more than one over
+// them; a row stands where well shaped tetrahedra on the triangles have their fourth corners, one for about two
+// triangles, as each plane of a close packing does over the one below.
+#ifndef CUTWATER_MESHER_FILL_FILL_ROW_H
+#define CUTWATER_MESHER_FILL_FILL_ROW_H
+
+#include <stdint.h>
+
+#include "mesher/fill/fill.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Least distance between points of a row, and of others from them, over the spacing.
+#define CW_ROW_APART 0.7
+#define CW_ROW_CLEAR 0.65
+
+typedef struct {
+  double x[3], spacing; // m
+  int32_t triangle;
+} CwRowPlace;
+
+// The place over the middle of triangle t, inward, whatever is there. The spacing is the mean of what is wanted there
+// and of the triangle's edges, which it exceeds by little.
+CwRowPlace cw_row_place(const CwFillInput *input, int32_t t);
+// The order in which places are best taken, for qsort: along a line. What is taken so is as regular as the triangles
+// are; in any other order, gaps are left between beginnings.
+int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

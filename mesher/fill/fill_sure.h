@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The one call that fills a boundary whatever it takes: the kernel's flips, inner points and divisions of the
+// boundary, and TetGen where even these fail or leave a cell that is flat.
+#ifndef CUTWATER_MESHER_FILL_FILL_SURE_H
+#define CUTWATER_MESHER_FILL_FILL_SURE_H
+
+#include "mesher/fill/fill.h"
+#include "pipeline/case.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Promises and errors of cw_fill; fill->way says how it was done. With CW_FILL_TETGEN the kernel is not tried.
+CwStatus cw_fill_sure(const CwFillInput *input, CwFillMethod method, CwFill *fill);
+
+// Least over the tetrahedra of six times the volume over the cube of the longest edge.
+double cw_fill_flatness(const CwFill *fill);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

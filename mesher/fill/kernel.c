@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "mesher/fill/boundary_check.h"
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/fill_points.h"
+#include "mesher/fill/fill_shape.h"
+#include "mesher/fill/kernel_core.h"
+#include "mesher/fill/kernel_facets.h"
+#include "mesher/fill/kernel_flat.h"
+#include "mesher/fill/kernel_recover.h"
+#include "mesher/fill/kernel_split.h"
+#include "mesher/fill/tet_improve.h"
+#include "mesher/fill/tet_mesh.h"
+#include "pipeline/log.h"
+
+// Boundary points, then inner candidates, in the mesh but not yet connected; the deep ones of the lattice in the
+// core.
+static CwStatus all_points(const CwFillInput *input, CwKernelCore *core, int32_t *count, CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  double(*made)[3] = NULL, (*x)[3] = NULL;
+  CwLatticeSite *made_site = NULL;
+  const double(*inner)[3] = input->inner;
+  const CwLatticeSite *site = input->inner_site;
+  int32_t inner_count = input->inner_count;
+  if (!inner) {
+    CW_TRY(cw_fill_points(input, 1.0, &inner_count, &made, &made_site));
+    inner = (const double(*)[3])made;
+    site = made_site;
+  }
+  CW_TRY(cw_kernel_core_make(input, inner_count, inner, site, core, count, &x));
+  CW_TRY(cw_delaunay_order(*count, (const double(*)[3])x, mesh));
+done:
+  free(made);
+  free(made_site);
+  free(x);
+  return status;
+}
+
+// What has been freed, to the system: what comes next is of other sizes, and would stand beside it at the
+// peak.
+static void give_back(void) {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
+static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
+enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
+
+// A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of
+// these hang together.
+static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *c = mesh->tet[t].corner;
+    int corners = 0;
+    *own = 0;
+    for (int i = 0; i < 4; i++) {
+      corners += c[i] < CW_DELAUNAY_CORNERS;
+      *own = c[i] < CW_DELAUNAY_CORNERS ? *own : i;
+    }
+    if (c[0] >= 0 && corners)
+      return t;
+  }
+  return 0;
+}
+
+// Floods from the outer sides of all facets and frees what it reaches. All that it does not reach lies
+// between inner sides, and is cut off at them. What waits is chained through corner[1], of no use outside.
+static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  uint8_t *place = NULL;
+  int own = 0;
+  int32_t waiting = -1, enclosing = find_enclosing(mesh, &own);
+  const double *x = mesh->point[mesh->tet[enclosing].corner[own]].x;
+  CW_NEW(place, mesh->tet_count);
+  for (int32_t f = 0; f < facets->count; f++) {
+    int32_t inner = facets->inner[f], outer = mesh->tet[inner / 4].neighbour[inner % 4];
+    const double *y = mesh->point[facets->corner[f][0]].x;
+    if (!(place[outer / 4] & OUTSIDE)) {
+      mesh->tet[outer / 4].corner[1] = waiting;
+      waiting = outer / 4;
+    }
+    place[inner / 4] |= (uint8_t)(INNER | 1 << inner % 4);
+    place[outer / 4] |= (uint8_t)(OUTSIDE | 1 << outer % 4);
+    CW_REQUIRE((place[inner / 4] & OUTSIDE) == 0 && (place[outer / 4] & INNER) == 0, CW_ERR_MESH,
+               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
+               input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+  }
+  while (waiting >= 0) {
+    int32_t t = waiting;
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    waiting = tet->corner[1];
+    for (int i = 0; i < 4; i++) {
+      if (tet->neighbour[i] < 0 || place[t] & 1 << i)
+        continue;
+      int32_t next = tet->neighbour[i] / 4;
+      const double *y = mesh->point[tet->corner[0]].x;
+      CW_REQUIRE((place[next] & INNER) == 0, CW_ERR_MESH,
+                 "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
+                 input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+      if (place[next] & OUTSIDE)
+        continue;
+      place[next] |= OUTSIDE;
+      mesh->tet[next].corner[1] = waiting;
+      waiting = next;
+    }
+  }
+  CW_REQUIRE(place[enclosing] & OUTSIDE, CW_ERR_MESH,
+             "%s: the boundary encloses all that lies outside it: its normals point inward near "
+             "(%.6g, %.6g, %.6g) mm",
+             input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  for (int32_t f = 0; f < facets->count; f++)
+    mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    if (place[t] & OUTSIDE)
+      cw_delaunay_free_tet(mesh, t);
+  }
+done:
+  free(place);
+  return status;
+}
+
+// Brings all boundary triangles into the mesh: by flips and cleared hollows, and at last by divisions of the
+// boundary. CW_RETRY where some are still missing.
+static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, int32_t *source_count,
+                        CwSplits *splits, CwFillWay *way) {
+  CwStatus status = CW_OK;
+  CwRecovered recovered = {0};
+  cw_facets_locate(mesh, input->point_count, facets);
+  way->missing = facets->missing_count;
+  for (int round = 0; round < ROUNDS && facets->missing_count; round++) {
+    CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
+  }
+  if (facets->missing_count) {
+    CW_TRY(cw_boundary_check_crossing(input));
+    CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));
+    cw_facets_locate(mesh, input->point_count, facets);
+  }
+  if (facets->missing_count) {
+    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count,
+                 facets->count);
+    status = CW_RETRY;
+  }
+done:
+  way->flips = (int32_t)(recovered.flips < INT32_MAX ? recovered.flips : INT32_MAX);
+  way->cleared = recovered.cleared;
+  way->divided = splits->count;
+  return status;
+}
+
+// Where the improvement left tetrahedra that may be flat.
+static CwStatus raise_flat(const CwFillInput *input, CwDelaunay *mesh, int32_t *source_count,
+                           const CwTetImproved *improved, int32_t *raised) {
+  CwStatus status = CW_OK;
+  int32_t left;
+  *raised = 0;
+  if (improved->least_after > NEARLY_FLAT)
+    goto done;
+  CW_TRY(cw_kernel_flat(mesh, source_count, raised, &left));
+  cw_log_debug("%s: %d flat tetrahedra raised, %d not", input->name, *raised, left);
+done:
+  return status;
+}
+
+CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
+  CwStatus status = CW_OK;
+  CwDelaunay mesh = {0};
+  CwKernelCore core = {0};
+  CwFacets facets = {0};
+  CwSplits splits = {0};
+  CwTetImproved improved;
+  CwFillWay way = {0};
+  int32_t count = 0, raised = 0;
+  int good = 1;
+  memset(fill, 0, sizeof *fill);
+  CW_TRY(cw_boundary_check(input));
+  CW_TRY(all_points(input, &core, &count, &mesh));
+  give_back();
+  CW_TRY(cw_delaunay_connect(&mesh));
+  CW_TRY(cw_kernel_core_carve(&core, &mesh));
+  CW_TRY(cw_facets_make(input, &mesh, &facets));
+  CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
+  CW_TRY(keep_inside(input, &facets, &mesh));
+  cw_facets_free(&facets);
+  give_back();
+  if (splits.count) {
+    // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
+    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
+    CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+    CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
+  }
+  if (!good) {
+    cw_log_debug("%s: no room to take %d points off the boundary", input->name, splits.count);
+    status = CW_RETRY;
+    goto done;
+  }
+  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
+  CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
+  if (raised)
+    CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
+  CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
+  CW_TRY(cw_kernel_core_append(&core, fill));
+  cw_log_debug(
+      "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d added, least "
+      "sine %.3g to %.3g",
+      input->name, fill->tetrahedron_count, core.tet_count, improved.edges_removed, improved.faces_removed,
+      improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+done:
+  cw_splits_free(&splits);
+  cw_facets_free(&facets);
+  cw_kernel_core_free(&core);
+  cw_delaunay_free(&mesh);
+  if (status != CW_OK)
+    cw_fill_free(fill);
+  fill->way = way;
+  return status;
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The core of the lattice in a fill: its deep points stay out of the Delaunay mesh, what the mesh has in their
+// place is taken away, and the core's own tetrahedra come to the finished fill.
+#ifndef CUTWATER_MESHER_FILL_KERNEL_CORE_H
+#define CUTWATER_MESHER_FILL_KERNEL_CORE_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/fill.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t fixed_count; // points of the boundary and then those of the core's skin, which have to stay
+  int32_t skin_count, deep_count;
+  double (*deep)[3];
+  int32_t tet_count;
+  int32_t (*tet)[4]; // fixed points; deep ones count on from there
+  int32_t face_count;
+  int32_t (*face)[3]; // fixed points, normal out of the core
+} CwKernelCore;
+
+// Finds the core among the inner points with these places; with `site` NULL it is empty. *x, *count: all points
+// of the mesh, the fixed ones first. Caller frees *x.
+CwStatus cw_kernel_core_make(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
+                             const CwLatticeSite *site, CwKernelCore *core, int32_t *count, double (**x)[3]);
+// Takes the tetrahedra inside the core's surface out of the Delaunay mesh of those points. CW_RETRY where a face
+// of the surface is missing, which exact predicates exclude.
+CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwDelaunay *mesh);
+// Adds the core to the fill that the mesh has become, whose first points are the fixed ones.
+CwStatus cw_kernel_core_append(const CwKernelCore *core, CwFill *fill);
+void cw_kernel_core_free(CwKernelCore *core);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

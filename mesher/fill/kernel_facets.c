@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/kernel_facets.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+enum { EMPTY = -1, DIVIDED = -2 }; // places of the tables
+
+static uint32_t scatter(uint64_t z) {
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebull;
+  return (uint32_t)(z >> 32);
+}
+
+// Sum and product are the same in any order.
+static uint32_t scatter_three(const int32_t p[3]) {
+  uint64_t a = (uint64_t)p[0], b = (uint64_t)p[1], c = (uint64_t)p[2];
+  return scatter((a + b + c) * 0x9e3779b97f4a7c15ull + (a + 1) * (b + 1) * (c + 1));
+}
+
+static int same_points(const int32_t p[3], const int32_t q[3]) {
+  for (int k = 0; k < 3; k++) {
+    if (p[k] != q[0] && p[k] != q[1] && p[k] != q[2])
+      return 0;
+  }
+  return 1;
+}
+
+int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]) {
+  for (uint32_t k = scatter_three(corner) & facets->mask;; k = (k + 1) & facets->mask) {
+    int32_t f = facets->table[k];
+    if (f == EMPTY)
+      return -1;
+    if (f >= 0 && same_points(facets->corner[f], corner))
+      return f;
+  }
+}
+
+// The place of an edge in the table, or the empty one where it belongs.
+static uint32_t edge_place(const CwFacets *facets, int32_t low, int32_t high) {
+  uint32_t k = scatter((uint64_t)low << 32 | (uint64_t)high) & facets->edge_mask;
+  while (facets->edge[k][0] != EMPTY && (facets->edge[k][0] != low || facets->edge[k][1] != high))
+    k = (k + 1) & facets->edge_mask;
+  return k;
+}
+
+int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b) {
+  return facets->edge[edge_place(facets, a < b ? a : b, a < b ? b : a)][0] >= 0;
+}
+
+static void note_edge(CwFacets *facets, int32_t a, int32_t b) {
+  int32_t low = a < b ? a : b, high = a < b ? b : a, *edge = facets->edge[edge_place(facets, low, high)];
+  facets->edge_used += edge[0] == EMPTY;
+  edge[0] = low;
+  edge[1] = high;
+}
+
+static void note_facet(CwFacets *facets, int32_t f) {
+  const int32_t *p = facets->corner[f];
+  uint32_t place = scatter_three(p) & facets->mask;
+  while (facets->table[place] >= 0)
+    place = (place + 1) & facets->mask;
+  facets->used += facets->table[place] == EMPTY;
+  facets->table[place] = f;
+  for (int k = 0; k < 3; k++)
+    note_edge(facets, p[k], p[(k + 1) % 3]);
+}
+
+// Empty tables with room for `count` facets, which are not in them yet.
+static CwStatus make_tables(CwFacets *facets, int32_t count) {
+  CwStatus status = CW_OK;
+  uint32_t size = 16, edge_size = 16;
+  while (size < 2 * (uint32_t)count)
+    size *= 2;
+  while (edge_size < 2 * (uint32_t)count)
+    edge_size *= 2; // 1.5 edges a triangle
+  free(facets->table);
+  free(facets->edge);
+  facets->edge = NULL;
+  facets->mask = size - 1;
+  facets->edge_mask = edge_size - 1;
+  facets->used = facets->edge_used = 0;
+  CW_NEW(facets->table, size);
+  CW_NEW(facets->edge, edge_size);
+  memset(facets->table, EMPTY, size * sizeof *facets->table);
+  memset(facets->edge, EMPTY, edge_size * sizeof *facets->edge);
+done:
+  return status;
+}
+
+CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFacets *facets) {
+  CwStatus status = CW_OK;
+  int32_t *number = NULL;
+  memset(facets, 0, sizeof *facets);
+  facets->space = input->triangle_count;
+  facets->divided_from = INT32_MAX;
+  CW_NEW(number, input->point_count);
+  CW_NEW(facets->corner, facets->space);
+  CW_NEW(facets->inner, facets->space);
+  CW_TRY(make_tables(facets, facets->space));
+  for (int32_t p = 0; p < mesh->point_count; p++) {
+    int32_t given = mesh->source[p];
+    if (given >= 0 && given < input->point_count)
+      number[given] = p;
+  }
+  for (; facets->count < input->triangle_count; facets->count++) {
+    int32_t *p = facets->corner[facets->count];
+    for (int k = 0; k < 3; k++)
+      p[k] = number[input->triangle[facets->count][k]];
+    const double *x = mesh->point[p[0]].x;
+    CW_REQUIRE(cw_facets_find(facets, p) < 0, CW_ERR_MESH,
+               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm is listed twice", input->name, 1e3 * x[0],
+               1e3 * x[1], 1e3 * x[2]);
+    note_facet(facets, facets->count);
+  }
+done:
+  free(number);
+  return status;
+}
+
+// Room for `more` facets and for the edges that come with them.
+static CwStatus make_room(CwFacets *facets, int more) {
+  CwStatus status = CW_OK;
+  if (facets->count + more > facets->space) {
+    int32_t space = facets->space + facets->space / 4 + 64;
+    int32_t(*corner)[3] = realloc(facets->corner, (size_t)space * sizeof *corner);
+    CW_REQUIRE(corner, CW_ERR_MEMORY, "out of memory: %d boundary triangles", space);
+    facets->corner = corner;
+    int32_t *inner = realloc(facets->inner, (size_t)space * sizeof *inner);
+    CW_REQUIRE(inner, CW_ERR_MEMORY, "out of memory: %d boundary triangles", space);
+    facets->inner = inner;
+    facets->space = space;
+  }
+  if ((uint32_t)(facets->used + 2 * more) * 4 > 3 * facets->mask ||
+      (uint32_t)(facets->edge_used + 4 * more) * 4 > 3 * facets->edge_mask) {
+    CW_TRY(make_tables(facets, facets->space));
+    for (int32_t f = 0; f < facets->count; f++)
+      note_facet(facets, f);
+  }
+done:
+  return status;
+}
+
+static void put_facet(CwFacets *facets, int32_t f, int32_t a, int32_t b, int32_t c) {
+  const int32_t corner[3] = {a, b, c};
+  memcpy(facets->corner[f], corner, sizeof corner);
+  facets->inner[f] = -1;
+  note_facet(facets, f);
+}
+
+static void forget_facet(CwFacets *facets, int32_t f) {
+  uint32_t place = scatter_three(facets->corner[f]) & facets->mask;
+  while (facets->table[place] != f)
+    place = (place + 1) & facets->mask;
+  facets->table[place] = DIVIDED;
+}
+
+CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s, int *count, int32_t ends[2][2],
+                               int32_t apex[2]) {
+  CwStatus status = CW_OK;
+  int32_t at[2] = {-1, -1};
+  *count = 0;
+  for (int32_t f = 0; f < facets->count; f++) { // divisions are rare: no table is kept for them
+    const int32_t *p = facets->corner[f];
+    for (int k = 0; k < 3; k++) {
+      int32_t from = p[k], to = p[(k + 1) % 3];
+      if (!((from == a && to == b) || (from == b && to == a)))
+        continue;
+      if (*count < 2) {
+        at[*count] = f;
+        ends[*count][0] = from;
+        ends[*count][1] = to;
+        apex[*count] = p[(k + 2) % 3];
+      }
+      ++*count;
+    }
+  }
+  if (*count != 2)
+    goto done;
+  CW_TRY(make_room(facets, 2));
+  int32_t *edge = facets->edge[edge_place(facets, a < b ? a : b, a < b ? b : a)];
+  edge[0] = edge[1] = DIVIDED;
+  for (int k = 0; k < 2; k++) {
+    forget_facet(facets, at[k]);
+    put_facet(facets, at[k], ends[k][0], s, apex[k]);
+    put_facet(facets, facets->count++, s, ends[k][1], apex[k]);
+  }
+done:
+  return status;
+}
+
+CwStatus cw_facets_divide_face(CwFacets *facets, int32_t facet, int32_t s) {
+  CwStatus status = CW_OK;
+  CW_TRY(make_room(facets, 2));
+  int32_t a = facets->corner[facet][0], b = facets->corner[facet][1], c = facets->corner[facet][2];
+  forget_facet(facets, facet);
+  put_facet(facets, facet, a, b, s);
+  put_facet(facets, facets->count++, b, c, s);
+  put_facet(facets, facets->count++, c, a, s);
+done:
+  return status;
+}
+
+void cw_facets_free(CwFacets *facets) {
+  free(facets->corner);
+  free(facets->inner);
+  free(facets->table);
+  free(facets->edge);
+  memset(facets, 0, sizeof *facets);
+}
+
+void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets) {
+  facets->missing_count = facets->count;
+  memset(facets->inner, -1, (size_t)facets->count * sizeof *facets->inner);
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    if (tet->corner[0] < 0)
+      continue;
+    int on_boundary = 0, count = 0;
+    for (int i = 0; i < 4 && count + 2 > i; i++) { // most have two corners inside, and are done with
+      int32_t given = mesh->source[tet->corner[i]];
+      int is = (given >= 0 && given < boundary_points) || given >= facets->divided_from;
+      on_boundary |= is << i;
+      count += is;
+    }
+    if (count < 3)
+      continue;
+    for (int i = 0; i < 4; i++) {
+      if ((on_boundary | 1 << i) != 15)
+        continue;
+      int32_t p[3];
+      for (int k = 0; k < 3; k++)
+        p[k] = tet->corner[tet_face[i][k]];
+      int32_t f = cw_facets_find(facets, p);
+      if (f < 0)
+        continue;
+      // Outward for the tetrahedron and for the region: it lies inside.
+      const int32_t *q = facets->corner[f];
+      int k = q[0] == p[0] ? 0 : q[1] == p[0] ? 1 : 2;
+      if (q[(k + 1) % 3] != p[1])
+        continue;
+      facets->inner[f] = 4 * t + i;
+      facets->missing_count--;
+    }
+  }
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The boundary triangles (facets) in a Delaunay mesh: which of its faces they are, and what to leave alone.
+#ifndef CUTWATER_MESHER_FILL_KERNEL_FACETS_H
+#define CUTWATER_MESHER_FILL_KERNEL_FACETS_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/fill.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t count;
+  int32_t (*corner)[3]; // points of the Delaunay mesh; normal out of the region
+  int32_t *inner;       // 4 * tetrahedron + face: the face of each facet, seen from inside; -1: missing
+  int32_t missing_count;
+  int32_t *table;     // hash table of facets by their points; -1: empty, -2: one that was divided
+  uint32_t mask;      // its length less one
+  int32_t (*edge)[2]; // hash table of their edges, ascending; -1: empty, -2: one that was divided
+  uint32_t edge_mask;
+  int32_t space;         // of corner and inner
+  int32_t used;          // places of the table that are not empty
+  int32_t edge_used;
+  int32_t divided_from;  // points with sources from here on may be corners too
+} CwFacets;
+
+// Numbers the facets as the mesh does. Fails with CW_ERR_MESH where one is listed twice.
+CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFacets *facets);
+void cw_facets_free(CwFacets *facets);
+
+// The facet with these points in any order, or -1.
+int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]);
+// True where the two points are an edge of the boundary.
+int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b);
+
+// Divides the edge a-b at the point s of the mesh: each facet at it becomes two. apex[k]: the third corner of
+// facet k before, whose triangle was (ends[k][0], ends[k][1], apex[k]). *count is how many; where it is not 2,
+// nothing has changed.
+CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s, int *count, int32_t ends[2][2],
+                               int32_t apex[2]);
+// Divides one facet into three.
+CwStatus cw_facets_divide_face(CwFacets *facets, int32_t facet, int32_t s);
+
+// Looks all faces of the mesh up: fills inner and missing_count.
+void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

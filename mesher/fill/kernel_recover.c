@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/kernel_recover.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/predicates.h"
+#include "mesher/fill/kernel_clear.h"
+#include "mesher/fill/kernel_flips.h"
+#include "pipeline/log.h"
+
+static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+// Flips that only prepare others, before the other end is tried; tries of an edge.
+enum { HOLD = 16, TRIES = 8 };
+
+typedef CwRecoveryGoal Goal;
+typedef CwRecovery Recovery;
+
+static int side(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
+  const CwDelaunayPoint *p = mesh->point;
+  return cw_orient3d(p[a].x, p[b].x, p[c].x, p[d].x);
+}
+
+static int shares(const int32_t *p, int m, const int32_t *q, int n) {
+  for (int i = 0; i < m; i++) {
+    for (int k = 0; k < n; k++) {
+      if (p[i] == q[k])
+        return 1;
+    }
+  }
+  return 0;
+}
+
+static int face_crosses_edge(const void *context, int count, const int32_t *point) {
+  const Goal *goal = context;
+  if (count != 3 || shares(point, 3, goal->point, 2))
+    return 0;
+  return cw_kernel_meet(goal->mesh, goal->point[0], goal->point[1], point);
+}
+
+static int edge_crosses_face(const void *context, int count, const int32_t *point) {
+  const Goal *goal = context;
+  if (count != 2 || shares(point, 2, goal->point, 3))
+    return 0;
+  return cw_kernel_meet(goal->mesh, point[0], point[1], goal->point);
+}
+
+static int draw(Recovery *r, int below) {
+  r->random = r->random * 1664525u + 1013904223u;
+  return (int)((r->random >> 16) % (uint32_t)below);
+}
+
+// Takes the edge p-q away: at once (*moved = 2), or in steps: a flip of a face or edge next to it that adds
+// no crossings
+// (*moved = 1), found by chance, for there may be circles.
+static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int depth, int *moved) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &r->flips;
+  int32_t tet[CW_RING], ring[CW_RING];
+  *moved = 0;
+  if (cw_facets_has_edge(r->facets, p, q))
+    goto done;
+  CW_TRY(cw_flips_edge(flips, t, p, q, moved));
+  *moved *= 2;
+  if (*moved || depth == 0)
+    goto done;
+  int n = cw_flips_ring(flips, t, p, q, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
+  flips->slack = 1; // no more crossings than before
+  for (int step = 0; step < n && !*moved; step++) {
+    int k = (first + step) % n;
+    const CwDelaunayTet *now = &flips->mesh->tet[tet[k]];
+    int32_t far = ring[(k + 1) % n];
+    const int32_t face[3] = {p, q, ring[k]};
+    if (cw_facets_find(r->facets, face) >= 0)
+      continue;
+    for (int i = 0; i < 4 && !*moved; i++) { // the face p, q, ring[k]
+      if (now->corner[i] == far)
+        CW_TRY(cw_flips_face(flips, tet[k], i, moved));
+    }
+    for (int end = 0; end < 2 && !*moved; end++)
+      CW_TRY(clear_edge(r, tet[k], end ? p : q, ring[k], depth - 1, moved));
+  }
+  flips->slack = slack;
+  *moved = *moved > 0;
+done:
+  return status;
+}
+
+// The first face or edge on the way from a to b, and a flip that takes it away. *found: the edge is there.
+static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *found, int *moved) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &r->flips;
+  const CwDelaunay *mesh = flips->mesh;
+  int32_t t;
+  *moved = 0;
+  CW_TRY(cw_flips_find_edge(flips, a, b, &t));
+  *found = t >= 0;
+  for (int32_t k = 0; k < flips->star_count && !*found; k++) {
+    const CwDelaunayTet *tet = &mesh->tet[flips->star[k]];
+    int at = 0, zeros = 0, zero = -1, within = 1;
+    while (tet->corner[at] != a)
+      at++;
+    for (int i = 0; i < 4 && within; i++) {
+      if (i == at)
+        continue;
+      int32_t p[4];
+      memcpy(p, tet->corner, sizeof p);
+      p[i] = b;
+      int s = side(mesh, p[0], p[1], p[2], p[3]);
+      within = s >= 0;
+      if (s == 0) {
+        zeros++;
+        zero = i;
+      }
+    }
+    if (!within)
+      continue;
+    t = flips->star[k];
+    int32_t f[3];
+    for (int i = 0; i < 3; i++)
+      f[i] = tet->corner[tet_face[at][i]];
+    if (zeros > 1)
+      goto done; // through a point
+    if (zeros == 1) {
+      int32_t end[2];
+      int ends = 0;
+      for (int i = 0; i < 4; i++) {
+        if (i != at && i != zero)
+          end[ends++] = tet->corner[i];
+      }
+      CW_TRY(clear_edge(r, t, end[0], end[1], depth, moved));
+      goto done;
+    }
+    if (cw_facets_find(r->facets, f) >= 0)
+      goto done;
+    CW_TRY(cw_flips_face(flips, t, at, moved));
+    *moved *= 2;
+    for (int level = 0; level <= depth && !*moved; level++) {
+      int first = level ? draw(r, 3) : 0;
+      for (int i = first; i < first + 3 && !*moved; i++)
+        CW_TRY(clear_edge(r, t, f[i % 3], f[(i + 1) % 3], level, moved));
+    }
+    goto done;
+  }
+done:
+  return status;
+}
+
+// From both ends in turn; deeper searches only where simple flips are stuck.
+CwStatus cw_recovery_edge(CwRecovery *r, int32_t a, int32_t b, int tries, int *found) {
+  CwStatus status = CW_OK;
+  r->goal.point[0] = a;
+  r->goal.point[1] = b;
+  r->flips.crossing = face_crosses_edge;
+  r->flips.slack = 0;
+  for (int stuck = 0; stuck < tries; stuck++) {
+    for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
+      CW_TRY(clear_way(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
+      if (*found)
+        goto done;
+    }
+  }
+done:
+  return status;
+}
+
+// The face, once its edges are there: takes away the edges through it, seen from each of its own edges.
+CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int *found) {
+  CwStatus status = CW_OK;
+  CwFlips *flips = &r->flips;
+  memcpy(r->goal.point, corner, sizeof r->goal.point);
+  flips->crossing = edge_crosses_face;
+  flips->slack = 0;
+  *found = 0;
+  for (int stuck = 0; stuck < tries; stuck++) {
+    int32_t a = corner[stuck % 3], b = corner[(stuck + 1) % 3], c = corner[(stuck + 2) % 3], t;
+    int32_t tet[CW_RING], ring[CW_RING];
+    for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
+      moved = 0;
+      CW_TRY(cw_flips_find_edge(flips, a, b, &t));
+      int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, tet, ring);
+      for (int k = 0; k < n && !*found; k++)
+        *found = ring[k] == c;
+      if (*found)
+        goto done;
+      for (int k = 0; k < n && !moved; k++) {
+        int32_t end[2] = {ring[k], ring[(k + 1) % n]};
+        if (edge_crosses_face(&r->goal, 2, end))
+          CW_TRY(clear_edge(r, tet[k], end[0], end[1], stuck / 3, &moved));
+      }
+    }
+  }
+done:
+  return status;
+}
+
+CwStatus cw_recovery_make(CwDelaunay *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery) {
+  CwStatus status = CW_OK;
+  *recovery = (CwRecovery){.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + seed};
+  CW_TRY(cw_flips_make(mesh, &recovery->flips));
+  recovery->flips.context = &recovery->goal;
+done:
+  return status;
+}
+
+void cw_recovery_free(CwRecovery *recovery) {
+  cw_flips_free(&recovery->flips);
+}
+
+CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, int32_t *source_count,
+                           CwRecovered *recovered) {
+  CwStatus status = CW_OK;
+  CwRecovery r;
+  int lost_edges = 0, lost_faces = 0;
+  CW_TRY(cw_recovery_make(mesh, facets, (uint32_t)round, &r));
+  for (int32_t f = 0; f < facets->count; f++) {
+    if (facets->inner[f] >= 0)
+      continue;
+    for (int k = 0; k < 3; k++) {
+      int found;
+      CW_TRY(cw_recovery_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], TRIES, &found));
+      lost_edges += !found;
+    }
+  }
+  for (int32_t f = 0; f < facets->count; f++) {
+    if (facets->inner[f] >= 0)
+      continue;
+    int found, cleared = 0;
+    CW_TRY(cw_recovery_face(&r, facets->corner[f], TRIES, &found));
+    if (!found && round >= 2)
+      CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &cleared));
+    recovered->cleared += cleared;
+    lost_faces += !found && !cleared;
+  }
+  recovered->flips += r.flips.done;
+  cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered",
+               facets->missing_count, (long long)r.flips.done, lost_edges, lost_faces);
+done:
+  cw_recovery_free(&r);
+  return status;
+}

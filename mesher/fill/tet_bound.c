@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/tet_bound.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+// The edge of the neighbour at each edge, as 3 * triangle + edge; -1 where there is not just one. Edges stand in lists
+// of their lower ends, which are short.
+static CwStatus find_neighbours(const CwFillInput *boundary, int32_t (*neighbour)[3]) {
+  CwStatus status = CW_OK;
+  int32_t *start = NULL, *list = NULL, count = 3 * boundary->triangle_count;
+  const int32_t(*triangle)[3] = boundary->triangle;
+  CW_NEW(start, boundary->point_count + 2);
+  CW_NEW(list, count);
+  for (int32_t k = 0; k < count; k++) {
+    int32_t a = triangle[k / 3][k % 3], b = triangle[k / 3][(k + 1) % 3];
+    start[(a < b ? a : b) + 2]++;
+    neighbour[k / 3][k % 3] = -1;
+  }
+  for (int32_t p = 0; p < boundary->point_count; p++) start[p + 2] += start[p + 1];
+  for (int32_t k = 0; k < count; k++) { // leaves start[p + 1] at the end of the list of p
+    int32_t a = triangle[k / 3][k % 3], b = triangle[k / 3][(k + 1) % 3];
+    list[start[(a < b ? a : b) + 1]++] = k;
+  }
+  for (int32_t p = 0; p < boundary->point_count; p++) {
+    for (int32_t i = start[p]; i < start[p + 1]; i++) {
+      int32_t k = list[i], same = 0, other = -1;
+      int32_t high = triangle[k / 3][k % 3] + triangle[k / 3][(k + 1) % 3] - p;
+      for (int32_t j = start[p]; j < start[p + 1]; j++) {
+        int32_t l = list[j];
+        if (l == k || triangle[l / 3][l % 3] + triangle[l / 3][(l + 1) % 3] - p != high) continue;
+        other = l;
+        same++;
+      }
+      if (same == 1) neighbour[k / 3][k % 3] = other;
+    }
+  }
+done:
+  free(start);
+  free(list);
+  return status;
+}
+
+static void normal_of(const CwFillInput *boundary, int32_t t, double n[3]) {
+  const double *a = boundary->x[boundary->triangle[t][0]];
+  double u[3], v[3];
+  cw_sub(boundary->x[boundary->triangle[t][1]], a, u);
+  cw_sub(boundary->x[boundary->triangle[t][2]], a, v);
+  cw_cross(u, v, n);
+}
+
+// Inner angle at an edge between two triangles with these normals, degrees; 90 where it is more.
+static double inner_angle(const double from[3], const double to[3], const double m[3], const double n[3]) {
+  double turn[3], along[3], cosine = cw_dot(m, n);
+  if (cosine >= 0.0) return 90.0;
+  cw_sub(to, from, along);
+  cw_cross(m, n, turn);
+  double sine = cw_dot(turn, along) / cw_norm(along); // above 0 where the boundary bends away from its normals
+  return sine > 0.0 ? 180.0 - atan2(sine, cosine) / degree : 90.0;
+}
+
+// Bound of the tetrahedron on a triangle; anything not below `least` where it is none of the worst.
+static double bound_of(const CwFillInput *boundary, const double (*normal)[3], int32_t t, const int32_t neighbour[3],
+                       double least) {
+  const int32_t *corner = boundary->triangle[t];
+  const double(*at)[3] = boundary->x;
+  double angle[3], best = CW_TET_BOUND_MOST;
+  for (int e = 0; e < 3; e++) {
+    const double *from = at[corner[e]], *to = at[corner[(e + 1) % 3]];
+    angle[e] = neighbour[e] >= 0 ? inner_angle(from, to, normal[t], normal[neighbour[e] / 3]) : 90.0;
+    best = fmin(best, 0.5 * angle[e]);
+  }
+  for (int e = 0; e < 3 && best < least; e++) {
+    if (neighbour[e] < 0) continue;
+    int32_t apex = boundary->triangle[neighbour[e] / 3][(neighbour[e] + 2) % 3];
+    // The normal points outward: (c - a) x (b - a) towards the fourth corner.
+    const double *x[4] = {at[corner[0]], at[corner[2]], at[corner[1]], at[apex]};
+    CwTetShape shape;
+    cw_tet_shape(x, &shape);
+    double single = shape.dihedral_least;
+    for (int k = 0; k < 3; k++) {
+      int shared = neighbour[k] >= 0 && boundary->triangle[neighbour[k] / 3][(neighbour[k] + 2) % 3] == apex;
+      if (!shared) single = fmin(single, 0.5 * angle[k]);
+    }
+    best = fmax(best, single);
+  }
+  return best;
+}
+
+CwStatus cw_tet_bound(const CwFillInput *boundary, double *degrees, int32_t *worst) {
+  CwStatus status = CW_OK;
+  int32_t(*neighbour)[3] = NULL;
+  double(*normal)[3] = NULL;
+  *degrees = CW_TET_BOUND_MOST;
+  *worst = -1;
+  CW_NEW(neighbour, boundary->triangle_count);
+  CW_NEW(normal, boundary->triangle_count);
+  CW_TRY(find_neighbours(boundary, neighbour));
+  for (int32_t t = 0; t < boundary->triangle_count; t++) normal_of(boundary, t, normal[t]);
+  for (int32_t t = 0; t < boundary->triangle_count; t++) {
+    double bound = bound_of(boundary, (const double(*)[3])normal, t, neighbour[t], *degrees);
+    if (bound < *degrees) *degrees = bound, *worst = t;
+  }
+done:
+  free(normal);
+  free(neighbour);
+  return status;
+}

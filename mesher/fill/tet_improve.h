@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Improves tetrahedra with the boundary fixed: edge removal (3-2, 4-4 and larger), face removal (2-3),
+// smoothing of inner points, and new points under flat tetrahedra that hang on the boundary. Only tetrahedra
+// below a limit of shape, and what lies next to them, are touched.
+#ifndef CUTWATER_MESHER_FILL_TET_IMPROVE_H
+#define CUTWATER_MESHER_FILL_TET_IMPROVE_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/fill.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t edges_removed, faces_removed, points_moved, points_added, patches_changed;
+  double least_before, least_after; // least quality, as cw_tet_quality
+} CwTetImproved;
+
+// All tetrahedra of *mesh are inside; their faces on the boundary have no neighbour. Points that come from
+// the first `fixed_count` given ones stay. New points have sources from *source_count on, which is counted
+// up. The least quality round any place never falls. Deterministic. `improved` may be NULL.
+CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count,
+                             CwTetImproved *improved);
+
+// The same for a fill whose first `fixed_count` points are those of the boundary. Where it fails *fill is
+// empty.
+CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improved);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/tet_work.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double worth = 0.02;   // least gain: a point more must pay
+static const double SPACING = 0.2;  // of these, over the mean edge
+enum { CAVITY = 64, SIDES = CW_FLIP, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
+
+// Tetrahedra to be taken away, and the faces of their hull, as 4 * tetrahedron + face.
+typedef struct {
+  int count, side_count;
+  int32_t tet[CAVITY], side[SIDES];
+} Cavity;
+
+static double side_quality(const CwTetWork *w, int32_t side, const double p[3]) {
+  const int32_t *corner = w->mesh->tet[side / 4].corner;
+  const int8_t *face = cw_tet_face[side % 4];
+  return cw_tet_quality(cw_tet_at(w, corner[face[0]]), cw_tet_at(w, corner[face[2]]),
+                        cw_tet_at(w, corner[face[1]]), p);
+}
+
+// Grows the cavity from t over every face that would make a tetrahedron with p no better than `enough`
+// (B. Klingner and J. Shewchuk, Aggressive tetrahedral mesh improvement, 2007). 0 where it meets the boundary
+// or becomes too large.
+static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavity *cavity) {
+  CwDelaunay *mesh = w->mesh;
+  int32_t open[4 * CAVITY];
+  int opened = 0, kept = 0;
+  w->stamp += 1.0;
+  mesh->tet[t].centre[0] = w->stamp;
+  cavity->tet[0] = t;
+  cavity->count = 1;
+  cavity->side_count = 0;
+  for (int i = 0; i < 4; i++)
+    open[opened++] = 4 * t + i;
+  for (int head = 0; head < opened; head++) {
+    int32_t side = open[head], other = mesh->tet[side / 4].neighbour[side % 4];
+    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp)
+      continue;
+    if (side_quality(w, side, p) > enough) {
+      open[kept++] = side; // never ahead of head
+      continue;
+    }
+    if (other < 0 || cavity->count == CAVITY)
+      return 0;
+    mesh->tet[other / 4].centre[0] = w->stamp;
+    cavity->tet[cavity->count++] = other / 4;
+    for (int i = 0; i < 4; i++) {
+      if (i != other % 4)
+        open[opened++] = other / 4 * 4 + i;
+    }
+  }
+  for (int k = 0; k < kept; k++) {
+    int32_t other = mesh->tet[open[k] / 4].neighbour[open[k] % 4];
+    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp)
+      continue; // what lies behind was taken later
+    if (cavity->side_count == SIDES)
+      return 0;
+    cavity->side[cavity->side_count++] = open[k];
+  }
+  return 1;
+}
+
+static double six_volume(const double *a, const double *b, const double *c, const double *d) {
+  return cw_tet_measures(a, b, c, d).six;
+}
+
+// Whether the tetrahedra from p to the hull fill the cavity, once.
+static int is_filled(const CwTetWork *w, const Cavity *cavity, const double p[3]) {
+  double old = 0.0, made = 0.0;
+  for (int k = 0; k < cavity->count; k++) {
+    const int32_t *c = w->mesh->tet[cavity->tet[k]].corner;
+    old += six_volume(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+  }
+  for (int k = 0; k < cavity->side_count; k++) {
+    const int32_t *c = w->mesh->tet[cavity->side[k] / 4].corner;
+    const int8_t *face = cw_tet_face[cavity->side[k] % 4];
+    made += six_volume(cw_tet_at(w, c[face[0]]), cw_tet_at(w, c[face[2]]), cw_tet_at(w, c[face[1]]), p);
+  }
+  return fabs(made - old) <= 1e-9 * old;
+}
+
+// Places to try: over each boundary face, the middles of the tetrahedron, of its faces and of its edges. Round a bad
+// one those in 14 directions too, on shells to the length of its mean edge.
+static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
+  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  const double *x[4];
+  int count = 0;
+  for (int i = 0; i < 4; i++)
+    x[i] = cw_tet_at(w, tet->corner[i]);
+  for (int f = 0; f < 4; f++) {
+    const double *a = x[cw_tet_face[f][0]], *b = x[cw_tet_face[f][1]], *c = x[cw_tet_face[f][2]];
+    double u[3], v[3], normal[3], square = 0.0;
+    for (int i = 0; i < 3; i++)
+      u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+    for (int i = 0; i < 3; i++) {
+      normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+      square += normal[i] * normal[i];
+    }
+    // The height of the regular tetrahedron on a face of the same area, sqrt(2/3) (4/sqrt(3) A)^(1/2).
+    double height = tet->neighbour[f] < 0 ? -0.8774 * sqrt(sqrt(square)) / sqrt(square) : 0.0;
+    for (int step = 1; step <= (height < 0.0 ? 3 : 1); step++, count++) {
+      for (int i = 0; i < 3; i++)
+        place[count][i] = (a[i] + b[i] + c[i]) / 3.0 + step / 3.0 * height * normal[i];
+    }
+  }
+  for (int i = 0; i < 3; i++)
+    place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]);
+  count++;
+  for (int e = 0; e < 6; e++, count++) {
+    for (int i = 0; i < 3; i++)
+      place[count][i] = 0.5 * (x[cw_tet_edge[e][0]][i] + x[cw_tet_edge[e][1]][i]);
+  }
+  if (tet->square >= w->insert_round)
+    return count;
+  CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
+  double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
+  for (int k = 0; k < 14 * SHELLS; k++, count++) {
+    const double *way = cw_tet_way[k % 14];
+    double radius = SPACING * edge * (double)(k / 14 + 1);
+    for (int i = 0; i < 3; i++)
+      place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * way[i];
+  }
+  return count;
+}
+
+// The star from p to the hull of a cavity.
+static void make_hollow(const CwTetWork *w, const Cavity *cavity, CwHollow *hollow) {
+  hollow->count = cavity->side_count;
+  for (int s = 0; s < cavity->side_count; s++) {
+    const int32_t *c = w->mesh->tet[cavity->side[s] / 4].corner;
+    const int8_t *face = cw_tet_face[cavity->side[s] % 4];
+    hollow->face[s][0] = cw_tet_at(w, c[face[0]]);
+    hollow->face[s][1] = cw_tet_at(w, c[face[2]]);
+    hollow->face[s][2] = cw_tet_at(w, c[face[1]]);
+  }
+}
+
+// Grows the cavity for a point at p and moves the point to its best place there, in turn, while this gains. Returns the
+// best quality, of the cavity and place in *chosen and p; `best`, and leaves these alone, where there is no better one.
+static double best_from(CwTetWork *w, int32_t t, const double place[3], double aim, double best, Cavity *chosen,
+                        double p[3]) {
+  Cavity cavity;
+  CwHollow hollow;
+  double there[3];
+  memcpy(there, place, sizeof there);
+  for (int again = 0; again < AGAIN; again++) {
+    if (!grow(w, t, there, fmax(aim, best), &cavity) || !is_filled(w, &cavity, there))
+      break;
+    make_hollow(w, &cavity, &hollow);
+    double got = cw_hollow_best(&hollow, there, cw_hollow_quality(&hollow, there, -2.0));
+    if (got <= best)
+      break;
+    best = got;
+    *chosen = cavity;
+    memcpy(p, there, sizeof there);
+  }
+  return best;
+}
+
+// Puts the star from a new point at p into the cavity.
+static CwStatus fill_cavity(CwTetWork *w, const Cavity *cavity, const double p[3]) {
+  CwStatus status = CW_OK;
+  double quality[SIDES];
+  int32_t corner[SIDES][4], point;
+  CW_TRY(cw_delaunay_add_point(w->mesh, p, w->source_count++, &point));
+  for (int s = 0; s < cavity->side_count; s++) {
+    const int32_t *c = w->mesh->tet[cavity->side[s] / 4].corner;
+    const int8_t *face = cw_tet_face[cavity->side[s] % 4];
+    const int32_t one[4] = {c[face[0]], c[face[2]], c[face[1]], point};
+    memcpy(corner[s], one, sizeof one);
+    quality[s] = cw_tet_quality_of(w, one[0], one[1], one[2], point);
+  }
+  CW_TRY(cw_tet_replace(w, cavity->count, cavity->tet, cavity->side_count, (const int32_t(*)[4])corner, quality));
+done:
+  return status;
+}
+
+CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least) {
+  Cavity chosen = {0};
+  double p[3];
+  return best_from(w, t, place, aim, least, &chosen, p) > least ? fill_cavity(w, &chosen, p) : CW_OK;
+}
+
+CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
+  CwStatus status = CW_OK;
+  static const double aim[4] = {0.4, 0.32, 0.25, 0.0};
+  double place[PLACES][3], least = w->mesh->tet[t].square + worth, best = least, p[3];
+  int tries = candidates(w, t, place);
+  Cavity chosen = {0};
+  *done_it = 0;
+  for (int a = 0; a < 4; a++) {
+    for (int k = 0; k < tries; k++)
+      best = best_from(w, t, place[k], aim[a], best, &chosen, p);
+  }
+  if (best <= least)
+    goto done;
+  CW_TRY(fill_cavity(w, &chosen, p));
+  w->count.points_added++;
+  *done_it = 1;
+done:
+  return status;
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/mix.h"
+#include "mesher/fill/tet_patch.h"
+#include "mesher/fill/tet_work.h"
+
+// Sines of dihedral angles.
+static const double wanted = 0.2250;  // 13 degrees: a search begins where there is less
+static const double reached = 0.2419; // 14 degrees: it ends
+static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again
+static const double counted = 0.3746; // 22 degrees: what is less counts in a patch
+static const double sound = 0.02;     // what a disturbance leaves, at least; flatter ones are no matter of this search
+static const double alike = 0.05;     // above the worst: those that are disturbed, too
+static const double shaken = 0.3;     // of an edge: the farthest that points are moved by a disturbance
+static const int32_t patch_size[2] = {300, 100}; // tetrahedra, in turn: few are searched more thoroughly
+enum {
+  PLACES = 6,      // of a mesh
+  TRIES = 400,     // of a beginning
+  IDLE = 250,      // of these, without a gain
+  SHARE = 25,      // one try for as many tetrahedra of the mesh,
+  PRESSED = 3000,  // and so many more where an angle is pressing
+  BEGINNINGS = 8,  // of a place where one is
+  MIXED = 3,       // in one beginning of as many points do not only go in
+  FEW = 250,       // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
+  CHANGES = 3,     // of one disturbance, at most
+  AWAY = 4,        // faces to step over from a bad tetrahedron, at most
+  PASSES = 4,
+};
+
+typedef struct {
+  double least, deficit; // least sine; what all lack, the worst by far the most
+} Rated;
+
+// A patch, changed or not.
+typedef struct {
+  CwTetPatch patch;
+  Rated rated;
+  double gain; // in deficit
+} Found;
+
+typedef struct {
+  CwTetWork *whole, work; // of the mesh; of a trial
+  Found now, best;        // of this beginning; of all of a place
+  CwDelaunay trial;
+  uint64_t random;
+  int32_t tries, pressed; // left: of all, and of those for pressing angles alone
+  int mixed;              // all kinds of disturbances, though an angle is pressing
+} Search;
+
+// In [0, 1).
+static double next_random(Search *s) {
+  s->random += CW_MIX_STEP;
+  return (double)(cw_mix(s->random) >> 11) * 0x1p-53;
+}
+
+static int32_t choose(Search *s, int32_t count) { return (int32_t)(next_random(s) * count); }
+
+static CwTetMeasures measures_of(const CwDelaunay *mesh, int32_t t) {
+  const int32_t *c = mesh->tet[t].corner;
+  return cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x);
+}
+
+static double least_sine(const CwDelaunay *mesh, int32_t t) {
+  static const int8_t beside[6][2] = {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}; // faces at each edge
+  CwTetMeasures m = measures_of(mesh, t);
+  double least = INFINITY;
+  for (int e = 0; e < 6; e++) least = fmin(least, m.edge[e] / (m.area[beside[e][0]] * m.area[beside[e][1]]));
+  return m.six > 0.0 ? m.six * sqrt(least) : -1.0;
+}
+
+static double mean_edge(const CwDelaunay *mesh, int32_t t) {
+  CwTetMeasures m = measures_of(mesh, t);
+  return sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
+}
+
+static Rated rate(const CwDelaunay *mesh) {
+  Rated rated = {INFINITY, 0.0};
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    if (mesh->tet[t].corner[0] < 0) continue;
+    double sine = least_sine(mesh, t), lack = fmax(0.0, 1.0 - sine / counted);
+    rated.least = fmin(rated.least, sine);
+    rated.deficit += lack * lack * lack * lack * lack * lack;
+  }
+  return rated;
+}
+
+// One of the tetrahedra that are about as bad as the worst, or of what lies a face or two beside it.
+static int32_t choose_tet(Search *s, double least) {
+  int32_t count = 0, chosen = 0;
+  for (int32_t t = 0; t < s->trial.tet_count; t++) {
+    if (s->trial.tet[t].corner[0] >= 0 && least_sine(&s->trial, t) < fmin(counted, least + alike) &&
+        choose(s, ++count) == 0)
+      chosen = t;
+  }
+  for (int steps = choose(s, AWAY + 1); steps > 0; steps--) {
+    int32_t next = s->trial.tet[chosen].neighbour[choose(s, 4)];
+    chosen = next < 0 ? chosen : next / 4;
+  }
+  return chosen;
+}
+
+// Takes a free point of t away, or of the first tetrahedron round t that has one: of the edges to its neighbours the
+// one goes that leaves the best worst tetrahedron.
+static CwStatus contract(Search *s, int32_t t) {
+  CwStatus status = CW_OK;
+  int32_t star[CW_TET_STAR], made[CW_TET_STAR][4], point = -1, to = -1;
+  double quality[CW_TET_STAR], best = sound;
+  int count = 0, first = choose(s, 4);
+  for (int k = 0; k < 20 && point < 0; k++) { // t, then its neighbours
+    int32_t near = k < 4 ? 4 * t : s->trial.tet[t].neighbour[k / 4 - 1];
+    if (near < 0) continue;
+    int32_t p = s->trial.tet[near / 4].corner[(first + k) % 4];
+    if (s->trial.source[p] > 0) point = p, t = near / 4;
+  }
+  if (point < 0) goto done;
+  int n = cw_tet_star(&s->work, t, point, star);
+  if (n > CW_FLIP) goto done;
+  for (int k = 0; k < 4 * n; k++) {
+    int32_t other = s->trial.tet[star[k / 4]].corner[k % 4];
+    double least = other == point ? -1.0 : INFINITY;
+    for (int m = 0; m < n && least > best; m++) {
+      const int32_t *c = s->trial.tet[star[m]].corner;
+      int32_t one[4];
+      int has = 0;
+      for (int i = 0; i < 4; i++) has |= c[i] == other, one[i] = c[i] == point ? other : c[i];
+      if (!has) least = fmin(least, cw_tet_quality_of(&s->work, one[0], one[1], one[2], one[3]));
+    }
+    if (least > best) best = least, to = other;
+  }
+  if (to < 0) goto done;
+  for (int m = 0; m < n; m++) {
+    const int32_t *c = s->trial.tet[star[m]].corner;
+    int has = 0;
+    for (int i = 0; i < 4; i++) has |= c[i] == to, made[count][i] = c[i] == point ? to : c[i];
+    if (has) continue;
+    quality[count] = cw_tet_quality_of(&s->work, made[count][0], made[count][1], made[count][2], made[count][3]);
+    count++;
+  }
+  CW_TRY(cw_tet_replace(&s->work, n, star, count, (const int32_t(*)[4])made, quality));
+done:
+  return status;
+}
+
+static CwStatus insert(Search *s, int32_t t) {
+  double place[3], edge = next_random(s) * mean_edge(&s->trial, t); // mostly near: room in a corner is small
+  for (int i = 0; i < 3; i++) {
+    place[i] = edge * (2.0 * next_random(s) - 1.0);
+    for (int k = 0; k < 4; k++) place[i] += 0.25 * s->trial.point[s->trial.tet[t].corner[k]].x[i];
+  }
+  return cw_tet_insert_at(&s->work, t, place, 0.3 * next_random(s), sound);
+}
+
+// Moves about half of the free points, where no tetrahedron turns over.
+static void shake(Search *s) {
+  CwDelaunay *mesh = &s->trial;
+  double reach = shaken * next_random(s), old[3];
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    int32_t star[CW_TET_STAR];
+    if (mesh->tet[t].corner[0] < 0 || choose(s, 2)) continue;
+    int32_t p = mesh->tet[t].corner[choose(s, 4)];
+    int n = mesh->source[p] > 0 ? cw_tet_star(&s->work, t, p, star) : 0, good = 1;
+    if (n == 0) continue;
+    memcpy(old, mesh->point[p].x, sizeof old);
+    double edge = mean_edge(mesh, t);
+    for (int i = 0; i < 3; i++) mesh->point[p].x[i] += reach * edge * (2.0 * next_random(s) - 1.0);
+    for (int k = 0; k < n && good; k++) {
+      const int32_t *c = mesh->tet[star[k]].corner;
+      good = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]) > sound;
+    }
+    if (!good) memcpy(mesh->point[p].x, old, sizeof old);
+  }
+}
+
+static CwStatus try_disturbed(Search *s, double least, Rated *result) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_tet_patch_copy_mesh(&s->now.patch.mesh, &s->trial));
+  for (int changes = 1 + choose(s, CHANGES); changes > 0; changes--) {
+    int32_t t = choose_tet(s, least), kind = choose(s, 3);
+    if (kind == 0 || (least < pressing && !s->mixed)) // in the worst corners a point more is what helps
+      CW_TRY(insert(s, t));
+    else if (kind == 1)
+      CW_TRY(contract(s, t));
+    else
+      shake(s);
+  }
+  s->work.next_count = 0;
+  CW_TRY(cw_tet_scan(&s->work));
+  CW_TRY(cw_tet_improve_list(&s->work, PASSES, 1));
+  *result = rate(&s->trial);
+done:
+  return status;
+}
+
+// Puts the best patch back, and its tetrahedra below the limit into the list.
+static CwStatus put_back(Search *s) {
+  CwStatus status = CW_OK;
+  int32_t *place = NULL;
+  CwTetWork *w = s->whole;
+  CW_TRY(cw_tet_patch_put(&s->best.patch, w->mesh, &w->source_count, &place));
+  for (int32_t k = 0; k < s->best.patch.mesh.tet_count; k++) {
+    if (place[k] < 0) continue;
+    const int32_t *c = w->mesh->tet[place[k]].corner;
+    w->mesh->tet[place[k]].centre[0] = 0.0;
+    w->mesh->tet[place[k]].centre[1] = -1.0;
+    CW_TRY(cw_tet_set_quality(w, place[k], cw_tet_quality_of(w, c[0], c[1], c[2], c[3])));
+  }
+  w->count.patches_changed++;
+done:
+  free(place);
+  return status;
+}
+
+static int may_try(Search *s, double least) {
+  int32_t *left = s->tries > 0 || least >= pressing ? &s->tries : &s->pressed;
+  return *left > 0 ? (*left)-- : 0;
+}
+
+// Goes on from the best that was found (iterated local search; H. Lourenco, O. Martin and T. Stuetzle, in: Handbook of
+// Metaheuristics, 2003).
+static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
+  CwStatus status = CW_OK;
+  Rated trial, *best = &s->now.rated;
+  CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
+  *best = rate(&s->now.patch.mesh);
+  s->now.gain = best->deficit;
+  for (int k = 0, idle = 0; best->least < reached && k < TRIES && idle < IDLE; k++, idle++) {
+    if (!may_try(s, best->least)) break;
+    CW_TRY(try_disturbed(s, best->least, &trial));
+    if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
+    CwDelaunay swap = s->now.patch.mesh;
+    s->now.patch.mesh = s->trial;
+    s->trial = swap;
+    *best = trial;
+    idle = 0;
+  }
+  s->now.gain -= best->deficit;
+done:
+  return status;
+}
+
+// What leads nowhere from one beginning may do from another.
+static CwStatus search_place(Search *s, int32_t t) {
+  CwStatus status = CW_OK;
+  for (int k = 0; k < BEGINNINGS && (k == 0 || s->best.rated.least < pressing); k++) {
+    s->mixed = k % MIXED == MIXED - 1;
+    CW_TRY(search_patch(s, t, patch_size[k % 2]));
+    double more = s->now.rated.least - s->best.rated.least;
+    if (k == 0 || more > 0.0 || (more == 0.0 && s->now.gain > s->best.gain)) {
+      Found swap = s->best;
+      s->best = s->now;
+      s->now = swap;
+    }
+    cw_tet_patch_free(&s->now.patch);
+  }
+  if (s->best.gain > 0.0) CW_TRY(put_back(s));
+done:
+  cw_tet_patch_free(&s->now.patch);
+  cw_tet_patch_free(&s->best.patch);
+  return status;
+}
+
+static int is_near(const CwTetWork *w, int32_t t, int count, const double (*place)[3], const double *reach) {
+  const double *x = cw_tet_at(w, w->mesh->tet[t].corner[0]);
+  for (int k = 0; k < count; k++) {
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) square += (x[i] - place[k][i]) * (x[i] - place[k][i]);
+    if (square < reach[k] * reach[k]) return 1;
+  }
+  return 0;
+}
+
+static int32_t count_bad(const CwTetWork *w) {
+  int32_t count = 0;
+  for (int32_t k = 0; k < w->next_count; k++) {
+    int32_t t = w->next[k];
+    count += w->mesh->tet[t].corner[0] >= 0 && w->mesh->tet[t].square < wanted && least_sine(w->mesh, t) < wanted;
+  }
+  return count;
+}
+
+CwStatus cw_tet_search(CwTetWork *w) {
+  CwStatus status = CW_OK;
+  Search s = {.whole = w, .work = {.limit = counted, .insert = wanted, .insert_round = wanted, .fixed_count = 1}};
+  double place[PLACES][3], reach[PLACES];
+  s.work.mesh = s.work.flips.mesh = &s.trial;
+  s.work.source_count = 1;
+  if (count_bad(w) <= w->mesh->tet_count / FEW) {
+    s.tries = w->mesh->tet_count / SHARE;
+    s.pressed = PRESSED;
+  }
+  for (int n = 0; n < PLACES && (s.tries > 0 || s.pressed > 0); n++) {
+    double least = wanted;
+    int32_t worst = -1;
+    for (int32_t k = 0; k < w->next_count; k++) {
+      int32_t t = w->next[k];
+      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= wanted) continue;
+      double sine = least_sine(w->mesh, t);
+      if (sine < least && sine > sound && !is_near(w, t, n, (const double(*)[3])place, reach)) least = sine, worst = t;
+    }
+    if (worst < 0) break;
+    memcpy(place[n], cw_tet_at(w, w->mesh->tet[worst].corner[0]), sizeof place[n]);
+    reach[n] = 2.0 * mean_edge(w->mesh, worst); // what else is bad there was before the same search
+    CW_TRY(search_place(&s, worst));
+  }
+done:
+  cw_delaunay_free(&s.trial);
+  free(s.work.bad);
+  free(s.work.next);
+  return status;
+}

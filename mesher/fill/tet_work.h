@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Inner to the improvement of tetrahedra: its state, and the changes that it tries. Each change is made only
+// where it raises the least quality of the tetrahedra that it touches.
+#ifndef CUTWATER_MESHER_FILL_TET_WORK_H
+#define CUTWATER_MESHER_FILL_TET_WORK_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/fill/kernel_flips.h"
+#include "mesher/fill/tet_improve.h"
+#include "mesher/fill/tet_quality.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Quality below which tetrahedra are improved: the sine of 25 (or 155) degrees. More costs time and gives no
+// better worst ones.
+#define CW_TET_IMPROVE 0.4226
+// The same for flips after points have moved: these are cheap.
+#define CW_TET_TURN 0.48
+// Least improvement, so that no two changes undo one another for ever.
+#define CW_TET_GAIN 1e-6
+
+enum { CW_TET_STAR = 96 };
+
+// The quality of a tetrahedron (1 where it is good) stands in its square, a mark of the last star in its
+// centre[0], the pass that put it into the list for the next in centre[1], and the pass in which something
+// changed at a point in the point's mark.
+typedef struct {
+  CwFlips flips;
+  CwDelaunay *mesh;
+  int32_t fixed_count, source_count;
+  double stamp;
+  double limit; // quality below which tetrahedra are in the list
+  double insert, insert_round; // and those for which a new point is tried, and at places round about
+  uint64_t pass;
+  int32_t *bad, bad_count, bad_space; // to look at in this pass
+  int32_t *next, next_count, next_space;
+  CwTetImproved count;
+} CwTetWork;
+
+// A hollow: faces seen from a point inside it, each making a positive tetrahedron (face, point).
+typedef struct {
+  int count;
+  const double *face[CW_TET_STAR][3];
+} CwHollow;
+
+extern const int8_t cw_tet_face[4][3]; // opposite each corner, outward
+extern const int8_t cw_tet_edge[6][2];
+extern const double cw_tet_way[14][3]; // unit vectors to the faces and corners of a cube
+
+static inline const double *cw_tet_at(const CwTetWork *w, int32_t p) {
+  return w->mesh->point[p].x;
+}
+
+static inline double cw_tet_quality_of(const CwTetWork *w, int32_t a, int32_t b, int32_t c, int32_t d) {
+  return cw_tet_quality(cw_tet_at(w, a), cw_tet_at(w, b), cw_tet_at(w, c), cw_tet_at(w, d));
+}
+
+// Puts a place into the list for the next pass, once.
+CwStatus cw_tet_push(CwTetWork *w, int32_t t);
+// Keeps a new quality, and the tetrahedron in mind where it is below the limit.
+CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality);
+CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count,
+                        const int32_t (*corner)[4], const double *quality);
+
+// Removes the edge a-b of t.
+CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it);
+// Two tetrahedra at face i of t become three round a new edge.
+CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it);
+// Moves an inner point of t.
+CwStatus cw_tet_smooth(CwTetWork *w, int32_t t, int32_t point, int *done_it);
+// A new point in the place of t and of what stands in its way.
+CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it);
+
+// A new point in the place of t and of all that would be below `aim` with it, from `place` to its best place there.
+// Made whether it gains or not, where nothing is below `least` then.
+CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least);
+// Goes over the list, again and again while something changes. The first pass adds no points.
+CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move);
+// Where single changes have left dihedral angles below 13 degrees in the list: disturbs patches of a few hundred
+// tetrahedra and improves them again, hundreds of times; what is better in all is kept. The same every time.
+CwStatus cw_tet_search(CwTetWork *w);
+
+// Tetrahedra of an inner point of t; 0 where there are more than CW_TET_STAR.
+int cw_tet_star(CwTetWork *w, int32_t t, int32_t point, int32_t star[CW_TET_STAR]);
+// Least quality of the hollow's tetrahedra for the point at p; stops at `enough` and moves that face forward,
+// so that the next trial finds it first.
+double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough);
+// Pattern search for the point of best least quality from p, which it moves; returns that quality.
+double cw_hollow_best(CwHollow *hollow, double p[3], double start);
+
+// Moves all inner points at once towards even spacing and even edges; then every tetrahedron below the limit is in the
+// list.
+CwStatus cw_tet_relax(CwTetWork *w);
+// Sets all qualities and finds the tetrahedra below the limit.
+CwStatus cw_tet_scan(CwTetWork *w);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

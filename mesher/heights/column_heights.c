@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/heights/column_heights.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/common/vertex_heap.h"
+#include "mesher/heights/layer_heights.h"
+#include "mesher/layers/layers.h"
+#include "mesher/parallel/share.h"
+
+static const double TALLER_COLUMN = 3.25; // of the wanted length, where the last layer would else be below LOW_LAST
+static const double TALLEST_AT_BEND = 2;  // the same and that of all where the wall bends: there columns crowd
+static const double BEND = 0.94;          // least cosine of the normals about a vertex of a wall as good as flat
+static const double HOLLOW = 0.25;        // least rise of an edge over its length at a bend that is concave
+static const double LAST_LAYER = 1.0;     // its height over that of a regular tetrahedron above, at most
+static const double LOW_LAST = 0.75;      // the same where columns are at their tallest
+static const double LAST_IN_HOLLOW = 0.65; // the same at concave bends, times their cosine: tetrahedra there have two
+                                           // faces on the front, and are the flatter the sharper the bend is
+static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
+static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
+static const double LITTLE_GROWTH = 1.1;
+static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
+
+// How the wall lies about a vertex.
+typedef struct {
+  double normal[3]; // mean of the triangles, out of the domain
+  double cosine;    // least, of their normals to it
+  double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
+} Bend;
+
+// A column up to a last layer of `last` times the height of a regular tetrahedron; no layer grows by more than
+// `growth`.
+static double height_below(double last, double first, int count, double growth, double size) {
+  if (count > 1) growth = fmin(growth, pow(fmax(last * REGULAR_HEIGHT * size / first, 1), 1.0 / (count - 1)));
+  return cw_layer_thickness(first, count, growth);
+}
+
+double cw_column_height_least(double first, int layer_count) {
+  return EVEN_LAYERS * layer_count * first;
+}
+
+// The tallest column that is fair below cells of the size `size`: its last layer no taller than `last` of a regular
+// tetrahedron, itself no taller than `tallest` such sizes, or up to `taller` where the last layer would be low. Columns
+// give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double last, double tallest,
+                          double taller) {
+  double full = height_below(last, first, count, growth, size);
+  double low = height_below(fmin(last, LOW_LAST), first, count, growth, size);
+  double most = fmax(tallest * size, fmin(low, taller * size));
+  return fmax(cw_column_height_least(first, count), fmin(most, full));
+}
+
+double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size) {
+  return fmin(layers->thickness, fair_height(layers->first_height, layer_count, layers->growth, size, LAST_LAYER,
+                                             CW_TALLEST_COLUMN, TALLER_COLUMN));
+}
+
+// What the tasks below read.
+typedef struct {
+  const CwSkeleton *skeleton;
+  const CwIncident *around;
+  const CwColumnHeights *heights;
+  const CwLayerTarget *layers; // of each CAD face
+  const double *graded; // heights
+} Columns;
+
+static double size_at(const CwSkeleton *skeleton, const double x[3]) {
+  return skeleton->size_at(skeleton->size, x);
+}
+
+// Unit normal of a triangle, out of the domain.
+static void find_normal(const CwSkeleton *skeleton, const int32_t corner[3], double normal[3]) {
+  double u[3], v[3];
+  cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
+  cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+static Bend bend_at(const CwSkeleton *skeleton, const CwIncident *around, int32_t v) {
+  Bend bend = {.cosine = 1, .rise = -1};
+  const double *x = skeleton->wall_x[v];
+  for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+    double normal[3];
+    find_normal(skeleton, skeleton->wall_triangle[around->triangle[i]], normal);
+    for (int c = 0; c < 3; c++) bend.normal[c] += normal[c];
+  }
+  cw_unit(bend.normal);
+  for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+    const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
+    double normal[3], edge[3];
+    find_normal(skeleton, corner, normal);
+    bend.cosine = fmin(bend.cosine, cw_dot(normal, bend.normal));
+    for (int k = 0; k < 3; k++) {
+      if (corner[k] == v) continue;
+      cw_sub(x, skeleton->wall_x[corner[k]], edge);
+      cw_unit(edge);
+      bend.rise = fmax(bend.rise, cw_dot(edge, bend.normal));
+    }
+  }
+  return bend;
+}
+
+// The height of a column that is fair by the cells around it, or the target where that is less. The tetrahedron on it
+// stands at the end of the column, where the size is another than at the wall: the height is reckoned twice. Nowhere
+// grow sizes faster than heights. Turned copies get that of their first: the size field is symmetric only to within its
+// grid.
+static CwStatus find_fair(void *context, int32_t v, void *out) {
+  const Columns *columns = context;
+  const CwSkeleton *skeleton = columns->skeleton;
+  const CwColumnHeights *heights = columns->heights;
+  const double *x = skeleton->wall_x[v];
+  if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
+  Bend bend = bend_at(skeleton, columns->around, v);
+  int bent = bend.cosine < BEND;
+  double last = bent && bend.rise > HOLLOW ? LAST_IN_HOLLOW * bend.cosine : LAST_LAYER, height = 0;
+  double size = size_at(skeleton, x);
+  for (int pass = 0; pass < 2; pass++) {
+    double end[3];
+    for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend.normal[k];
+    double above = fmin(fmax(size, size_at(skeleton, end)), size + HEIGHT_SLOPE * height);
+    height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last,
+                         bent ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, bent ? TALLEST_AT_BEND : TALLER_COLUMN);
+  }
+  *(double *)out = fmin(heights->target[v], height);
+  return CW_OK;
+}
+
+// Values at wall vertices. Of a triangle the corners lie where `place` says; those of the same number in `corner` have
+// one value.
+typedef struct {
+  const CwSkeleton *skeleton;
+  const CwIncident *around; // of `corner`
+  const int32_t (*corner)[3], (*place)[3];
+  double slope;
+  double *value;
+} Grading;
+
+// The most that the value at corner j of a triangle may be beside corner i, if that is less than it is; else 0.
+static double most_beside(const Grading *grading, int32_t t, int i, int j) {
+  double least = grading->value[grading->corner[t][i]], value = grading->value[grading->corner[t][j]];
+  double rise = value - least, slope = grading->slope, edge[3];
+  if (rise <= 0) return 0;
+  cw_sub(grading->skeleton->wall_x[grading->place[t][i]], grading->skeleton->wall_x[grading->place[t][j]], edge);
+  double square = cw_dot(edge, edge);
+  if (rise * rise < 0.99 * slope * slope * square) return 0; // most edges, without a root
+  double most = least + slope * sqrt(square);
+  return value > most ? most : 0;
+}
+
+static int corner_of(const Grading *grading, int32_t t, int32_t v) {
+  const int32_t *corner = grading->corner[t];
+  return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
+}
+
+// Whether a vertex beside v is too high.
+static CwStatus find_steep(void *context, int32_t v, void *out) {
+  const Grading *grading = context;
+  uint8_t *steep = out;
+  for (int32_t i = grading->around->start[v]; i < grading->around->start[v + 1] && !*steep; i++) {
+    int32_t t = grading->around->triangle[i];
+    int own = corner_of(grading, t, v);
+    for (int k = 0; k < 3; k++) *steep |= k != own && most_beside(grading, t, own, k) > 0;
+  }
+  return CW_OK;
+}
+
+// Lowers the values, all above 0, until they change by no more than `slope` per distance along any edge, from the
+// lowest on. Collective.
+static CwStatus grade_values(const Grading *grading) {
+  CwStatus status = CW_OK;
+  const CwIncident *around = grading->around;
+  double *value = grading->value;
+  int32_t count = grading->skeleton->wall_count;
+  CwHeap heap = {0};
+  uint8_t *steep = NULL;
+  CW_NEW(steep, count);
+  CW_TRY(cw_share("heights: steep", count, sizeof *steep, find_steep, (void *)grading, steep));
+  for (int32_t v = 0; v < count; v++) {
+    if (steep[v]) CW_TRY(cw_heap_push(&heap, value[v], v));
+  }
+  while (heap.count) {
+    CwHeapItem least = cw_heap_pop(&heap);
+    int32_t v = least.v;
+    if (least.key > value[v]) continue; // it was lowered since
+    for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+      int32_t t = around->triangle[i];
+      int own = corner_of(grading, t, v);
+      for (int k = 0; k < 3; k++) {
+        double most = k == own ? 0 : most_beside(grading, t, own, k);
+        if (most <= 0) continue;
+        value[grading->corner[t][k]] = most;
+        CW_TRY(cw_heap_push(&heap, most, grading->corner[t][k]));
+      }
+    }
+  }
+done:
+  cw_heap_free(&heap);
+  free(steep);
+  return status;
+}
+
+// The same for a value at each wall vertex.
+static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->wall_triangle;
+  return grade_values(&(Grading){skeleton, around, triangle, triangle, slope, value});
+}
+
+// The same on the triangles that are no turned copies, where the copies of a vertex have its value.
+static CwStatus grade_firsts(const CwSkeleton *skeleton, double slope, double *value) {
+  CwStatus status = CW_OK;
+  CwIncident around = {0};
+  int32_t *first = NULL, (*corner)[3] = NULL, (*place)[3] = NULL, count = 0;
+  CW_NEW_UNSET(first, skeleton->wall_count);
+  CW_NEW_UNSET(corner, skeleton->wall_triangle_count);
+  CW_NEW_UNSET(place, skeleton->wall_triangle_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) first[v] = v;
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
+    for (int32_t at = cw_orbit_node(&skeleton->orbits, v, 1); at >= 0 && at != v;
+         at = cw_orbit_node(&skeleton->orbits, at, 1)) {
+      first[at] = v;
+    }
+  }
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    if (skeleton->wall_source[t] != t) continue;
+    memcpy(place[count], skeleton->wall_triangle[t], sizeof *place);
+    for (int k = 0; k < 3; k++) corner[count][k] = first[place[count][k]];
+    count++;
+  }
+  CW_TRY(cw_incident_make(skeleton->wall_count, count, (const int32_t(*)[3])corner, &around));
+  Grading grading = {skeleton, &around, (const int32_t(*)[3])corner, (const int32_t(*)[3])place, slope, value};
+  CW_TRY(grade_values(&grading));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) value[v] = value[first[v]];
+done:
+  cw_incident_free(&around);
+  free(first);
+  free(corner);
+  free(place);
+  return status;
+}
+
+// The finer one holds where patches meet; away from there the first height grows no faster than columns whose layers
+// grow a little can.
+static CwStatus take_asked(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
+                           CwColumnHeights *heights) {
+  CwStatus status = CW_OK;
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY};
+    int32_t before = -1;
+    for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
+      int32_t face = skeleton->wall_face[around->triangle[i]];
+      if (face == before) continue;
+      before = face;
+      of.first_height = fmin(of.first_height, layers[face].first_height);
+      of.thickness = fmin(of.thickness, layers[face].thickness);
+      of.growth = fmax(of.growth, layers[face].growth);
+    }
+    heights->first_height[v] = of.first_height, heights->target[v] = of.thickness, heights->growth[v] = of.growth;
+  }
+  CW_TRY(grade(skeleton, around, HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
+               heights->first_height));
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    const double *x = skeleton->wall_x[v];
+    CW_REQUIRE(isfinite(heights->target[v]), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
+               1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  }
+done:
+  return status;
+}
+
+static void turn_copies(const CwSkeletonOrbits *orbits, int32_t count, CwColumnHeights *heights) {
+  for (int32_t v = 0; v < count; v++) {
+    if (cw_orbit_node_turns(orbits, v) > 0) continue;
+    for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+      heights->target[at] = heights->target[v];
+      heights->first_height[at] = heights->first_height[v];
+      heights->growth[at] = heights->growth[v];
+    }
+  }
+}
+
+CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
+                                int layer_count, CwColumnHeights *heights) {
+  CwStatus status = CW_OK;
+  double *fair = NULL;
+  *heights = (CwColumnHeights){.layer_count = layer_count};
+  CW_NEW(heights->first_height, skeleton->wall_count);
+  CW_NEW(heights->growth, skeleton->wall_count);
+  CW_NEW(heights->target, skeleton->wall_count);
+  CW_NEW(heights->least, skeleton->wall_count);
+  CW_NEW(fair, skeleton->wall_count);
+  CW_TRY(take_asked(skeleton, around, layers, heights));
+  Columns columns = {.skeleton = skeleton, .around = around, .heights = heights};
+  CW_TRY(cw_share("heights: fair ones", skeleton->wall_count, sizeof *fair, find_fair, &columns, fair));
+  free(heights->target);
+  heights->target = fair;
+  fair = NULL;
+  turn_copies(&skeleton->orbits, skeleton->wall_count, heights);
+  double lowest = cw_layer_thickness(1, layer_count, CW_LEAST_GROWTH);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) heights->least[v] = lowest * heights->first_height[v];
+done:
+  free(fair);
+  return status;
+}
+
+// What a wall triangle takes of the volume, and what a flat wall would, in cells; with its turned copies.
+typedef struct {
+  double taken, flat;
+} Taken;
+
+static CwStatus find_taken(void *context, int32_t t, void *out) {
+  const Columns *columns = context;
+  const CwSkeleton *skeleton = columns->skeleton;
+  const int32_t *corner = skeleton->wall_triangle[t], face = skeleton->wall_face[t];
+  double u[3], v[3], normal[3], centre[3], mean = 0;
+  if (skeleton->wall_source[t] != t) return CW_OK;
+  for (int k = 0; k < 3; k++) {
+    u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
+    v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
+    centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
+    mean += columns->graded[corner[k]] / 3;
+  }
+  cw_cross(u, v, normal);
+  double h = size_at(skeleton, centre);
+  double weight = cw_norm(normal) / (h * h * h) * cw_orbit_face_copies(&skeleton->orbits, face);
+  double flat = cw_column_height_flat(&columns->layers[face], columns->heights->layer_count, h);
+  *(Taken *)out = (Taken){weight * mean, weight * flat};
+  return CW_OK;
+}
+
+CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
+                                 const CwLayerTarget *layers, double *share) {
+  CwStatus status = CW_OK;
+  double *graded = NULL;
+  Taken *of = NULL, sum = {0};
+  CW_NEW(graded, skeleton->wall_count);
+  CW_NEW(of, skeleton->wall_triangle_count);
+  memcpy(graded, heights->target, (size_t)skeleton->wall_count * sizeof *graded);
+  CW_TRY(grade(skeleton, around, HEIGHT_SLOPE, graded));
+  Columns columns = {.skeleton = skeleton, .heights = heights, .layers = layers, .graded = graded};
+  CW_TRY(cw_share("heights: volume", skeleton->wall_triangle_count, sizeof *of, find_taken, &columns, of));
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    sum.taken += of[t].taken;
+    sum.flat += of[t].flat;
+  }
+  *share = sum.flat > 0 ? sum.taken / sum.flat : 1;
+done:
+  free(graded);
+  free(of);
+  return status;
+}
+
+CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  CW_NEW(heights->room, skeleton->wall_count);
+  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+    int thinned = skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    heights->room[v] = thinned ? skeleton->height[v]
+                               : cw_layer_thickness(heights->first_height[v], heights->layer_count, heights->growth[v]);
+  }
+  CW_TRY(grade_firsts(skeleton, HEIGHT_SLOPE, heights->room));
+done:
+  return status;
+}
+
+CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t region,
+                                 CwRatioWall **wall) {
+  CwStatus status = CW_OK;
+  int32_t count = 0, layers = heights->layer_count;
+  double fraction[CW_LAYERS_MOST + 1];
+  CW_NEW(*wall, skeleton->region_wall_start[region + 1] - skeleton->region_wall_start[region]);
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
+    CwRatioWall *made = &(*wall)[count++];
+    made->first = INFINITY;
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      cw_layer_fractions(heights->room[v], heights->first_height[v], layers, heights->growth[v], fraction);
+      made->first = fmin(made->first, heights->first_height[v]);
+      made->last += heights->room[v] * (1 - fraction[layers - 1]) / 3;
+      made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
+    }
+  }
+done:
+  return status;
+}
+
+void cw_column_heights_free(CwColumnHeights *heights) {
+  free(heights->first_height);
+  free(heights->growth);
+  free(heights->target);
+  free(heights->least);
+  free(heights->room);
+  *heights = (CwColumnHeights){0};
+}

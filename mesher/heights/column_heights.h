@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How tall the columns of the layers over the wall are asked to be, before gaps and repair have their say: the rules
+// that make of a patch's first height, growth and thickness those of each wall vertex.
+//
+//   meeting patches  the finer first height, the lesser thickness and the larger growth hold
+//   first height     grows away from there no faster than columns whose layers grow by a tenth can follow
+//   fair height      the last layer no taller than the tetrahedron above, the column no taller than some wanted lengths
+#ifndef CUTWATER_MESHER_HEIGHTS_COLUMN_HEIGHTS_H
+#define CUTWATER_MESHER_HEIGHTS_COLUMN_HEIGHTS_H
+
+#include "mesher/common/incident.h"
+#include "mesher/heights/wall_targets.h"
+#include "mesher/skeleton/skeleton.h"
+
+#define CW_TALLEST_COLUMN 2.5 // of the wanted length at the wall
+
+// Of each wall vertex.
+typedef struct {
+  int layer_count;
+  double *first_height; // m
+  double *growth;       // largest ratio of neighbouring layers
+  double *target;       // height, m
+  double *least;        // height of the lowest column with that first height, m
+  double *room;         // how tall the column could be, once the layers are grown, m
+} CwColumnHeights;
+
+// What the case allows the column over a wall face.
+typedef struct {
+  double first; // target of the first height, m
+  double last;  // of the tallest column that number and growth of the layers, gaps and the slope of heights allow: its
+                // last layer, m
+  int cramped;  // a gap or the repair leaves no room for the height asked
+} CwRatioWall;
+
+// Height below which layers of `first` (m) hardly grow any more: columns are asked to be no shorter.
+double cw_column_height_least(double first, int layer_count);
+
+// Height of a column over a flat wall where edges are `size` long, m.
+double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size);
+
+// Sets first heights, growths, targets and least heights of all wall vertices; layers: of each CAD face; around: the
+// wall's triangles. Turned copies get those of their first. Collective. Fails with CW_ERR_MESH where a vertex has no
+// triangle.
+CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
+                                int layer_count, CwColumnHeights *heights);
+
+// Of the volume (counted in cells) that flat walls would give the layers, the share that columns take once their
+// heights are graded. Collective.
+CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
+                                 const CwLayerTarget *layers, double *share);
+
+// Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them.
+// Collective.
+CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton);
+
+// What the heights allow the layers over each wall triangle of a region, in the order of its file; caller frees.
+CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t region,
+                                 CwRatioWall **wall);
+
+void cw_column_heights_free(CwColumnHeights *heights);
+
+#endif

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Pairs of triangles of front, wall and caps that cross. The first search looks at everything, the later ones at what
+// moved since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the triangles;
+// what is left is judged exactly.
+#include <stdlib.h>
+
+#include "mesher/common/intersect.h"
+#include "mesher/layers/layers_inner.h"
+#include "mesher/parallel/schedule.h"
+
+enum { BLOCK = 2048 };
+static const double CLEAR = 1e-9; // way between plane and triangle, over the longest edge, beyond any rounding
+
+// Corners of triangle f of the kind: 0 front, 1 wall, 2 caps. Points are numbered through: front, wall, caps.
+static void corners(const CwLayerWork *work, int kind, int32_t f, int32_t corner[3]) {
+  const CwLayerInput *in = work->in;
+  const int32_t *given = kind == 2 ? in->obstacle_triangle[f] : in->triangle[f];
+  for (int i = 0; i < 3; i++) corner[i] = given[i] + kind * in->point_count;
+}
+
+// Whether a plane normal to m leaves a on one side and b on the other, strictly but for the point they may share.
+static int parts(const double m[3], const double *const a[3], const double *const b[3], int shared_a, int shared_b,
+                 double clear) {
+  double low_a = INFINITY, high_a = -INFINITY, low_b = INFINITY, high_b = -INFINITY;
+  const double *o = shared_a >= 0 ? a[shared_a] : a[0];
+  for (int i = 0; i < 3; i++) {
+    double d[3], s;
+    if (i != shared_a) {
+      sub3(a[i], o, d);
+      s = dot3(m, d);
+      low_a = s < low_a ? s : low_a, high_a = s > high_a ? s : high_a;
+    }
+    if (i != shared_b) {
+      sub3(b[i], o, d);
+      s = dot3(m, d);
+      low_b = s < low_b ? s : low_b, high_b = s > high_b ? s : high_b;
+    }
+  }
+  if (shared_a < 0) return low_b - high_a > clear || low_a - high_b > clear;
+  double none = 1e-3 * clear; // what is zero but for rounding
+  return (high_a <= none && low_b > clear) || (low_a >= -none && high_b < -clear) ||
+         (high_b <= none && low_a > clear) || (low_b >= -none && high_a < -clear);
+}
+
+static int kept_apart(const double *const a[3], const double *const b[3], int shared_a, int shared_b) {
+  const double *const *side[2] = {a, b};
+  for (int s = 0; s < 2; s++) {
+    const double *const *t = side[s];
+    double e[3][3], n[3], longest = 0;
+    for (int i = 0; i < 3; i++) {
+      sub3(t[(i + 1) % 3], t[i], e[i]);
+      longest = fmax(longest, dot3(e[i], e[i]));
+    }
+    cross3(e[0], e[1], n);
+    longest = sqrt(longest);
+    if (unit3(n) == 0) return 0;
+    if (parts(n, a, b, shared_a, shared_b, CLEAR * longest)) return 1;
+    for (int i = 0; i < 3; i++) {
+      double m[3];
+      cross3(e[i], n, m);
+      unit3(m);
+      if (parts(m, a, b, shared_a, shared_b, CLEAR * longest)) return 1;
+    }
+  }
+  return 0;
+}
+
+static int cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
+  const double *p[3] = {x[a[0]], x[a[1]], x[a[2]]}, *q[3] = {x[b[0]], x[b[1]], x[b[2]]};
+  int shared = 0, in_a = -1, in_b = -1;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (a[i] == b[j]) shared++, in_a = i, in_b = j;
+  if (shared == 2) { // they overlap only where folded flat onto each other, and then their normals are opposite
+    double u[3], v[3], n[3], m[3];
+    sub3(p[1], p[0], u), sub3(p[2], p[0], v), cross3(u, v, n);
+    sub3(q[1], q[0], u), sub3(q[2], q[0], v), cross3(u, v, m);
+    if (dot3(n, m) > -0.9 * length3(n) * length3(m)) return 0;
+  } else if (shared < 2 && kept_apart(p, q, in_a, in_b)) {
+    return 0;
+  }
+  return cw_triangles_cross(x, a, b);
+}
+
+static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int32_t f) {
+  int32_t corner[3];
+  corners(work, kind, f, corner);
+  return cw_box_of_triangle(x[corner[0]], x[corner[1]], x[corner[2]]);
+}
+
+// The box of a prism or of a cap's triangle.
+static CwBox box_of_item(const void *context, int32_t f) {
+  const CwLayerCrossing *crossing = context;
+  const CwLayerWork *work = crossing->work;
+  const double (*x)[3] = (const double (*)[3])crossing->x;
+  int32_t walls = work->in->triangle_count;
+  if (f >= walls) return box_of(work, x, 2, f - walls);
+  CwBox front = box_of(work, x, 0, f), wall = box_of(work, x, 1, f);
+  cw_box_add(&front, &wall);
+  return front;
+}
+
+CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  int32_t n = in->point_count;
+  crossing->work = work;
+  crossing->item_count = in->triangle_count + in->obstacle_triangle_count;
+  CW_NEW(crossing->x, 2 * (size_t)n + in->obstacle_point_count);
+  CW_NEW(crossing->active, in->triangle_count);
+  CW_NEW(crossing->list, in->triangle_count);
+  memcpy(crossing->x + n, in->x, n * sizeof *in->x);
+  for (int32_t v = 0; v < in->obstacle_point_count; v++)
+    memcpy(crossing->x + 2 * n + v, in->obstacle_x[v], sizeof *crossing->x);
+done:
+  return status;
+}
+
+void cw_layers_crossing_free(CwLayerCrossing *crossing) {
+  free(crossing->x);
+  free(crossing->active);
+  free(crossing->list);
+  free(crossing->pair);
+  cw_box_tree_free(&crossing->tree);
+}
+
+// Crossing pairs that one block of triangles has found.
+typedef struct {
+  const CwLayerCrossing *crossing;
+  int32_t f;
+  int guided;
+  CwBox front, wall;
+  CwLayerPair *pair;
+  size_t count, capacity;
+  CwStatus status;
+} Finder;
+
+static CwStatus add_pair(Finder *finder, int kind_f, int kind_g, int32_t g) {
+  CwStatus status = CW_OK;
+  CW_GROW(finder->pair, finder->capacity, finder->count + 1);
+  finder->pair[finder->count++] = (CwLayerPair){finder->f, g, kind_f, kind_g};
+done:
+  return status;
+}
+
+// Tries triangle f of one kind against g of another.
+static CwStatus try_pair(Finder *finder, int kind_f, int kind_g, int32_t g) {
+  CwStatus status = CW_OK;
+  const CwLayerCrossing *crossing = finder->crossing;
+  const double (*x)[3] = (const double (*)[3])crossing->x;
+  int32_t a[3], b[3];
+  CwBox box = box_of(crossing->work, x, kind_g, g);
+  if (!cw_boxes_meet(kind_f ? &finder->wall : &finder->front, &box)) goto done;
+  corners(crossing->work, kind_f, finder->f, a);
+  corners(crossing->work, kind_g, g, b);
+  if (cross(x, a, b)) CW_TRY(add_pair(finder, kind_f, kind_g, g));
+done:
+  return status;
+}
+
+// A cap's triangle without area crosses nothing that its neighbours do not.
+static int has_area(const CwLayerInput *in, int32_t g) {
+  const int32_t *v = in->obstacle_triangle[g];
+  double a[3], b[3], n[3];
+  sub3(in->obstacle_x[v[1]], in->obstacle_x[v[0]], a);
+  sub3(in->obstacle_x[v[2]], in->obstacle_x[v[0]], b);
+  cross3(a, b, n);
+  return length3(n) > 1e-12 * (dot3(a, a) + dot3(b, b));
+}
+
+static int visit(void *context, int32_t item) {
+  CwStatus status = CW_OK;
+  Finder *finder = context;
+  const CwLayerCrossing *crossing = finder->crossing;
+  const CwLayerInput *in = crossing->work->in;
+  int32_t walls = in->triangle_count, f = finder->f;
+  if (item >= walls) {
+    if (!finder->guided && has_area(in, item - walls)) CW_TRY(try_pair(finder, 0, 2, item - walls));
+    goto done;
+  }
+  CW_TRY(try_pair(finder, 0, 1, item));
+  if (item != f && (!crossing->active[item] || f < item)) CW_TRY(try_pair(finder, 0, 0, item));
+  if (!crossing->searched && f < item) CW_TRY(try_pair(finder, 1, 1, item));
+done:
+  finder->status = status;
+  return status != CW_OK;
+}
+
+// Whether a column of front triangle f runs in a guide: there it touches its cap, as it should, and the two
+// triangulations of a curved cap differ by their chords.
+static int is_guided(const CwLayerInput *in, int32_t f) {
+  if (!in->guide_count) return 0;
+  for (int i = 0; i < 3; i++) {
+    if (in->guide_count[in->triangle[f][i]]) return 1;
+  }
+  return 0;
+}
+
+static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const CwLayerCrossing *crossing = context;
+  const double (*x)[3] = (const double (*)[3])crossing->x;
+  int32_t first = block * BLOCK, last = crossing->list_count - first < BLOCK ? crossing->list_count : first + BLOCK;
+  Finder finder = {.crossing = crossing};
+  for (int32_t i = first; i < last; i++) {
+    int32_t f = finder.f = crossing->list[i];
+    finder.guided = is_guided(crossing->work->in, f);
+    finder.front = box_of(crossing->work, x, 0, f);
+    finder.wall = box_of(crossing->work, x, 1, f);
+    CwBox box = crossing->searched ? finder.front : box_of_item(crossing, f);
+    cw_box_tree_overlaps(&crossing->tree, &box, visit, &finder);
+    CW_TRY(finder.status);
+  }
+  *bytes = finder.pair;
+  *size = (int64_t)(finder.count * sizeof *finder.pair);
+  finder.pair = NULL;
+done:
+  free(finder.pair);
+  return status;
+}
+
+// Forgets the pairs of what moved: it is looked at anew.
+static void drop_active(CwLayerCrossing *crossing) {
+  int32_t kept = 0;
+  for (int32_t i = 0; i < crossing->pair_count; i++) {
+    const CwLayerPair *pair = &crossing->pair[i];
+    int stale = crossing->active[pair->f] || (pair->kind_g == 0 && crossing->active[pair->g]);
+    if (!stale) crossing->pair[kept++] = *pair;
+  }
+  crossing->pair_count = kept;
+}
+
+CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = crossing->work;
+  const CwLayerInput *in = work->in;
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  int32_t blocks = 0;
+  memcpy(crossing->x, front, (size_t)work->n * sizeof *front);
+  crossing->list_count = 0;
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    const int32_t *v = in->triangle[f];
+    crossing->active[f] = moved[v[0]] || moved[v[1]] || moved[v[2]];
+    if (crossing->active[f]) crossing->list[crossing->list_count++] = f;
+  }
+  if (crossing->searched) {
+    cw_box_tree_follow(&crossing->tree, crossing->active, in->triangle_count, box_of_item, crossing);
+  } else if (crossing->tree.count) {
+    CW_TRY(cw_box_tree_fit(&crossing->tree, box_of_item, crossing));
+  } else {
+    CwBox within = cw_box_empty();
+    for (int32_t i = 0; i < 2 * work->n; i++) cw_box_add_point(&within, crossing->x[i]);
+    for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
+      for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
+    }
+    CW_TRY(cw_box_tree_make(crossing->item_count, &within, box_of_item, crossing, &crossing->tree));
+  }
+  drop_active(crossing);
+  blocks = (crossing->list_count + BLOCK - 1) / BLOCK;
+  CW_NEW(bytes, blocks);
+  CW_NEW(size, blocks);
+  CwSchedule schedule = {
+      .step = "layers: crossings", .count = blocks, .run = search_block, .context = crossing, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  size_t total = (size_t)crossing->pair_count;
+  for (int32_t i = 0; i < blocks; i++) total += (size_t)size[i] / sizeof *crossing->pair;
+  CwLayerPair *pair = realloc(crossing->pair, (total + 1) * sizeof *pair);
+  CW_REQUIRE(pair, CW_ERR_MEMORY, "out of memory: %zu crossing pairs", total);
+  crossing->pair = pair;
+  for (int32_t i = 0; i < blocks; i++) {
+    if (size[i] == 0) continue;
+    memcpy(crossing->pair + crossing->pair_count, bytes[i], (size_t)size[i]);
+    crossing->pair_count += (int32_t)((size_t)size[i] / sizeof *crossing->pair);
+  }
+  crossing->searched = 1;
+done:
+  for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  return status;
+}

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The solution of the fan in one block and the rows around it.
+#include <stdlib.h>
+
+#include "mesher/layers/layers_fan.h"
+
+enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
+static const double FADE = 6;         // the opening of the crease is forgotten at this many heights from it
+static const double POOR = 0.2;       // prism quality under which a fan is widened
+static const double WIDEST = 5;
+static const double SETTLED = 1e-3;   // change in one sweep, in heights, that is none
+
+// Projects u onto the directions in which the column of v may lean without changing its normal height or
+// leaving its guides.
+static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
+  const CwLayerInput *in = work->in;
+  int guides = in->guide_count ? in->guide_count[v] : 0;
+  double line[3];
+  if (guides == 2) {
+    memset(u, 0, 3 * sizeof *u);
+    return;
+  }
+  if (work->crease[v] == CW_CREASE_NONE && guides == 0) {
+    flatten3(u, work->normal[v]);
+    return;
+  }
+  if (work->crease[v] == CW_CREASE_NONE) {
+    cross3(work->normal[v], in->guide_normal[v][0], line);
+  } else {
+    memcpy(line, work->along[v], sizeof line);
+    if (guides && fabs(dot3(line, in->guide_normal[v][0])) > 0.1) memset(line, 0, sizeof line);
+    if (guides) flatten3(line, in->guide_normal[v][0]);
+  }
+  unit3(line);
+  double h = dot3(u, line);
+  for (int k = 0; k < 3; k++) u[k] = h * line[k];
+}
+
+// A vertex in a block.
+typedef struct {
+  double distance, opening, height; // to the nearest source, its cot(alpha/2) and height
+  double widen;                     // factor on L where the usual one leaves prisms overrun
+  int32_t source;                   // vertex; -1: out of reach
+  double u[3];                      // displacement relative to an undisturbed neighbour on the wall, m
+  double given[3], line[3];         // of a source: what is fixed of it, and the direction of the rest
+} FanAt;
+
+static int32_t source_of(const CwFans *fans, int32_t v) {
+  int32_t source = fans->reach[v].source;
+  return source < 0 ? -1 : fans->source[source].vertex;
+}
+
+static FanAt fan_at(const CwFans *fans, int32_t v) {
+  const CwFanReach *reach = &fans->reach[v];
+  FanAt at = {.distance = reach->distance, .widen = 1, .source = -1};
+  if (reach->source < 0) return at;
+  const CwFanSource *source = &fans->source[reach->source];
+  at.opening = source->opening, at.height = source->height, at.source = source->vertex;
+  if (at.source != v) return at;
+  memcpy(at.u, source->u, sizeof at.u);
+  memcpy(at.given, source->u, sizeof at.given);
+  memcpy(at.line, source->line, sizeof at.line);
+  return at;
+}
+
+static double range(const CwLayerWork *work, int32_t v, const FanAt *fan) {
+  double fade = fmax(0, 1 - fan->distance / (FADE * fan->height));
+  return 1.5 * work->t[v] * fmax(0.7, fan->opening * fade);
+}
+
+// One block: local numbers are those of its members and the halo, in order of distance, then of the vertices around
+// them, whose displacement stays.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t count, all;
+  int32_t *member;
+  int32_t *outer;               // vertices around: all - count
+  int32_t *near_start, *near;   // local numbers of the neighbours of members
+  uint8_t *across;              // neighbour is a convex edge that leans along itself only
+  double *weight, *weights;     // of neighbours; their sum
+  double *area;                 // of members
+  double *reach;                // of members, where nothing is widened
+  uint8_t *stirred, *changed;   // members to relax; those whose displacement changed since the columns were set
+  uint8_t *touched;             // whose displacement changed at all
+  FanAt *fan;                   // of all
+  double (*column)[3], (*front)[3];
+  int32_t triangle_count, *triangle; // of the wall, with a member
+  double *quality;              // of the prisms over them
+  int32_t *local;               // of the domain's vertices; as in CwFans
+} Part;
+
+static int32_t vertex_of(const Part *part, int32_t i) {
+  return i < part->count ? part->member[i] : part->outer[i - part->count];
+}
+
+static void part_free(Part *part) {
+  for (int32_t i = 0; part->local && i < part->all; i++) part->local[vertex_of(part, i)] = 0;
+  free(part->member);
+  free(part->outer);
+  free(part->near_start);
+  free(part->near);
+  free(part->across);
+  free(part->weight);
+  free(part->weights);
+  free(part->area);
+  free(part->reach);
+  free(part->stirred);
+  free(part->changed);
+  free(part->touched);
+  free(part->quality);
+  free(part->fan);
+  free(part->column);
+  free(part->front);
+  free(part->triangle);
+}
+
+static int by_distance(const void *p, const void *q) {
+  const CwHeapItem *a = p, *b = q;
+  return a->key != b->key ? (a->key > b->key) - (a->key < b->key) : (a->v > b->v) - (a->v < b->v);
+}
+
+int32_t cw_fan_block_size(const CwFans *fans, int32_t block) {
+  int32_t left = fans->count - block * CW_FAN_BLOCK;
+  return left < CW_FAN_BLOCK ? left : CW_FAN_BLOCK;
+}
+
+// The members of a block and its halo, in order of distance.
+static CwStatus gather_members(const CwFans *fans, int32_t block, Part *part) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = fans->work;
+  int32_t capacity = 2 * cw_fan_block_size(fans, block), ring = 0;
+  CwHeapItem *order = NULL;
+  CW_NEW(part->member, capacity);
+  for (int32_t i = 0; i < cw_fan_block_size(fans, block); i++) {
+    int32_t v = fans->member[block * CW_FAN_BLOCK + i];
+    part->local[v] = 1;
+    part->member[part->count++] = v;
+  }
+  part->all = part->count;
+  for (int hop = 0; hop < HALO; hop++) {
+    int32_t end = part->count;
+    for (; ring < end; ring++) {
+      int32_t v = part->member[ring];
+      for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+        int32_t w = work->near[k];
+        if (fans->place[w] < 0 || part->local[w]) continue;
+        CW_GROW(part->member, capacity, part->count + 1);
+        part->local[w] = 1;
+        part->member[part->count++] = w;
+        part->all++;
+      }
+    }
+  }
+  CW_NEW(order, part->count);
+  for (int32_t i = 0; i < part->count; i++) {
+    order[i] = (CwHeapItem){fans->reach[part->member[i]].distance, part->member[i]};
+  }
+  qsort(order, (size_t)part->count, sizeof *order, by_distance);
+  for (int32_t i = 0; i < part->count; i++) part->member[i] = order[i].v;
+done:
+  free(order);
+  return status;
+}
+
+static CwStatus part_make(const CwFans *fans, int32_t block, int32_t *local, Part *part) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = fans->work;
+  int32_t links = 0, faces = 0;
+  *part = (Part){.work = work, .local = local};
+  CW_TRY(gather_members(fans, block, part));
+  int32_t count = part->count;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = part->member[i];
+    local[v] = i + 1;
+    links += work->near_start[v + 1] - work->near_start[v];
+    faces += work->face_start[v + 1] - work->face_start[v];
+  }
+  CW_NEW(part->outer, links);
+  CW_NEW(part->near_start, count + 1);
+  CW_NEW(part->near, links);
+  CW_NEW(part->across, links);
+  CW_NEW(part->weight, links);
+  CW_NEW(part->weights, count);
+  CW_NEW(part->area, count);
+  CW_NEW(part->triangle, faces);
+  CW_NEW(part->quality, faces);
+  CW_NEW(part->stirred, count);
+  CW_NEW(part->changed, count);
+  CW_NEW(part->touched, count);
+  memset(part->stirred, 1, (size_t)count);
+  memset(part->changed, 1, (size_t)count);
+  links = 0;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = part->member[i];
+    cw_layers_weights(work, v, part->weight + links, &part->area[i]);
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++, links++) {
+      int32_t w = work->near[k];
+      if (!local[w]) {
+        part->outer[part->all - count] = w;
+        local[w] = ++part->all;
+      }
+      part->near[links] = local[w] - 1;
+      part->across[links] = work->crease[w] == CW_CREASE_CONVEX && source_of(fans, w) != w;
+      part->weights[i] += part->weight[links];
+    }
+    part->near_start[i + 1] = links;
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      const int32_t *corner = work->in->triangle[work->face[k]];
+      int is_first = 1; // of the members of this triangle: the one that lists it
+      for (int c = 0; c < 3; c++) is_first &= corner[c] == v || !local[corner[c]] || local[corner[c]] - 1 >= i;
+      if (is_first) part->triangle[part->triangle_count++] = work->face[k];
+    }
+  }
+  CW_NEW(part->reach, part->all);
+  CW_NEW(part->fan, part->all);
+  CW_NEW(part->column, part->all);
+  CW_NEW(part->front, part->all);
+  for (int32_t i = 0; i < part->all; i++) part->fan[i] = fan_at(fans, vertex_of(part, i));
+  for (int32_t f = 0; f < part->triangle_count; f++) part->quality[f] = INFINITY; // of those that do not change
+  for (int32_t i = 0; i < part->all; i++) {
+    if (part->fan[i].source >= 0) part->reach[i] = range(work, vertex_of(part, i), &part->fan[i]);
+  }
+done:
+  return status;
+}
+
+// One step of the solution at member i; returns how far its displacement moved, in heights.
+static double relax(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  FanAt *own = &part->fan[i];
+  int32_t v = part->member[i];
+  double reach = part->reach[i] * own->widen, l2 = reach * reach, sum[3] = {0}, u[3];
+  for (int32_t k = part->near_start[i]; k < part->near_start[i + 1]; k++) {
+    const double *near = part->fan[part->near[k]].u;
+    double weight = part->weight[k];
+    if (part->across[k]) {
+      // A convex edge may lean along itself only; across it the lean of v goes on undisturbed.
+      const double *along = work->along[vertex_of(part, part->near[k])];
+      double h = dot3(along, near) - dot3(along, own->u);
+      for (int c = 0; c < 3; c++) sum[c] += weight * (own->u[c] + h * along[c]);
+    } else {
+      for (int c = 0; c < 3; c++) sum[c] += weight * near[c];
+    }
+  }
+  double factor = l2 / (part->area[i] + l2 * part->weights[i]);
+  for (int c = 0; c < 3; c++) u[c] = factor * sum[c];
+  if (own->source == v) {
+    double h = dot3(own->line, u);
+    for (int c = 0; c < 3; c++) u[c] = own->given[c] + h * own->line[c];
+  } else {
+    allow(work, v, u);
+  }
+  double moved = distance3(own->u, u) / work->t[v];
+  memcpy(own->u, u, sizeof u);
+  return moved;
+}
+
+static int is_wide(const FanAt *fan) {
+  return fan->widen > 1.05;
+}
+
+// Relaxes the members outward and inward by turns: news of a source crosses the whole reach in one sweep. Only those
+// are looked at that are stirred: told to, or beside one that moved. `wide`: those alone where the fan was widened;
+// elsewhere the solution stands.
+static void solve(Part *part, int wide, int sweeps) {
+  for (int32_t i = 0; wide && i < part->count; i++) part->stirred[i] = is_wide(&part->fan[i]);
+  for (int s = 0; s < sweeps; s++) {
+    int32_t stirred = 0;
+    for (int32_t k = 0; k < part->count; k++) {
+      int32_t i = s % 2 ? part->count - 1 - k : k;
+      if (!part->stirred[i]) continue;
+      stirred++;
+      part->stirred[i] = 0;
+      part->changed[i] = 1;
+      if (relax(part, i) < SETTLED) continue;
+      part->stirred[i] = 1;
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        int32_t j = part->near[l];
+        if (j < part->count && (!wide || is_wide(&part->fan[j]))) part->stirred[j] = 1;
+      }
+    }
+    if (stirred == 0) break;
+  }
+}
+
+// Sets where the column of i ends; the snap changes too little to matter here.
+static void set_end(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = vertex_of(part, i);
+  for (int k = 0; k < 3; k++) part->front[i][k] = work->in->x[v][k] + work->t[v] * part->column[i][k];
+}
+
+// Leans the column of i as the fan asks, but no further than CW_FAN_LEAST_COSINE allows, and keeps its normal height.
+static void lean(Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  const FanAt *fan = &part->fan[i];
+  int32_t v = vertex_of(part, i);
+  double least = fmin(CW_FAN_LEAST_COSINE, 0.6 * work->base_cos[v]), scale = 1, upright[3];
+  cw_layers_upright(work, v, upright);
+  memcpy(part->column[i], upright, sizeof upright);
+  double height = cw_layers_least_cosine(work, v, upright);
+  for (int halving = 0; halving < 6; halving++, scale *= 0.5) {
+    double column[3];
+    for (int k = 0; k < 3; k++) {
+      double u = fan->u[k] - (fan->source == v ? fan->given[k] : 0);
+      column[k] = upright[k] + scale * u / work->t[v];
+    }
+    double now = cw_layers_least_cosine(work, v, column);
+    if (now < least * length3(column)) continue;
+    for (int k = 0; k < 3; k++) part->column[i][k] = column[k] * fmin(height / now, 1.5);
+    break;
+  }
+  set_end(part, i);
+}
+
+// Widens the fan around poor prisms; returns how many there are. At a corner that juts into the wall (a blade's bevel
+// on the hub) the solution falls off faster than beside a straight crease, and more so the finer the mesh.
+static int32_t widen(Part *part) {
+  const CwLayerWork *work = part->work;
+  const CwLayerInput *in = work->in;
+  int32_t poor = 0;
+  for (int32_t f = 0; f < part->triangle_count; f++) {
+    const int32_t *v = in->triangle[part->triangle[f]];
+    int32_t local[3] = {part->local[v[0]] - 1, part->local[v[1]] - 1, part->local[v[2]] - 1};
+    int changed = 0;
+    for (int k = 0; k < 3; k++) changed |= local[k] < part->count && part->changed[local[k]];
+    if (changed) {
+      const double *wall[3], *front[3];
+      for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], front[k] = part->front[local[k]];
+      part->quality[f] = cw_layers_corner_quality(wall, front);
+    }
+    if (part->quality[f] >= POOR) continue;
+    poor++;
+    for (int k = 0; k < 3; k++) {
+      part->fan[local[k]].widen = fmin(part->fan[local[k]].widen * 1.4, WIDEST);
+    }
+  }
+  memset(part->changed, 0, (size_t)part->count);
+  // Over about a height around, so that the lean stays smooth.
+  for (int pass = 0; pass < 2 && poor; pass++)
+    for (int32_t k = 0; k < part->count; k++) {
+      int32_t i = pass ? part->count - 1 - k : k, v = part->member[i];
+      for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
+        double there = part->fan[part->near[l]].widen;
+        if (there <= part->fan[i].widen) continue;
+        double away = distance3(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
+        part->fan[i].widen = fmax(part->fan[i].widen, there * exp(-0.5 * away));
+      }
+    }
+  return poor;
+}
+
+// Whether the heights on and around v are those of the last fan.
+static int is_settled(const CwFans *fans, int32_t v) {
+  const CwLayerWork *work = fans->work;
+  if (fans->lean_t[v] != work->t[v]) return 0;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    if (fans->lean_t[w] >= 0 && fans->lean_t[w] != work->t[w]) return 0;
+  }
+  return 1;
+}
+
+// Whether v has a neighbour in another block.
+static int is_between(const CwFans *fans, int32_t v) {
+  for (int32_t k = fans->work->near_start[v]; k < fans->work->near_start[v + 1]; k++) {
+    int32_t other = fans->place[fans->work->near[k]];
+    if (other >= 0 && other / CW_FAN_BLOCK != fans->place[v] / CW_FAN_BLOCK) return 1;
+  }
+  return 0;
+}
+
+// Where the solution at i starts: what the last fan found, or what falls off from the nearest source. Around the
+// members it stays so.
+static void start(const CwFans *fans, Part *part, int32_t i) {
+  const CwLayerWork *work = part->work;
+  int32_t v = vertex_of(part, i);
+  FanAt *at = &part->fan[i];
+  int32_t place = fans->place[v];
+  if (place < 0) { // out of reach, or wholly given
+    cw_layers_upright(work, v, part->column[i]);
+    set_end(part, i);
+    return;
+  }
+  if (fans->lean) {
+    const CwLean *last = (const CwLean *)fans->lean[place / CW_FAN_BLOCK] + place % CW_FAN_BLOCK;
+    at->widen = last->widen;
+    for (int k = 0; k < 3; k++) at->u[k] = last->u[k] * work->t[v] / fans->lean_t[v];
+    if (is_settled(fans, v)) {
+      memcpy(part->column[i], last->column, sizeof last->column);
+      if (i < part->count) part->changed[i] = 0, part->stirred[i] = (uint8_t)is_between(fans, v);
+      set_end(part, i);
+      return;
+    }
+  } else if (at->source != v) {
+    double fall = exp(-at->distance / part->reach[i]);
+    for (int k = 0; k < 3; k++) at->u[k] = fall * fans->source[fans->reach[v].source].u[k];
+    allow(work, v, at->u);
+  }
+  if (i >= part->count) lean(part, i);
+}
+
+// Solves one block; gives the columns of its members.
+CwStatus cw_fan_solve_block(void *context, int32_t block, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwFans *fans = context;
+  Part part = {0};
+  CwLean *lean_of = NULL;
+  int32_t count = cw_fan_block_size(fans, block);
+  CW_TRY(part_make(fans, block, fans->local, &part));
+  for (int32_t i = 0; i < part.all; i++) start(fans, &part, i);
+  for (int round = 0; round <= WIDENINGS; round++) {
+    solve(&part, round > 0, round ? MORE_SWEEPS : SWEEPS);
+    for (int32_t i = 0; i < part.count; i++) {
+      if (!part.changed[i]) continue;
+      part.touched[i] = 1;
+      lean(&part, i);
+    }
+    if (round == WIDENINGS || widen(&part) == 0) break;
+  }
+  CW_NEW(lean_of, count);
+  for (int32_t k = 0; k < count; k++) {
+    int32_t i = part.local[fans->member[block * CW_FAN_BLOCK + k]] - 1;
+    memcpy(lean_of[k].column, part.column[i], sizeof part.column[i]);
+    memcpy(lean_of[k].u, part.fan[i].u, sizeof part.fan[i].u);
+    lean_of[k].widen = part.fan[i].widen;
+    lean_of[k].changed = part.touched[i];
+  }
+  *size = (int64_t)count * (int64_t)sizeof *lean_of;
+  *bytes = lean_of;
+  lean_of = NULL;
+done:
+  free(lean_of);
+  part_free(&part);
+  return status;
+}

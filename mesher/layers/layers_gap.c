@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <stdlib.h>
+
+#include "mesher/common/box_tree.h"
+#include "mesher/layers/layers_inner.h"
+
+static const double SLOPE = 0.3;        // of heights, per distance between columns
+static const double LEAST_APART = 0.25; // of the wall's edge: distance of columns that nearly meet
+
+// Corner coordinates of triangle f of walls and obstacles together.
+static void corners(const CwLayerInput *in, int32_t f, const double *corner[3]) {
+  for (int i = 0; i < 3; i++)
+    corner[i] = f < in->triangle_count ? in->x[in->triangle[f][i]]
+                                       : in->obstacle_x[in->obstacle_triangle[f - in->triangle_count][i]];
+}
+
+static CwBox box_of(const void *context, int32_t f) {
+  const double *corner[3];
+  corners(context, f, corner);
+  return cw_box_of_triangle(corner[0], corner[1], corner[2]);
+}
+
+CwStatus cw_gap_tree_make(CwLayerWork *work, CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  int32_t total = in->triangle_count + in->obstacle_triangle_count;
+  CwBox within = cw_box_empty();
+  uint8_t *listed = NULL;
+  CW_NEW(listed, work->n);
+  CW_NEW_UNSET(work->curve, work->n);
+  for (int32_t v = 0; v < work->n; v++) cw_box_add_point(&within, in->x[v]);
+  for (int32_t f = 0; f < in->obstacle_triangle_count; f++) {
+    for (int k = 0; k < 3; k++) cw_box_add_point(&within, in->obstacle_x[in->obstacle_triangle[f][k]]);
+  }
+  CW_TRY(cw_box_tree_make(total, &within, box_of, in, tree));
+  int32_t count = 0;
+  for (int32_t i = 0; i < total; i++) {
+    for (int k = 0; tree->item[i] < in->triangle_count && k < 3; k++) {
+      int32_t v = in->triangle[tree->item[i]][k];
+      if (!listed[v]) work->curve[count++] = v;
+      listed[v] = 1;
+    }
+  }
+done:
+  free(listed);
+  return status;
+}
+
+// Way along the ray to the triangle, or INFINITY (Moller and Trumbore). *facing: cosine between ray and the
+// normal that points
+// out of the domain.
+static double hit(const CwLayerInput *in, int32_t f, const double x[3], const double g[3], double *facing) {
+  const double *corner[3];
+  double e1[3], e2[3], p[3], q[3], s[3], normal[3];
+  corners(in, f, corner);
+  sub3(corner[1], corner[0], e1);
+  sub3(corner[2], corner[0], e2);
+  cross3(e1, e2, normal);
+  if (unit3(normal) == 0) return INFINITY;
+  *facing = dot3(normal, g);
+  cross3(g, e2, p);
+  double det = dot3(e1, p);
+  if (det == 0) return INFINITY;
+  sub3(x, corner[0], s);
+  // Rays often aim at vertices and edges of the other side: a hair of tolerance lets none slip between two
+  // triangles.
+  const double hair = 1e-9;
+  double u = dot3(s, p) / det;
+  if (u < -hair || u > 1 + hair) return INFINITY;
+  cross3(s, e1, q);
+  double w = dot3(g, q) / det;
+  if (w < -hair || u + w > 1 + hair) return INFINITY;
+  return dot3(e2, q) / det;
+}
+
+// Walls around v, and walls at a concave crease next to v, bound no gap: the fan keeps columns clear of
+// those.
+static int belongs_to_crease(const CwLayerWork *work, int32_t v, int32_t f) {
+  for (int i = 0; i < 3; i++) {
+    int32_t w = work->in->triangle[f][i];
+    if (w == v) return 1;
+    if (work->crease[w] != CW_CREASE_CONCAVE) continue;
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++)
+      if (work->near[k] == w) return 1;
+  }
+  return 0;
+}
+
+// The ray along the column of v, and what it has found.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t v;
+  int guided;
+  double g[3], stretch, offset, best, far;
+} Ray;
+
+static int meet(void *context, int32_t f) {
+  Ray *ray = context;
+  const CwLayerInput *in = ray->work->in;
+  int wall = f < in->triangle_count;
+  double facing = 0, way = hit(in, f, in->x[ray->v], ray->g, &facing);
+  if (way <= ray->offset || way > ray->far) return 0;
+  if (wall) {
+    if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
+    ray->best = fmin(ray->best, 0.35 * way / ray->stretch);
+  } else {
+    // A column on a rim runs inside its own cap and must not take that for an obstacle.
+    if (facing < (ray->guided ? 0.3 : 0.05)) return 0;
+    ray->best = fmin(ray->best, 0.6 * way / ray->stretch);
+  }
+  return 0;
+}
+
+// Columns to look along.
+typedef struct {
+  const CwLayerWork *work;
+  const CwBoxTree *tree;
+  int32_t count, *vertex;
+} Gaps;
+
+// Largest height that the gap along the column allows; INFINITY where nothing stands within reach.
+static CwStatus free_height(void *context, int32_t i, void *out) {
+  const Gaps *gaps = context;
+  const CwLayerWork *work = gaps->work;
+  const CwLayerInput *in = work->in;
+  int32_t v = gaps->vertex[i];
+  Ray ray = {.work = work, .v = v, .guided = in->guide_count && in->guide_count[v] > 0, .best = INFINITY};
+  memcpy(ray.g, work->column[v], sizeof ray.g);
+  ray.stretch = unit3(ray.g);
+  ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
+  ray.far = in->target[v] * ray.stretch / 0.35;
+  cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
+  *(double *)out = ray.best;
+  return CW_OK;
+}
+
+CwStatus cw_layers_limit_by_gap(CwLayerWork *work, CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  double *most = NULL;
+  Gaps gaps = {.work = work, .tree = tree};
+  int again = work->gap != NULL;
+  if (!again) {
+    CW_NEW_UNSET(work->gap, work->n);
+    CW_NEW_UNSET(work->gap_column, work->n);
+  }
+  CW_NEW_UNSET(gaps.vertex, work->n);
+  for (int32_t v = 0; v < work->n; v++) {
+    if (again && memcmp(work->gap_column[v], work->column[v], sizeof *work->column) == 0) continue;
+    memcpy(work->gap_column[v], work->column[v], sizeof *work->column);
+    gaps.vertex[gaps.count++] = v;
+  }
+  CW_NEW_UNSET(most, gaps.count);
+  CW_TRY(cw_share("layers: gaps", gaps.count, sizeof *most, free_height, &gaps, most));
+  for (int32_t i = 0; i < gaps.count; i++) work->gap[gaps.vertex[i]] = most[i];
+  for (int32_t v = 0; v < work->n; v++) {
+    work->t[v] = fmin(work->most[v], work->gap[v]);
+    work->reason[v] = work->t[v] < work->in->target[v] ? CW_LAYER_GAP : CW_LAYER_FULL;
+  }
+done:
+  free(gaps.vertex);
+  free(most);
+  return status;
+}
+
+// Whether the fan sees to the columns at both ends of this edge: it lies along a crease or runs into one.
+static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
+  int at_v = work->crease[v] == CW_CREASE_CONCAVE, at_w = work->crease[w] == CW_CREASE_CONCAVE;
+  if (!at_v || !at_w) return at_v || at_w;
+  double along_v = dot3(work->along[v], e), along_w = dot3(work->along[w], e), least = 0.7 * length3(e);
+  int corner = length3(work->along[v]) == 0 || length3(work->along[w]) == 0;
+  return corner || fabs(along_v) > least || fabs(along_w) > least;
+}
+
+static CwStatus find_most(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
+  const CwLayerInput *in = work->in;
+  const double share = 0.6;
+  double most = in->target[v];
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    int32_t w = work->near[k];
+    double e[3];
+    sub3(in->x[w], in->x[v], e);
+    if (fan_parts(work, v, w, e)) continue;
+    // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
+    double closing = dot3(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
+                     dot3(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
+    most = fmin(most, share * dot3(e, e) / fmax(closing, 1e-30));
+  }
+  *(double *)out = most;
+  return CW_OK;
+}
+
+CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
+  return cw_share("layers: hollows", work->n, sizeof *work->most, find_most, work, work->most);
+}
+
+// Height of w at most, beside v: by the distance of their columns on the wall or at the height of the lower one,
+// whichever is less. Beside a concave crease columns lean away from it by less and less, so that they stand closer on
+// the front than on the wall, and heights that rose by their distance there would fold the front along the crease.
+static double most_beside(const CwLayerWork *work, int32_t v, int32_t w) {
+  double e[3], d[3], t = fmin(work->t[v], work->t[w]);
+  sub3(work->in->x[w], work->in->x[v], e);
+  for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
+  double wall = length3(e);
+  return work->t[v] + SLOPE * fmin(wall, fmax(length3(d), LEAST_APART * wall));
+}
+
+// Whether a vertex beside v is too high.
+static CwStatus find_steep(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
+  uint8_t *steep = out;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !*steep; k++) {
+    int32_t w = work->near[k];
+    *steep = work->t[w] > work->t[v] && work->t[w] > most_beside(work, v, w);
+  }
+  return CW_OK;
+}
+
+CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
+  CwStatus status = CW_OK;
+  CwHeap heap = {0};
+  uint8_t *steep = NULL;
+  CW_NEW(steep, work->n);
+  if (lowered) { // few
+    for (int32_t v = 0; v < work->n; v++) {
+      if (lowered[v]) find_steep(work, v, &steep[v]);
+    }
+  } else {
+    CW_TRY(cw_share("layers: steep", work->n, sizeof *steep, find_steep, work, steep));
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    if (steep[v]) CW_TRY(cw_heap_push(&heap, work->t[v], v));
+  }
+  while (heap.count) {
+    CwHeapItem top = cw_heap_pop(&heap);
+    int32_t v = top.v;
+    if (top.key > work->t[v]) continue;
+    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+      int32_t w = work->near[k];
+      if (work->t[w] <= work->t[v]) continue;
+      double most = most_beside(work, v, w);
+      if (work->t[w] <= most) continue;
+      work->t[w] = most;
+      work->reason[w] = CW_LAYER_GRADATION;
+      CW_TRY(cw_heap_push(&heap, most, w));
+    }
+  }
+done:
+  cw_heap_free(&heap);
+  free(steep);
+  return status;
+}

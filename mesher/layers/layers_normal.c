@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <stdlib.h>
+
+#include "mesher/layers/layers_inner.h"
+
+static const double LEAST_COSINE = 0.05; // of a column to the normals of the faces around
+
+// What keeps the best candidate direction.
+typedef struct {
+  int count;
+  const double (*normal)[3];
+  double best, g[3];
+} Search;
+
+static void offer(Search *search, const double candidate[3]) {
+  double g[3] = {candidate[0], candidate[1], candidate[2]};
+  if (unit3(g) < 1e-12) return;
+  double least = INFINITY;
+  for (int i = 0; i < search->count; i++) {
+    double c = dot3(search->normal[i], g);
+    if (c <= search->best) return;
+    if (c < least) least = c;
+  }
+  search->best = least;
+  memcpy(search->g, g, sizeof g);
+}
+
+static void offer_both(Search *search, const double candidate[3]) {
+  const double other[3] = {-candidate[0], -candidate[1], -candidate[2]};
+  offer(search, candidate);
+  offer(search, other);
+}
+
+static void search_free(Search *search) {
+  const double (*n)[3] = search->normal;
+  for (int i = 0; i < search->count; i++) offer(search, n[i]);
+  for (int i = 0; i < search->count; i++)
+    for (int j = i + 1; j < search->count; j++) {
+      double g[3] = {n[i][0] + n[j][0], n[i][1] + n[j][1], n[i][2] + n[j][2]};
+      offer(search, g);
+    }
+  for (int i = 0; i < search->count; i++)
+    for (int j = i + 1; j < search->count; j++)
+      for (int k = j + 1; k < search->count; k++) {
+        double a[3], b[3], g[3];
+        sub3(n[j], n[i], a);
+        sub3(n[k], n[i], b);
+        cross3(a, b, g);
+        offer_both(search, g);
+      }
+}
+
+// In the plane normal to m the cosine to n[i] is a cosine wave of the angle: the best is a crest or a
+// crossing of two.
+static void search_plane(Search *search, const double m[3]) {
+  const double (*n)[3] = search->normal;
+  for (int i = 0; i < search->count; i++) {
+    double g[3] = {n[i][0], n[i][1], n[i][2]};
+    flatten3(g, m);
+    offer(search, g);
+    for (int j = i + 1; j < search->count; j++) {
+      sub3(n[i], n[j], g);
+      cross3(m, g, g);
+      offer_both(search, g);
+    }
+  }
+}
+
+double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
+                             double g[3]) {
+  Search search = {.count = count, .normal = normal, .best = -2};
+  double line[3] = {0};
+  if (guide_count == 2) cross3(guide[0], guide[1], line);
+  if (guide_count == 0)
+    search_free(&search);
+  else if (guide_count == 2 && length3(line) > 1e-3)
+    offer_both(&search, line);
+  else
+    search_plane(&search, guide[0]);
+  memcpy(g, search.g, sizeof search.g);
+  return search.best;
+}
+
+int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]) {
+  // Vertices with very many faces lie on smooth fans; a coarser distinction is enough there.
+  for (double same = 1e-9;; same *= 30) {
+    int count = 0;
+    int32_t k = work->face_start[v];
+    for (; k < work->face_start[v + 1]; k++) {
+      const double *n = work->face_normal[work->face[k]];
+      int known = 0;
+      for (int i = 0; i < count && !known; i++) known = dot3(n, normal[i]) > 1 - same;
+      if (known) continue;
+      if (count == CW_LAYER_NORMALS) break;
+      memcpy(normal[count++], n, sizeof normal[0]);
+    }
+    if (k == work->face_start[v + 1]) return count;
+  }
+}
+
+double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]) {
+  double least = INFINITY;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+    double c = dot3(work->face_normal[work->face[k]], direction);
+    if (c < least) least = c;
+  }
+  return least;
+}
+
+double cw_layers_floor(const CwLayerWork *work, int32_t v) {
+  return work->crease[v] == CW_CREASE_CONCAVE ? 0.3 : 0.55;
+}
+
+void cw_layers_upright(const CwLayerWork *work, int32_t v, double column[3]) {
+  double c = fmax(work->base_cos[v], cw_layers_floor(work, v));
+  for (int k = 0; k < 3; k++) column[k] = work->base[v][k] / c;
+}
+
+void cw_layers_place(const CwLayerWork *work, int32_t v, double end[3]) {
+  const CwLayerInput *in = work->in;
+  for (int k = 0; k < 3; k++) end[k] = in->x[v][k] + work->t[v] * work->column[v][k];
+  if (in->snap && in->guide_count && in->guide_count[v] > 0) in->snap(in->snap_context, v, end);
+}
+
+// Direction of the edge of a crease: normal to its two most different faces, if the other faces share it.
+static void edge_direction(int count, double (*normal)[3], double along[3]) {
+  double largest = 0;
+  for (int i = 0; i < count; i++)
+    for (int j = i + 1; j < count; j++) {
+      double c[3];
+      cross3(normal[i], normal[j], c);
+      if (length3(c) > largest) {
+        largest = length3(c);
+        memcpy(along, c, sizeof c);
+      }
+    }
+  unit3(along);
+  for (int i = 0; i < count; i++)
+    if (fabs(dot3(normal[i], along)) > 0.3) memset(along, 0, 3 * sizeof *along);
+}
+
+typedef struct {
+  double normal[3], normal_cos;
+  int32_t crease;
+} Direction;
+
+static CwStatus find_direction(void *context, int32_t v, void *out) {
+  const CwLayerWork *work = context;
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  const double none[2][3] = {{0}}, *x = in->x[v];
+  Direction *made = out;
+  double normal[CW_LAYER_NORMALS][3], *g = made->normal;
+  int count = cw_layers_distinct_normals(work, v, normal);
+  double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
+  CW_REQUIRE(c > LEAST_COSINE, CW_ERR_MESH,
+             "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
+             "least %.2f needed): the wall is folded or has an edge too sharp there",
+             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c, LEAST_COSINE);
+  made->normal_cos = c;
+  if (c >= 0.92) goto done;
+  double most = -1;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    double e[3];
+    sub3(in->x[work->near[k]], x, e);
+    most = fmax(most, dot3(e, g) / length3(e));
+  }
+  made->crease = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
+done:
+  return status;
+}
+
+// What the few vertices on creases and in guides have besides.
+typedef struct {
+  const CwLayerWork *work;
+  int32_t count, *vertex;
+} Special;
+
+typedef struct {
+  double base[3], base_cos, along[3];
+} Held;
+
+static int guides_at(const CwLayerWork *work, int32_t v) {
+  return work->in->guide_count ? work->in->guide_count[v] : 0;
+}
+
+static CwStatus find_held(void *context, int32_t i, void *out) {
+  const Special *special = context;
+  const CwLayerWork *work = special->work;
+  int32_t v = special->vertex[i];
+  Held *made = out;
+  double normal[CW_LAYER_NORMALS][3];
+  int count = cw_layers_distinct_normals(work, v, normal), guides = guides_at(work, v);
+  if (work->crease[v] != CW_CREASE_NONE) edge_direction(count, normal, made->along);
+  memcpy(made->base, work->normal[v], sizeof made->base);
+  made->base_cos = work->normal_cos[v];
+  if (guides == 0) return CW_OK;
+  made->base_cos =
+      cw_layers_most_normal(count, (const double (*)[3])normal, guides, work->in->guide_normal[v], made->base);
+  return CW_OK;
+}
+
+CwStatus cw_layers_normals(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  Direction *made = NULL;
+  Special special = {.work = work};
+  Held *held = NULL;
+  CW_NEW_UNSET(made, work->n);
+  CW_NEW_UNSET(special.vertex, work->n);
+  CW_TRY(cw_share("layers: directions", work->n, sizeof *made, find_direction, work, made));
+  for (int32_t v = 0; v < work->n; v++) {
+    memcpy(work->normal[v], made[v].normal, sizeof made[v].normal);
+    memcpy(work->base[v], made[v].normal, sizeof made[v].normal);
+    work->normal_cos[v] = work->base_cos[v] = made[v].normal_cos;
+    work->crease[v] = (uint8_t)made[v].crease;
+    if (made[v].crease != CW_CREASE_NONE || guides_at(work, v) > 0) special.vertex[special.count++] = v;
+  }
+  CW_NEW_UNSET(held, special.count);
+  CW_TRY(cw_share("layers: directions", special.count, sizeof *held, find_held, &special, held));
+  for (int32_t i = 0; i < special.count; i++) {
+    int32_t v = special.vertex[i];
+    const double *x = work->in->x[v];
+    int stays = work->in->guide_stays && work->in->guide_stays[v];
+    // Not in a block: all ranks fail alike, and may go on with other planes, but not with other caps.
+    CW_REQUIRE(held[i].base_cos > LEAST_COSINE, stays ? CW_ERR_MESH : CW_RETRY,
+               "layers: no column inside the %s at (%.4f, %.4f, %.4f) mm leaves the wall (best "
+               "cosine %.3f, at least %.2f needed): it is nearly tangent to the wall there",
+               stays ? "cap" : "dividing plane", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, held[i].base_cos, LEAST_COSINE);
+    memcpy(work->base[v], held[i].base, sizeof held[i].base);
+    memcpy(work->along[v], held[i].along, sizeof held[i].along);
+    work->base_cos[v] = held[i].base_cos;
+  }
+  for (int32_t v = 0; v < work->n; v++) cw_layers_upright(work, v, work->column[v]);
+done:
+  free(made);
+  free(special.vertex);
+  free(held);
+  return status;
+}

@@ -1,0 +1,500 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <stdlib.h>
+
+#include "mesher/layers/layers_inner.h"
+#include "mesher/parallel/schedule.h"
+
+enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
+enum { TOGETHER = 16 };   // columns at least that are turned in one task
+enum { MANY = 2048 }; // prisms that are worth handing round the ranks
+enum { FOR_SHAPE = 1, FOR_SOUNDNESS }; // what a column is turned and thinned for
+static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
+static const double KEPT = 0.08;         // the same where columns would have to give up their first height for more
+static const double FRONT = 0.4;         // what the quality of the front counts beside that of prisms: 0.3 is good
+static const double MUCH = 100;          // more than any quality
+static const double THIN = 0.8;          // what a thinned column keeps
+static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
+static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
+
+double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]) {
+  double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
+  for (int i = 0; i < 3; i++) {
+    sub3(front[i], wall[i], d[i]);
+    height[i] = length3(d[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    sub3(wall[(i + 1) % 3], wall[i], e[i]); // edge from corner i to the next
+    sub3(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to front
+    length[i] = length3(e[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    double c[3];
+    int last = (i + 2) % 3;
+    cross3(e[last], e[i], c);
+    sine[i] = length3(c) / (length[i] * length[last]);
+  }
+  for (int level = 0; level <= 4; level++) {
+    double edge[3][3];
+    for (int i = 0; i < 3; i++) {
+      for (int k = 0; k < 3; k++) edge[i][k] = e[i][k] + 0.25 * level * de[i][k];
+      if (level > 0) length[i] = length3(edge[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+      int last = (i + 2) % 3;
+      double c[3], scale = length[i] * length[last] * height[i] * sine[i];
+      cross3(edge[i], edge[last], c); // with the minus of edge[last]: into the fluid
+      double q = scale > 0 ? dot3(c, d[i]) / scale : -1;
+      if (q < least) least = q;
+    }
+  }
+  return least;
+}
+
+double cw_layers_front_quality(const double *const wall[3], const double *const front[3]) {
+  const double *const *const x[2] = {wall, front};
+  double least = INFINITY;
+  for (int i = 0; i < 3; i++) {
+    double c[2][3], scale[2];
+    for (int k = 0; k < 2; k++) {
+      double next[3], last[3];
+      sub3(x[k][(i + 1) % 3], x[k][i], next);
+      sub3(x[k][(i + 2) % 3], x[k][i], last);
+      cross3(next, last, c[k]);
+      scale[k] = length3(next) * length3(last);
+    }
+    double q = scale[1] > 0 ? dot3(c[0], c[1]) / dot3(c[0], c[0]) * scale[0] / scale[1] : -1;
+    if (q < least) least = q;
+  }
+  return least;
+}
+
+double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
+  const int32_t *v = work->in->triangle[f];
+  const double (*x)[3] = work->in->x;
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
+  return cw_layers_corner_quality(wall, end);
+}
+
+// What the front of a prism counts beside it.
+static double front_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
+  const int32_t *v = work->in->triangle[f];
+  const double (*x)[3] = work->in->x;
+  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
+  return FRONT * cw_layers_front_quality(wall, end);
+}
+
+// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
+// `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and then the one
+// that was the worst: most other directions fail there too.
+static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {
+  double prism = INFINITY, end = INFINITY, quality = INFINITY;
+  int32_t start = work->face_start[v], count = work->face_start[v + 1] - start, worst = *first;
+  for (int32_t i = 0; i < count && quality > floor; i++) {
+    int32_t at = (*first + i) % count, f = work->face[start + at];
+    double q = cw_layers_prism_quality(work, f, front), before = quality;
+    if (q < prism) prism = q;
+    if (prism < GOOD) {
+      quality = prism - MUCH;
+    } else {
+      q = front_quality(work, f, front);
+      if (q < end) end = q;
+      quality = end < prism ? end : prism;
+    }
+    if (quality < before) worst = at;
+  }
+  *first = worst;
+  return quality;
+}
+
+// Tries directions near the present one; keeps the best.
+static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
+  const CwLayerInput *in = work->in;
+  const double step[2] = {0.25, 0.1};
+  int guides = in->guide_count ? in->guide_count[v] : 0;
+  if (guides == 2) return;
+  int32_t first = 0;
+  double best = around(work, v, (const double (*)[3])front, -INFINITY, &first), kept[3], column[3];
+  double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
+  memcpy(kept, front[v], sizeof kept);
+  memcpy(column, work->column[v], sizeof column);
+  for (int s = 0; s < 2; s++) {
+    double g[3] = {column[0], column[1], column[2]}, side[3], up[3];
+    unit3(g);
+    if (guides == 1) {
+      cross3(g, in->guide_normal[v][0], side);
+      memset(up, 0, sizeof up);
+    } else {
+      int axis = fabs(g[0]) < 0.6 ? 0 : 1;
+      double e[3] = {0};
+      e[axis] = 1;
+      cross3(g, e, side);
+    }
+    unit3(side);
+    if (guides == 0) cross3(g, side, up);
+    double slope = tan(step[s]);
+    for (int i = 0; i < 8; i++) {
+      if (guides == 1 && i % 4) continue;
+      double angle = i * M_PI / 4, c = cos(angle), d = sin(angle), trial[3];
+      for (int k = 0; k < 3; k++) trial[k] = g[k] + slope * (c * side[k] + d * up[k]);
+      unit3(trial);
+      double cosine = cw_layers_least_cosine(work, v, trial);
+      if (cosine < least_cosine) continue;
+      for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
+      cw_layers_place(work, v, front[v]);
+      double quality = around(work, v, (const double (*)[3])front, best, &first);
+      if (quality > best) {
+        best = quality;
+        memcpy(kept, front[v], sizeof kept);
+        memcpy(column, work->column[v], sizeof column);
+      }
+    }
+  }
+  memcpy(front[v], kept, sizeof kept);
+  memcpy(work->column[v], column, sizeof column);
+}
+
+typedef struct {
+  CwLayerWork *work;
+  double (*front)[3];
+  double *quality;         // of each prism
+  int32_t bad_count, *bad; // prisms
+  int32_t *stale;          // prisms to judge
+  uint8_t *mark;           // vertices to turn or to thin, and what for
+  uint8_t *moved;          // vertices that moved since prisms were judged
+  int32_t moved_count, *moved_list;
+  uint8_t *uncrossed;      // and since crossings were looked for
+  double limit;            // prism quality asked for
+  double *height;          // as placed
+  CwLayerCrossing crossing;
+} Repair;
+
+// Height down to which column v may be thinned for a better shape.
+static double least_height(const CwLayerWork *work, int32_t v) { return work->in->least ? work->in->least[v] : 0; }
+
+// The front, and rounder prisms, count as long as one of the columns can still give way.
+static double judge(const Repair *repair, int32_t f) {
+  const CwLayerWork *work = repair->work;
+  const double (*front)[3] = (const double (*)[3])repair->front;
+  double prism = cw_layers_prism_quality(work, f, front);
+  for (int k = 0; k < 3; k++) {
+    int32_t v = work->in->triangle[f][k];
+    if (work->t[v] > least_height(work, v)) return fmin(prism, front_quality(work, f, front));
+  }
+  return prism < KEPT ? prism : fmax(prism, GOOD);
+}
+
+static CwStatus judge_prism(void *repair, int32_t f, void *out) {
+  *(double *)out = judge(repair, f);
+  return CW_OK;
+}
+
+static CwStatus judge_stale(void *context, int32_t i, void *out) {
+  const Repair *repair = context;
+  *(double *)out = judge(repair, repair->stale[i]);
+  return CW_OK;
+}
+
+static void set_moved(Repair *repair, int32_t v) {
+  if (!repair->moved[v]) repair->moved_list[repair->moved_count++] = v;
+  repair->moved[v] = 1;
+}
+
+// Brings the qualities round what moved up to date and marks the vertices of bad prisms. Collective.
+static CwStatus find_bad(Repair *repair) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = repair->work;
+  double *many = NULL;
+  int32_t stale = 0, kept = 0;
+  for (int32_t i = 0; i < repair->moved_count; i++) {
+    int32_t v = repair->moved_list[i];
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      int32_t f = work->face[k];
+      if (repair->quality[f] == INFINITY) continue; // listed already
+      repair->quality[f] = INFINITY;
+      repair->stale[stale++] = f;
+    }
+    repair->moved[v] = 0;
+    repair->uncrossed[v] = 1;
+  }
+  repair->moved_count = 0;
+  for (int32_t i = 0; i < repair->bad_count; i++) {
+    if (repair->quality[repair->bad[i]] < repair->limit) repair->bad[kept++] = repair->bad[i];
+  }
+  if (stale > MANY) {
+    CW_NEW_UNSET(many, stale);
+    CW_TRY(cw_share("layers: prisms", stale, sizeof *many, judge_stale, repair, many));
+  }
+  for (int32_t i = 0; i < stale; i++) {
+    int32_t f = repair->stale[i];
+    repair->quality[f] = many ? many[i] : judge(repair, f);
+    if (repair->quality[f] < repair->limit) repair->bad[kept++] = f;
+  }
+  repair->bad_count = kept;
+  memset(repair->mark, 0, (size_t)work->n);
+  for (int32_t i = 0; i < kept; i++) {
+    int32_t f = repair->bad[i];
+    int sound = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= fmin(KEPT, repair->limit);
+    for (int k = 0; k < 3; k++) {
+      uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
+      if (*mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
+    }
+  }
+done:
+  free(many);
+  return status;
+}
+
+// Puts the ends of the columns whose height changed where they belong.
+static void place_changed(Repair *repair) {
+  const CwLayerWork *work = repair->work;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (work->t[v] == repair->height[v]) continue;
+    cw_layers_place(work, v, repair->front[v]);
+    repair->height[v] = work->t[v];
+    set_moved(repair, v);
+  }
+}
+
+static CwStatus thin_marked(Repair *repair) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  for (int32_t v = 0; v < work->n; v++) {
+    double least = repair->mark[v] == FOR_SHAPE ? least_height(work, v) : 0;
+    if (!repair->mark[v] || work->t[v] <= least) continue;
+    work->t[v] = fmax(THIN * work->t[v], least);
+    work->reason[v] = CW_LAYER_REPAIR;
+  }
+  CW_TRY(cw_layers_grade(work, repair->mark));
+  place_changed(repair);
+done:
+  return status;
+}
+
+// Marks the columns of crossing front triangles; *crossing: pairs that matter.
+static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = repair->work;
+  const CwLayerInput *in = work->in;
+  memset(repair->mark, 0, work->n);
+  CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double (*)[3])repair->front, repair->uncrossed));
+  memset(repair->uncrossed, 0, work->n);
+  *crossing = repair->crossing.pair_count;
+  for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
+    const CwLayerPair *pair = &repair->crossing.pair[i];
+    const double *x = in->x[in->triangle[pair->f][0]];
+    CW_REQUIRE(pair->kind_f == 0, CW_ERR_MESH, "layers: the wall itself crosses or touches itself near "
+               "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, pair->f,
+               pair->g);
+    double share = 0;
+    for (int k = 0; k < 3; k++) {
+      int32_t v = in->triangle[pair->f][k];
+      repair->mark[v] = FOR_SOUNDNESS;
+      share = fmax(share, work->t[v] / in->target[v]);
+      if (pair->kind_g == 0) {
+        v = in->triangle[pair->g][k];
+        repair->mark[v] = FOR_SOUNDNESS;
+        share = fmax(share, work->t[v] / in->target[v]);
+      }
+    }
+    CW_REQUIRE(share > LEAST_SHARE, CW_ERR_MESH,
+               "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made", x[0] * 1e3,
+               x[1] * 1e3, x[2] * 1e3, pair->kind_g == 0 ? "itself" : pair->kind_g == 1 ? "the wall" : "a cap");
+  }
+done:
+  return status;
+}
+
+// Marked columns by groups: neighbours, of which each sees what the last one did, are in one. Groups do not see one
+// another.
+typedef struct {
+  Repair *repair;
+  int32_t count, *start, *vertex; // vertices of group g: start[g] .. start[g + 1] - 1
+} Groups;
+
+// What one column has become.
+typedef struct {
+  double front[3], column[3];
+  int32_t changed;
+} Turned;
+
+static int by_number(const void *a, const void *b) {
+  int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
+  return (p > q) - (p < q);
+}
+
+// Lists the marked vertices that hang together with v by edges, in ascending order from place `first` on; returns where
+// they end.
+static int32_t list_group(const Repair *repair, int32_t v, uint8_t *listed, int32_t first, int32_t *vertex) {
+  const CwLayerWork *work = repair->work;
+  int32_t end = first;
+  vertex[end++] = v;
+  listed[v] = 1;
+  for (int32_t i = first; i < end; i++) {
+    for (int32_t k = work->near_start[vertex[i]]; k < work->near_start[vertex[i] + 1]; k++) {
+      int32_t w = work->near[k];
+      if (!repair->mark[w] || listed[w]) continue;
+      listed[w] = 1;
+      vertex[end++] = w;
+    }
+  }
+  qsort(vertex + first, (size_t)(end - first), sizeof *vertex, by_number);
+  return end;
+}
+
+static CwStatus group_marked(Repair *repair, Groups *groups) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = repair->work;
+  uint8_t *listed = NULL;
+  int32_t end = 0;
+  CW_NEW(listed, work->n);
+  CW_NEW_UNSET(groups->vertex, work->n);
+  CW_NEW_UNSET(groups->start, work->n + 1);
+  groups->start[0] = 0;
+  for (int32_t v = 0; v < work->n; v++) {
+    if (!repair->mark[v] || listed[v]) continue;
+    end = list_group(repair, v, listed, end, groups->vertex);
+    if (end - groups->start[groups->count] >= TOGETHER) groups->start[++groups->count] = end;
+  }
+  if (end > groups->start[groups->count]) groups->start[++groups->count] = end;
+done:
+  free(listed);
+  return status;
+}
+
+static CwStatus turn_group(void *context, int32_t group, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Groups *groups = context;
+  CwLayerWork *work = groups->repair->work;
+  double(*front)[3] = groups->repair->front;
+  int32_t first = groups->start[group], count = groups->start[group + 1] - first;
+  Turned *made = NULL;
+  CW_NEW(made, count);
+  for (int32_t i = 0; i < count; i++) {
+    int32_t v = groups->vertex[first + i];
+    memcpy(made[i].front, front[v], sizeof *front);
+    turn(work, v, front);
+    made[i].changed = memcmp(made[i].front, front[v], sizeof *front) != 0;
+    memcpy(made[i].front, front[v], sizeof *front);
+    memcpy(made[i].column, work->column[v], sizeof made[i].column);
+  }
+  *bytes = made;
+  *size = count * (int64_t)sizeof *made;
+done:
+  return status;
+}
+
+// Turns marked columns, the groups over the ranks. Collective.
+static CwStatus turn_marked(Repair *repair) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  Groups groups = {.repair = repair};
+  double *cost = NULL;
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  CW_TRY(group_marked(repair, &groups));
+  CW_NEW(cost, groups.count);
+  CW_NEW(bytes, groups.count);
+  CW_NEW(size, groups.count);
+  for (int32_t g = 0; g < groups.count; g++) cost[g] = groups.start[g + 1] - groups.start[g];
+  CwSchedule schedule = {.step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group,
+                         .context = &groups, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t g = 0; g < groups.count; g++) {
+    const Turned *made = bytes[g];
+    for (int32_t i = groups.start[g]; i < groups.start[g + 1]; i++, made++) {
+      int32_t v = groups.vertex[i];
+      if (!made->changed) continue;
+      memcpy(repair->front[v], made->front, sizeof made->front);
+      memcpy(work->column[v], made->column, sizeof made->column);
+      set_moved(repair, v);
+    }
+  }
+done:
+  for (int32_t g = 0; bytes && g < groups.count; g++) free(bytes[g]);
+  free(bytes);
+  free(size);
+  free(cost);
+  free(groups.vertex);
+  free(groups.start);
+  return status;
+}
+
+// Fans the columns anew for the heights as they are now.
+static CwStatus fan_again(Repair *repair) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  CW_TRY(cw_layers_fan(work));
+  for (int32_t v = 0; v < work->n; v++) {
+    double before[3];
+    memcpy(before, repair->front[v], sizeof before);
+    cw_layers_place(work, v, repair->front[v]);
+    if (memcmp(before, repair->front[v], sizeof before) != 0) set_moved(repair, v);
+  }
+done:
+  return status;
+}
+
+CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  Repair repair = {.work = work, .front = front};
+  int32_t crossing = 0;
+  CW_NEW(repair.quality, in->triangle_count);
+  CW_NEW(repair.mark, work->n);
+  CW_NEW(repair.moved, work->n);
+  CW_NEW(repair.moved_list, work->n);
+  CW_NEW(repair.bad, in->triangle_count);
+  CW_NEW(repair.stale, in->triangle_count);
+  CW_NEW(repair.uncrossed, work->n);
+  memset(repair.uncrossed, 1, (size_t)work->n);
+  CW_NEW(repair.height, work->n);
+  CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
+  repair.crossing.tree = *tree; // the prisms stand where the walls do
+  memset(tree, 0, sizeof *tree);
+  place_changed(&repair); // no height is 0: all of them
+  memset(repair.moved, 0, (size_t)work->n);
+  repair.moved_count = 0;
+  CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_prism, &repair, repair.quality));
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    if (repair.quality[f] < GOOD) repair.bad[repair.bad_count++] = f;
+  }
+  for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
+    // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
+    repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;
+    CW_TRY(find_bad(&repair));
+    if (repair.bad_count) {
+      for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
+        CW_TRY(turn_marked(&repair));
+        CW_TRY(find_bad(&repair));
+      }
+      if (!repair.bad_count) continue;
+    } else {
+      CW_TRY(find_crossings(&repair, &crossing));
+      if (crossing == 0) goto done;
+    }
+    CW_TRY(thin_marked(&repair));
+    // What is bad still leans as the old heights asked; less height needs less lean. Once only: the turned columns are
+    // lost by it, and only thinning is sure to come to an end.
+    if (*rounds == REFAN) CW_TRY(fan_again(&repair));
+  }
+  CW_TRY(find_bad(&repair));
+  int32_t first = 0;
+  for (int32_t v = 0; v < work->n; v++)
+    if (repair.mark[v]) first = v;
+  const double *x = in->x[first];
+  status = CW_FAIL(CW_ERR_MESH,
+                   "layers: no valid front after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
+                   "(%.4f, %.4f, %.4f) mm",
+                   ROUNDS, repair.bad_count, crossing, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+done:
+  free(repair.quality);
+  free(repair.mark);
+  free(repair.moved);
+  free(repair.moved_list);
+  free(repair.bad);
+  free(repair.stale);
+  free(repair.uncrossed);
+  free(repair.height);
+  cw_layers_crossing_free(&repair.crossing);
+  return status;
+}

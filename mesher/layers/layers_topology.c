@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <stdlib.h>
+
+#include "mesher/common/incident.h"
+#include "mesher/layers/layers_inner.h"
+
+static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
+  int32_t low = work->near_start[v], high = work->near_start[v + 1];
+  while (high - low > 1) {
+    int32_t middle = (low + high) / 2;
+    if (work->near[middle] <= w)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static CwStatus check_input(const CwLayerInput *in) {
+  CwStatus status = CW_OK;
+  for (int32_t v = 0; v < in->point_count; v++) {
+    const double *x = in->x[v];
+    CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
+               "layers: wall vertex %d has a coordinate that is not a number", v);
+    CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
+               "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", in->target[v] * 1e3,
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+    int guides = in->guide_count ? in->guide_count[v] : 0;
+    CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT,
+               "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2", guides, x[0] * 1e3, x[1] * 1e3,
+               x[2] * 1e3);
+    for (int i = 0; i < guides; i++)
+      CW_REQUIRE(fabs(length3(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
+                 "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", x[0] * 1e3, x[1] * 1e3,
+                 x[2] * 1e3);
+  }
+  for (int32_t f = 0; f < in->triangle_count; f++)
+    for (int i = 0; i < 3; i++)
+      CW_REQUIRE(in->triangle[f][i] >= 0 && in->triangle[f][i] < in->point_count, CW_ERR_INPUT,
+                 "layers: wall triangle %d names point %d of %d", f, in->triangle[f][i], in->point_count);
+  for (int32_t f = 0; f < in->obstacle_triangle_count; f++)
+    for (int i = 0; i < 3; i++)
+      CW_REQUIRE(in->obstacle_triangle[f][i] >= 0 && in->obstacle_triangle[f][i] < in->obstacle_point_count,
+                 CW_ERR_INPUT, "layers: obstacle triangle %d names point %d of %d", f, in->obstacle_triangle[f][i],
+                 in->obstacle_point_count);
+done:
+  return status;
+}
+
+// Each vertex in turn puts itself on the lists of its neighbours, so that they come out ascending, and a neighbour by
+// two triangles is the last one twice. Whether it stays on a list is reckoned, not asked: no branch could foretell it.
+static CwStatus lists(CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = work->in;
+  CwIncident around = {0};
+  int32_t *end = NULL, *last = NULL, count = 0; // of each list: its end, and the vertex that was last there
+  CW_TRY(cw_incident_make(work->n, in->triangle_count, in->triangle, &around));
+  work->face_start = around.start;
+  work->face = around.triangle;
+  CW_NEW_UNSET(work->near_start, work->n + 1);
+  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count + (size_t)work->n); // at first one to spare on each list
+  CW_NEW_UNSET(end, work->n);
+  CW_NEW_UNSET(last, work->n);
+  for (int32_t v = 0; v < work->n; v++) {
+    CW_REQUIRE(work->face_start[v + 1] > work->face_start[v], CW_ERR_INPUT,
+               "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
+               in->x[v][1] * 1e3, in->x[v][2] * 1e3);
+    end[v] = 2 * work->face_start[v] + v;
+    last[v] = -1;
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+      const int32_t *corner = in->triangle[work->face[k]];
+      for (int i = 0; i < 3; i++) {
+        int32_t w = corner[i];
+        work->near[end[w]] = v;
+        end[w] += (last[w] != v) & (w != v);
+        last[w] = v;
+      }
+    }
+  }
+  for (int32_t v = 0; v < work->n; v++) {
+    work->near_start[v] = count;
+    for (int32_t k = 2 * work->face_start[v] + v; k < end[v]; k++) work->near[count++] = work->near[k];
+  }
+  work->near_start[work->n] = count;
+done:
+  free(end);
+  free(last);
+  return status;
+}
+
+// Two edges of a wall triangle and its area vector, of twice its area, into the domain: the input's points out of it.
+static void area_vector(const CwLayerInput *in, int32_t f, double e1[3], double e2[3], double vector[3]) {
+  const int32_t *corner = in->triangle[f];
+  sub3(in->x[corner[1]], in->x[corner[0]], e1);
+  sub3(in->x[corner[2]], in->x[corner[0]], e2);
+  cross3(e2, e1, vector);
+}
+
+static CwStatus find_normal(void *context, int32_t f, void *out) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = ((const CwLayerWork *)context)->in;
+  const int32_t *corner = in->triangle[f];
+  double e1[3], e2[3], *normal = out;
+  area_vector(in, f, e1, e2, normal);
+  CW_REQUIRE(unit3(normal) > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
+             "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
+             in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
+done:
+  return status;
+}
+
+static double twice_area(const CwLayerInput *in, int32_t f) {
+  double e1[3], e2[3], normal[3];
+  area_vector(in, f, e1, e2, normal);
+  return length3(normal);
+}
+
+// Half the cotangent of the angle at corner i of f, which belongs to the opposite edge; clamped so that obtuse corners
+// keep the system monotone.
+static double half_cotangent(const CwLayerInput *in, int32_t f, int i, double twice_area) {
+  const int32_t *corner = in->triangle[f];
+  double e1[3], e2[3];
+  sub3(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
+  sub3(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
+  return 0.5 * fmin(fmax(dot3(e1, e2) / twice_area, 0.05), 5.0);
+}
+
+void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, double *area) {
+  int32_t start = work->near_start[v];
+  memset(weight, 0, (size_t)(work->near_start[v + 1] - start) * sizeof *weight);
+  *area = 0;
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+    int32_t f = work->face[k];
+    const int32_t *corner = work->in->triangle[f];
+    int i = corner[0] == v ? 0 : corner[1] == v ? 1 : 2, next = (i + 1) % 3, last = (i + 2) % 3;
+    double twice = twice_area(work->in, f);
+    weight[find_near(work, v, corner[next]) - start] += half_cotangent(work->in, f, last, twice);
+    weight[find_near(work, v, corner[last]) - start] += half_cotangent(work->in, f, next, twice);
+    *area += twice / 6;
+  }
+}
+
+double cw_layers_shortest_edge(const CwLayerWork *work, int32_t v) {
+  double least = INFINITY;
+  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
+    least = fmin(least, distance3(work->in->x[work->near[k]], work->in->x[v]));
+  }
+  return least;
+}
+
+CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
+  CwStatus status = CW_OK;
+  work->in = input;
+  work->n = input->point_count;
+  CW_TRY(check_input(input));
+  CW_TRY(lists(work));
+  CW_NEW_UNSET(work->face_normal, input->triangle_count);
+  CW_TRY(cw_share("layers: normals", input->triangle_count, sizeof *work->face_normal, find_normal, work,
+                  work->face_normal));
+  CW_NEW_UNSET(work->normal, work->n);
+  CW_NEW_UNSET(work->normal_cos, work->n);
+  CW_NEW_UNSET(work->base, work->n);
+  CW_NEW_UNSET(work->base_cos, work->n);
+  CW_NEW_UNSET(work->crease, work->n);
+  CW_NEW(work->along, work->n);
+  CW_NEW_UNSET(work->column, work->n);
+  CW_NEW_UNSET(work->t, work->n);
+  CW_NEW_UNSET(work->most, work->n);
+  CW_NEW_UNSET(work->reason, work->n);
+done:
+  return status;
+}
+
+void cw_layers_work_free(CwLayerWork *work) {
+  free(work->face_normal);
+  free(work->face_start);
+  free(work->face);
+  free(work->near_start);
+  free(work->near);
+  free(work->normal);
+  free(work->normal_cos);
+  free(work->base);
+  free(work->base_cos);
+  free(work->crease);
+  free(work->along);
+  free(work->column);
+  free(work->t);
+  free(work->most);
+  free(work->reason);
+  free(work->gap);
+  free(work->gap_column);
+  free(work->curve);
+  cw_fans_free(&work->fans);
+  memset(work, 0, sizeof *work);
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Prisms so long for their height that checkMesh calls their determinant small. It takes that of sum S S^T / a^2 over
+// the inner faces of a cell, S being their area vectors and a the mean of their areas, over 8: of a right prism it
+// falls with the fourth power of height over length. Such prisms are sound, but the user should know whence they come.
+#ifndef CUTWATER_MESHER_LAYERS_THIN_PRISM_H
+#define CUTWATER_MESHER_LAYERS_THIN_PRISM_H
+
+#define CW_SMALL_DETERMINANT 1e-3
+
+// Determinant of a right prism of height `height` (m) on a triangle of `area` (m2) whose edges are `around` (m) long
+// together. All its faces are inner ones but, on_wall, one triangle.
+double cw_thin_prism_determinant(double area, double around, double height, int on_wall);
+
+// How many times as tall a prism of that determinant would have to be; above 1 where it is small.
+double cw_thin_prism_wanted(double determinant);
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Places on curves and Newton steps onto planes.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/network/network.h"
+
+enum { NEWTON_STEPS = 20 };
+static const double ON_PLANE = 1e-12; // m: as near as double precision allows at pump size
+
+double cw_face_onto_plane(const CwCad *cad, int32_t face, const CwPlane *plane, double uv[2], double x[3]) {
+  double distance = 0;
+  for (int step = 0; step < NEWTON_STEPS; step++) {
+    double xu[3], xv[3];
+    cw_cad_face_point(cad, face, uv, x, xu, xv);
+    distance = cw_plane_distance(plane, x);
+    if (fabs(distance) < ON_PLANE) break;
+    // Shortest step on the surface: along G^-1 g, with G the metric and g the gradient of the distance in (u,v).
+    double g[2] = {cw_dot(plane->normal, xu), cw_dot(plane->normal, xv)};
+    double e = cw_dot(xu, xu), f = cw_dot(xu, xv), h = cw_dot(xv, xv), det = e * h - f * f;
+    if (!(det > 0)) break;
+    double a[2] = {(h * g[0] - f * g[1]) / det, (e * g[1] - f * g[0]) / det};
+    double slope = g[0] * a[0] + g[1] * a[1];
+    if (!(slope > 1e-12)) break;
+    for (int k = 0; k < 2; k++) uv[k] -= distance * a[k] / slope;
+  }
+  return fabs(distance);
+}
+
+double cw_face_onto_planes(const CwCad *cad, int32_t face, const CwPlane *a, const CwPlane *b, double uv[2],
+                           double x[3]) {
+  double left = 0;
+  for (int step = 0; step < NEWTON_STEPS; step++) {
+    double xu[3], xv[3];
+    cw_cad_face_point(cad, face, uv, x, xu, xv);
+    double da = cw_plane_distance(a, x), db = cw_plane_distance(b, x);
+    left = fmax(fabs(da), fabs(db));
+    if (left < ON_PLANE) break;
+    double m[2][2] = {{cw_dot(a->normal, xu), cw_dot(a->normal, xv)}, {cw_dot(b->normal, xu), cw_dot(b->normal, xv)}};
+    double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (det == 0) break;
+    uv[0] -= (da * m[1][1] - db * m[0][1]) / det;
+    uv[1] -= (db * m[0][0] - da * m[1][0]) / det;
+  }
+  return left;
+}
+
+void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double length, double x[3], double parameter[2]) {
+  int32_t low = 0, high = curve->fine_count - 1;
+  while (high - low > 1) {
+    int32_t middle = (low + high) / 2;
+    if (curve->fine_length[middle] <= length) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double span = curve->fine_length[high] - curve->fine_length[low];
+  double s = span > 0 ? (length - curve->fine_length[low]) / span : 0;
+  s = fmin(fmax(s, 0), 1);
+  for (int k = 0; k < 2; k++) {
+    parameter[k] = curve->fine_parameter[low][k] +
+                   s * (curve->fine_parameter[high][k] - curve->fine_parameter[low][k]);
+  }
+  switch (curve->kind) {
+  case CW_CURVE_EDGE:
+    cw_cad_edge_point(network->cad, curve->edge, parameter[0], x, NULL);
+    break;
+  case CW_CURVE_CUT:
+    cw_face_onto_plane(network->cad, curve->face[0], &network->plan->node[curve->plane[0]].plane, parameter, x);
+    break;
+  case CW_CURVE_LINE:
+    cw_lerp(curve->fine_x[low], curve->fine_x[high], s, x);
+    break;
+  }
+}
+
+double cw_curve_nearest(const CwCurve *curve, const double x[3]) {
+  double best = INFINITY, length = 0;
+  for (int32_t i = 0; i + 1 < curve->fine_count; i++) {
+    double d[3], r[3], p[3];
+    cw_sub(curve->fine_x[i + 1], curve->fine_x[i], d);
+    cw_sub(x, curve->fine_x[i], r);
+    double square = cw_dot(d, d), s = square > 0 ? fmin(fmax(cw_dot(r, d) / square, 0), 1) : 0;
+    cw_lerp(curve->fine_x[i], curve->fine_x[i + 1], s, p);
+    double distance = cw_distance(p, x);
+    if (distance < best) {
+      best = distance;
+      length = curve->fine_length[i] + s * (curve->fine_length[i + 1] - curve->fine_length[i]);
+    }
+  }
+  return length;
+}
+
+int32_t cw_network_corner(CwNetwork *network, const CwCorner *corner, double tolerance) {
+  for (int32_t i = 0; i < network->corner_count; i++) {
+    const CwCorner *old = &network->corner[i];
+    if (old->face == corner->face && old->edge == corner->edge && old->vertex == corner->vertex &&
+        !memcmp(old->plane, corner->plane, sizeof old->plane) && cw_distance(old->x, corner->x) <= tolerance) {
+      return i;
+    }
+  }
+  if (network->corner_count == network->corner_capacity) {
+    int32_t capacity = network->corner_capacity ? 2 * network->corner_capacity : 256;
+    CwCorner *grown = realloc(network->corner, (size_t)capacity * sizeof *grown);
+    if (!grown) return -1;
+    network->corner = grown;
+    network->corner_capacity = capacity;
+  }
+  network->corner[network->corner_count] = *corner;
+  return network->corner_count++;
+}
+
+static void curve_free(CwCurve *curve) {
+  free(curve->fine_x);
+  free(curve->fine_parameter);
+  free(curve->fine_length);
+  free(curve->node);
+  free(curve->parameter);
+}
+
+CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve) {
+  CwStatus status = CW_OK;
+  CW_GROW(network->curve, network->curve_capacity, network->curve_count + 1);
+  if (!curve->fine_length) {
+    CW_NEW(curve->fine_length, curve->fine_count);
+    for (int32_t i = 1; i < curve->fine_count; i++) {
+      curve->fine_length[i] = curve->fine_length[i - 1] + cw_distance(curve->fine_x[i - 1], curve->fine_x[i]);
+    }
+  }
+  network->curve[network->curve_count++] = *curve;
+done:
+  if (status != CW_OK) curve_free(curve);
+  return status;
+}
+
+void cw_network_free(CwNetwork *network) {
+  for (int32_t i = 0; i < network->curve_count; i++) curve_free(&network->curve[i]);
+  free(network->curve);
+  free(network->corner);
+  memset(network, 0, sizeof *network);
+}

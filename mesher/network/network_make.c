@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The curve network: CAD edges cut at the planes, traces of the planes, and the lines where two planes meet.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/network/network.h"
+
+enum { EDGE_FINE = 129, LINE_FINE = 65 };
+
+typedef struct {
+  int32_t corner;
+  double t;
+} Place;
+
+static int compare_places(const void *p, const void *q) {
+  const Place *a = p, *b = q;
+  if (a->t != b->t) return a->t < b->t ? -1 : 1;
+  return (a->corner > b->corner) - (a->corner < b->corner);
+}
+
+static int face_is_wall(const CwCad *cad, int face) {
+  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
+}
+
+static CwStatus fine_new(CwCurve *curve, int32_t count) {
+  CwStatus status = CW_OK;
+  curve->fine_count = count;
+  CW_NEW(curve->fine_x, count);
+  CW_NEW(curve->fine_parameter, count);
+done:
+  if (status != CW_OK) free(curve->fine_x);
+  return status;
+}
+
+// The pieces of one CAD edge between its ends and the planes that cross it.
+static CwStatus add_edge(CwNetwork *network, int32_t edge, Place *place) {
+  CwStatus status = CW_OK;
+  const CwCad *cad = network->cad;
+  double range[2];
+  int vertex[2], face[2];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_vertices(cad, edge, vertex);
+  cw_cad_edge_faces(cad, edge, face);
+  int32_t count = 0;
+  place[count++] = (Place){vertex[0], range[0]}; // the corners of CAD vertices come first, in their order
+  for (int32_t i = 0; i < network->corner_count; i++) {
+    if (network->corner[i].edge == edge) place[count++] = (Place){i, network->corner[i].t};
+  }
+  place[count++] = (Place){vertex[1], range[1]};
+  qsort(place + 1, (size_t)count - 2, sizeof *place, compare_places);
+  for (int32_t p = 0; p + 1 < count; p++) {
+    CwCurve curve = {.kind = CW_CURVE_EDGE,
+                     .corner = {place[p].corner, place[p + 1].corner},
+                     .edge = edge,
+                     .face = {face[0], face[1]},
+                     .plane = {-1, -1},
+                     .wall = face_is_wall(cad, face[0]) || face_is_wall(cad, face[1])};
+    CW_TRY(fine_new(&curve, EDGE_FINE));
+    for (int i = 0; i < EDGE_FINE; i++) {
+      double t = place[p].t + (place[p + 1].t - place[p].t) * i / (EDGE_FINE - 1);
+      curve.fine_parameter[i][0] = t;
+      cw_cad_edge_point(cad, edge, t, curve.fine_x[i], NULL);
+    }
+    CW_TRY(cw_network_add_curve(network, &curve));
+  }
+done:
+  return status;
+}
+
+// The point where three planes meet, where it lies in the domain and in the cells of all three.
+static int triple_point(const CwNetwork *network, const CwInside *inside, const int32_t node[3], double x[3]) {
+  const CwPlan *plan = network->plan;
+  double point[3], direction[3];
+  const CwPlane *a = &plan->node[node[0]].plane, *b = &plan->node[node[1]].plane, *c = &plan->node[node[2]].plane;
+  if (!cw_plane_line(a, b, point, direction)) return 0;
+  double slope = cw_dot(c->normal, direction);
+  if (fabs(slope) < 1e-3) return 0;
+  double s = -cw_plane_distance(c, point) / slope;
+  for (int k = 0; k < 3; k++) x[k] = point[k] + s * direction[k];
+  for (int k = 0; k < 3; k++) {
+    if (!cw_plan_in_cell(plan, node[k], x, 1e-9, node, 3)) return 0;
+  }
+  return cw_inside_test(inside, x);
+}
+
+static int has_planes(const CwCorner *corner, int32_t a, int32_t b) {
+  int found = 0;
+  for (int k = 0; k < 3; k++) found += corner->plane[k] == a || corner->plane[k] == b;
+  return found == 2;
+}
+
+// The pieces of the line of two planes that lie in the domain and in the cell of the lower plane.
+static CwStatus add_line(CwNetwork *network, const CwInside *inside, int32_t above, int32_t below, Place *place) {
+  CwStatus status = CW_OK;
+  double point[3], direction[3];
+  if (!cw_plane_line(&network->plan->node[above].plane, &network->plan->node[below].plane, point, direction)) goto done;
+  int32_t count = 0;
+  for (int32_t i = 0; i < network->corner_count; i++) {
+    if (!has_planes(&network->corner[i], above, below)) continue;
+    double from_point[3];
+    cw_sub(network->corner[i].x, point, from_point);
+    place[count++] = (Place){i, cw_dot(from_point, direction)};
+  }
+  qsort(place, (size_t)count, sizeof *place, compare_places);
+  for (int32_t p = 0; p + 1 < count; p++) {
+    const double *a = network->corner[place[p].corner].x, *b = network->corner[place[p + 1].corner].x;
+    double middle[3];
+    int32_t skip[1] = {above};
+    cw_lerp(a, b, 0.5, middle);
+    if (!cw_inside_test(inside, middle) || !cw_plan_in_cell(network->plan, below, middle, 0, skip, 1)) continue;
+    CwCurve curve = {.kind = CW_CURVE_LINE,
+                     .corner = {place[p].corner, place[p + 1].corner},
+                     .edge = -1,
+                     .face = {-1, -1},
+                     .plane = {above, below}};
+    CW_TRY(fine_new(&curve, LINE_FINE));
+    for (int i = 0; i < LINE_FINE; i++) cw_lerp(a, b, (double)i / (LINE_FINE - 1), curve.fine_x[i]);
+    CW_TRY(cw_network_add_curve(network, &curve));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
+                         const CwPlan *plan, CwNetwork *network) {
+  CwStatus status = CW_OK;
+  Place *place = NULL;
+  int32_t *below = NULL;
+  memset(network, 0, sizeof *network);
+  network->cad = cad;
+  network->plan = plan;
+  for (int v = 0; v < cw_cad_vertex_count(cad); v++) {
+    CwCorner corner = {{0}, -1, -1, 0, v, {-1, -1, -1}, 0};
+    cw_cad_vertex_point(cad, v, corner.x);
+    CW_REQUIRE(cw_network_corner(network, &corner, 0) == v, CW_ERR_MEMORY, "out of memory: %d corners", v);
+  }
+  CW_TRY(cw_network_trace_all(network, background));
+
+  // Three planes meet only where one is above the two others: cells side by side touch on a plane above both alone.
+  CW_NEW(below, plan->node_count);
+  for (int32_t a = 0; a < plan->node_count; a++) {
+    int32_t count = 0;
+    for (int32_t b = a + 1; b < plan->node_count; b++) {
+      if (cw_plan_is_ancestor(plan, a, b)) below[count++] = b;
+    }
+    for (int32_t b = 0; b < count; b++) {
+      for (int32_t c = b + 1; c < count; c++) {
+        CwCorner corner = {{0}, -1, -1, 0, -1, {a, below[b], below[c]}, 0};
+        if (!triple_point(network, inside, corner.plane, corner.x)) continue;
+        CW_REQUIRE(cw_network_corner(network, &corner, cw_same_corner) >= 0, CW_ERR_MEMORY, "out of memory: %d corners",
+                   network->corner_count);
+      }
+    }
+  }
+  CW_NEW(place, network->corner_count + 2);
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) CW_TRY(add_edge(network, e, place));
+  for (int32_t a = 0; a < plan->node_count; a++) {
+    for (int32_t b = a + 1; b < plan->node_count; b++) {
+      if (cw_plan_is_ancestor(plan, a, b)) CW_TRY(add_line(network, inside, a, b, place));
+    }
+  }
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    if (!network->curve[i].wall) continue;
+    for (int k = 0; k < 2; k++) network->corner[network->curve[i].corner[k]].on_wall = 1;
+  }
+done:
+  free(place);
+  free(below);
+  if (status != CW_OK) cw_network_free(network);
+  return status;
+}

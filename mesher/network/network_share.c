@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The traces of all planes, one plane a task: each is traced into a network of its own, which travels packed and is
+// joined to the whole in the order of the planes.
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/network/network.h"
+#include "mesher/parallel/schedule.h"
+
+enum { MESSAGE_SIZE = 1024, DOUBLES = 6 }; // of a fine point: place, two parameters, length
+
+// Corners, curves and then the arrays of each curve follow it, aligned as numbers need it.
+typedef struct {
+  _Alignas(double) CwStatus outcome; // CW_OK, or CW_RETRY with its message
+  int32_t corners, curves;
+  char message[MESSAGE_SIZE];
+} Head;
+
+typedef struct {
+  const CwNetwork *network;
+  const CwBackground *background;
+} Traces;
+
+static CwStatus pack(const CwNetwork *network, CwStatus outcome, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  Head head = {.outcome = outcome, .corners = network->corner_count, .curves = network->curve_count};
+  size_t corners = (size_t)head.corners * sizeof *network->corner;
+  size_t curves = (size_t)head.curves * sizeof *network->curve, points = 0;
+  char *block;
+  for (int32_t i = 0; i < head.curves; i++) points += (size_t)network->curve[i].fine_count;
+  size_t all = sizeof head + corners + curves + points * DOUBLES * sizeof(double);
+  if (outcome != CW_OK) strncpy(head.message, cw_fail_message(), MESSAGE_SIZE - 1);
+  CW_NEW(block, all);
+  memcpy(block, &head, sizeof head);
+  if (corners) memcpy(block + sizeof head, network->corner, corners);
+  if (curves) memcpy(block + sizeof head + corners, network->curve, curves);
+  char *at = block + sizeof head + corners + curves;
+  for (int32_t i = 0; i < head.curves; i++) {
+    const CwCurve *curve = &network->curve[i];
+    size_t count = (size_t)curve->fine_count;
+    memcpy(at, curve->fine_x, count * sizeof *curve->fine_x);
+    at += count * sizeof *curve->fine_x;
+    memcpy(at, curve->fine_parameter, count * sizeof *curve->fine_parameter);
+    at += count * sizeof *curve->fine_parameter;
+    memcpy(at, curve->fine_length, count * sizeof *curve->fine_length);
+    at += count * sizeof *curve->fine_length;
+  }
+  *bytes = block;
+  *size = (int64_t)all;
+done:
+  return status;
+}
+
+static CwStatus trace_plane(void *context, int32_t node, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Traces *traces = context;
+  CwNetwork made = {.cad = traces->network->cad, .plan = traces->network->plan};
+  CwStatus outcome = cw_network_trace(&made, traces->background, node);
+  if (outcome != CW_RETRY) CW_TRY(outcome);
+  CW_TRY(pack(&made, outcome, bytes, size));
+done:
+  cw_network_free(&made);
+  return status;
+}
+
+// Adds a packed curve, whose arrays begin at `at` and whose corners have the numbers `corner` in the whole network.
+static CwStatus join_curve(CwNetwork *network, const CwCurve *packed, const int32_t *corner, const char *at) {
+  CwStatus status = CW_OK;
+  CwCurve curve = *packed;
+  size_t count = (size_t)curve.fine_count;
+  curve.fine_x = NULL; // addresses mean nothing elsewhere
+  curve.fine_parameter = NULL;
+  curve.fine_length = NULL;
+  for (int k = 0; k < 2; k++) curve.corner[k] = corner[packed->corner[k]];
+  CW_NEW(curve.fine_x, count);
+  CW_NEW(curve.fine_parameter, count);
+  CW_NEW(curve.fine_length, count);
+  memcpy(curve.fine_x, at, count * sizeof *curve.fine_x);
+  at += count * sizeof *curve.fine_x;
+  memcpy(curve.fine_parameter, at, count * sizeof *curve.fine_parameter);
+  at += count * sizeof *curve.fine_parameter;
+  memcpy(curve.fine_length, at, count * sizeof *curve.fine_length);
+  return cw_network_add_curve(network, &curve);
+done:
+  free(curve.fine_x);
+  free(curve.fine_parameter);
+  free(curve.fine_length);
+  return status;
+}
+
+static CwStatus join(CwNetwork *network, const void *bytes) {
+  CwStatus status = CW_OK;
+  Head head;
+  int32_t *corner = NULL;
+  memcpy(&head, bytes, sizeof head);
+  CW_REQUIRE(head.outcome == CW_OK, CW_RETRY, "%s", head.message);
+  const CwCorner *corners = (const CwCorner *)((const char *)bytes + sizeof head);
+  const CwCurve *curves = (const CwCurve *)(corners + head.corners);
+  const char *at = (const char *)(curves + head.curves);
+  CW_NEW(corner, head.corners);
+  for (int32_t i = 0; i < head.corners; i++) {
+    corner[i] = cw_network_corner(network, &corners[i], cw_same_corner);
+    CW_REQUIRE(corner[i] >= 0, CW_ERR_MEMORY, "out of memory: %d corners", network->corner_count);
+  }
+  for (int32_t i = 0; i < head.curves; i++) {
+    CW_TRY(join_curve(network, &curves[i], corner, at));
+    at += (size_t)curves[i].fine_count * DOUBLES * sizeof(double);
+  }
+done:
+  free(corner);
+  return status;
+}
+
+CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background) {
+  CwStatus status = CW_OK;
+  int32_t nodes = network->plan->node_count;
+  Traces traces = {network, background};
+  void **bytes = NULL;
+  int64_t *size = NULL;
+  CW_NEW(bytes, nodes);
+  CW_NEW(size, nodes);
+  CwSchedule schedule = {
+      .step = "traces of the planes", .count = nodes, .run = trace_plane, .context = &traces, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t node = 0; node < nodes; node++) CW_TRY(join(network, bytes[node]));
+done:
+  for (int32_t node = 0; bytes && node < nodes; node++) free(bytes[node]);
+  free(bytes);
+  free(size);
+  return status;
+}

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Cut curves: the traces of a dividing plane on the CAD faces, found on the background triangulation (marked edges,
+// chained to loops and arcs: paper, section 2.2, steps 1 to 4) and then put exactly onto plane and surface.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/network/network.h"
+
+enum { EDGE_SAMPLES = 257 };
+static const double FOUND = 1e-9;       // m: Newton has arrived
+
+// A background edge that the plane crosses, as seen from one of its two triangles.
+typedef struct {
+  int32_t a, b, triangle; // a < b
+} Crossing;
+
+// The crossings of one plane: key k is crossing[2k] and crossing[2k + 1], the same edge from its two triangles.
+typedef struct {
+  const CwBackground *background;
+  const CwPlane *plane;
+  int32_t key_count;
+  Crossing *crossing;
+  int32_t (*keys_of)[2]; // of each background triangle, -1: not crossed
+} Crossings;
+
+// One trace on one face.
+typedef struct {
+  int32_t face, count, closed;
+  double (*x)[3], (*uv)[2];
+  CwCorner end[2]; // on the CAD edges where an open trace begins and ends
+} Trace;
+
+// Where another plane divides a trace.
+typedef struct {
+  double place; // segment number + fraction
+  double x[3], uv[2];
+  int32_t plane;
+} Split;
+
+static int compare_crossings(const void *p, const void *q) {
+  const Crossing *a = p, *b = q;
+  if (a->a != b->a) return a->a < b->a ? -1 : 1;
+  if (a->b != b->b) return a->b < b->b ? -1 : 1;
+  return (a->triangle > b->triangle) - (a->triangle < b->triangle);
+}
+
+static CwStatus find_crossings(Crossings *found) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = found->background;
+  uint8_t *above = NULL;
+  int32_t count = 0;
+  CW_NEW(above, background->point_count);
+  for (int32_t i = 0; i < background->point_count; i++) {
+    above[i] = cw_plane_distance(found->plane, background->x[i]) > 0;
+  }
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    const int32_t *c = background->triangle[t];
+    count += 2 * (above[c[0]] != above[c[1]] || above[c[1]] != above[c[2]]);
+  }
+  CW_NEW(found->crossing, count);
+  CW_NEW(found->keys_of, background->triangle_count);
+  count = 0;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    found->keys_of[t][0] = found->keys_of[t][1] = -1;
+    for (int k = 0; k < 3; k++) {
+      int32_t a = background->triangle[t][k], b = background->triangle[t][(k + 1) % 3];
+      if (above[a] == above[b]) continue;
+      found->crossing[count++] = a < b ? (Crossing){a, b, t} : (Crossing){b, a, t};
+    }
+  }
+  qsort(found->crossing, (size_t)count, sizeof *found->crossing, compare_crossings);
+  found->key_count = count / 2;
+  for (int32_t i = 0; i < count; i++) {
+    int32_t *keys = found->keys_of[found->crossing[i].triangle];
+    keys[keys[0] >= 0] = i / 2;
+  }
+done:
+  free(above);
+  return status;
+}
+
+static int on_face_border(const Crossings *found, int32_t key) {
+  const int32_t *face = found->background->face;
+  return face[found->crossing[2 * key].triangle] != face[found->crossing[2 * key + 1].triangle];
+}
+
+// (u,v) of the crossing on the face of `triangle`, linear along the background edge, and its place in space.
+static void crossing_on_face(const Crossings *found, int32_t key, int32_t triangle, double uv[2], double x[3]) {
+  const CwBackground *background = found->background;
+  const Crossing *crossing = &found->crossing[2 * key];
+  double da = cw_plane_distance(found->plane, background->x[crossing->a]);
+  double db = cw_plane_distance(found->plane, background->x[crossing->b]);
+  double s = da / (da - db);
+  const double *uv_a = NULL, *uv_b = NULL;
+  for (int k = 0; k < 3; k++) {
+    if (background->triangle[triangle][k] == crossing->a) uv_a = background->uv[triangle][k];
+    if (background->triangle[triangle][k] == crossing->b) uv_b = background->uv[triangle][k];
+  }
+  for (int k = 0; k < 2; k++) uv[k] = uv_a[k] + s * (uv_b[k] - uv_a[k]);
+  cw_lerp(background->x[crossing->a], background->x[crossing->b], s, x);
+}
+
+// Nearest sample of a CAD edge to x; returns the distance.
+static double nearest_sample(const CwCad *cad, int32_t edge, const double x[3], double *t) {
+  double range[2], best = INFINITY;
+  cw_cad_edge_range(cad, edge, range);
+  for (int i = 0; i < EDGE_SAMPLES; i++) {
+    double at = range[0] + (range[1] - range[0]) * i / (EDGE_SAMPLES - 1), p[3];
+    cw_cad_edge_point(cad, edge, at, p, NULL);
+    double distance = cw_distance(p, x);
+    if (distance < best) best = distance, *t = at;
+  }
+  return best;
+}
+
+// The corner where the plane crosses the CAD edge that the background edge of `key` belongs to.
+static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found, int32_t key, int32_t node,
+                               CwCorner *corner) {
+  CwStatus status = CW_OK;
+  const CwCad *cad = network->cad;
+  const CwBackground *background = found->background;
+  int32_t f = background->face[found->crossing[2 * key].triangle];
+  int32_t g = background->face[found->crossing[2 * key + 1].triangle];
+  double uv[2], guess[3], best = INFINITY, range[2];
+  crossing_on_face(found, key, found->crossing[2 * key].triangle, uv, guess);
+  *corner = (CwCorner){{0}, -1, -1, 0, -1, {node, -1, -1}, 0};
+  for (int32_t e = 0; e < cw_cad_edge_count(cad); e++) {
+    int faces[2];
+    double t = 0;
+    cw_cad_edge_faces(cad, e, faces);
+    if (!(faces[0] == f && faces[1] == g) && !(faces[0] == g && faces[1] == f)) continue;
+    double distance = nearest_sample(cad, e, guess, &t);
+    if (distance < best) best = distance, corner->edge = e, corner->t = t;
+  }
+  CW_REQUIRE(corner->edge >= 0, CW_RETRY, "no CAD edge between faces %s and %s at (%.3f, %.3f, %.3f) mm",
+             cw_cad_face_name(cad, f), cw_cad_face_name(cad, g), 1e3 * guess[0], 1e3 * guess[1], 1e3 * guess[2]);
+  cw_cad_edge_range(cad, corner->edge, range);
+  double distance = INFINITY;
+  for (int step = 0; step < 50; step++) {
+    double tangent[3];
+    cw_cad_edge_point(cad, corner->edge, corner->t, corner->x, tangent);
+    distance = cw_plane_distance(found->plane, corner->x);
+    double slope = cw_dot(found->plane->normal, tangent);
+    if (fabs(distance) < 1e-13 || slope == 0) break;
+    corner->t = fmin(fmax(corner->t - distance / slope, range[0]), range[1]);
+  }
+  double length = cw_distance(background->x[found->crossing[2 * key].a], background->x[found->crossing[2 * key].b]);
+  CW_REQUIRE(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + 1e-4, CW_RETRY,
+             "dividing plane %d grazes the edge between faces %s and %s at (%.3f, %.3f, %.3f) mm", node,
+             cw_cad_face_name(cad, f), cw_cad_face_name(cad, g), 1e3 * guess[0], 1e3 * guess[1], 1e3 * guess[2]);
+done:
+  return status;
+}
+
+// Walks from `key` through `triangle` to the end of the trace; marks triangles. Fills the trace.
+static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t node, int32_t key, int32_t triangle,
+                     uint8_t *seen, Trace *trace) {
+  CwStatus status = CW_OK;
+  const CwCad *cad = network->cad;
+  int32_t face = found->background->face[triangle], capacity = 64, first = key;
+  *trace = (Trace){.face = face, .closed = !on_face_border(found, key)};
+  CW_NEW(trace->x, capacity);
+  CW_NEW(trace->uv, capacity);
+  for (;;) {
+    if (trace->count == capacity) {
+      capacity *= 2;
+      void *x = realloc(trace->x, (size_t)capacity * sizeof *trace->x);
+      if (x) trace->x = x;
+      void *uv = realloc(trace->uv, (size_t)capacity * sizeof *trace->uv);
+      if (uv) trace->uv = uv;
+      CW_REQUIRE(x && uv, CW_ERR_MEMORY, "out of memory: a cut curve of %d points", capacity);
+    }
+    double *x = trace->x[trace->count], *uv = trace->uv[trace->count];
+    if (on_face_border(found, key)) {
+      CwCorner *end = &trace->end[trace->count > 0];
+      CW_TRY(corner_on_edge(network, found, key, node, end));
+      cw_cad_edge_uv(cad, end->edge, face, end->t, uv);
+      cw_copy(end->x, x);
+    } else {
+      crossing_on_face(found, key, triangle, uv, x);
+      double left = cw_face_onto_plane(cad, face, found->plane, uv, x);
+      CW_REQUIRE(left < FOUND, CW_RETRY, "dividing plane %d grazes face %s at (%.3f, %.3f, %.3f) mm", node,
+                 cw_cad_face_name(cad, face), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+    }
+    trace->count++;
+    if (trace->count > 1 && (on_face_border(found, key) || key == first)) break;
+    seen[triangle] = 1;
+    key = found->keys_of[triangle][found->keys_of[triangle][0] == key];
+    if (!on_face_border(found, key) && key != first) {
+      const Crossing *pair = &found->crossing[2 * key];
+      int32_t next = pair[0].triangle == triangle ? pair[1].triangle : pair[0].triangle;
+      // The crossing of `key` is reckoned in the triangle just left; then on to the next one.
+      triangle = next;
+    }
+  }
+done:
+  return status;
+}
+
+static int compare_splits(const void *p, const void *q) {
+  const Split *a = p, *b = q;
+  return (a->place > b->place) - (a->place < b->place);
+}
+
+// All places where planes that belong together with `node` divide the trace.
+static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace *trace, int32_t *count,
+                            Split **splits) {
+  CwStatus status = CW_OK;
+  const CwPlan *plan = network->plan;
+  int32_t capacity = 16;
+  *count = 0;
+  CW_NEW(*splits, capacity);
+  for (int32_t q = 0; q < plan->node_count; q++) {
+    int below = q != node && cw_plan_is_ancestor(plan, node, q);
+    if (!below && !cw_plan_is_ancestor(plan, q, node)) continue;
+    const CwPlane *other = &plan->node[q].plane;
+    for (int32_t i = 0; i + 1 < trace->count; i++) {
+      double d0 = cw_plane_distance(other, trace->x[i]), d1 = cw_plane_distance(other, trace->x[i + 1]);
+      if ((d0 > 0) == (d1 > 0)) continue;
+      double s = d0 / (d0 - d1);
+      Split split = {.place = i + s, .plane = q};
+      for (int k = 0; k < 2; k++) split.uv[k] = trace->uv[i][k] + s * (trace->uv[i + 1][k] - trace->uv[i][k]);
+      double left = cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.uv, split.x);
+      CW_REQUIRE(left < FOUND, CW_RETRY,
+                 "dividing planes %d and %d meet too flatly on face %s near (%.3f, %.3f, %.3f) mm", node, q,
+                 cw_cad_face_name(network->cad, trace->face), 1e3 * trace->x[i][0], 1e3 * trace->x[i][1],
+                 1e3 * trace->x[i][2]);
+      int32_t skip[1] = {node};
+      if (below && !cw_plan_in_cell(plan, q, split.x, 1e-9, skip, 1)) continue;
+      CW_GROW(*splits, capacity, *count + 1);
+      (*splits)[(*count)++] = split;
+    }
+  }
+  qsort(*splits, (size_t)*count, sizeof **splits, compare_splits);
+done:
+  return status;
+}
+
+static CwCorner split_corner(int32_t face, int32_t node, const Split *split) {
+  CwCorner corner = {{split->x[0], split->x[1], split->x[2]}, face, -1, 0, -1, {node, -1, -1}, 0};
+  corner.plane[0] = node < split->plane ? node : split->plane;
+  corner.plane[1] = node < split->plane ? split->plane : node;
+  return corner;
+}
+
+// Adds the piece of the trace between two places as a curve, where it lies in the cell of `node`. NULL splits: the
+// ends of the trace. On a closed trace `to` may lie before `from`.
+static CwStatus add_piece(CwNetwork *network, int32_t node, const Trace *trace, const Split *from, const Split *to) {
+  CwStatus status = CW_OK;
+  CwCurve curve = {.kind = CW_CURVE_CUT, .edge = -1, .face = {trace->face, -1}, .plane = {node, -1}};
+  int32_t segments = trace->count - 1; // a closed trace repeats its first point at its end
+  int32_t first = from ? (int32_t)floor(from->place) + 1 : 0;
+  int32_t last = to ? (int32_t)floor(to->place) : segments;
+  if (trace->closed && from && to && to->place <= from->place) last += segments;
+  CW_NEW(curve.fine_x, last - first + 3);
+  CW_NEW(curve.fine_parameter, last - first + 3);
+  if (from) {
+    cw_copy(from->x, curve.fine_x[0]);
+    memcpy(curve.fine_parameter[0], from->uv, sizeof from->uv);
+    curve.fine_count = 1;
+  }
+  for (int32_t i = first; i <= last; i++) {
+    int32_t k = i >= segments && trace->closed && from ? i - segments : i;
+    cw_copy(trace->x[k], curve.fine_x[curve.fine_count]);
+    memcpy(curve.fine_parameter[curve.fine_count++], trace->uv[k], sizeof trace->uv[k]);
+  }
+  if (to) {
+    cw_copy(to->x, curve.fine_x[curve.fine_count]);
+    memcpy(curve.fine_parameter[curve.fine_count++], to->uv, sizeof to->uv);
+  }
+  double middle[3];
+  int32_t half = curve.fine_count / 2;
+  cw_lerp(curve.fine_x[half - 1], curve.fine_x[half], 0.5, middle);
+  if (!cw_plan_in_cell(network->plan, node, middle, 0, NULL, 0)) goto done;
+
+  CwCorner ends[2] = {trace->end[0], trace->end[1]};
+  if (trace->closed && !from) {
+    ends[0] = (CwCorner){{0}, trace->face, -1, 0, -1, {node, -1, -1}, 0};
+    cw_copy(trace->x[0], ends[0].x);
+    ends[1] = ends[0];
+  }
+  if (from) ends[0] = split_corner(trace->face, node, from);
+  if (to) ends[1] = split_corner(trace->face, node, to);
+  for (int k = 0; k < 2; k++) {
+    curve.corner[k] = cw_network_corner(network, &ends[k], cw_same_corner);
+    CW_REQUIRE(curve.corner[k] >= 0, CW_ERR_MEMORY, "out of memory: %d corners", network->corner_count);
+  }
+  int patch = cw_cad_face_patch(network->cad, trace->face);
+  curve.wall = cw_cad_patch_kind(network->cad, patch) == CW_PATCH_WALL;
+  status = cw_network_add_curve(network, &curve);
+  return status;
+done:
+  free(curve.fine_x);
+  free(curve.fine_parameter);
+  return status;
+}
+
+static CwStatus add_trace(CwNetwork *network, int32_t node, const Trace *trace) {
+  CwStatus status = CW_OK;
+  Split *split = NULL;
+  int32_t count = 0;
+  CW_TRY(find_splits(network, node, trace, &count, &split));
+  if (trace->closed && count) {
+    for (int32_t i = 0; i < count; i++) CW_TRY(add_piece(network, node, trace, &split[i], &split[(i + 1) % count]));
+  } else {
+    for (int32_t i = 0; i <= count; i++) {
+      CW_TRY(add_piece(network, node, trace, i > 0 ? &split[i - 1] : NULL, i < count ? &split[i] : NULL));
+    }
+  }
+done:
+  free(split);
+  return status;
+}
+
+CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node) {
+  CwStatus status = CW_OK;
+  Crossings found = {.background = background, .plane = &network->plan->node[node].plane};
+  uint8_t *seen = NULL;
+  Trace trace = {0};
+  CW_TRY(find_crossings(&found));
+  CW_NEW(seen, background->triangle_count);
+  // Open traces first, from their ends on the borders of faces; what is left are closed loops inside one face.
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t i = 0; i < 2 * found.key_count; i++) {
+      int32_t triangle = found.crossing[i].triangle;
+      if (seen[triangle] || (pass == 0 && !on_face_border(&found, i / 2))) continue;
+      CW_TRY(walk(network, &found, node, i / 2, triangle, seen, &trace));
+      CW_TRY(add_trace(network, node, &trace));
+      free(trace.x);
+      free(trace.uv);
+      trace = (Trace){0};
+    }
+  }
+done:
+  free(trace.x);
+  free(trace.uv);
+  free(found.crossing);
+  free(found.keys_of);
+  free(seen);
+  return status;
+}

@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Where the planes of a fan stand.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/cad/symmetry.h"
+#include "mesher/common/vec.h"
+#include "mesher/parallel/schedule.h"
+#include "mesher/plan/fan.h"
+#include "mesher/plan/plan_score.h"
+
+enum {
+  AXIS_SAMPLES = 400,
+  STATIONS = 80,   // places tried for the plane across the axis
+  STEPS = 36,      // of equal work in a slice, where planes between slices may stand
+  WINDOW = 3,      // slices to either side of its even place in which such a plane is looked for
+  ANGLES = 120         // places tried for half-planes in one pitch
+};
+// What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a
+// slice too large is better than a plane along a wall.
+static const double UNEVEN = 0.33;
+static const double OFF_MOST = 0.14,  OFF_FAR = 100; // but past that share of its work a slice costs so much more
+static const double OFF_COST = 3;                    // at most
+// Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
+enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
+static const double EVEN = 0.15, SHARP = 0.643; // sine of 40 degrees
+static const double OTHER_NUMBER = 12;          // what an e-th of the asked number of regions costs, or e times of it
+
+typedef struct {
+  double cost, worst;
+} Judged;
+
+typedef struct {
+  const CwPlanModel *model;
+  CwPlan *plan;
+  int32_t count;
+  int32_t slices_most;
+  double up;              // 1: z grows from pipe to impeller, -1: it falls
+  double low, nose, high; // along up * z: ends of the domain, end of the fluid on the axis, m
+  CwPlanProfile along;    // the domain along up * z
+  Judged judged[ANGLES];  // half-planes, once they were judged
+  int is_judged;
+} Fan;
+
+static CwPlane across(const Fan *fan, double place) {
+  return (CwPlane){{0, 0, fan->up}, place};
+}
+
+// What a slice costs that is so much larger or smaller than wanted.
+static double slice_cost(double work, double wanted) {
+  return UNEVEN * cw_plan_unevenness(work, wanted, 1) + fmin(OFF_FAR * fmax(0, fabs(work / wanted - 1) - OFF_MOST), OFF_COST);
+}
+
+// What a plane across the axis costs.
+static double judge_across(const Fan *fan, double place, double *worst) {
+  CwPlanPlace found = cw_profile_at(&fan->along, cw_profile_bin(&fan->along, place));
+  *worst = found.worst;
+  return cw_plan_place_cost(found);
+}
+
+static CwPlane half_plane(double angle) {
+  return (CwPlane){{-sin(angle), cos(angle), 0}, 0};
+}
+
+// What a half-plane through `wheel`, the part beyond the plane across the axis, costs.
+static Judged judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double angle) {
+  CwPlan *plan = fan->plan;
+  CwPlane plane = half_plane(angle);
+  plan->node[plan->fan_first].plane = plane;
+  CwPlane end = cw_fan_end(plan, plan->fan_first);
+  CwPlanPlace place = cw_plan_place(fan->model, wheel, &plane, &end);
+  double lines = cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY);
+  return (Judged){cw_plan_place_cost(place) + lines, place.worst};
+}
+
+// Finds which side of the domain has fluid on the axis; CW_RETRY where both or none have it.
+static CwStatus find_axis(Fan *fan) {
+  const CwBackground *background = fan->model->background;
+  double low = INFINITY, high = -INFINITY;
+  for (int32_t i = 0; i < background->point_count; i++) {
+    low = fmin(low, background->x[i][2]);
+    high = fmax(high, background->x[i][2]);
+  }
+  double step = (high - low) / AXIS_SAMPLES;
+  int wet[AXIS_SAMPLES], runs = 0, last = 0;
+  for (int i = 0; i < AXIS_SAMPLES; i++) {
+    double x[3] = {0, 0, low + step * (i + 0.5)};
+    wet[i] = cw_inside_test(fan->model->inside, x);
+    runs += i > 0 && wet[i] != wet[i - 1];
+  }
+  if (runs != 1) return CW_FAIL(CW_RETRY, "fluid on the axis at both ends, or at none");
+  while (wet[last] == wet[0]) last++;
+  fan->up = wet[0] ? 1 : -1;
+  fan->low = wet[0] ? low : -high;
+  fan->high = wet[0] ? high : -low;
+  fan->nose = fan->up * (low + step * last);
+  return CW_OK;
+}
+
+// The side of the pipe in steps of equal work, from node 0 outwards.
+static double step_place(const Fan *fan, int32_t slices, int32_t step) {
+  double all = cw_profile_below(&fan->along, fan->plan->node[0].plane.offset);
+  return cw_profile_place(&fan->along, all * (1 - (double)step / (slices * STEPS)));
+}
+
+// Places of the planes between slices of `mean` work, as steps, so that all together cost least: of each plane in turn
+// the best way to every step; slices have half to one and a half of their even work.
+static CwStatus find_slices(const Fan *fan, int32_t slices, double mean, int32_t *step, double *cost) {
+  CwStatus status = CW_OK;
+  int32_t steps = slices * STEPS, *from = NULL; // of each plane and step, the step of the plane before
+  double *least = NULL, *place_cost = NULL, *uneven = NULL, worst;
+  double all = cw_profile_below(&fan->along, fan->plan->node[0].plane.offset);
+  CW_NEW(from, (slices + 1) * (steps + 1));
+  CW_NEW(least, (slices + 1) * (steps + 1));
+  CW_NEW(place_cost, steps + 1);
+  CW_NEW(uneven, steps + 1);
+  for (int32_t s = 1; s <= steps; s++) uneven[s] = slice_cost(all * s / steps, mean);
+  for (int32_t s = 1; s < steps; s++) place_cost[s] = judge_across(fan, step_place(fan, slices, s), &worst);
+  for (int32_t i = 0; i < (slices + 1) * (steps + 1); i++) least[i] = INFINITY;
+  least[0] = 0;
+  for (int32_t i = 1; i <= slices; i++) {
+    double *now = least + i * (steps + 1), *before = now - (steps + 1);
+    int32_t first = (i - WINDOW) * STEPS, last = i < slices ? (i + WINDOW) * STEPS : steps;
+    for (int32_t s = i < slices ? (first > i ? first : i) : steps; s <= last && s <= steps; s++) {
+      for (int32_t b = s - STEPS / 2; b >= 0 && b >= s - STEPS - STEPS / 2; b--) {
+        double sum = before[b] + uneven[s - b] + place_cost[s];
+        if (sum < now[s]) now[s] = sum, from[i * (steps + 1) + s] = b;
+      }
+    }
+  }
+  *cost = least[slices * (steps + 1) + steps];
+  for (int32_t i = slices, s = steps; i > 0; i--) step[i] = s, s = from[i * (steps + 1) + s];
+done:
+  free(from);
+  free(least);
+  free(place_cost);
+  free(uneven);
+  return status;
+}
+
+// Divides the side of the pipe into slices of about `mean` work: planes 1 .. slices - 1 in a chain from node 0
+// outwards.
+static CwStatus place_slices(Fan *fan, int32_t slices, double mean, double *cost) {
+  CwStatus status = CW_OK;
+  CwPlan *plan = fan->plan;
+  int32_t *step = NULL;
+  double all = cw_profile_below(&fan->along, plan->node[0].plane.offset);
+  CW_NEW(step, slices + 1);
+  CW_TRY(find_slices(fan, slices, mean, step, cost));
+  plan->node[0].child[0] = -1; // with one slice alone
+  for (int32_t i = 1; i <= slices; i++) {
+    plan->predicted_cells[slices - i] = all * (step[i] - step[i - 1]) / (slices * STEPS);
+    if (i == slices) break;
+    CwPlane plane = across(fan, step_place(fan, slices, step[i]));
+    plan->node[i] = (CwPlanNode){plane, i - 1, {-1, -1 - (slices - i)}};
+    plan->node[i - 1].child[0] = i;
+    judge_across(fan, plane.offset, &plan->worst_angle[i]);
+  }
+  plan->node_count = plan->region_count = slices;
+done:
+  free(step);
+  return status;
+}
+
+// The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
+// slices that are as large as the regions of a pitch (0: one slice as it comes).
+static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
+  CwStatus status = CW_OK;
+  CwPlan *plan = fan->plan;
+  double all = fan->along.below[CW_PROFILE_BINS], chosen = 0, best = INFINITY, cost;
+  *slices = 1;
+  for (int i = 1; i < STATIONS; i++) {
+    double place = fan->nose + (fan->high - fan->nose) * i / STATIONS;
+    double before = cw_profile_below(&fan->along, place), alone = before * (fan->count - 1) / all;
+    if (!(before > 0 && before < all) || alone >= best) continue;
+    plan->node[0] = (CwPlanNode){across(fan, place), -1, {-1, 1}};
+    alone += judge_across(fan, place, &plan->worst_angle[0]);
+    if (regions == 0 && alone < best) best = alone, chosen = place;
+    double pitch = (all - before) / fan->count;
+    int32_t few = (int32_t)fmax(1, floor(before / pitch * regions));
+    for (int32_t count = few; count <= few + 1 && count <= fan->slices_most && regions && alone < best; count++) {
+      double mean = all / (count + fan->count * regions);
+      CW_TRY(place_slices(fan, count, mean, &cost));
+      cost += alone + UNEVEN * cw_plan_unevenness(pitch, regions * mean, regions);
+      if (cost < best) best = cost, chosen = place, *slices = count;
+    }
+  }
+  CW_REQUIRE(best < INFINITY, CW_RETRY, "no plane across the axis fits");
+  plan->node[0] = (CwPlanNode){across(fan, chosen), -1, {-1, 1}};
+  judge_across(fan, chosen, &plan->worst_angle[0]);
+  double before = cw_profile_below(&fan->along, chosen);
+  CW_TRY(place_slices(fan, *slices, regions > 0 ? all / (*slices + fan->count * regions) : before, &cost));
+done:
+  return status;
+}
+
+typedef struct {
+  const Fan *fan;
+  const CwPlanPart *part;
+} Wheel;
+
+static CwStatus judge_angle(void *context, int32_t i, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const Wheel *wheel = context;
+  Judged *made = NULL;
+  CW_NEW(made, 1);
+  *made = judge_half_plane(wheel->fan, wheel->part, 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES);
+  *bytes = made;
+  *size = sizeof *made;
+done:
+  return status;
+}
+
+// All half-planes of one pitch, shared among the ranks.
+static CwStatus judge_half_planes(Fan *fan, const CwPlanPart *part) {
+  CwStatus status = CW_OK;
+  Wheel wheel = {fan, part};
+  void *bytes[ANGLES] = {0};
+  int64_t size[ANGLES] = {0};
+  CwSchedule schedule = {.step = "decomposition", .count = ANGLES, .run = judge_angle, .context = &wheel, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int i = 0; i < ANGLES; i++) memcpy(&fan->judged[i], bytes[i], sizeof fan->judged[i]);
+  fan->is_judged = 1;
+done:
+  for (int i = 0; i < ANGLES; i++) free(bytes[i]);
+  return status;
+}
+
+// The half-planes: `wedges` in each pitch, evenly, where they cost least.
+static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
+  CwStatus status = CW_OK;
+  CwPlan *plan = fan->plan;
+  const Judged *judged = fan->judged;
+  double pitch = 2 * M_PI / fan->count, best = INFINITY;
+  int apart = ANGLES / wedges, chosen = 0;
+  plan->fan_first = plan->fan_region = plan->node_count;
+  plan->node[0].child[1] = plan->fan_first;
+  plan->node[plan->fan_first].parent = 0;
+  plan->fan_count = 1; // for the judges
+  if (!fan->is_judged) CW_TRY(judge_half_planes(fan, wheel));
+  for (int start = 0; start < apart; start++) {
+    double sum = 0;
+    for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
+    if (sum < best) best = sum, chosen = start;
+  }
+  CW_REQUIRE(best < INFINITY, CW_RETRY, "no half-planes fit");
+  plan->fan_count = wedges * fan->count;
+  plan->fan_turns = fan->count;
+  plan->node_count += plan->fan_count;
+  for (int32_t j = 0; j < plan->fan_count; j++) {
+    int at = chosen + j % wedges * apart;
+    CwPlanNode *node = &plan->node[plan->fan_first + j];
+    CwPlane first = half_plane(pitch * (at + 0.5) / ANGLES);
+    *node = (CwPlanNode){first, 0, {INT32_MIN, INT32_MIN}}; // children not known yet
+    cw_symmetry_turn(fan->count, j / wedges, first.normal, node->plane.normal);
+    plan->worst_angle[plan->fan_first + j] = judged[at].worst;
+  }
+done:
+  return status;
+}
+
+// Divides the wedges of the first pitch into regions of about so much work.
+static CwStatus divide_wedges(const Fan *fan, const CwPlanPart *wheel, int wedges, double region) {
+  CwStatus status = CW_OK;
+  CwPlan *plan = fan->plan;
+  CwPlanPart after = {0}, wedge = {0};
+  for (int32_t w = plan->fan_first; w < plan->fan_first + wedges; w++) {
+    int32_t next = plan->fan_first + (w - plan->fan_first + 1) % plan->fan_count;
+    CW_TRY(cw_plan_part_clip(fan->model, wheel, &plan->node[w].plane, 1, &after));
+    CW_TRY(cw_plan_part_clip(fan->model, &after, &plan->node[next].plane, 0, &wedge));
+    cw_plan_part_free(&after);
+    CW_TRY(cw_plan_divide(fan->model, plan, &wedge, (int32_t)fmax(1, floor(wedge.work / region + 0.5)), w, 1));
+  }
+done:
+  cw_plan_part_free(&after);
+  cw_plan_part_free(&wedge);
+  return status;
+}
+
+static int32_t turned_child(int32_t child, int32_t nodes, int32_t regions) {
+  return child >= 0 ? child + nodes : child - regions;
+}
+
+// The wedges of the other pitches, as turned copies.
+static void turn_wedges(const Fan *fan, int wedges) {
+  CwPlan *plan = fan->plan;
+  int32_t first = plan->fan_first + plan->fan_count, nodes = plan->node_count - first;
+  int32_t regions = plan->region_count - plan->fan_region;
+  for (int32_t turns = 1; turns < fan->count; turns++) {
+    for (int32_t i = 0; i < nodes; i++) {
+      const CwPlanNode *source = &plan->node[first + i];
+      CwPlanNode *copy = &plan->node[plan->node_count];
+      int32_t parent = source->parent + turns * (source->parent < first ? wedges : nodes);
+      *copy = (CwPlanNode){.plane.offset = source->plane.offset, .parent = parent};
+      cw_symmetry_turn(fan->count, turns, source->plane.normal, copy->plane.normal);
+      for (int s = 0; s < 2; s++) copy->child[s] = turned_child(source->child[s], turns * nodes, turns * regions);
+      plan->worst_angle[plan->node_count++] = plan->worst_angle[first + i];
+    }
+    for (int w = 0; w < wedges; w++) {
+      int32_t source = plan->fan_first + w;
+      plan->node[source + turns * wedges].child[1] =
+          turned_child(plan->node[source].child[1], turns * nodes, turns * regions);
+    }
+    for (int32_t r = 0; r < regions; r++) {
+      plan->predicted_cells[plan->region_count++] = plan->predicted_cells[plan->fan_region + r];
+    }
+  }
+  for (int32_t j = 0; j < plan->fan_count; j++) {
+    plan->node[plan->fan_first + (j + 1) % plan->fan_count].child[0] = plan->node[plan->fan_first + j].child[1];
+  }
+}
+
+// Makes the predicted cells of some regions sum up to what they are together.
+static void make_sum(CwPlan *plan, int32_t first, int32_t end, double wanted) {
+  double sum = 0;
+  for (int32_t r = first; r < end; r++) sum += plan->predicted_cells[r];
+  for (int32_t r = first; r < end; r++) plan->predicted_cells[r] *= wanted / sum;
+}
+
+// The plan with so many regions in one pitch.
+static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, int32_t regions) {
+  CwStatus status = CW_OK;
+  CwPlanPart wheel = {0};
+  int32_t slices;
+  int wedges = fan->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
+  CW_TRY(place_root(fan, regions, &slices));
+  CW_TRY(cw_plan_part_clip(model, whole, &fan->plan->node[0].plane, 1, &wheel));
+  model->mean_work = whole->work / (slices + fan->count * regions);
+  CW_TRY(place_fan(fan, &wheel, wedges));
+  CW_TRY(divide_wedges(fan, &wheel, wedges, wheel.work / fan->count / regions));
+  // The samples of all pitches together tell the work of one better than its own.
+  make_sum(fan->plan, 0, slices, whole->work - wheel.work);
+  make_sum(fan->plan, slices, fan->plan->region_count, wheel.work / fan->count);
+  turn_wedges(fan, wedges);
+done:
+  cw_plan_part_free(&wheel);
+  return status;
+}
+
+// How far the work of a region is off the mean, at most; more, where a plane within the wedges is sharp on walls.
+static double badness(const CwPlan *plan) {
+  double sum = 0, most = 0, worst = 1;
+  for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
+  for (int32_t r = 0; r < plan->region_count; r++) {
+    most = fmax(most, fabs(plan->predicted_cells[r] / sum * plan->region_count - 1));
+  }
+  for (int32_t n = plan->fan_first; n < plan->node_count; n++) worst = fmin(worst, plan->worst_angle[n]);
+  return most + (worst < SHARP ? EVEN + SHARP - worst : 0);
+}
+
+static CwStatus new_plan(size_t room, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  memset(plan, 0, sizeof *plan);
+  CW_NEW(plan->node, room);
+  CW_NEW(plan->worst_angle, room);
+  CW_NEW(plan->predicted_cells, room);
+done:
+  return status;
+}
+
+// A number of regions in one pitch, and what it costs.
+typedef struct {
+  int32_t regions;
+  double cost;
+} Number;
+
+static int by_cost(const void *a, const void *b) {
+  const Number *p = a, *q = b;
+  return p->cost != q->cost ? (p->cost < q->cost ? -1 : 1) : (p->regions > q->regions) - (p->regions < q->regions);
+}
+
+// What the slices and the planes across the axis that are in the plan cost: nothing where they are even and stand well.
+static double pipe_cost(const Fan *fan, int32_t slices, double mean) {
+  const CwPlan *plan = fan->plan;
+  double off = 0, worst = 1;
+  for (int32_t i = 0; i < slices; i++) {
+    off = fmax(off, fabs(plan->predicted_cells[i] / mean - 1));
+    worst = fmin(worst, plan->worst_angle[i]);
+  }
+  return 30 * fmax(0, off - EVEN) + (worst < SHARP ? 4 + 30 * (SHARP - worst) : 0);
+}
+
+// The numbers of regions in one pitch that bring the plan near the asked number, best first: those with which regions
+// and slices would be about as large if `pipe` were the work of the slices, and of these, those with the best slices.
+static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked, Number number[NUMBERS],
+                              int32_t *count) {
+  CwStatus status = CW_OK;
+  Number *all = NULL;
+  double whole = pipe + fan->count * pitch, wanted = pitch / whole * asked;
+  int32_t least = (int32_t)fmax(1, 0.85 * wanted), found = 0;
+  int32_t most = (int32_t)fmax(1, fmin(2 * wanted, ceil(1.15 * wanted) + 1));
+  CW_NEW(all, most - least + 1);
+  for (int32_t n = least; n <= most; n++) {
+    double slices = fmax(1, round(pipe / pitch * n)), regions = slices + fan->count * n, mean = whole / regions;
+    double off = fmax(fabs(pipe / slices / mean - 1), fabs(pitch / n / mean - 1));
+    all[found++] = (Number){n, off + 0.3 * fabs(log(regions / asked))};
+  }
+  qsort(all, (size_t)found, sizeof *all, by_cost);
+  *count = found < NUMBERS ? found : NUMBERS;
+  for (int32_t i = 0; i < *count && *count > 1; i++) {
+    int32_t slices;
+    CW_TRY(place_root(fan, all[i].regions, &slices));
+    int32_t regions = slices + fan->count * all[i].regions;
+    all[i].cost = pipe_cost(fan, slices, whole / regions) + OTHER_NUMBER * fabs(log((double)regions / asked));
+  }
+  qsort(all, (size_t)*count, sizeof *all, by_cost);
+  memcpy(number, all, (size_t)*count * sizeof *number);
+done:
+  free(all);
+  return status;
+}
+
+CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
+                          const CwPlanOptions *options, int32_t count, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  CwPlanModel model = {0};
+  CwPlanPart whole = {0};
+  CwPlan tried = {0};
+  Fan fan = {.model = &model, .plan = &tried, .count = count, .slices_most = options->region_count};
+  Number number[NUMBERS];
+  size_t room = 3 * (size_t)options->region_count + 4 * (size_t)count;
+  double least = INFINITY;
+  int32_t slices, numbers = 0;
+  CW_TRY(new_plan(room, plan));
+  CW_TRY(new_plan(room, &tried));
+  CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
+  CW_TRY(cw_plan_part_whole(&model, &whole));
+  CW_TRY(find_axis(&fan));
+  CwPlane along = across(&fan, 0);
+  cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &fan.along);
+  CW_TRY(place_root(&fan, 0, &slices));
+  double pipe = cw_profile_below(&fan.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
+  CW_TRY(weigh_numbers(&fan, pipe, pitch, options->region_count, number, &numbers));
+  for (int k = 0; k < numbers && k < NUMBERS_TRIED && least > EVEN; k++) {
+    CW_TRY(divide(&fan, &model, &whole, number[k].regions));
+    double bad = badness(&tried);
+    if (bad >= least) continue;
+    CwPlan better = tried;
+    tried = *plan;
+    *plan = better;
+    least = bad;
+  }
+done:
+  cw_plan_part_free(&whole);
+  cw_plan_model_free(&model);
+  cw_plan_free(&tried);
+  if (status != CW_OK) cw_plan_free(plan);
+  return status;
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/plan/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/plan/fan.h"
+#include "mesher/plan/plan_score.h"
+
+CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
+                      const CwPlanOptions *options, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  CwPlanModel model = {0};
+  CwPlanPart whole = {0};
+  memset(plan, 0, sizeof *plan);
+  CW_NEW(plan->node, options->region_count);
+  CW_NEW(plan->worst_angle, options->region_count);
+  CW_NEW(plan->predicted_cells, options->region_count);
+  CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
+  CW_TRY(cw_plan_part_whole(&model, &whole));
+  model.mean_work = whole.work / options->region_count;
+  plan->region_count = 0;
+  CW_TRY(cw_plan_divide(&model, plan, &whole, options->region_count, -1, 0));
+done:
+  cw_plan_part_free(&whole);
+  cw_plan_model_free(&model);
+  if (status != CW_OK) cw_plan_free(plan);
+  return status;
+}
+
+CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
+  const int32_t count[6] = {plan->node_count, plan->region_count, plan->fan_first,
+                            plan->fan_count, plan->fan_region, plan->fan_turns};
+  char *block;
+  CW_NEW(block, sizeof count + nodes + 2 * numbers);
+  memcpy(block, count, sizeof count);
+  memcpy(block + sizeof count, plan->node, nodes);
+  memcpy(block + sizeof count + nodes, plan->predicted_cells, numbers);
+  memcpy(block + sizeof count + nodes + numbers, plan->worst_angle, numbers);
+  *bytes = block;
+  *byte_count = (int64_t)(sizeof count + nodes + 2 * numbers);
+done:
+  return status;
+}
+
+CwStatus cw_plan_unpack(const void *bytes, CwPlan *plan) {
+  CwStatus status = CW_OK;
+  int32_t count[6];
+  const char *at = (const char *)bytes + sizeof count;
+  memcpy(count, bytes, sizeof count);
+  memset(plan, 0, sizeof *plan);
+  plan->node_count = count[0];
+  plan->region_count = count[1];
+  plan->fan_first = count[2];
+  plan->fan_count = count[3];
+  plan->fan_region = count[4];
+  plan->fan_turns = count[5];
+  size_t n = (size_t)plan->region_count;
+  CW_NEW(plan->node, n);
+  CW_NEW(plan->predicted_cells, n);
+  CW_NEW(plan->worst_angle, n);
+  memcpy(plan->node, at, n * sizeof *plan->node);
+  memcpy(plan->predicted_cells, at + n * sizeof *plan->node, n * sizeof(double));
+  memcpy(plan->worst_angle, at + n * (sizeof *plan->node + sizeof(double)), n * sizeof(double));
+done:
+  if (status != CW_OK) cw_plan_free(plan);
+  return status;
+}
+
+void cw_plan_free(CwPlan *plan) {
+  free(plan->node);
+  free(plan->predicted_cells);
+  free(plan->worst_angle);
+  memset(plan, 0, sizeof *plan);
+}
+
+int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {
+  if (plan->node_count == 0) return 0;
+  int32_t node = 0;
+  while (node >= 0) {
+    int32_t child = plan->node[node].child[cw_plane_distance(&plan->node[node].plane, x) > 0];
+    node = child >= 0 && cw_fan_holds(plan, child) ? plan->node[cw_fan_wedge(plan, x)].child[1] : child;
+  }
+  return -1 - node;
+}
+
+CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node) {
+  int32_t above = plan->node[node].parent;
+  if (above < 0) return (CwPlanBound){-1, 0};
+  // Of the half-planes the one above knows the first alone.
+  return (CwPlanBound){above, plan->node[above].child[1] == (cw_fan_holds(plan, node) ? plan->fan_first : node)};
+}
+
+// The innermost plane that bounds a region.
+static CwPlanBound region_bound(const CwPlan *plan, int32_t region) {
+  for (int32_t node = 0; node < plan->node_count; node++) {
+    if (plan->node[node].child[1] == -1 - region) return (CwPlanBound){node, 1};
+    // A wedge is found by the half-plane that opens it.
+    if (plan->node[node].child[0] == -1 - region && !cw_fan_holds(plan, node)) return (CwPlanBound){node, 0};
+  }
+  return (CwPlanBound){-1, 0}; // the only region
+}
+
+CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound) {
+  if (!cw_fan_holds(plan, bound.node) || !bound.positive) return cw_plan_bound(plan, bound.node);
+  return (CwPlanBound){plan->fan_first + (bound.node - plan->fan_first + 1) % plan->fan_count, 0};
+}
+
+// True where x is within `tolerance` of the half-spaces of the bound and of all further ones.
+static int within(const CwPlan *plan, CwPlanBound bound, const double x[3], double tolerance, const int32_t *skip,
+                  int skip_count) {
+  for (; bound.node >= 0; bound = cw_plan_next_bound(plan, bound)) {
+    int skipped = 0;
+    for (int k = 0; k < skip_count; k++) skipped |= skip[k] == bound.node;
+    if (skipped) continue;
+    double distance = cw_plane_distance(&plan->node[bound.node].plane, x);
+    if (bound.positive ? distance < -tolerance : distance > tolerance) return 0;
+  }
+  return 1;
+}
+
+int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
+                    int skip_count) {
+  if (cw_fan_holds(plan, node) && cw_fan_reach(plan, node, x) < -tolerance) return 0;
+  return within(plan, cw_plan_bound(plan, node), x, tolerance, skip, skip_count);
+}
+
+int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance) {
+  if (cw_plan_locate(plan, x) == region) return 1; // as a rule
+  return within(plan, region_bound(plan, region), x, tolerance, NULL, 0);
+}
+
+int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node) {
+  CwPlanBound bound = cw_plan_bound(plan, node);
+  while (bound.node >= 0 && bound.node != ancestor) bound = cw_plan_next_bound(plan, bound);
+  return bound.node >= 0;
+}
+
+int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]) {
+  const double *n = a->normal, *m = b->normal;
+  double length = 0, dot = 0;
+  for (int k = 0; k < 3; k++) {
+    direction[k] = n[(k + 1) % 3] * m[(k + 2) % 3] - n[(k + 2) % 3] * m[(k + 1) % 3];
+    length += direction[k] * direction[k];
+    dot += n[k] * m[k];
+  }
+  if (length < 1e-4) return 0;
+  // The point of the line nearest to the origin is s n + t m.
+  double s = (a->offset - b->offset * dot) / length, t = (b->offset - a->offset * dot) / length;
+  for (int k = 0; k < 3; k++) {
+    point[k] = s * n[k] + t * m[k];
+    direction[k] /= sqrt(length);
+  }
+  return 1;
+}

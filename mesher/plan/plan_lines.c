@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/plan/plan_lines.h"
+
+#include <math.h>
+
+#include "mesher/cad/symmetry.h"
+#include "mesher/common/vec.h"
+#include "mesher/plan/fan.h"
+
+enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64, HITS = 64 };
+static const double LINE_STEP = 1e-3; // m between samples of a line
+static const double ROOM = 1.5;       // thicknesses of the layers: lines of two planes start behind the layers
+// Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
+// have room.
+static const double SAME_LINE = 1, APART = 3;
+static const double SAME_POINT = 1e-9;  // m
+static const double LEANING = 0.55;     // cosine of a line to a wall's normal: columns that lean more are lower
+static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
+static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
+static const double HOLLOW_WALL = 0.8;   // share of the layers that a line in them leaves behind where the wall bends
+static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
+static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
+static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
+static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one without any besides
+
+typedef struct {
+  int impossible;
+  double cramped; // sum over the lines: 0 where a line has room, 1 where it has none
+  int blocked;    // lines that have none
+  double sharp;   // least sine of the angle between the planes along a line in the domain; 1 without lines
+} Lines;
+
+// A plane that comes near a line, as so many turns make it: within the wedges of a fan planes have turned copies.
+typedef struct {
+  CwPlane plane;
+  int32_t node, turns;
+} Neighbour;
+
+// A line of the new plane and one that bounds its cell, as far as it lies in the cell.
+typedef struct {
+  const CwPlanModel *model;
+  const CwPlan *plan;
+  int32_t above;
+  double point[3], direction[3], from, to;
+  int neighbour_count;
+  Neighbour neighbour[NEIGHBOURS];
+} Line;
+
+static void at(const Line *line, double s, double x[3]) {
+  for (int k = 0; k < 3; k++) x[k] = line->point[k] + s * line->direction[k];
+}
+
+// Cuts the line to where plane . x <= 0 on the given side.
+static void cut(Line *line, const CwPlane *plane, int positive) {
+  double distance = cw_plane_distance(plane, line->point), slope = cw_dot(plane->normal, line->direction);
+  if (positive) distance = -distance, slope = -slope;
+  if (fabs(slope) < 1e-12) {
+    if (distance > 0) line->to = line->from;
+  } else if (slope > 0) {
+    line->to = fmin(line->to, -distance / slope);
+  } else {
+    line->from = fmax(line->from, -distance / slope);
+  }
+}
+
+// Cuts the line to the box of the part and to the cell of the node.
+static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
+  line->from = -INFINITY;
+  line->to = INFINITY;
+  for (int k = 0; k < 3; k++) {
+    CwPlane side = {{k == 0, k == 1, k == 2}, part->high[k] + 2 * line->model->sample_spacing};
+    cut(line, &side, 0);
+    side.offset = part->low[k] - 2 * line->model->sample_spacing;
+    cut(line, &side, 1);
+  }
+  const CwPlan *plan = line->plan;
+  if (cw_fan_holds(plan, node)) {
+    CwPlane end = cw_fan_end(plan, node);
+    cut(line, &end, 1);
+  }
+  for (CwPlanBound b = cw_plan_bound(plan, node); b.node >= 0; b = cw_plan_next_bound(plan, b)) {
+    if (b.node != line->above) cut(line, &plan->node[b.node].plane, b.positive);
+  }
+}
+
+// Collects the planes, not those of the line, that come within `room` of it; of the new plane its turned copies.
+static void find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
+  const CwPlan *plan = line->plan;
+  double ends[2][3];
+  at(line, line->from, ends[0]);
+  at(line, line->to, ends[1]);
+  line->neighbour_count = 0;
+  for (int32_t c = 0; c <= node; c++) {
+    int in_wedge = plan->fan_turns && c >= plan->fan_first + plan->fan_count;
+    for (int32_t turns = c == node; turns < (in_wedge ? plan->fan_turns : 1); turns++) {
+      Neighbour made = {c == node ? *plane : plan->node[c].plane, c, turns};
+      if (c == line->above || line->neighbour_count == NEIGHBOURS) continue;
+      if (turns) cw_symmetry_turn(plan->fan_turns, turns, made.plane.normal, made.plane.normal);
+      double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
+      if ((a > room && b > room) || (a < -room && b < -room)) continue;
+      line->neighbour[line->neighbour_count++] = made;
+    }
+  }
+}
+
+// Distance from x to the nearest other plane inside its own cell; `room` where none is nearer.
+static double plane_near(const Line *line, const double x[3], double room) {
+  double best = room;
+  for (int i = 0; i < line->neighbour_count; i++) {
+    const Neighbour *near = &line->neighbour[i];
+    double distance = fabs(cw_plane_distance(&near->plane, x)), back[3];
+    if (distance >= best) continue;
+    cw_copy(x, back);
+    if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
+    if (cw_plan_in_cell(line->plan, near->node, back, room, NULL, 0)) best = distance;
+  }
+  return best;
+}
+
+// 0 where there is all the room that is wanted, 1 where there is no more than the least.
+static double shortage(double room, double least, double wanted) {
+  return fmin(fmax((wanted - room) / (wanted - least), 0), 1);
+}
+
+static double near_an_edge(const Line *line, const CwPlanPart *part, const double x[3]) {
+  const CwPlanModel *model = line->model;
+  double worst = 0;
+  for (int32_t i = 0; i < part->edge_count; i++) {
+    int32_t e = part->edge[i];
+    double room = model->edge_room[e], distance = cw_distance(model->edge_x[e], x);
+    if (distance < room) worst = fmax(worst, shortage(distance, room / 2, room));
+  }
+  return worst;
+}
+
+// Where other planes cross the line, in their own cells, a piece of a line ends: not within the layers.
+static double judge_crossings(const Line *line, double from, double to, Lines *lines) {
+  double a[3], b[3], x[3], worst = 0;
+  at(line, from - SAME_POINT, a);
+  at(line, to + SAME_POINT, b);
+  for (int i = 0; i < line->neighbour_count && !lines->impossible; i++) {
+    const Neighbour *near = &line->neighbour[i];
+    double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b), back[3];
+    if ((before > 0) == (after > 0)) continue;
+    cw_lerp(a, b, before / (before - after), x);
+    cw_copy(x, back);
+    if (near->turns) cw_symmetry_turn(line->plan->fan_turns, line->plan->fan_turns - near->turns, x, back);
+    if (!cw_plan_in_cell(line->plan, near->node, back, 2 * SAME_POINT, NULL, 0)) continue;
+    CwPlanWall wall = cw_plan_wall_near(line->model, x, ROOM * line->model->thickest);
+    if (wall.thickness > 0) worst = fmax(worst, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    if (wall.distance < wall.thickness) lines->impossible = 1;
+  }
+  return worst;
+}
+
+// An end of a run of the line through the domain.
+typedef struct {
+  double place;     // along the line, m
+  int32_t triangle; // of the background through which it leaves; -1: at a plane that bounds the cell
+  double layers;    // what they take of the run, m
+  double cosine;    // between the line and the wall's normal
+} End;
+
+static double judge_end(const Line *line, const CwPlanPart *part, End *end, Lines *lines) {
+  const CwPlanModel *model = line->model;
+  double x[3];
+  if (end->triangle < 0) return 0; // left to the crossings
+  at(line, end->place, x);
+  double thickness = model->thickness[end->triangle], cramped = near_an_edge(line, part, x);
+  // Columns keep the height normal to the wall, but for those that lean too much.
+  end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
+  end->layers = thickness / fmax(end->cosine, LEANING);
+  if (thickness == 0) return cramped;
+  if (end->cosine < TANGENT) lines->impossible = 1;
+  cramped = fmax(cramped, shortage(end->cosine, LEANING_MOST, LEANING));
+  return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
+}
+
+// How far the line ought to be from this wall, over the thickness of its layers: less beside an end where the line
+// comes to the same wall.
+static double wanted_of(const Line *line, const End *end, double place, int32_t triangle) {
+  const CwPlanModel *model = line->model;
+  if (end->triangle < 0 || fabs(place - end->place) > 2 * ROOM * end->layers) return 1;
+  if (cw_dot(model->normal[end->triangle], model->normal[triangle]) < SAME_WALL) return 1;
+  return HOLLOW_WALL * fmin(1, end->cosine / LEANING);
+}
+
+// A run of the line through the domain.
+static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *to, Lines *lines) {
+  const CwPlanModel *model = line->model;
+  double run = to->place - from->place, beside = 0;
+  double cramped = judge_end(line, part, from, lines);
+  cramped = fmax(cramped, judge_end(line, part, to, lines));
+  double taken = from->layers + to->layers;
+  if (run < taken) lines->impossible = 1;
+  if (lines->impossible) return;
+  cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
+  if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
+  int samples = (int)fmin(fmax(ceil(run / LINE_STEP), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  double step = run / samples;
+  for (int i = 0; i < samples && !lines->impossible; i++) {
+    double x[3], s = from->place + step * (i + 0.5);
+    at(line, s, x);
+    double h = cw_size_at(model->size, x), near = plane_near(line, x, APART * h);
+    if (near < SAME_LINE * h) beside += step;
+    cramped = fmax(cramped, shortage(near, SAME_LINE * h, APART * h));
+    if (s - from->place < from->layers || to->place - s < to->layers) continue;
+    CwPlanWall wall = cw_plan_wall_near(model, x, ROOM * model->thickest);
+    if (wall.thickness == 0) continue;
+    double wanted = fmin(wanted_of(line, from, s, wall.triangle), wanted_of(line, to, s, wall.triangle));
+    if (wanted == 1) cramped = fmax(cramped, shortage(wall.distance, wall.thickness, ROOM * wall.thickness));
+    if (wall.distance < wanted * wall.thickness) lines->impossible = 1;
+  }
+  if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
+  lines->cramped += cramped;
+  lines->blocked += cramped >= 1;
+}
+
+static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
+                       Lines *lines) {
+  cut_to_cell(line, node, part);
+  if (!(line->to > line->from)) return;
+  CwPlanHit hit[HITS];
+  int32_t hits = cw_plan_line_hits(line->model, line->point, line->direction, line->from, line->to, HITS, hit);
+  int found = 0;
+  End from = {line->from, -1, 0, 0};
+  for (int32_t i = 0; i <= hits && !lines->impossible; i++) {
+    End to = {line->to, -1, 0, 0};
+    double x[3];
+    if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
+    at(line, (from.place + to.place) / 2, x);
+    if (to.place - from.place > SAME_POINT && cw_inside_test(line->model->inside, x)) {
+      if (!found) find_neighbours(line, node, plane, 10e-3);
+      found = 1;
+      lines->sharp = fmin(lines->sharp, sine);
+      judge_run(line, part, &from, &to, lines);
+    }
+    from = to;
+  }
+}
+
+// Whether parallel planes, one of them perhaps turned round, leave a region between them.
+static int room_between(const CwPlanModel *model, const CwPlane *a, const CwPlane *b) {
+  double apart = cw_dot(a->normal, b->normal) > 0 ? b->offset - a->offset : b->offset + a->offset;
+  return fabs(apart) > 2 * model->sample_spacing;
+}
+
+double cw_plan_sharpness(double sine) {
+  return (1 - sine) + (sine < FAIR ? 1 : 0) + (sine < SHARP ? 4 + 30 * (SHARP - sine) : 0);
+}
+
+static double cost_of(const Lines *lines) {
+  if (lines->impossible) return INFINITY;
+  return CRAMPED * lines->cramped + BLOCKED * lines->blocked + cw_plan_sharpness(lines->sharp);
+}
+
+double cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                     const CwPlane *plane, double most) {
+  Lines lines = {.sharp = 1};
+  CwPlanBound bound = cw_plan_bound(plan, node);
+  for (; bound.node >= 0 && cost_of(&lines) < most; bound = cw_plan_next_bound(plan, bound)) {
+    const CwPlane *other = &plan->node[bound.node].plane;
+    Line line = {.model = model, .plan = plan, .above = bound.node};
+    double across[3];
+    if (!cw_plane_line(other, plane, line.point, line.direction)) {
+      lines.impossible = !room_between(model, other, plane);
+      continue;
+    }
+    cw_cross(other->normal, plane->normal, across);
+    judge_line(&line, node, part, plane, cw_norm(across), &lines);
+  }
+  return cost_of(&lines);
+}

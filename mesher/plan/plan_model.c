@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/plan/plan_model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/parallel/share.h"
+
+enum { EDGE_POINTS_LEAST = 17, EDGE_POINTS_MOST = 3000, EDGE_ROUGH = 16, PIECE_STACK = 64 };
+enum {
+  SAMPLES_OF_REGION = 1000, // of the volume
+  TOGETHER = 8,             // places of the size field in one sample, at most
+  PARTS_ALONG = 4           // parts of a place along each side, at most
+};
+static const double EDGE_STEP = 0.5e-3;   // m between points along CAD edges
+static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
+// Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
+// want a cell between them; beside a smooth edge only the surface triangles do.
+static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
+static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
+static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
+
+static void triangle_normal(const CwBackground *background, int32_t t, double normal[3]) {
+  const int32_t *corner = background->triangle[t];
+  double u[3], v[3];
+  cw_sub(background->x[corner[1]], background->x[corner[0]], u);
+  cw_sub(background->x[corner[2]], background->x[corner[0]], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
+  int face[2];
+  double range[2], normal[2][3];
+  cw_cad_edge_range(cad, edge, range);
+  cw_cad_edge_faces(cad, edge, face);
+  for (int s = 0; s < 2; s++) {
+    double uv[2], x[3], xu[3], xv[3];
+    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
+    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
+    cw_cross(xu, xv, normal[s]);
+    cw_unit(normal[s]);
+    if (cw_cad_face_reversed(cad, face[s])) {
+      for (int k = 0; k < 3; k++) normal[s][k] = -normal[s][k];
+    }
+  }
+  return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
+}
+
+static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2]) {
+  double before[3], x[3], length = 0;
+  for (int i = 0; i <= EDGE_ROUGH; i++) {
+    cw_cad_edge_point(cad, edge, range[0] + (range[1] - range[0]) * i / EDGE_ROUGH, x, NULL);
+    if (i > 0) length += cw_distance(before, x);
+    cw_copy(x, before);
+  }
+  return (int32_t)fmin(fmax(ceil(length / EDGE_STEP) + 1, EDGE_POINTS_LEAST), EDGE_POINTS_MOST);
+}
+
+static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  int32_t most = 0;
+  double range[2];
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    cw_cad_edge_range(cad, e, range);
+    most += points_of_edge(cad, e, range);
+  }
+  CW_NEW(model->edge_x, most);
+  CW_NEW(model->edge_tangent, most);
+  CW_NEW(model->edge_room, most);
+  CW_NEW(model->edge_end, most);
+  CW_NEW(model->edge_sharp, most);
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    double room = 0;
+    int faces[2];
+    cw_cad_edge_faces(cad, e, faces);
+    cw_cad_edge_range(cad, e, range);
+    for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
+    if (room == 0) continue; // between two caps
+    int smooth = cw_plan_edge_is_smooth(cad, e);
+    room *= smooth ? SMOOTH_ROOM : EDGE_ROOM;
+    int32_t points = points_of_edge(cad, e, range);
+    for (int32_t i = 0; i < points; i++) {
+      int32_t at = model->edge_count++;
+      cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
+                        model->edge_tangent[at]);
+      cw_unit(model->edge_tangent[at]);
+      model->edge_room[at] = room;
+      model->edge_sharp[at] = (uint8_t)!smooth;
+      model->edge_end[at] = i == 0 || i == points - 1;
+    }
+  }
+done:
+  return status;
+}
+
+typedef struct {
+  double x[3][3];
+} Facet;
+
+// Halves the longest edge where it is longer than `limit`; the second half goes to *other. Returns whether it did.
+static int halve(Facet *facet, double limit, Facet *other) {
+  int longest = 0;
+  double most = -1;
+  for (int k = 0; k < 3; k++) {
+    double length = cw_distance(facet->x[k], facet->x[(k + 1) % 3]);
+    if (length > most) most = length, longest = k;
+  }
+  if (most <= limit) return 0;
+  int next = (longest + 1) % 3;
+  double middle[3];
+  *other = *facet;
+  cw_lerp(facet->x[longest], facet->x[next], 0.5, middle);
+  cw_copy(middle, facet->x[next]);
+  cw_copy(middle, other->x[longest]);
+  return 1;
+}
+
+// Points all over a triangle of a wall, in order; stores them where there is room for them. Returns their number.
+static int32_t divide_triangle(const CwPlanModel *model, int32_t t, double (*point)[3]) {
+  const CwBackground *background = model->background;
+  Facet stack[PIECE_STACK];
+  int32_t count = 0;
+  int top = 1;
+  for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], stack[0].x[k]);
+  while (top > 0) {
+    Facet facet = stack[--top], other;
+    if (top + 2 <= PIECE_STACK && halve(&facet, WALL_STEP, &other)) {
+      stack[top++] = other;
+      stack[top++] = facet;
+      continue;
+    }
+    if (point) {
+      for (int k = 0; k < 3; k++) point[count][k] = (facet.x[0][k] + facet.x[1][k] + facet.x[2][k]) / 3;
+    }
+    count++;
+  }
+  return count;
+}
+
+static CwStatus count_points(void *context, int32_t t, void *out) {
+  const CwPlanModel *model = context;
+  if (model->wall[t]) *(int32_t *)out = divide_triangle(model, t, NULL);
+  return CW_OK;
+}
+
+static CwStatus find_points(void *context, int32_t t, void *out) {
+  const CwPlanModel *model = context;
+  if (model->wall[t]) divide_triangle(model, t, out);
+  return CW_OK;
+}
+
+static CwStatus sample_walls(CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  int32_t triangles = model->background->triangle_count, *count = NULL, *start = NULL;
+  CW_NEW_UNSET(count, triangles);
+  CW_NEW_UNSET(start, triangles + 1);
+  CW_TRY(cw_share("decomposition", triangles, sizeof *count, count_points, model, count));
+  start[0] = 0;
+  for (int32_t t = 0; t < triangles; t++) {
+    start[t + 1] = start[t] + count[t];
+    model->thickest = fmax(model->thickest, model->thickness[t]);
+  }
+  model->wall_count = start[triangles];
+  CW_NEW_UNSET(model->wall_triangle, model->wall_count);
+  CW_NEW_UNSET(model->wall_x, model->wall_count);
+  for (int32_t t = 0; t < triangles; t++) {
+    for (int32_t i = start[t]; i < start[t + 1]; i++) model->wall_triangle[i] = t;
+  }
+  CW_TRY(cw_share_lists("decomposition", triangles, start, sizeof *model->wall_x, find_points, model, model->wall_x));
+  CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP, &model->walls));
+done:
+  free(count);
+  free(start);
+  return status;
+}
+
+// The point on a wall nearest to x, -1 where none is within `reach`; *square: of its distance.
+static int32_t wall_point_near(const CwPlanModel *model, const double x[3], double reach, double *square) {
+  const CwCubes *walls = &model->walls;
+  int32_t nearest = -1, from[3], to[3];
+  *square = INFINITY;
+  cw_cubes_near(walls, x, reach, from, to);
+  for (int32_t c = from[2]; c <= to[2]; c++) {
+    for (int32_t b = from[1]; b <= to[1]; b++) {
+      if (from[0] > to[0]) continue;
+      int32_t end = walls->start[cw_cube(walls, to[0], b, c) + 1];
+      for (int32_t i = walls->start[cw_cube(walls, from[0], b, c)]; i < end; i++) {
+        double d[3];
+        cw_sub(model->wall_x[walls->member[i]], x, d);
+        double other = cw_dot(d, d);
+        if (other < *square) *square = other, nearest = walls->member[i];
+      }
+    }
+  }
+  return nearest;
+}
+
+CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach) {
+  double most = hypot(reach, 0.5 * WALL_STEP), square, d[3];
+  int32_t nearest = -1;
+  // As a rule the wall is much nearer than the reach; the search is the dearer the farther it goes.
+  for (double radius = fmin(FIRST_REACH, most);; radius = fmin(2 * radius, most)) {
+    nearest = wall_point_near(model, x, radius, &square);
+    if (radius == most || (nearest >= 0 && square <= radius * radius)) break;
+  }
+  if (nearest < 0) return (CwPlanWall){-1, INFINITY, 0};
+  CwPlanWall wall = {model->wall_triangle[nearest], sqrt(square), 0};
+  wall.thickness = model->thickness[wall.triangle];
+  // Beside a point the wall goes on: then its plane is what counts.
+  cw_sub(x, model->wall_x[nearest], d);
+  double off = fabs(cw_dot(d, model->normal[wall.triangle]));
+  if (square - off * off < WALL_STEP * WALL_STEP) wall.distance = off;
+  return wall;
+}
+
+typedef struct {
+  const CwBackground *background;
+  double start[3], direction[3], to;
+  int32_t count, most;
+  CwPlanHit *hit;
+} Hits;
+
+// T. Moller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
+static int add_hit(void *context, int32_t t) {
+  Hits *hits = context;
+  const int32_t *corner = hits->background->triangle[t];
+  const double *a = hits->background->x[corner[0]];
+  double u[3], v[3], o[3], p[3], q[3];
+  cw_sub(hits->background->x[corner[1]], a, u);
+  cw_sub(hits->background->x[corner[2]], a, v);
+  cw_sub(hits->start, a, o);
+  cw_cross(hits->direction, v, p);
+  cw_cross(o, u, q);
+  double det = cw_dot(u, p), side = det > 0 ? 1 : -1, along_u = side * cw_dot(o, p);
+  double along_v = side * cw_dot(hits->direction, q);
+  if (det == 0 || along_u < 0 || along_v < 0 || along_u + along_v > side * det) return 0;
+  double place = cw_dot(v, q) / det;
+  if (place < 0 || place > hits->to) return 0;
+  hits->hit[hits->count++] = (CwPlanHit){place, t};
+  return hits->count == hits->most;
+}
+
+static int by_place(const void *a, const void *b) {
+  const CwPlanHit *p = a, *q = b;
+  if (p->place != q->place) return p->place < q->place ? -1 : 1;
+  return (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const double direction[3], double from,
+                          double to, int32_t most, CwPlanHit *hit) {
+  Hits hits = {.background = model->background, .to = to - from, .most = most, .hit = hit};
+  for (int k = 0; k < 3; k++) hits.start[k] = point[k] + from * direction[k];
+  cw_copy(direction, hits.direction);
+  cw_box_tree_ray(&model->triangles, hits.start, direction, &hits.to, add_hit, &hits);
+  for (int32_t i = 0; i < hits.count; i++) hit[i].place += from;
+  qsort(hit, (size_t)hits.count, sizeof *hit, by_place);
+  return hits.count;
+}
+
+static CwBox box_of(const void *context, int32_t t) {
+  const CwBackground *background = context;
+  const int32_t *corner = background->triangle[t];
+  return cw_box_of_triangle(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]]);
+}
+
+static CwStatus sort_triangles(CwPlanModel *model) {
+  const CwBackground *background = model->background;
+  CwBox within = cw_box_empty();
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    for (int k = 0; k < 3; k++) cw_box_add_point(&within, background->x[background->triangle[t][k]]);
+  }
+  return cw_box_tree_make(background->triangle_count, &within, box_of, background, &model->triangles);
+}
+
+// Of a background triangle.
+typedef struct {
+  double normal[3], density, thickness;
+} Measured;
+
+typedef struct {
+  const CwCad *cad;
+  const CwPlanOptions *options;
+  const CwPlanModel *model;
+} Walls;
+
+static CwStatus measure(void *context, int32_t t, void *out) {
+  const Walls *walls = context;
+  const CwPlanOptions *options = walls->options;
+  const CwBackground *background = walls->model->background;
+  Measured *made = out;
+  double centre[3] = {0, 0, 0};
+  triangle_normal(background, t, made->normal);
+  if (!walls->model->wall[t]) return CW_OK;
+  int patch = cw_cad_face_patch(walls->cad, background->face[t]);
+  for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;
+  double h = cw_size_at(walls->model->size, centre);
+  made->density = options->prism_factor / (h * h);
+  made->thickness = options->thickness[patch];
+  if (options->least_thickness) {
+    made->thickness = fmin(made->thickness, fmax(options->least_thickness[patch], options->tallest * h));
+  }
+  return CW_OK;
+}
+
+static CwStatus measure_walls(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = model->background;
+  Measured *made = NULL;
+  CW_NEW_UNSET(made, background->triangle_count);
+  CW_NEW_UNSET(model->wall, background->triangle_count);
+  CW_NEW_UNSET(model->density, background->triangle_count);
+  CW_NEW_UNSET(model->thickness, background->triangle_count);
+  CW_NEW_UNSET(model->normal, background->triangle_count);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    model->wall[t] = cw_cad_patch_kind(cad, cw_cad_face_patch(cad, background->face[t])) == CW_PATCH_WALL;
+  }
+  CW_TRY(cw_share("decomposition", background->triangle_count, sizeof *made, measure, &(Walls){cad, options, model},
+                  made));
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    cw_copy(made[t].normal, model->normal[t]);
+    model->density[t] = made[t].density;
+    model->thickness[t] = made[t].thickness;
+  }
+done:
+  free(made);
+  return status;
+}
+
+// The places where the size field is sampled.
+typedef struct {
+  const CwSize *size;
+  double tet_factor;
+  int32_t count;
+  double (*x)[3], *volume, *work; // m3; predicted tetrahedra, layers or not
+} Places;
+
+static CwStatus find_work(void *context, int32_t i, void *out) {
+  const Places *places = context;
+  double h = cw_size_at(places->size, places->x[i]);
+  *(double *)out = places->tet_factor * places->volume[i] / (h * h * h);
+  return CW_OK;
+}
+
+static CwStatus find_work_outside_layers(void *context, int32_t i, void *out) {
+  const CwPlanModel *model = context;
+  CwPlanWall wall = cw_plan_wall_near(model, model->sample_x[i], model->thickest);
+  *(double *)out = wall.distance >= wall.thickness ? model->sample_work[i] : 0;
+  return CW_OK;
+}
+
+static void add_sample(CwPlanModel *model, const double x[3], double volume, double work) {
+  int32_t at = model->sample_count++;
+  if (!model->sample_x) return;
+  cw_copy(x, model->sample_x[at]);
+  model->sample_volume[at] = volume;
+  model->sample_work[at] = work;
+}
+
+// The parts of a place, so many along each side of the cube that it stands for.
+static void add_parts(CwPlanModel *model, const double x[3], double volume, double work, int32_t along) {
+  int32_t count = along * along * along;
+  double step = cbrt(volume) / along, first = -step * (along - 1) / 2;
+  for (int32_t i = 0; i < count; i++) {
+    double part[3] = {x[0] + first + step * (i % along), x[1] + first + step * (i / along % along),
+                      x[2] + first + step * (i / along / along)};
+    add_sample(model, part, volume / count, work / count);
+  }
+}
+
+// Visits samples of about `even` work each: a place, some together, or parts of one; stores them where there is room.
+static void visit_samples(const Places *places, double even, CwPlanModel *model) {
+  double work = 0, volume = 0;
+  int32_t together = 0;
+  model->sample_count = 0;
+  for (int32_t i = 0; i < places->count; i++) {
+    int32_t along = 1; // where less than 1.5^3 is in it: no root needed
+    if (places->work[i] > 3 * even) along = (int32_t)fmin(round(cbrt(places->work[i] / even)), PARTS_ALONG);
+    if (along > 1) add_parts(model, places->x[i], places->volume[i], places->work[i], along);
+    if (along <= 1) work += places->work[i], volume += places->volume[i], together++;
+    if (together == 0 || (together < TOGETHER && work < even && i + 1 < places->count)) continue;
+    add_sample(model, places->x[i - together / 2], volume, work);
+    work = volume = together = 0;
+  }
+}
+
+// Samples of the volume, about as many in every region to be, wherever it will lie. Collective.
+static CwStatus sample_volume(const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  Places places = {.size = model->size, .tet_factor = options->tet_factor};
+  double even = 0, *outside = NULL;
+  CW_TRY(cw_size_samples(model->size, &places.count, &places.x, &places.volume));
+  CW_NEW(places.work, places.count);
+  CW_TRY(cw_share("decomposition", places.count, sizeof *places.work, find_work, &places, places.work));
+  for (int32_t i = 0; i < places.count; i++) even += places.work[i] / SAMPLES_OF_REGION / options->region_count;
+  visit_samples(&places, even, model);
+  CW_NEW(model->sample_volume, model->sample_count);
+  CW_NEW(model->sample_work, model->sample_count);
+  CW_NEW(outside, model->sample_count);
+  CW_NEW(model->sample_x, model->sample_count);
+  visit_samples(&places, even, model);
+  for (int32_t i = 0; i < model->sample_count; i++) {
+    if (model->sample_volume[i] > model->sample_spacing) model->sample_spacing = model->sample_volume[i];
+  }
+  model->sample_spacing = cbrt(model->sample_spacing);
+  CW_TRY(cw_share("decomposition", model->sample_count, sizeof *outside, find_work_outside_layers, model, outside));
+  memcpy(model->sample_work, outside, (size_t)model->sample_count * sizeof *outside);
+done:
+  free(places.x);
+  free(places.volume);
+  free(places.work);
+  free(outside);
+  return status;
+}
+
+CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
+                            const CwSize *size, const CwPlanOptions *options, CwPlanModel *model) {
+  CwStatus status = CW_OK;
+  memset(model, 0, sizeof *model);
+  model->background = background;
+  model->inside = inside;
+  model->size = size;
+  model->region_count = options->region_count;
+  CW_TRY(measure_walls(cad, options, model));
+  CW_TRY(sample_walls(model));
+  CW_TRY(sort_triangles(model));
+  CW_TRY(sample_volume(options, model));
+  CW_TRY(sample_edges(cad, options, model));
+done:
+  if (status != CW_OK) cw_plan_model_free(model);
+  return status;
+}
+
+void cw_plan_model_free(CwPlanModel *model) {
+  free(model->sample_x);
+  free(model->sample_volume);
+  free(model->sample_work);
+  free(model->wall);
+  free(model->density);
+  free(model->thickness);
+  free(model->normal);
+  free(model->edge_x);
+  free(model->edge_tangent);
+  free(model->edge_room);
+  free(model->edge_end);
+  free(model->edge_sharp);
+  free(model->wall_x);
+  free(model->wall_triangle);
+  cw_cubes_free(&model->walls);
+  cw_box_tree_free(&model->triangles);
+  memset(model, 0, sizeof *model);
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the planner weighs planes on: the work in the volume as samples, the work on the walls as pieces of background
+// triangles, and points along the CAD edges; of the whole domain, and of the part in one cell of the tree.
+#ifndef CUTWATER_MESHER_PLAN_PLAN_MODEL_H
+#define CUTWATER_MESHER_PLAN_PLAN_MODEL_H
+
+#include "mesher/common/box_tree.h"
+#include "mesher/common/cubes.h"
+#include "mesher/plan/plan.h"
+
+// Layers as the planner sees them reach so much farther than they will: what stands close behind them is pinched.
+#define CW_LAYER_ROOM 1.2
+
+typedef struct {
+  const CwInside *inside;
+  const CwBackground *background;
+  const CwSize *size;
+  int32_t sample_count;
+  double (*sample_x)[3];
+  double *sample_volume, *sample_work; // m3; predicted tetrahedra, none within the layers
+  double sample_spacing;               // m
+  uint8_t *wall;                       // of each background triangle: on a wall
+  double *density, *thickness;         // of each: predicted prisms per m2; of the layers, m
+  double (*normal)[3];                 // of each background triangle
+  int32_t edge_count;                  // points along CAD edges
+  double (*edge_x)[3], (*edge_tangent)[3];
+  double *edge_room;                   // m: how near a plane may come to each of them
+  uint8_t *edge_end, *edge_sharp;      // at a CAD vertex; of an edge that is a feature
+  int32_t wall_count;                  // points all over the walls
+  double (*wall_x)[3];
+  int32_t *wall_triangle;              // of each, the background triangle
+  double thickest;                     // m, of the layers anywhere
+  CwCubes walls;
+  CwBoxTree triangles;                 // all of the background
+  int32_t region_count;                // asked
+  double mean_work;                    // of the regions to be
+} CwPlanModel;
+
+// Convex pieces of background triangles: corner[start[i] .. start[i+1]) of piece i, cut from triangle[i].
+typedef struct {
+  int32_t count;
+  int32_t *start, *triangle;
+  double (*corner)[3];
+  double *work; // predicted prisms
+} CwPieces;
+
+// What lies in one cell of the tree.
+typedef struct {
+  CwPieces pieces;
+  int32_t sample_count, *sample;
+  int32_t edge_count, *edge; // points of CAD edges in the cell or within their room of it
+  double work, volume;       // cells; m3
+  double low[3], high[3];    // box of the samples
+} CwPlanPart;
+
+// True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
+int cw_plan_edge_is_smooth(const CwCad *cad, int edge);
+
+// Collective: what takes long is shared among the ranks.
+CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
+                            const CwSize *size, const CwPlanOptions *options, CwPlanModel *model);
+void cw_plan_model_free(CwPlanModel *model);
+
+// The whole domain, and the part of `whole` on the negative side of a plane (other: the positive one).
+CwStatus cw_plan_part_whole(const CwPlanModel *model, CwPlanPart *part);
+CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, const CwPlane *plane, int other,
+                           CwPlanPart *part);
+void cw_plan_part_free(CwPlanPart *part);
+
+typedef struct {
+  int32_t triangle;           // of the background; -1: none
+  double distance, thickness; // m; of its layers
+} CwPlanWall;
+
+// The wall nearest to x; none, infinitely far and with no layers, where none is within `reach` m or a little more.
+CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach);
+
+// A place where a line enters or leaves the domain.
+typedef struct {
+  double place;     // along the line, m
+  int32_t triangle; // of the background
+} CwPlanHit;
+
+// All hits of the line point + s direction, from <= s <= to, in order; at most `most` of them. An edge between two
+// triangles may be hit twice.
+int32_t cw_plan_line_hits(const CwPlanModel *model, const double point[3], const double direction[3], double from,
+                          double to, int32_t most, CwPlanHit *hit);
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One part of the domain seen along one direction: for every place along it the work below, the area of the section,
+// the sharpest wall and the CAD edges that a plane there would graze. One pass over the part serves all offsets. Of one
+// plane alone the same is had for less.
+#ifndef CUTWATER_MESHER_PLAN_PLAN_PROFILE_H
+#define CUTWATER_MESHER_PLAN_PLAN_PROFILE_H
+
+#include "mesher/plan/plan_model.h"
+
+enum { CW_PROFILE_BINS = 256 };
+
+typedef struct {
+  double low, width;                  // m: bin b covers low + b width .. low + (b + 1) width
+  double below[CW_PROFILE_BINS + 1];  // cells below the start of each bin
+  double area[CW_PROFILE_BINS];       // m2, of the section, mean over the bin
+  double worst[CW_PROFILE_BINS];      // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
+  double grazed[CW_PROFILE_BINS];     // points of CAD edges it runs along, and ends of them it comes near
+  double cut[CW_PROFILE_BINS];        // of those on sharp edges the one nearest: 1 within the layers, 0 at its room
+} CwPlanProfile;
+
+// From about samples_most of the part's samples, or all of fewer. Fails with nothing: a part without extent along the
+// direction has width 0 and is of no use.
+void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const double direction[3], int32_t samples_most,
+                     CwPlanProfile *profile);
+
+// Cells below a place, and the place below which so many cells are.
+double cw_profile_below(const CwPlanProfile *profile, double place);
+double cw_profile_place(const CwPlanProfile *profile, double cells);
+
+int cw_profile_bin(const CwPlanProfile *profile, double place);
+
+// What a plane meets: as in a bin of the profile.
+typedef struct {
+  double worst, grazed, cut;
+} CwPlanPlace;
+
+// Of one plane, where it lies on the positive side of `end` (NULL: everywhere).
+CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
+CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin);
+
+#endif

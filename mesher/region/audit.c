@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/region/audit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/mix.h"
+#include "mesher/common/quality.h"
+#include "pipeline/mesh/cell.h"
+#include "pipeline/mesh/region_faces.h"
+
+static const char *cell_name(int corners) {
+  return corners == 4 ? "tetrahedron" : corners == 5 ? "pyramid" : "prism";
+}
+
+static uint64_t mixed(uint64_t h, uint64_t v) {
+  return cw_mix((h ^ v) + CW_MIX_STEP);
+}
+
+// The hash of an open face on a dividing plane, negative where its cell sees it the other way round.
+static uint64_t open_face_hash(const CwRegionData *data, int32_t open) {
+  int32_t point[4];
+  int64_t shared[4];
+  int order[4], corners = cw_cell_face(data, open / CW_CELL_FACES, open % CW_CELL_FACES, point);
+  for (int k = 0; k < corners; k++)
+    shared[k] = data->shared_id[point[k]];
+  int back = cw_face_loop(shared, corners, order);
+  uint64_t hash = (uint64_t)corners;
+  for (int k = 0; k < corners; k++) {
+    uint64_t bits[3];
+    memcpy(bits, data->points[point[order[k]]], sizeof bits);
+    hash = mixed(hash, (uint64_t)shared[order[k]]);
+    for (int i = 0; i < 3; i++)
+      hash = mixed(hash, bits[i]);
+  }
+  return back ? -hash : hash;
+}
+
+// All faces, or those of shared points alone; adds up the open ones.
+static CwStatus check_faces(const CwRegionMesh *r, int only_shared, uint64_t *sum) {
+  CwStatus status = CW_OK;
+  CwRegionData data = cw_region_data(r);
+  int32_t *open = NULL, count = 0;
+  char name[40];
+  snprintf(name, sizeof name, "%s region %d", r->domain, r->region);
+  CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, &data, only_shared, &open, &count));
+  for (int32_t k = 0; k < count; k++)
+    *sum += open_face_hash(&data, open[k]);
+done:
+  free(open);
+  return status;
+}
+
+static CwStatus check_indices(const CwRegionMesh *r) {
+  CwStatus status = CW_OK;
+  uint8_t *used = NULL;
+  CW_NEW(used, r->point_count);
+  CwRegionData data = cw_region_data(r);
+  for (int32_t c = 0, cells = cw_region_cell_count(&data); c < cells; c++) {
+    int corners;
+    const int32_t *corner = cw_cell_nodes(&data, c, &corners);
+    for (int k = 0; k < corners; k++) {
+      CW_REQUIRE(corner[k] >= 0 && corner[k] < r->point_count, CW_ERR_MESH,
+                 "%s region %d: cell %d names point %d; 0 to %d are allowed", r->domain, r->region, c,
+                 corner[k], r->point_count - 1);
+      used[corner[k]] = 1;
+    }
+  }
+  for (int64_t k = 0; k < (int64_t)r->triangle_count + r->quad_count; k++) {
+    int quad = k >= r->triangle_count;
+    const int32_t *corner = quad ? r->quad[k - r->triangle_count] : r->triangle[k];
+    for (int i = 0; i < (quad ? 4 : 3); i++) {
+      CW_REQUIRE(corner[i] >= 0 && corner[i] < r->point_count, CW_ERR_MESH,
+                 "%s region %d: boundary face %lld names point %d; 0 to %d are allowed", r->domain, r->region,
+                 (long long)k, corner[i], r->point_count - 1);
+    }
+  }
+  for (int32_t p = 0; p < r->point_count; p++) {
+    CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell",
+               r->domain, r->region, p, 1e3 * r->x[p][0], 1e3 * r->x[p][1], 1e3 * r->x[p][2]);
+  }
+done:
+  free(used);
+  return status;
+}
+
+static int bin_of(double value, double width, int bins) {
+  int bin = (int)(value / width);
+  return bin < 0 ? 0 : bin >= bins ? bins - 1 : bin;
+}
+
+static void add_tet(CwTetFigures *figures, const CwTetShape *shape, double aspect) {
+  figures->count++;
+  figures->aspect_sum += aspect;
+  figures->aspect_max = fmax(figures->aspect_max, aspect);
+  figures->mean_ratio_sum += shape->mean_ratio;
+  figures->mean_ratio_least = fmin(figures->mean_ratio_least, shape->mean_ratio);
+  figures->dihedral_least = fmin(figures->dihedral_least, shape->dihedral_least);
+}
+
+static void add_figures(CwTetFigures *sum, const CwTetFigures *more) {
+  sum->count += more->count;
+  sum->aspect_sum += more->aspect_sum;
+  sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
+  sum->mean_ratio_sum += more->mean_ratio_sum;
+  sum->mean_ratio_least = fmin(sum->mean_ratio_least, more->mean_ratio_least);
+  sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
+}
+
+// Corners and volume of a cell, which must be positive beyond rounding.
+static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, int32_t cell, int *corners,
+                             const double *x[6], double *volume) {
+  CwStatus status = CW_OK;
+  const int32_t *corner = cw_cell_nodes(data, cell, corners);
+  for (int k = 0; k < *corners; k++)
+    x[k] = data->points[corner[k]];
+  int is_tet = *corners == 4;
+  *volume = is_tet ? cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0 : cw_cell_volume(*corners, x);
+  double doubt = is_tet ? cw_tet_volume6_error(x[0], x[1], x[2], x[3]) / 6.0 : 0.0;
+  if (!(*volume > doubt)) {
+    double centre[3];
+    cw_cell_centre(data, cell, centre);
+    status = CW_FAIL(
+        CW_ERR_MESH, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3", r->domain,
+        r->region, cell_name(*corners), cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * *volume);
+  }
+  return status;
+}
+
+static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
+  static const double limit[7] = {1.5, 2, 3, 4, 5, 7, 10};
+  CwStatus status = CW_OK;
+  double aspects = 0.0;
+  CwRegionData data = cw_region_data(r);
+  quality->cells = cw_region_cell_count(&data);
+  quality->prism_count = r->prism_count;
+  for (int32_t c = 0; c < quality->cells; c++) {
+    const double *x[6];
+    double volume;
+    int corners;
+    CW_TRY(check_volume(r, &data, c, &corners, x, &volume));
+    quality->volume += volume;
+    quality->least_volume = fmin(quality->least_volume, volume);
+    if (corners == 4) {
+      CwTetShape shape;
+      cw_tet_shape(x, &shape);
+      double aspect = shape.edge_longest / shape.edge_shortest;
+      aspects += aspect;
+      int beside = 0;
+      for (int k = 0; k < 4; k++)
+        beside |= r->tetrahedron[c][k] < r->shared_count;
+      add_tet(beside ? &quality->beside : &quality->apart, &shape, aspect);
+      quality->aspect_max = fmax(quality->aspect_max, aspect);
+      int class = 0;
+      while (class < 7 && aspect > limit[class])
+        class ++;
+      quality->aspect_class[class]++;
+      quality->dihedral_least = fmin(quality->dihedral_least, shape.dihedral_least);
+      quality->dihedral_greatest = fmax(quality->dihedral_greatest, shape.dihedral_greatest);
+      quality->dihedral_bin[bin_of(shape.dihedral_least, 10.0, 18)]++;
+    } else if (corners == 6) {
+      double jacobian = cw_prism_scaled_jacobian(x);
+      quality->prism_least_scaled_jacobian = fmin(quality->prism_least_scaled_jacobian, jacobian);
+      quality->prism_jacobian_bin[bin_of(jacobian, 1.0 / CW_QUALITY_BINS, CW_QUALITY_BINS)]++;
+    }
+  }
+  if (r->tetrahedron_count)
+    quality->aspect_mean = aspects / r->tetrahedron_count;
+done:
+  return status;
+}
+
+CwStatus cw_audit_region(const CwRegionMesh *region, CwQuality *quality) {
+  CwStatus status = CW_OK;
+  cw_quality_start(quality);
+  CW_TRY(check_indices(region));
+  CW_TRY(check_cells(region, quality));
+  CW_TRY(check_faces(region, 0, &quality->open_faces));
+done:
+  return status;
+}
+
+CwStatus cw_audit_copy(const CwRegionMesh *copy, uint64_t *open_faces) {
+  CwStatus status = CW_OK;
+  const double *x[6];
+  double volume;
+  int corners;
+  *open_faces = 0;
+  CwRegionData data = cw_region_data(copy);
+  for (int32_t c = 0, cells = cw_region_cell_count(&data); c < cells; c++)
+    CW_TRY(check_volume(copy, &data, c, &corners, x, &volume));
+  CW_TRY(check_faces(copy, 1, open_faces));
+done:
+  return status;
+}
+
+void cw_quality_start(CwQuality *sum) {
+  memset(sum, 0, sizeof *sum);
+  sum->least_volume = INFINITY;
+  sum->dihedral_least = 180.0;
+  sum->beside.dihedral_least = sum->apart.dihedral_least = 180.0;
+  sum->beside.mean_ratio_least = sum->apart.mean_ratio_least = 1.0;
+  sum->prism_least_scaled_jacobian = 1.0;
+}
+
+void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
+  int64_t before = 0;
+  for (int k = 0; k < 8; k++)
+    before += sum->aspect_class[k];
+  if (before + tetrahedra > 0) {
+    sum->aspect_mean = (sum->aspect_mean * (double)before + more->aspect_mean * (double)tetrahedra) /
+                       (double)(before + tetrahedra);
+  }
+  sum->volume += more->volume;
+  sum->least_volume = fmin(sum->least_volume, more->least_volume);
+  sum->cells += more->cells;
+  sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
+  for (int k = 0; k < 8; k++)
+    sum->aspect_class[k] += more->aspect_class[k];
+  sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
+  sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);
+  for (int k = 0; k < 18; k++)
+    sum->dihedral_bin[k] += more->dihedral_bin[k];
+  add_figures(&sum->beside, &more->beside);
+  add_figures(&sum->apart, &more->apart);
+  sum->open_faces += more->open_faces;
+  sum->prism_count += more->prism_count;
+  sum->prism_least_scaled_jacobian =
+      fmin(sum->prism_least_scaled_jacobian, more->prism_least_scaled_jacobian);
+  for (int k = 0; k < CW_QUALITY_BINS; k++)
+    sum->prism_jacobian_bin[k] += more->prism_jacobian_bin[k];
+}

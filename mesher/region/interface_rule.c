@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/region/interface_rule.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/fill/fill_points.h"
+#include "mesher/region/encroach.h"
+#include "mesher/region/region_boundary.h"
+#include "mesher/skeleton/skeleton_curves.h"
+
+// The refined interfaces of a region, packed: their number, and of each a header, the inserted points and the
+// triangles. Corners below 0 are inserted points: -1 - k.
+enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
+
+int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, int32_t outline) {
+  const CwInterfaceOutline *interface = &skeleton->outline[outline];
+  const int32_t(*regions)[2] = (const int32_t(*)[2])(
+      skeleton->planned_region ? skeleton->planned_region : skeleton->interface_region);
+  const int32_t *region = regions[interface->triangle_start];
+  return number[region[0]] < number[region[1]] ? region[0] : region[1];
+}
+
+// Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of front and caps.
+static CwStatus candidates(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
+                           double (**x)[3], CwLatticeSite **site) {
+  CwStatus status = CW_OK;
+  CwRegionBoundary boundary = {0};
+  CW_TRY(cw_region_boundary_make(skeleton, region, 1, &boundary));
+  CwFillInput input = cw_region_fill_input(skeleton, &boundary, name);
+  input.open_count = boundary.interface_count;
+  CW_TRY(cw_fill_points(&input, 1.0, count, x, site));
+done:
+  cw_region_boundary_free(&boundary);
+  return status;
+}
+
+// The outline with the inner nodes of the planned interface.
+static CwStatus planned_points(const CwSkeleton *skeleton, const CwInterfaceOutline *interface, const CwPlaneMap *map,
+                               CwPatchOutline *outline) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_skeleton_interface_outline(skeleton, interface, map, outline));
+  for (int32_t node = interface->free_start; node < interface->free_start + interface->free_count; node++) {
+    double uv[2];
+    int32_t local;
+    cw_plane_uv(map, skeleton->node_x[node], uv);
+    CW_TRY(cw_outline_point(outline, node, uv, skeleton->node_x[node], &local));
+  }
+done:
+  return status;
+}
+
+// How far from the plane the sphere of a triangle can reach: a bound for all triangles of a triangulation.
+static double largest_radius(const CwPlaneMap *map, int32_t count, const int32_t (*triangle)[3], const double (*x)[3]) {
+  double largest = 0;
+  for (int32_t t = 0; t < count; t++) {
+    double uv[3][2], centre[2], radius;
+    for (int k = 0; k < 3; k++) cw_plane_uv(map, x[triangle[t][k]], uv[k]);
+    if (cw_encroach_circle(uv[0], uv[1], uv[2], centre, &radius)) largest = fmax(largest, radius);
+  }
+  return largest;
+}
+
+static CwStatus pack(int32_t index, const CwPlaneMap *map, const CwPatchOutline *outline,
+                     const CwEncroachRefined *refined, char **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  int32_t header[HEADER] = {index, refined->point_count, refined->triangle_count, refined->encroached, refined->left};
+  size_t more = sizeof header + (size_t)refined->point_count * sizeof(double[3]) +
+                (size_t)refined->triangle_count * sizeof(int32_t[3]);
+  char *grown = realloc(*bytes, (size_t)*size + more);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: interface %d", index);
+  *bytes = grown;
+  char *at = grown + *size;
+  *size += (int64_t)more;
+  memcpy(at, header, sizeof header);
+  at += sizeof header;
+  for (int32_t p = 0; p < refined->point_count; p++, at += sizeof(double[3])) {
+    double x[3];
+    cw_plane_map(map, refined->uv[p], x, NULL, NULL);
+    memcpy(at, x, sizeof x);
+  }
+  for (int32_t t = 0; t < refined->triangle_count; t++, at += sizeof(int32_t[3])) {
+    int32_t corner[3];
+    for (int k = 0; k < 3; k++) {
+      int32_t p = refined->triangle[t][k];
+      corner[k] = p < outline->point_count ? outline->node[p] : -1 - (p - outline->point_count);
+    }
+    memcpy(at, corner, sizeof corner);
+  }
+done:
+  return status;
+}
+
+static CwStatus refine(const CwSkeleton *skeleton, int32_t index, int32_t count, const double (*candidate)[3],
+                       char **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const CwInterfaceOutline *interface = &skeleton->outline[index];
+  CwPatchOutline outline = {0};
+  CwBeside beside = {0};
+  CwEncroachRefined refined = {0};
+  CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
+  CW_TRY(planned_points(skeleton, interface, &map, &outline));
+  // Inserting centres makes no circle larger; the constrained Delaunay triangulation may differ a little from the
+  // planned one before.
+  double reach = largest_radius(&map, interface->triangle_count,
+                                (const int32_t(*)[3])skeleton->interface_triangle + interface->triangle_start,
+                                (const double(*)[3])skeleton->node_x);
+  CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, 2 * reach, count, candidate, &beside));
+  CwPatchInput patch = {.surface = cw_plane_map,
+                        .surface_context = &map,
+                        .size = skeleton->size_at,
+                        .size_context = skeleton->size,
+                        .point_count = outline.point_count,
+                        .uv = (const double(*)[2])outline.uv,
+                        .x = (const double(*)[3])outline.x,
+                        .edge_count = outline.edge_count,
+                        .edge = (const int32_t(*)[2])outline.edge,
+                        .boundary = outline.boundary,
+                        .name = "on a dividing plane"};
+  CW_TRY(cw_encroach_refine(&patch, &beside, &refined));
+  CW_TRY(pack(index, &map, &outline, &refined, bytes, size));
+done:
+  cw_encroach_refined_free(&refined);
+  cw_beside_free(&beside);
+  cw_outline_free(&outline);
+  return status;
+}
+
+CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, int32_t region, const char *name,
+                           void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  double(*candidate)[3] = NULL;
+  char *made = NULL;
+  int32_t count = 0, owned = 0;
+  *bytes = NULL;
+  *size = 0;
+  CW_NEW(made, sizeof owned);
+  *size = sizeof owned;
+  CW_TRY(candidates(skeleton, region, name, &count, &candidate, NULL));
+  for (int32_t i = 0; i < skeleton->outline_count; i++) {
+    if (cw_interface_owner(skeleton, number, i) != region) continue;
+    CW_TRY(refine(skeleton, i, count, (const double(*)[3])candidate, &made, size));
+    owned++;
+  }
+  memcpy(made, &owned, sizeof owned);
+  *bytes = made;
+  made = NULL;
+done:
+  free(candidate);
+  free(made);
+  return status;
+}
+
+CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInterfaceRuleCounts *counts) {
+  CwStatus status = CW_OK;
+  const char **block = NULL;
+  int32_t header[HEADER], total = 0;
+  *counts = (CwInterfaceRuleCounts){.planned = skeleton->interface_triangle_count};
+  CW_NEW(block, skeleton->outline_count);
+  for (int32_t r = 0; r < skeleton->plan->region_count; r++) {
+    int32_t owned = 0;
+    const char *at = bytes[r];
+    if (!at) continue;
+    memcpy(&owned, at, sizeof owned);
+    at += sizeof owned;
+    for (int32_t k = 0; k < owned; k++) {
+      memcpy(header, at, sizeof header);
+      block[header[OUTLINE]] = at;
+      at +=
+          sizeof header + (size_t)header[INSERTED] * sizeof(double[3]) + (size_t)header[TRIANGLES] * sizeof(int32_t[3]);
+      counts->inserted += header[INSERTED];
+      counts->refined += header[TRIANGLES];
+      counts->encroached += header[ENCROACHED];
+      counts->left += header[LEFT];
+      total += header[TRIANGLES];
+    }
+  }
+  skeleton->planned_triangle_count = skeleton->interface_triangle_count;
+  skeleton->planned_triangle = skeleton->interface_triangle;
+  skeleton->planned_region = skeleton->interface_region;
+  skeleton->interface_triangle_count = 0;
+  skeleton->interface_triangle = NULL;
+  skeleton->interface_region = NULL;
+  CW_NEW(skeleton->interface_triangle, total);
+  CW_NEW(skeleton->interface_region, total);
+  for (int32_t i = 0; i < skeleton->outline_count; i++) {
+    CwInterfaceOutline *interface = &skeleton->outline[i];
+    CW_REQUIRE(block[i], CW_ERR_MESH, "interface %d has no owner", i);
+    memcpy(header, block[i], sizeof header);
+    const char *at = block[i] + sizeof header;
+    int32_t first = skeleton->node_count, node;
+    for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
+      double x[3];
+      memcpy(x, at, sizeof x);
+      CW_TRY(cw_skeleton_add_node(skeleton, x, 1, &node));
+    }
+    interface->refined_start = skeleton->interface_triangle_count;
+    interface->refined_count = header[TRIANGLES];
+    for (int32_t t = 0; t < header[TRIANGLES]; t++, at += sizeof(int32_t[3])) {
+      int32_t *corner = skeleton->interface_triangle[skeleton->interface_triangle_count];
+      memcpy(corner, at, sizeof(int32_t[3]));
+      for (int k = 0; k < 3; k++) corner[k] = corner[k] < 0 ? first + (-1 - corner[k]) : corner[k];
+      memcpy(skeleton->interface_region[skeleton->interface_triangle_count++],
+             skeleton->planned_region[interface->triangle_start], sizeof(int32_t[2]));
+    }
+  }
+done:
+  free(block);
+  return status;
+}
+
+CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
+                                  double (**x)[3], CwLatticeSite **site) {
+  CwStatus status = CW_OK;
+  CwBeside beside = {0};
+  uint8_t *dropped = NULL;
+  int32_t kept = 0;
+  CW_TRY(candidates(skeleton, region, name, count, x, site));
+  CW_NEW(dropped, *count);
+  for (int32_t i = 0; i < skeleton->outline_count; i++) {
+    const CwInterfaceOutline *interface = &skeleton->outline[i];
+    const int32_t *regions = skeleton->interface_region[interface->refined_start];
+    if (regions[0] != region && regions[1] != region) continue;
+    CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
+    const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->interface_triangle + interface->refined_start;
+    double reach = largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])skeleton->node_x);
+    CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, *count, (const double(*)[3])*x, &beside));
+    for (int32_t t = 0; t < interface->refined_count; t++) {
+      double uv[3][2], centre[2], radius;
+      for (int k = 0; k < 3; k++) cw_plane_uv(&map, skeleton->node_x[triangle[t][k]], uv[k]);
+      if (!cw_encroach_circle(uv[0], uv[1], uv[2], centre, &radius)) continue;
+      cw_beside_in_sphere(&beside, centre, radius, dropped);
+    }
+    cw_beside_free(&beside);
+  }
+  for (int32_t i = 0; i < *count; i++) {
+    if (dropped[i]) continue;
+    (*site)[kept] = (*site)[i];
+    memmove((*x)[kept++], (*x)[i], sizeof **x);
+  }
+  *count = kept;
+done:
+  cw_beside_free(&beside);
+  free(dropped);
+  if (status != CW_OK) {
+    free(*x);
+    free(*site);
+    *x = NULL;
+    *site = NULL;
+  }
+  return status;
+}

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/region/region_build.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/hash.h"
+#include "mesher/common/vec.h"
+#include "mesher/fill/fill_sure.h"
+#include "mesher/heights/layer_heights.h"
+#include "mesher/region/interface_rule.h"
+#include "mesher/region/region_boundary.h"
+#include "mesher/source_hash.h"
+
+static int compare_rims(const void *p, const void *q) {
+  const int32_t *a = p, *b = q;
+  for (int k = 0; k < 2; k++) {
+    if (a[k] != b[k]) return a[k] < b[k] ? -1 : 1;
+  }
+  return 0;
+}
+
+// Wall edges along caps: their columns' sides are faces of the caps.
+static CwStatus find_rims(CwRegionContext *context) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = context->skeleton;
+  int32_t count = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass == 1) CW_NEW(context->rim, count);
+    for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
+      const CwCurve *curve = &skeleton->network.curve[i];
+      if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
+      int32_t cap = -1;
+      for (int k = 0; k < 2; k++) {
+        if (!cw_face_is_wall(skeleton->cad, curve->face[k])) cap = curve->face[k];
+      }
+      if (cap < 0) continue;
+      if (pass == 0) {
+        count += curve->point_count - 1;
+        continue;
+      }
+      for (int32_t k = 0; k + 1 < curve->point_count; k++) {
+        int32_t a = curve->node[k], b = curve->node[k + 1];
+        int32_t *rim = context->rim[context->rim_count++];
+        rim[0] = a < b ? a : b;
+        rim[1] = a < b ? b : a;
+        rim[2] = cap;
+      }
+    }
+  }
+  qsort(context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
+done:
+  return status;
+}
+
+CwStatus cw_region_context_make(CwRegionContext *context) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = context->skeleton;
+  CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
+             context->layer_count, CW_LAYERS_MOST);
+  CW_NEW(context->shared_base, skeleton->node_count);
+  CW_NEW(context->shared_node, skeleton->node_count);
+  for (int32_t i = 0; i < skeleton->node_count; i++) {
+    context->shared_base[i] = -1;
+    if (!skeleton->on_plane[i]) continue;
+    context->shared_base[i] = context->shared_count;
+    context->shared_node[context->shared_node_count++] = i;
+    context->shared_count += i < skeleton->wall_count ? context->layer_count + 1 : 1;
+  }
+  CW_TRY(find_rims(context));
+done:
+  return status;
+}
+
+void cw_region_context_free(CwRegionContext *context) {
+  free(context->shared_base);
+  free(context->shared_node);
+  free(context->rim);
+  context->shared_base = NULL;
+  context->shared_node = NULL;
+  context->rim = NULL;
+}
+
+void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
+  const CwSkeleton *skeleton = context->skeleton;
+  CwHash hash = cw_hash_start();
+  double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
+  cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
+  cw_hash_bytes(&hash, numbers, sizeof numbers);
+  cw_hash_bytes(&hash, context->domain, strlen(context->domain));
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
+    cw_hash_bytes(&hash, &skeleton->wall_face[t], sizeof(int32_t));
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      cw_hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
+      cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
+      cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
+    }
+  }
+  for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) {
+    if (skeleton->cap_region[t] != region) continue;
+    cw_hash_bytes(&hash, &skeleton->cap_face[t], sizeof(int32_t));
+    for (int k = 0; k < 3; k++) cw_hash_bytes(&hash, skeleton->node_x[skeleton->cap_triangle[t][k]], sizeof(double[3]));
+  }
+  for (int32_t t = 0; t < skeleton->planned_triangle_count; t++) { // candidates follow from these
+    if (skeleton->planned_region[t][0] != region && skeleton->planned_region[t][1] != region) continue;
+    for (int k = 0; k < 3; k++)
+      cw_hash_bytes(&hash, skeleton->node_x[skeleton->planned_triangle[t][k]], sizeof(double[3]));
+  }
+  for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
+    if (skeleton->interface_region[t][0] != region && skeleton->interface_region[t][1] != region) continue;
+    for (int k = 0; k < 3; k++) {
+      int32_t node = skeleton->interface_triangle[t][k];
+      cw_hash_bytes(&hash, skeleton->node_x[node], sizeof(double[3]));
+      cw_hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
+    }
+    double centre = skeleton->size_at(skeleton->size, skeleton->node_x[skeleton->interface_triangle[t][0]]);
+    cw_hash_bytes(&hash, &centre, sizeof centre);
+  }
+  cw_hash_hex(&hash, fingerprint);
+}
+
+// A region in the making.
+typedef struct {
+  const CwRegionContext *context;
+  int32_t region;
+  CwRegionBoundary boundary;
+  CwFill fill;
+  int32_t *place;       // point of the region file for each fill point
+  int32_t *column;      // first point of the layers below each local node that stands on the front, by level
+} Build;
+
+// Numbers the points of the region file, shared ones first, and places them.
+static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
+  CwStatus status = CW_OK;
+  const CwRegionContext *context = build->context;
+  const CwSkeleton *skeleton = context->skeleton;
+  int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
+  double fraction[CW_LAYERS_MOST + 1];
+  for (int32_t i = 0; i < build->boundary.node_count; i++) {
+    int on_front = build->boundary.node[i] < skeleton->wall_count,
+        is_shared = context->shared_base[build->boundary.node[i]] >= 0;
+    if (on_front) total += levels;
+    if (is_shared) shared += on_front ? levels + 1 : 1;
+  }
+  mesh->point_count = total;
+  mesh->shared_count = shared;
+  CW_NEW(mesh->x, total);
+  CW_NEW(mesh->shared_id, shared);
+  CW_NEW(build->place, build->fill.point_count);
+  CW_NEW(build->column, build->boundary.node_count);
+  int32_t next_shared = 0, next_own = shared;
+  for (int32_t i = 0; i < build->fill.point_count; i++) {
+    int32_t node = i < build->boundary.node_count ? build->boundary.node[i] : -1;
+    int64_t base = node >= 0 ? context->shared_base[node] : -1;
+    int on_front = node >= 0 && node < skeleton->wall_count;
+    int32_t *next = base >= 0 ? &next_shared : &next_own;
+    if (on_front) {
+      build->column[i] = *next;
+      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth[node], fraction);
+      for (int k = 0; k < levels; k++) {
+        if (base >= 0) mesh->shared_id[*next] = base + k;
+        cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[k], mesh->x[(*next)++]);
+      }
+    }
+    if (base >= 0) mesh->shared_id[*next] = base + (on_front ? levels : 0);
+    build->place[i] = *next;
+    cw_copy(build->fill.x[i], mesh->x[(*next)++]);
+  }
+done:
+  return status;
+}
+
+// Point at `level` of the column of a local front node: 0 on the wall, layer_count on the front.
+static int32_t column_point(const Build *build, int32_t local, int level) {
+  return level == build->context->layer_count ? build->place[local] : build->column[local] + level;
+}
+
+static int32_t rim_cap(const CwRegionContext *context, int32_t a, int32_t b) {
+  int32_t key[3] = {a < b ? a : b, a < b ? b : a, 0};
+  const int32_t(*found)[3] =
+      bsearch(key, context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
+  return found ? (*found)[2] : -1;
+}
+
+// Prisms of all columns, wall triangles under them, and the quads of their sides on caps.
+static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
+  CwStatus status = CW_OK;
+  const CwRegionContext *context = build->context;
+  const CwSkeleton *skeleton = context->skeleton;
+  int levels = context->layer_count;
+  mesh->prism_count = build->boundary.wall_count * levels;
+  CW_NEW(mesh->prism, mesh->prism_count);
+  int32_t sides = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass == 1) {
+      CW_NEW(mesh->quad, (size_t)sides * (size_t)levels);
+      CW_NEW(mesh->quad_patch, (size_t)sides * (size_t)levels);
+      CW_NEW(mesh->quad_cell, (size_t)sides * (size_t)levels);
+    }
+    for (int32_t t = 0; t < build->boundary.wall_count; t++) {
+      const int32_t *corner = build->boundary.triangle[t];
+      int32_t first_cell = mesh->tetrahedron_count + t * levels;
+      for (int e = 0; e < 3; e++) {
+        int32_t a = corner[e], b = corner[(e + 1) % 3],
+                cap = rim_cap(context, build->boundary.node[a], build->boundary.node[b]);
+        if (cap < 0) continue;
+        sides += pass == 0;
+        for (int k = 0; pass == 1 && k < levels; k++) {
+          int32_t q = mesh->quad_count++;
+          mesh->quad[q][0] = column_point(build, b, k);
+          mesh->quad[q][1] = column_point(build, a, k);
+          mesh->quad[q][2] = column_point(build, a, k + 1);
+          mesh->quad[q][3] = column_point(build, b, k + 1);
+          mesh->quad_patch[q] = cw_cad_face_patch(skeleton->cad, cap);
+          mesh->quad_cell[q] = first_cell + k;
+        }
+      }
+      if (pass == 0) continue;
+      for (int k = 0; k < levels; k++) {
+        int32_t *prism = mesh->prism[t * levels + k];
+        for (int c = 0; c < 3; c++) { // turned, so that the base looks into the fluid
+          prism[c] = column_point(build, corner[(3 - c) % 3], k);
+          prism[c + 3] = column_point(build, corner[(3 - c) % 3], k + 1);
+        }
+      }
+      int32_t w = mesh->triangle_count++;
+      for (int c = 0; c < 3; c++) mesh->triangle[w][c] = column_point(build, corner[c], 0);
+      mesh->triangle_patch[w] = cw_cad_face_patch(skeleton->cad, skeleton->wall_face[build->boundary.source[t]]);
+      mesh->triangle_cell[w] = first_cell;
+    }
+  }
+done:
+  return status;
+}
+
+typedef struct {
+  int32_t corner[3], index; // corners ascending
+} Face;
+
+static Face face_of(int32_t a, int32_t b, int32_t c, int32_t index) {
+  Face face = {{a, b, c}, index};
+  for (int pass = 0; pass < 2; pass++) {
+    for (int k = 0; k < 2 - pass; k++) {
+      if (face.corner[k] <= face.corner[k + 1]) continue;
+      int32_t swap = face.corner[k];
+      face.corner[k] = face.corner[k + 1];
+      face.corner[k + 1] = swap;
+    }
+  }
+  return face;
+}
+
+static int compare_faces(const void *p, const void *q) {
+  return memcmp(((const Face *)p)->corner, ((const Face *)q)->corner, sizeof(int32_t[3]));
+}
+
+// Triangles of the caps with the tetrahedron behind each.
+static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = build->context->skeleton;
+  Face *face = NULL;
+  int32_t first = build->boundary.wall_count;
+  CW_NEW(face, build->boundary.cap_count);
+  for (int32_t t = 0; t < build->boundary.cap_count; t++) {
+    const int32_t *corner = build->boundary.triangle[first + t];
+    face[t] = face_of(corner[0], corner[1], corner[2], t);
+    int32_t made = mesh->triangle_count++;
+    for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
+    mesh->triangle_patch[made] =
+        cw_cad_face_patch(skeleton->cad, skeleton->cap_face[build->boundary.source[first + t]]);
+    mesh->triangle_cell[made] = -1;
+  }
+  qsort(face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
+  for (int32_t t = 0; t < build->fill.tetrahedron_count; t++) {
+    const int32_t *corner = build->fill.tetrahedron[t];
+    for (int k = 0; k < 4; k++) {
+      int32_t a = corner[(k + 1) % 4], b = corner[(k + 2) % 4], c = corner[(k + 3) % 4];
+      if (a >= build->boundary.node_count || b >= build->boundary.node_count || c >= build->boundary.node_count)
+        continue;
+      Face key = face_of(a, b, c, 0);
+      const Face *found = bsearch(&key, face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
+      if (found) mesh->triangle_cell[build->boundary.wall_count + found->index] = t;
+    }
+  }
+  for (int32_t t = 0; t < build->boundary.cap_count; t++) {
+    const double *x = mesh->x[mesh->triangle[build->boundary.wall_count + t][0]];
+    CW_REQUIRE(mesh->triangle_cell[build->boundary.wall_count + t] >= 0, CW_ERR_MESH,
+               "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
+               build->region + 1,
+               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), 1e3 * x[0],
+               1e3 * x[1], 1e3 * x[2]);
+  }
+done:
+  free(face);
+  return status;
+}
+
+CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh) {
+  CwStatus status = CW_OK;
+  Build build = {.context = context, .region = region};
+  double(*inner)[3] = NULL;
+  CwLatticeSite *site = NULL;
+  char name[64];
+  memset(mesh, 0, sizeof *mesh);
+  snprintf(name, sizeof name, "%s region %d", context->domain, region + 1);
+  snprintf(mesh->domain, sizeof mesh->domain, "%s", context->domain);
+  mesh->region = region + 1;
+  mesh->number = number;
+  cw_region_fingerprint(context, region, mesh->fingerprint);
+  CW_TRY(cw_region_boundary_make(context->skeleton, region, 0, &build.boundary));
+  CwFillInput input = cw_region_fill_input(context->skeleton, &build.boundary, name);
+  if (context->skeleton->planned_triangle) {
+    CW_TRY(cw_interface_rule_points(context->skeleton, region, name, &input.inner_count, &inner, &site));
+    input.inner = (const double(*)[3])inner;
+    input.inner_site = site;
+  }
+  CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
+  mesh->way = build.fill.way;
+  CW_TRY(place_points(&build, mesh));
+  mesh->tetrahedron_count = build.fill.tetrahedron_count;
+  CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);
+  for (int32_t t = 0; t < mesh->tetrahedron_count; t++) {
+    for (int k = 0; k < 4; k++) mesh->tetrahedron[t][k] = build.place[build.fill.tetrahedron[t][k]];
+  }
+  CW_NEW(mesh->triangle, build.boundary.wall_count + build.boundary.cap_count);
+  CW_NEW(mesh->triangle_patch, build.boundary.wall_count + build.boundary.cap_count);
+  CW_NEW(mesh->triangle_cell, build.boundary.wall_count + build.boundary.cap_count);
+  CW_TRY(add_layers(&build, mesh));
+  CW_TRY(add_caps(&build, mesh));
+done:
+  if (status != CW_OK) cw_region_free(mesh);
+  cw_fill_free(&build.fill);
+  cw_region_boundary_free(&build.boundary);
+  free(inner);
+  free(site);
+  free(build.place);
+  free(build.column);
+  return status;
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/region/region_copy.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/hash.h"
+#include "mesher/common/vec.h"
+#include "mesher/heights/layer_heights.h"
+
+static const double SAME_POINT = 1e-9; // m
+
+static int32_t copied_region(const CwRegionContext *context, int32_t first, int32_t turns) {
+  return cw_orbit_region(&context->skeleton->orbits, context->skeleton->plan, first, turns);
+}
+
+void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
+                                char fingerprint[33]) {
+  char own[33];
+  CwHash hash = cw_hash_start();
+  cw_region_fingerprint(context, copied_region(context, first->region - 1, turns), own);
+  cw_hash_bytes(&hash, first->fingerprint, sizeof own - 1);
+  cw_hash_bytes(&hash, own, sizeof own - 1);
+  cw_hash_hex(&hash, fingerprint);
+}
+
+// The skeleton node under a shared number: the last whose base is not greater.
+static int32_t node_of(const CwRegionContext *context, int64_t id) {
+  int32_t low = 0, high = context->shared_node_count;
+  while (high - low > 1) {
+    int32_t middle = low + (high - low) / 2;
+    if (context->shared_base[context->shared_node[middle]] <= id) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return context->shared_node[low];
+}
+
+// Number and place of the shared point that `turns` turns make of `id`.
+static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t turns, int64_t *turned, double x[3]) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = context->skeleton;
+  int32_t from = node_of(context, id), node = cw_orbit_node(&skeleton->orbits, from, turns);
+  int64_t level = id - context->shared_base[from];
+  CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no turned copy", context->domain,
+             1e3 * skeleton->node_x[from][0], 1e3 * skeleton->node_x[from][1], 1e3 * skeleton->node_x[from][2]);
+  *turned = context->shared_base[node] + level;
+  if (node < skeleton->wall_count && level < context->layer_count) {
+    double fraction[CW_LAYERS_MOST + 1];
+    cw_layer_fractions(skeleton->height[node], context->first_height[node], context->layer_count, context->growth[node],
+                       fraction);
+    cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[level], x);
+  } else {
+    cw_copy(skeleton->node_x[node], x);
+  }
+done:
+  return status;
+}
+
+static CwStatus copy_array(const void *from, size_t count, size_t size, void *to) {
+  CwStatus status = CW_OK;
+  char *block;
+  CW_NEW(block, count * size);
+  if (count) memcpy(block, from, count * size);
+  *(void **)to = block;
+done:
+  return status;
+}
+
+CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns, int32_t number,
+                        const char *fingerprint, CwRegionMesh *mesh) {
+  CwStatus status = CW_OK;
+  *mesh = *first;
+  mesh->x = NULL;
+  mesh->shared_id = NULL;
+  mesh->tetrahedron = NULL;
+  mesh->pyramid = NULL;
+  mesh->prism = NULL;
+  mesh->triangle = NULL;
+  mesh->triangle_patch = mesh->triangle_cell = NULL;
+  mesh->quad = NULL;
+  mesh->quad_patch = mesh->quad_cell = NULL;
+  mesh->region = copied_region(context, first->region - 1, turns) + 1;
+  mesh->number = number;
+  snprintf(mesh->fingerprint, sizeof mesh->fingerprint, "%s", fingerprint);
+  CW_NEW(mesh->x, mesh->point_count);
+  CW_NEW(mesh->shared_id, mesh->shared_count);
+  for (int32_t i = 0; i < mesh->point_count; i++) {
+    double turned[3];
+    cw_orbit_point(&context->skeleton->orbits, turns, first->x[i], turned);
+    cw_copy(turned, mesh->x[i]);
+    if (i >= mesh->shared_count) continue;
+    CW_TRY(turned_point(context, first->shared_id[i], turns, &mesh->shared_id[i], mesh->x[i]));
+    CW_REQUIRE(cw_distance(turned, mesh->x[i]) < SAME_POINT, CW_ERR_MESH,
+               "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its turned copy",
+               context->domain, mesh->region, 1e3 * turned[0], 1e3 * turned[1], 1e3 * turned[2],
+               1e3 * cw_distance(turned, mesh->x[i]));
+  }
+  struct {
+    const void *from;
+    int32_t count;
+    size_t size;
+    void *to;
+  } arrays[] = {
+      {first->tetrahedron, first->tetrahedron_count, sizeof *first->tetrahedron, &mesh->tetrahedron},
+      {first->pyramid, first->pyramid_count, sizeof *first->pyramid, &mesh->pyramid},
+      {first->prism, first->prism_count, sizeof *first->prism, &mesh->prism},
+      {first->triangle, first->triangle_count, sizeof *first->triangle, &mesh->triangle},
+      {first->triangle_patch, first->triangle_count, sizeof *first->triangle_patch, &mesh->triangle_patch},
+      {first->triangle_cell, first->triangle_count, sizeof *first->triangle_cell, &mesh->triangle_cell},
+      {first->quad, first->quad_count, sizeof *first->quad, &mesh->quad},
+      {first->quad_patch, first->quad_count, sizeof *first->quad_patch, &mesh->quad_patch},
+      {first->quad_cell, first->quad_count, sizeof *first->quad_cell, &mesh->quad_cell}};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+    CW_TRY(copy_array(arrays[i].from, (size_t)arrays[i].count, arrays[i].size, arrays[i].to));
+  }
+done:
+  if (status != CW_OK) cw_region_free(mesh);
+  return status;
+}

@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/domain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/cad/background_tessellate.h"
+#include "mesher/common/vec.h"
+#include "mesher/heights/layer_heights.h"
+#include "mesher/layers/layers.h"
+#include "mesher/layers/thin_prism.h"
+#include "mesher/parallel/share.h"
+#include "mesher/plan/fan.h"
+#include "mesher/region/region_number.h"
+
+static const double FIRST_HEIGHT_TOLERANCE = 0.1;
+static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
+static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
+static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
+static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
+static const double SEED_AREA = 1e-6;       // m2, that takes as long to seed as a triangle does by itself
+static const double MORE_SEEDS = 0.12;      // of the triangles: as many take as long as edges or lines
+static const double DEFLECTION = 4e-5;      // m, of the background triangulation
+static const double DEFLECTION_ANGLE = 0.2; // rad
+
+static double triangle_area(const CwBackground *background, int32_t t, double centre[3]) {
+  const double *a = background->x[background->triangle[t][0]], *b = background->x[background->triangle[t][1]],
+               *c = background->x[background->triangle[t][2]];
+  double u[3], v[3], n[3];
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_cross(u, v, n);
+  for (int k = 0; k < 3; k++) centre[k] = (a[k] + b[k] + c[k]) / 3;
+  return cw_norm(n) / 2;
+}
+
+// A background triangle.
+typedef struct {
+  double area, size;
+} WallPiece;
+
+static CwStatus find_piece(void *context, int32_t t, void *out) {
+  const CwDomain *domain = context;
+  WallPiece *piece = out;
+  double centre[3];
+  piece->area = triangle_area(&domain->background, t, centre);
+  piece->size = cw_size_at(domain->size, centre);
+  return CW_OK;
+}
+
+static CwStatus find_line(void *context, int32_t line, void *out) {
+  const CwDomain *domain = context;
+  *(double *)out = cw_size_line_integral(domain->size, line);
+  return CW_OK;
+}
+
+// What a face is to have in triangles, and of walls pieces of one patch and nearly one size together.
+static CwStatus sum_pieces(CwDomain *domain, const WallPiece *piece) {
+  CwStatus status = CW_OK;
+  const CwBackground *background = &domain->background;
+  CwLayerSample *sample = NULL;
+  double least = INFINITY, greatest = 0;
+  CW_NEW(domain->face_triangles, cw_cad_face_count(domain->cad));
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    domain->face_triangles[background->face[t]] += piece[t].area / (piece[t].size * piece[t].size);
+    if (!cw_face_is_wall(domain->cad, background->face[t])) continue;
+    least = fmin(least, piece[t].size);
+    greatest = fmax(greatest, piece[t].size);
+  }
+  int patches = cw_cad_patch_count(domain->cad);
+  int steps = greatest > 0 ? 1 + (int)(log(greatest / least) / log(SAMPLE_STEP)) : 0;
+  CW_NEW(sample, (size_t)patches * (size_t)steps);
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    double h = piece[t].size;
+    if (!cw_face_is_wall(domain->cad, background->face[t])) continue;
+    int patch = cw_cad_face_patch(domain->cad, background->face[t]);
+    CwLayerSample *of = &sample[patch * steps + (int)(log(h / least) / log(SAMPLE_STEP))];
+    domain->prism_integral += piece[t].area / (h * h);
+    of->density += piece[t].area / (h * h * h);
+    of->size += piece[t].area / (h * h); // times the density
+    of->patch = patch;
+  }
+  CW_NEW(domain->layer_sample, (size_t)patches * (size_t)steps);
+  for (int i = 0; i < patches * steps; i++) {
+    if (sample[i].density == 0) continue;
+    sample[i].size /= sample[i].density;
+    domain->layer_sample[domain->layer_sample_count++] = sample[i];
+  }
+done:
+  free(sample);
+  return status;
+}
+
+// What the count of cells follows from: integrals of the size field at scale 1 over walls and volume. Collective.
+static CwStatus integrate(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  WallPiece *piece = NULL;
+  double *along = NULL;
+  int32_t lines = cw_size_line_count(domain->size);
+  CW_NEW(piece, domain->background.triangle_count);
+  CW_NEW(along, lines);
+  CW_TRY(cw_share("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
+  CW_TRY(sum_pieces(domain, piece));
+  CW_TRY(cw_share("size integrals", lines, sizeof *along, find_line, domain, along));
+  for (int32_t i = 0; i < lines; i++) domain->volume_integral += along[i];
+done:
+  free(piece);
+  free(along);
+  return status;
+}
+
+double cw_domain_tet_integral(const CwDomain *domain, double scale) {
+  double layers = 0;
+  for (int32_t i = 0; i < domain->layer_sample_count; i++) {
+    const CwLayerSample *sample = &domain->layer_sample[i];
+    const CwLayerTarget *target = &domain->patch_layers[sample->patch];
+    layers += sample->density * cw_column_height_flat(target, domain->layer_count, scale * sample->size);
+  }
+  layers *= domain->layer_share;
+  // In narrow places the layers give way: never less than a tenth is left to the tetrahedra.
+  return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
+}
+
+CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
+                        const CwFlowScales *scales) {
+  CwStatus status = CW_OK;
+  memset(domain, 0, sizeof *domain);
+  domain->name = name;
+  domain->layer_count = table->walls.layer_count;
+  domain->layer_share = CW_LAYER_SHARE;
+  CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
+  CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
+  CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
+  cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_layers);
+done:
+  return status;
+}
+
+CwStatus cw_domain_start_background(CwDomain *domain) {
+  return cw_tessellation_start(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->tessellation);
+}
+
+double cw_domain_background_cost(const CwDomain *domain, int face) {
+  return cw_tessellation_cost(domain->tessellation, face);
+}
+
+CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count) {
+  return cw_tessellation_face(domain->tessellation, face, bytes, byte_count);
+}
+
+CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes) {
+  CwStatus status = CW_OK;
+  cw_tessellation_free(&domain->tessellation);
+  CW_TRY(cw_background_join(domain->cad, bytes, &domain->background));
+  CW_TRY(cw_inside_make(domain->background.point_count, (const double(*)[3])domain->background.x,
+                        domain->background.triangle_count, (const int32_t(*)[3])domain->background.triangle,
+                        &domain->inside));
+done:
+  return status;
+}
+
+void cw_domain_seed_costs(const CwDomain *domain, double *cost) {
+  const CwBackground *background = &domain->background;
+  int faces = cw_cad_face_count(domain->cad);
+  double centre[3];
+  for (int32_t t = 0; t < background->triangle_count; t++)
+    cost[background->face[t]] += 1 + triangle_area(background, t, centre) / SEED_AREA;
+  for (int i = faces; i < cw_size_seed_parts(domain->cad); i++) cost[i] = MORE_SEEDS * background->triangle_count;
+}
+
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  if (!domain->seeds) {
+    CW_TRY(cw_size_seeds_start(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE,
+                               &domain->seeds));
+  }
+  CW_TRY(cw_size_seeds_part(domain->seeds, part, bytes, byte_count));
+done:
+  return status;
+}
+
+enum { SIZE_FIELDS = 2 }; // parts of the size field; volumes of faces follow
+
+int cw_domain_size_parts(const CwDomain *domain) {
+  return SIZE_FIELDS + cw_cad_face_count(domain->cad);
+}
+
+void cw_domain_size_costs(const CwDomain *domain, double *cost) {
+  const CwBackground *background = &domain->background;
+  for (int i = 0; i < SIZE_FIELDS; i++) cost[i] = background->triangle_count;
+  for (int32_t t = 0; t < background->triangle_count; t++) cost[SIZE_FIELDS + background->face[t]]++;
+}
+
+static CwStatus measure_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  double *volume;
+  CW_NEW(volume, 1);
+  *volume = cw_cad_face_volume(domain->cad, face);
+  *bytes = volume;
+  *byte_count = sizeof *volume;
+done:
+  return status;
+}
+
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
+                             int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  if (part >= SIZE_FIELDS) return measure_face(domain, part - SIZE_FIELDS, bytes, byte_count);
+  double *rim_size = NULL;
+  int patches = cw_cad_patch_count(domain->cad);
+  CW_NEW(rim_size, patches);
+  for (int p = 0; p < patches; p++) rim_size[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
+                      (CwSizePart)part, bytes, byte_count));
+done:
+  free(rim_size);
+  return status;
+}
+
+CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
+  CwStatus status = CW_OK;
+  CwSize *rims = NULL;
+  cw_size_seeds_free(&domain->seeds);
+  CW_TRY(cw_size_unpack(&bytes[0], &domain->size));
+  CW_TRY(cw_size_unpack(&bytes[1], &rims));
+  cw_size_join(domain->size, &rims);
+  domain->solid_volume = 0;
+  for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
+  CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
+  CW_TRY(integrate(domain));
+done:
+  cw_size_free(&rims);
+  return status;
+}
+
+// Cells a region. With more than some 140 regions in all a dividing plane finds no good place in narrow parts, such as
+// beside the tongue, while memory never asks for so many.
+static double cells_per_region(const CwCase *table) {
+  if (table->mesh.cells_per_region > 0) return (double)table->mesh.cells_per_region;
+  return fmax(LEAST_REGION_CELLS, (double)table->mesh.cells / MOST_REGIONS);
+}
+
+// True where all faces that turns bring to themselves lie on the side of the pipe: regions of the fan are copied with
+// their faces.
+static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
+  const CwBackground *background = &domain->background;
+  for (int32_t t = 0; t < background->triangle_count; t++) {
+    if (domain->symmetry->face.next[background->face[t]] != background->face[t]) continue;
+    for (int k = 0; k < 3; k++) {
+      if (cw_plane_distance(&plan->node[0].plane, background->x[background->triangle[t][k]]) > 0) return 0;
+    }
+  }
+  return 1;
+}
+
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
+  CwStatus status = CW_OK;
+  CwPlan plan = {0};
+  double regions = fmax(ceil(cells / cells_per_region(table)), table->mesh.least_regions);
+  double *thickness = NULL, *least = NULL;
+  CW_NEW(thickness, cw_cad_patch_count(domain->cad));
+  CW_NEW(least, cw_cad_patch_count(domain->cad));
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
+    thickness[p] = domain->patch_layers[p].thickness;
+    least[p] = cw_column_height_least(domain->patch_layers[p].first_height, table->walls.layer_count);
+  }
+  CwPlanOptions options = {.region_count = (int32_t)regions + domain->more_regions,
+                           .thickness = thickness,
+                           .least_thickness = least,
+                           .tallest = CW_TALLEST_COLUMN,
+                           .tet_factor = tet_factor,
+                           .prism_factor = prism_factor};
+  status = domain->symmetry
+               ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
+                                  domain->symmetry->count, &plan)
+               : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
+  CW_TRY(status);
+  CW_REQUIRE(!domain->symmetry || fixed_faces_fit(domain, &plan), CW_RETRY,
+             "a face round the axis lies on the side of the passages");
+  cw_plan_free(&domain->plan);
+  domain->plan = plan;
+  plan = (CwPlan){0};
+done:
+  cw_plan_free(&plan);
+  free(thickness);
+  free(least);
+  return status;
+}
+
+CwStatus cw_domain_start(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  CwSkeleton *skeleton = &domain->skeleton;
+  cw_domain_clear(domain);
+  skeleton->cad = domain->cad;
+  skeleton->plan = &domain->plan;
+  skeleton->size_at = cw_size_at;
+  skeleton->size = domain->size;
+  CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
+  skeleton->orbits.symmetry = domain->symmetry;
+  if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits));
+done:
+  return status;
+}
+
+CwStatus cw_domain_targets(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &domain->skeleton;
+  CwLayerTarget *layers = NULL; // of each face
+  CwIncident around = {0};
+  int faces = cw_cad_face_count(domain->cad);
+  CW_NEW(layers, faces);
+  for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
+  CW_TRY(cw_incident_make(skeleton->wall_count, skeleton->wall_triangle_count,
+                          (const int32_t(*)[3])skeleton->wall_triangle, &around));
+  CW_TRY(cw_column_heights_make(skeleton, &around, layers, domain->layer_count, &domain->heights));
+  CW_TRY(cw_column_heights_share(&domain->heights, skeleton, &around, layers, &domain->layer_share));
+done:
+  cw_incident_free(&around);
+  free(layers);
+  return status;
+}
+
+CwStatus cw_domain_number(CwDomain *domain) {
+  CwStatus status = CW_OK;
+  CW_TRY(cw_skeleton_adjacency(&domain->skeleton, &domain->pair_count, &domain->pair));
+  CW_NEW(domain->number, domain->plan.region_count);
+  CW_TRY(cw_region_numbers(domain->plan.region_count, domain->pair_count, (const int32_t(*)[2])domain->pair,
+                           domain->number, NULL, &domain->colours));
+done:
+  return status;
+}
+
+CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
+  CwStatus status = CW_OK;
+  domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
+                                      .domain = domain->name,
+                                      .layer_count = table->walls.layer_count,
+                                      .growth = domain->heights.growth,
+                                      .fill = table->mesh.fill,
+                                      .first_height = domain->heights.first_height};
+  CW_TRY(cw_region_context_make(&domain->context));
+done:
+  return status;
+}
+
+// Adds the thin prisms over a wall triangle; height: mean one of each layer, m.
+static void count_thin(const CwSkeleton *skeleton, int32_t t, const double *height, int layer_count,
+                       CwLayerCoverage *of) {
+  const int32_t *corner = skeleton->wall_triangle[t];
+  const double (*x)[3] = (const double (*)[3])skeleton->wall_x;
+  double u[3], v[3], normal[3];
+  cw_sub(x[corner[1]], x[corner[0]], u);
+  cw_sub(x[corner[2]], x[corner[0]], v);
+  cw_cross(u, v, normal);
+  double area = 0.5 * cw_norm(normal), around = cw_norm(u) + cw_norm(v) + cw_distance(x[corner[1]], x[corner[2]]);
+  for (int k = 0; k < layer_count; k++) {
+    double determinant = cw_thin_prism_determinant(area, around, height[k], k == 0);
+    if (determinant >= CW_SMALL_DETERMINANT) continue;
+    of->thin++;
+    of->thin_wanted = fmax(of->thin_wanted, cw_thin_prism_wanted(determinant));
+  }
+}
+
+void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage) {
+  const CwSkeleton *skeleton = &domain->skeleton;
+  const CwColumnHeights *heights = &domain->heights;
+  double fraction[CW_LAYERS_MOST + 1];
+  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
+    int32_t t = skeleton->region_wall[i];
+    int patch = cw_cad_face_patch(domain->cad, skeleton->wall_face[t]);
+    if (patch >= patches) continue;
+    CwLayerCoverage *of = &coverage[patch];
+    int full = 1, met = 1, worst = 0;
+    double layer[CW_LAYERS_MOST] = {0};
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      double height = skeleton->height[v];
+      double wanted = heights->first_height[v];
+      double first = cw_layer_fractions(height, wanted, heights->layer_count, heights->growth[v], fraction);
+      for (int l = 0; l < heights->layer_count; l++) layer[l] += height * (fraction[l + 1] - fraction[l]) / 3;
+      full &= height >= 0.99 * heights->target[v];
+      met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;
+      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
+      of->thickness += height / 3;
+      of->least = of->faces == 0 && k == 0 ? height : fmin(of->least, height);
+    }
+    of->faces++;
+    of->full += full;
+    of->first_met += met;
+    of->reason[full ? 0 : worst]++;
+    if (!met) of->missed[worst]++;
+    count_thin(skeleton, t, layer, heights->layer_count, of);
+  }
+}
+
+void cw_domain_clear(CwDomain *domain) {
+  cw_region_context_free(&domain->context);
+  cw_skeleton_free(&domain->skeleton);
+  cw_column_heights_free(&domain->heights);
+  free(domain->number);
+  free(domain->pair);
+  domain->number = NULL;
+  domain->pair = NULL;
+}
+
+void cw_domain_close(CwDomain *domain) {
+  cw_domain_clear(domain);
+  cw_plan_free(&domain->plan);
+  cw_size_seeds_free(&domain->seeds);
+  cw_size_free(&domain->size);
+  cw_symmetry_free(&domain->symmetry);
+  cw_inside_free(&domain->inside);
+  cw_tessellation_free(&domain->tessellation);
+  cw_background_free(&domain->background);
+  cw_cad_close(&domain->cad);
+  free(domain->layer_sample);
+  free(domain->face_triangles);
+  free(domain->relative_size);
+  free(domain->patch_layers);
+}

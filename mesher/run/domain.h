@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One domain (rotor, stator or a pipe) on its way from exact geometry to regions: everything a rank holds of it.
+#ifndef CUTWATER_MESHER_RUN_DOMAIN_H
+#define CUTWATER_MESHER_RUN_DOMAIN_H
+
+#include "mesher/cad/background.h"
+#include "mesher/cad/symmetry.h"
+#include "mesher/heights/column_heights.h"
+#include "mesher/heights/wall_targets.h"
+#include "mesher/region/interface_rule.h"
+#include "mesher/region/region_build.h"
+#include "mesher/size/size.h"
+
+#define CW_LAYER_SHARE 1.0 // before the walls are known
+
+// The layers over a piece of wall, where h is nearly one.
+typedef struct {
+  double density;          // area / h^3 at scale 1, m-1
+  double size;             // h at scale 1, m
+  int32_t patch;
+} CwLayerSample;
+
+typedef struct {
+  const char *name;
+  CwCad *cad;
+  struct CwTessellation *tessellation;        // while the background is made
+  CwBackground background;
+  double solid_volume;                        // m3, exact
+  CwInside *inside;
+  CwSymmetry *symmetry;                       // of solid and plan; NULL: the domain is meshed whole
+  CwSizeSeeds *seeds;                         // while the seeds of the faces are made
+  CwSize *size;
+  double *relative_size;                      // of each patch
+  CwLayerTarget *patch_layers;                // of each patch
+  int layer_count;
+  double prism_integral;                      // sum over walls of area / h^2, at scale 1
+  double *face_triangles;                     // area / h^2 of each face, at scale 1
+  double volume_integral;                     // integral of h^-3 over the domain, at scale 1
+  CwLayerSample *layer_sample;                // what the layers take of it
+  int32_t layer_sample_count;
+  double layer_share;                         // of that, what graded columns take; known with the walls
+  int32_t more_regions;                       // than the number of cells asks for: plans given up
+  CwPlan plan;
+  CwSkeleton skeleton;
+  CwColumnHeights heights;
+  CwRegionContext context;
+  int32_t *number, colours;                   // region numbers
+  int32_t pair_count, (*pair)[2];             // adjacent regions
+  CwInterfaceRuleCounts rule;
+} CwDomain;
+
+// Opens the exact geometry.
+CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
+                        const CwFlowScales *scales);
+
+// What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
+// part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these few,
+// for ranks that none is left for, what each face adds to the exact volume.
+CwStatus cw_domain_start_background(CwDomain *domain);
+double cw_domain_background_cost(const CwDomain *domain, int face);
+CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);
+void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part, zeroed
+CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
+int cw_domain_size_parts(const CwDomain *domain);
+void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
+                             int64_t *byte_count);
+CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
+// Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
+// tetrahedra follows from.
+double cw_domain_tet_integral(const CwDomain *domain, double scale);
+
+// Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
+// the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan;
+// CW_RETRY where none can be had.
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor);
+
+// Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
+// cw_skeleton_wall_curves. CW_RETRY, on all ranks, where a plane grazes something (cw_network_make).
+CwStatus cw_domain_start(CwDomain *domain);
+
+// First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
+// Collective.
+CwStatus cw_domain_targets(CwDomain *domain);
+
+// Region numbers, once the inner surfaces are merged.
+CwStatus cw_domain_number(CwDomain *domain);
+
+// What the regions share, once their interfaces are final.
+CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
+
+// How the layers of a patch cover it, as far as it bounds one region.
+enum { CW_LAYER_REASONS = 4 };
+typedef struct {
+  int64_t faces, full, first_met;       // wall faces; with the full thickness; with the first height
+  int64_t reason[CW_LAYER_REASONS];     // by CwLayerReason: why not the full thickness; [0]: it is
+  int64_t missed[CW_LAYER_REASONS];     // why not the first height
+  double thickness, least;              // sum over the faces, least of all, m
+  int64_t thin;                         // prisms whose determinant checkMesh calls small (thin_prism)
+  double thin_wanted;                   // how many times as tall the thinnest would have to be
+} CwLayerCoverage;
+// Of the patches up to `patches`, zeroed before.
+void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);
+
+void cw_domain_clear(CwDomain *domain); // the skeleton and what follows from it
+void cw_domain_close(CwDomain *domain);
+
+#endif

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the mesher tells of its work: the manifest for the exporter, the record for the report.
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/fill/tet_bound.h"
+#include "mesher/heights/layer_heights.h"
+#include "mesher/layers/layers.h"
+#include "mesher/run/mesh_run.h"
+#include "pipeline/log.h"
+
+static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
+
+static json_t *patches_json(const CwDomain *domain) {
+  json_t *patches = json_array();
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    json_array_append_new(patches, json_pack("{s:s, s:s}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                                             KIND_NAMES[cw_cad_patch_kind(domain->cad, p)]));
+  }
+  return patches;
+}
+
+static json_t *regions_json(const CwMeshRun *run, int d) {
+  json_t *regions = json_array();
+  for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
+    const CwRegionSummary *made = &run->summary[d][r];
+    char file[64];
+    snprintf(file, sizeof file, "%s-%04d.h5", run->domain[d].name, r + 1);
+    json_array_append_new(regions,
+                          json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", file, "region", r + 1,
+                                    "number", run->domain[d].number[r], "points", made->points, "own_points",
+                                    made->own_points, "tetrahedra", made->tetrahedra, "pyramids", made->pyramids,
+                                    "prisms", made->prisms, "triangles", made->triangles, "quads", made->quads));
+  }
+  return regions;
+}
+
+static json_t *interfaces_json(const CwDomainTable *table) {
+  json_t *interfaces = json_array();
+  for (int i = 0; i < table->interface_count; i++) {
+    const CwDomainInterface *between = &table->interface[i];
+    json_array_append_new(interfaces, json_pack("[s, s]", between->patch[0], between->patch[1]));
+  }
+  return interfaces;
+}
+
+static json_t *manifest_json(const CwMeshRun *run) {
+  json_t *domains = json_array();
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
+                                             (json_int_t)domain->context.shared_count, "solid_volume_m3",
+                                             cw_json_number(domain->solid_volume), "patches",
+                                             patches_json(domain), "regions", regions_json(run, d)));
+  }
+  return json_pack("{s:i, s:s, s:o, s:o}", "format", 1, "case", run->table->name, "domains", domains, "interfaces",
+                   interfaces_json(&run->domains));
+}
+
+static json_t *counts_json(const int64_t *count, int size) {
+  json_t *array = json_array();
+  for (int i = 0; i < size; i++) json_array_append_new(array, json_integer((json_int_t)count[i]));
+  return array;
+}
+
+// Tetrahedra that touch a dividing plane, or those that do not.
+static json_t *tet_figures_json(const CwTetFigures *figures) {
+  double count = figures->count ? (double)figures->count : 1;
+  return json_pack("{s:I, s:o, s:o, s:o, s:o, s:o}", "tetrahedra", (json_int_t)figures->count, "aspect_mean",
+                   cw_json_number(figures->aspect_sum / count), "aspect_max", cw_json_number(figures->aspect_max),
+                   "mean_ratio_mean", cw_json_number(figures->mean_ratio_sum / count), "mean_ratio_least",
+                   cw_json_number(figures->mean_ratio_least), "least_dihedral_deg",
+                   cw_json_number(figures->dihedral_least));
+}
+
+static json_t *rule_json(const CwInterfaceRuleCounts *rule) {
+  return json_pack("{s:I, s:I, s:I, s:I, s:I}", "planned_triangles", (json_int_t)rule->planned, "encroached_triangles",
+                   (json_int_t)rule->encroached, "inserted_centres", (json_int_t)rule->inserted, "left_triangles",
+                   (json_int_t)rule->left, "final_triangles", (json_int_t)rule->refined);
+}
+
+// Layers on one patch: how many faces carry them, how many have their first height, why not the others, and how the
+// last layer meets the tetrahedra. Where patches meet, the first height of the finer one is the target.
+static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
+  const CwDomain *domain = &run->domain[d];
+  const CwLayerTarget *target = &domain->patch_layers[patch];
+  CwLayerCoverage sum = {.least = INFINITY};
+  CwLayerRatio ratio = {0};
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
+    const CwLayerCoverage *made = &run->summary[d][r].coverage[patch];
+    if (made->faces == 0) continue;
+    sum.faces += made->faces;
+    sum.full += made->full;
+    sum.first_met += made->first_met;
+    sum.thickness += made->thickness;
+    sum.least = fmin(sum.least, made->least);
+    for (int i = 0; i < CW_LAYER_REASONS; i++) {
+      sum.reason[i] += made->reason[i];
+      sum.missed[i] += made->missed[i];
+    }
+    sum.thin += made->thin;
+    sum.thin_wanted = fmax(sum.thin_wanted, made->thin_wanted);
+  }
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
+    const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
+    for (int b = 0; b < CW_RATIO_BINS; b++) ratio.bin[b] += made->bin[b];
+    ratio.within += made->within;
+    ratio.fair_within += made->fair_within;
+  }
+  json_t *result = json_pack(
+      "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch),
+      "wall_faces", (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
+      (json_int_t)sum.first_met, "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
+      cw_json_number(sum.faces ? sum.thickness / (double)sum.faces : 0), "least_thickness_m",
+      cw_json_number(sum.faces ? sum.least : 0), "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP],
+      "thinned_by_gradation_faces", (json_int_t)sum.reason[CW_LAYER_GRADATION], "thinned_by_repair_faces",
+      (json_int_t)sum.reason[CW_LAYER_REPAIR]);
+  json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
+  json_object_set_new(result, "first_height_missed_by_gap_faces", json_integer((json_int_t)sum.missed[CW_LAYER_GAP]));
+  json_object_set_new(result, "first_height_missed_by_gradation_faces",
+                      json_integer((json_int_t)sum.missed[CW_LAYER_GRADATION]));
+  json_object_set_new(result, "first_height_missed_by_repair_faces",
+                      json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
+  json_object_set_new(result, "thin_prisms", json_integer((json_int_t)sum.thin));
+  if (sum.thin > 0) json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
+  const int64_t *bin = ratio.bin;
+  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
+  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
+  json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)ratio.within));
+  json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio.fair_within));
+  return result;
+}
+
+// One line for the user on all patches that have thin prisms.
+static void warn_of_thin(const char *domain, const json_t *coverage) {
+  char where[64 * CW_PATCH_LIMIT] = "";
+  int length = 0;
+  json_int_t sum = 0;
+  double wanted = 0;
+  size_t k;
+  json_t *patch;
+  json_array_foreach(coverage, k, patch) {
+    json_int_t thin = json_integer_value(json_object_get(patch, "thin_prisms"));
+    if (thin == 0) continue;
+    int left = (int)sizeof where - length;
+    int added = snprintf(where + length, (size_t)left, "%s%.40s %lld", sum ? ", " : "",
+                         json_string_value(json_object_get(patch, "patch")), (long long)thin);
+    length += added < left ? added : left - 1;
+    wanted = fmax(wanted, json_number_value(json_object_get(patch, "thin_prisms_height_wanted")));
+    sum += thin;
+  }
+  if (sum == 0) return;
+  cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s). They "
+              "are sound; it would name none with %.1f times the first height, or with edges as much shorter",
+              domain, (long long)sum, where, wanted);
+}
+
+static json_t *domain_json(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  CwQuality quality;
+  int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
+  double area[CW_PATCH_LIMIT] = {0}, most = 0, least = INFINITY, sum = 0, error = 0, predicted_sum = 0,
+         predicted_most = 0, predicted_least = INFINITY, allowed = CW_TET_BOUND_MOST;
+  int32_t regions = domain->plan.region_count, tetgen = 0;
+  cw_quality_start(&quality);
+  json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
+  for (int32_t r = 0; r < regions; r++) {
+    predicted_sum += domain->plan.predicted_cells[r];
+    predicted_most = fmax(predicted_most, domain->plan.predicted_cells[r]);
+    predicted_least = fmin(predicted_least, domain->plan.predicted_cells[r]);
+  }
+  for (int32_t r = 0; r < regions; r++) {
+    const CwRegionSummary *made = &run->summary[d][r];
+    double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
+    cw_quality_add(&quality, &made->quality, made->tetrahedra);
+    points += made->own_points;
+    tets += made->tetrahedra;
+    prisms += made->prisms;
+    sum += cells;
+    most = fmax(most, cells);
+    least = fmin(least, cells);
+    tetgen += made->way.tetgen;
+    for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
+    int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r);
+    json_array_append_new(
+        region_list,
+        json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
+                  first + 1, "number", domain->number[r], "tetrahedra", (json_int_t)made->tetrahedra, "prisms",
+                  (json_int_t)made->prisms, "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
+                  "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided, "tetgen",
+                  made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
+                  "seconds", cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
+                  cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
+                  cw_json_number(made->dihedral_allowed)));
+    allowed = fmin(allowed, made->dihedral_allowed);
+  }
+  for (int32_t r = 0; r < regions; r++) {
+    const CwRegionSummary *made = &run->summary[d][r];
+    double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
+    error = fmax(error, fabs(domain->plan.predicted_cells[r] / predicted_sum * sum / cells - 1));
+  }
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    json_array_append_new(patch_list, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                                                KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2",
+                                                cw_json_number(area[p])));
+    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
+  }
+  warn_of_thin(domain->name, coverage);
+  double solid = domain->solid_volume;
+  json_t *result = json_pack(
+      "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
+      "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", regions, "interfaces",
+      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
+      "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
+      "least_cell_volume_m3", cw_json_number(quality.least_volume));
+  json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
+  json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
+  json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
+  json_object_set_new(result, "region_balance_least", cw_json_number(least / (sum / regions)));
+  json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted_most / (predicted_sum / regions)));
+  json_object_set_new(result, "region_balance_least_predicted",
+                      cw_json_number(predicted_least / (predicted_sum / regions)));
+  cw_log("%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name,
+         least / (sum / regions), most / (sum / regions), predicted_least / (predicted_sum / regions),
+         predicted_most / (predicted_sum / regions));
+  json_object_set_new(result, "region_prediction_error", cw_json_number(error));
+  json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
+  json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));
+  json_object_set_new(result, "tetrahedron_aspect_class", counts_json(quality.aspect_class, 8));
+  json_object_set_new(result, "least_dihedral_deg", cw_json_number(quality.dihedral_least));
+  json_object_set_new(result, "least_dihedral_allowed_deg", cw_json_number(allowed));
+  json_object_set_new(result, "greatest_dihedral_deg", cw_json_number(quality.dihedral_greatest));
+  json_object_set_new(result, "least_dihedral_bins", counts_json(quality.dihedral_bin, 18));
+  json_object_set_new(result, "prism_least_scaled_jacobian", cw_json_number(quality.prism_least_scaled_jacobian));
+  json_object_set_new(result, "prism_scaled_jacobian_bins", counts_json(quality.prism_jacobian_bin, CW_QUALITY_BINS));
+  json_object_set_new(result, "tetrahedra_beside_planes", tet_figures_json(&quality.beside));
+  json_object_set_new(result, "tetrahedra_apart", tet_figures_json(&quality.apart));
+  json_object_set_new(result, "region_rule", rule_json(&domain->rule));
+  json_object_set_new(result, "patches", patch_list);
+  json_object_set_new(result, "layer_coverage", coverage);
+  json_t *pairs = json_array();
+  for (int32_t p = 0; p < domain->pair_count; p++) {
+    json_array_append_new(pairs, json_pack("[i, i]", domain->pair[p][0] + 1, domain->pair[p][1] + 1));
+  }
+  json_object_set_new(result, "region_list", region_list);
+  json_object_set_new(result, "adjacent_regions", pairs);
+  return result;
+}
+
+CwStatus cw_mesh_manifest(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  json_t *manifest = manifest_json(run), *domains = json_array();
+  CW_REQUIRE(manifest && domains, CW_ERR_MEMORY, "out of memory: manifest");
+  snprintf(path, sizeof path, "%s/mesh/manifest.json", run->run_path);
+  CW_TRY(cw_json_write(manifest, path));
+  for (int d = 0; d < run->domains.count; d++) json_array_append_new(domains, domain_json(run, d));
+  CW_TRY(cw_record_integer(run->record, "ranks", run->ranks));
+  CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));
+  CW_TRY(cw_record_integer(run->record, "cells", run->cells));
+  CW_TRY(cw_record_integer(run->record, "passes", run->passes));
+  CW_TRY(cw_record_integer(run->record, "retries", run->retries));
+  CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
+  CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
+  json_t *given = domains;
+  domains = NULL;
+  CW_TRY(cw_record_json(run->record, "domains", given));
+  CW_TRY(cw_record_number(run->record, "processor_seconds", cw_processor_seconds()));
+done:
+  json_decref(manifest);
+  json_decref(domains);
+  return status;
+}

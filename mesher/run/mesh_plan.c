@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/mesh_plan.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "mesher/parallel/ledger.h"
+#include "mesher/parallel/sides.h"
+#include "mesher/run/run_step.h"
+#include "pipeline/log.h"
+
+enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
+static const double OWN_PLAN = 0.2; // of the work on a plan, what every rank does for itself
+
+// Background triangulations, face by face.
+static CwStatus triangulate_domains(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  int32_t faces[CW_DOMAINS_MOST], count = 0, all = 0;
+  cw_ledger_part("edges of the background");
+  cw_face_counts(run, faces);
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_start_background(&run->domain[d]));
+    all += faces[d];
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, faces));
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int f = 0; f < faces[d]; f++) {
+      task[count++] = (CwMeshTask){d, f, cw_domain_background_cost(&run->domain[d], f)};
+    }
+  }
+  CW_TRY(cw_run_step(run, "background", "faces", cw_step_background, count, task, NULL, results.bytes, NULL));
+  cw_ledger_part("background joined");
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_take_background(&run->domain[d], results.bytes[d]));
+    cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
+           run->domain[d].background.triangle_count);
+  }
+done:
+  cw_results_free(&results);
+  free(task);
+  return status;
+}
+
+// Looks for equal passages, which the rotor alone can have.
+static CwStatus find_symmetry(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &run->domain[0];
+  if (!run->table->mesh.periodic_impeller) goto done;
+  cw_ledger_part("symmetry");
+  CW_TRY(cw_symmetry_find(domain->cad, &domain->background, &domain->symmetry));
+  if (domain->symmetry) {
+    cw_log("%s: one of %d equal passages is meshed", domain->name, domain->symmetry->count);
+  } else {
+    cw_log("%s: no equal passages; it is meshed whole", domain->name);
+  }
+done:
+  return status;
+}
+
+typedef void PartCosts(const CwDomain *domain, double *cost);
+
+// Runs a step of so many parts of each domain.
+static CwStatus run_parts(CwMeshRun *run, const char *name, CwMeshStep body, const int32_t *parts, PartCosts *costs,
+                          CwResults *results) {
+  CwStatus status = CW_OK;
+  CwMeshTask *task = NULL;
+  double *cost = NULL;
+  int32_t count = 0, all = 0;
+  for (int d = 0; d < run->domains.count; d++) all += parts[d];
+  CW_TRY(cw_results_make(results, run->domains.count, parts));
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_NEW(cost, parts[d]);
+    costs(&run->domain[d], cost);
+    for (int32_t i = 0; i < parts[d]; i++) task[count++] = (CwMeshTask){d, i, cost[i]};
+    free(cost);
+    cost = NULL;
+  }
+  CW_TRY(cw_run_step(run, name, "parts", body, count, task, NULL, results->bytes, NULL));
+done:
+  free(cost);
+  free(task);
+  return status;
+}
+
+// The size fields: seeds face by face, of the edges, and lines through the domain; then the fields they spread to, with
+// the exact volumes beside them.
+static CwStatus make_sizes(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults seeds = {0}, results = {0};
+  int32_t parts[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) parts[d] = cw_size_seed_parts(run->domain[d].cad);
+  CW_TRY(run_parts(run, "size seeds", cw_step_seed, parts, cw_domain_seed_costs, &seeds));
+  for (int d = 0; d < run->domains.count; d++) {
+    run->seeds[d] = seeds.bytes[d];
+    parts[d] = cw_domain_size_parts(&run->domain[d]);
+  }
+  CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
+  cw_ledger_part("integrals of the size");
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));
+done:
+  for (int d = 0; d < run->domains.count; d++) run->seeds[d] = NULL;
+  cw_results_free(&seeds);
+  cw_results_free(&results);
+  return status;
+}
+
+CwStatus cw_mesh_open(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwFlowScales scales;
+  char path[4096];
+  double started = cw_seconds();
+  cw_ledger_part("geometry");
+  snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
+  CW_TRY(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry", run->run_path);
+  CW_TRY(cw_domain_table_read(path, &run->domains));
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path, run->table, &scales));
+    CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
+               "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
+               cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
+  }
+  if (run->rank == 0)
+    CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
+  CW_TRY(triangulate_domains(run));
+  CW_TRY(find_symmetry(run));
+  CW_TRY(make_sizes(run));
+done:
+  return status;
+}
+
+// CW_RETRY where it has a symmetry and the plan cannot have it. Collective.
+static CwStatus plan_domain(CwMeshRun *run, int d) {
+  cw_ledger_part("planes weighed");
+  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor);
+}
+
+// Plans a domain anew, at the scale and factors of the first plan: a run that goes on from a later pass plans alike.
+static CwStatus plan_anew(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
+  cw_domain_clear(&run->domain[d]);
+  run->prism_factor = run->planned_prism_factor;
+  run->tet_factor = run->planned_tet_factor;
+  cw_mesh_set_scale(run, run->planned_scale);
+  CW_TRY(plan_domain(run, d));
+  run->prism_factor = prism_factor;
+  run->tet_factor = tet_factor;
+  cw_mesh_set_scale(run, scale);
+done:
+  return status;
+}
+
+// Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
+static CwStatus plan_whole(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  const char *reason = cw_fail_message();
+  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name,
+         reason[0] ? reason : "as in the run that this one goes on from");
+  cw_fail_clear();
+  cw_domain_clear(&run->domain[d]); // what hangs on the symmetry goes first
+  cw_symmetry_free(&run->domain[d].symmetry);
+  run->whole = 1;
+  CW_TRY(plan_anew(run, d));
+done:
+  return status;
+}
+
+CwStatus cw_mesh_plan_whole(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
+  }
+done:
+  return status;
+}
+
+static void log_plan(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  double worst = 1;
+  for (int32_t n = 0; n < domain->plan.node_count; n++) {
+    const CwPlane *plane = &domain->plan.node[n].plane;
+    worst = fmin(worst, domain->plan.worst_angle[n]);
+    cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
+                 n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
+                 1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+  }
+  cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
+         domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
+}
+
+CwStatus cw_mesh_plan_again(CwMeshRun *run, int d) {
+  CwStatus status = CW_OK;
+  CwDomain *domain = &run->domain[d];
+  char reason[1000];
+  snprintf(reason, sizeof reason, "%s", cw_fail_message());
+  CW_REQUIRE(domain->more_regions < PLANS_MORE, CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
+             PLANS_MORE);
+  cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
+  cw_fail_clear();
+  domain->more_regions++;
+  run->retries++;
+  CW_TRY(plan_anew(run, d));
+  log_plan(run, d);
+done:
+  return status;
+}
+
+static CwStatus plan_side(void *context, int32_t d) {
+  return plan_domain(context, d);
+}
+
+static CwStatus hand_plan(void *context, const CwSideHand *hand) {
+  CwStatus status = CW_OK;
+  CwMeshRun *run = context;
+  CwPlan *plan = &run->domain[hand->side].plan;
+  void *bytes = NULL;
+  int64_t size = 0;
+  if (hand->mine) CW_TRY(cw_plan_pack(plan, &bytes, &size));
+  cw_side_give(hand, &size, sizeof size);
+  if (!hand->mine) {
+    bytes = malloc((size_t)size);
+    CW_REQUIRE(bytes, CW_ERR_MEMORY, "out of memory: plan of %lld bytes", (long long)size);
+  }
+  cw_side_give(hand, bytes, size);
+  if (!hand->mine) CW_TRY(cw_plan_unpack(bytes, plan));
+done:
+  free(bytes);
+  return status;
+}
+
+CwStatus cw_mesh_plan(CwMeshRun *run) {
+  CwStatus status = CW_OK, outcome[CW_DOMAINS_MOST];
+  double started = cw_seconds(), cost[CW_DOMAINS_MOST];
+  run->planned_prism_factor = run->prism_factor;
+  run->planned_tet_factor = run->tet_factor;
+  run->planned_scale = run->scale;
+  for (int d = 0; d < run->domains.count; d++) cost[d] = 1; // about alike, measured from 0.3 to 21 million cells
+  CwSides sides = {.step = "decomposition",
+                   .count = run->domains.count,
+                   .cost = cost,
+                   .own = OWN_PLAN,
+                   .run = plan_side,
+                   .hand = hand_plan,
+                   .context = run};
+  cw_progress_start("decomposition", run->domains.count, "domains");
+  CW_TRY(cw_sides_run(&sides, outcome));
+  cw_progress(run->domains.count);
+  cw_progress_end();
+  for (int d = 0; d < run->domains.count; d++) {
+    if (outcome[d] == CW_RETRY) CW_TRY(plan_whole(run, d));
+    log_plan(run, d);
+  }
+  if (run->rank == 0) {
+    CW_TRY(cw_record_step(run->record, "decomposition", cw_seconds() - started, run->domains.count, "domains"));
+  }
+done:
+  return status;
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What is done once before the passes: geometry, size fields, regions.
+#ifndef CUTWATER_MESHER_RUN_MESH_PLAN_H
+#define CUTWATER_MESHER_RUN_MESH_PLAN_H
+
+#include "mesher/run/mesh_run.h"
+
+// All are collective.
+
+// Opens all domains: geometry, background, symmetry, size field.
+CwStatus cw_mesh_open(CwMeshRun *run);
+
+// Regions for each domain by its share of the predicted cells, at the present scale and factors.
+CwStatus cw_mesh_plan(CwMeshRun *run);
+
+// Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole.
+CwStatus cw_mesh_plan_whole(CwMeshRun *run);
+
+// Another plan for a domain that the present one does not fit (a plane grazes a wall, or leaves no room to layers): by
+// one region more, so that all planes lie elsewhere. Fails with the present message after three such plans.
+CwStatus cw_mesh_plan_again(CwMeshRun *run, int domain);
+
+#endif

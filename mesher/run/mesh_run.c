@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/mesh_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/heights/coupled_rim.h"
+#include "mesher/parallel/ledger.h"
+#include "mesher/run/mesh_plan.h"
+#include "mesher/run/pass_state.h"
+#include "mesher/run/run_layers.h"
+#include "mesher/run/run_step.h"
+#include "mesher/run/run_thinning.h"
+#include "pipeline/atomic_file.h"
+#include "pipeline/log.h"
+
+enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
+static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
+static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
+static const double COPY_COST = 0.07;       // of a turned copy of a region, by that of its first
+// Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
+// triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
+// (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
+// A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise, and with the many
+// regions of small scales those on interfaces (measured from 0.3 to 20 million cells: 21.6 at scale 2.10, 15.7 at 1.21,
+// 12.9 at 0.75, 11.4 at 0.51, 10.5 at 0.36).
+static double prisms_per_layer(double scale) {
+  return 2.33 + 0.1 * scale;
+}
+
+static double tets_per_volume(double scale) {
+  return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
+}
+
+static double cells_at(const CwMeshRun *run, int d, double scale) {
+  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(scale) * run->table->walls.layer_count;
+  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(scale); // 0: nothing learned yet
+  return prisms * run->domain[d].prism_integral / (scale * scale) +
+         tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
+}
+
+double cw_predicted_cells(const CwMeshRun *run, int domain) {
+  return cells_at(run, domain, run->scale);
+}
+
+static double all_cells_at(const CwMeshRun *run, double scale) {
+  double cells = 0;
+  for (int d = 0; d < run->domains.count; d++) cells += cells_at(run, d, scale);
+  return cells;
+}
+
+void cw_mesh_set_scale(CwMeshRun *run, double scale) {
+  run->scale = scale;
+  for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
+}
+
+// Sets the scale of the size fields so that the predicted count is the asked one: by secants in the logarithms, the
+// first of a slope of -2.7, about which cells go with the scale.
+static void solve_scale(CwMeshRun *run) {
+  double asked = (double)run->table->mesh.cells, slope = -2.7, before = 0, step = 0;
+  run->scale = 1; // the same bits, whatever scale was before
+  for (int i = 0; i < SCALE_STEPS; i++) {
+    double off = log(all_cells_at(run, run->scale) / asked);
+    if (fabs(off) < 1e-12) break;
+    if (i > 0 && off != before) slope = fmin(fmax((off - before) / step, -4), -1.5);
+    step = -off / slope;
+    before = off;
+    run->scale *= exp(step);
+  }
+  cw_mesh_set_scale(run, run->scale);
+}
+
+// Costs of faces: predicted triangles.
+static CwStatus face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTask **tasks) {
+  CwStatus status = CW_OK;
+  int32_t faces[CW_DOMAINS_MOST], all = 0;
+  *count = 0;
+  cw_face_counts(run, faces);
+  for (int d = 0; d < run->domains.count; d++) all += faces[d];
+  CW_NEW(*tasks, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t f = 0; f < cw_cad_face_count(domain->cad); f++) {
+      if (cw_face_is_wall(domain->cad, f) != walls) continue;
+      if (domain->symmetry && domain->symmetry->face.first[f] != f) continue;
+      (*tasks)[(*count)++] = (CwMeshTask){d, f, domain->face_triangles[f]};
+    }
+  }
+done:
+  return status;
+}
+
+// Skeletons with all wall curves, those along interfaces divided alike on both sides. CW_RETRY where the plan of a
+// domain,
+// *unfit, cuts no curves.
+static CwStatus start_walls(CwMeshRun *run, int *unfit) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    status = cw_domain_start(&run->domain[d]);
+    if (status == CW_RETRY) *unfit = d;
+    CW_TRY(status);
+  }
+  for (int i = 0; i < run->domains.interface_count; i++) {
+    const CwDomainInterface *between = &run->domains.interface[i];
+    CW_TRY(cw_couple_rims(&run->domain[between->domain[0]].skeleton, between->patch[0],
+                          &run->domain[between->domain[1]].skeleton, between->patch[1]));
+  }
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_wall_curves(&run->domain[d].skeleton));
+done:
+  return status;
+}
+
+// Walls of all domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
+// is asked.
+static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
+  CwStatus status = CW_OK;
+  int again = 0; // the same walls, for thinner layers
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count, faces[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) again |= run->most_height[d] != NULL;
+  CW_TRY(face_tasks(run, 1, &count, &task));
+  cw_face_counts(run, faces);
+  for (int pass = 0;; pass++) {
+    int64_t triangles = 0;
+    double integral = 0;
+    cw_ledger_part("curves of the walls");
+    CW_TRY(start_walls(run, unfit));
+    CW_TRY(cw_results_make(&results, run->domains.count, faces));
+    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
+    cw_ledger_part("walls merged");
+    for (int d = 0; d < run->domains.count; d++)
+      CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+    CW_TRY(cw_run_heights(run));
+    for (int d = 0; d < run->domains.count; d++) {
+      cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
+                   run->domain[d].layer_share);
+      triangles += run->domain[d].skeleton.wall_triangle_count;
+      integral += run->domain[d].prism_integral;
+    }
+    cw_results_free(&results);
+    run->prism_factor = (double)triangles * run->table->walls.layer_count * run->scale * run->scale / integral;
+    double off = all_cells_at(run, run->scale) / (double)run->table->mesh.cells - 1;
+    cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
+           run->scale, 100 * off);
+    if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
+    solve_scale(run);
+  }
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
+      domain->heights.target[v] = fmin(domain->heights.target[v], run->most_height[d][v]);
+    }
+  }
+done:
+  cw_results_free(&results);
+  free(task);
+  return status;
+}
+
+// *tight: places where layers leave no room on the planes; then there are no inner surfaces.
+static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
+  CwStatus status = CW_OK;
+  CwResults caps = {0}, interfaces = {0};
+  CwMeshTask *task = NULL;
+  int32_t count, made = 0, counts[CW_DOMAINS_MOST];
+  cw_ledger_part("free curves");
+  *tight = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
+    *tight += run->domain[d].skeleton.tight_count;
+  }
+  if (*tight > 0) goto done;
+  cw_face_counts(run, counts);
+  CW_TRY(cw_results_make(&caps, run->domains.count, counts));
+  CW_TRY(face_tasks(run, 0, &count, &task));
+  CW_TRY(cw_run_step(run, "caps", "faces", cw_step_cap, count, task, NULL, caps.bytes, NULL));
+  free(task);
+  task = NULL;
+  count = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    counts[d] = run->domain[d].skeleton.outline_count;
+    count += counts[d];
+  }
+  CW_TRY(cw_results_make(&interfaces, run->domains.count, counts));
+  CW_NEW(task, count);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeletonOrbits *orbits = &run->domain[d].skeleton.orbits;
+    for (int32_t i = 0; i < counts[d]; i++) {
+      if (cw_orbit_turns(orbits, &orbits->outline, i) > 0) continue;
+      task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
+    }
+  }
+  CW_TRY(cw_run_step(run, "interfaces", "polygons", cw_step_interface, made, task, NULL, interfaces.bytes, NULL));
+  cw_ledger_part("inner surfaces merged");
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
+    CW_TRY(cw_domain_number(&run->domain[d]));
+  }
+done:
+  cw_results_free(&caps);
+  cw_results_free(&interfaces);
+  free(task);
+  return status;
+}
+
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where
+// passages are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
+static CwStatus refine_interfaces(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    regions[d] = run->domain[d].plan.region_count;
+    all += regions[d];
+  }
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t r = 0; r < regions[d]; r++) {
+      int owns = 0;
+      for (int32_t i = 0; i < domain->skeleton.outline_count && !domain->symmetry; i++) {
+        owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
+      }
+      if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
+    }
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
+  cw_ledger_part("interfaces merged");
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    if (domain->symmetry) continue;
+    CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    if (domain->rule.planned == 0) continue;
+    cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
+           "%lld centres inserted, %lld triangles left to both sides",
+           domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
+           (long long)domain->rule.inserted, (long long)domain->rule.left);
+  }
+done:
+  cw_results_free(&results);
+  free(task);
+  return status;
+}
+
+// The summaries of a region and of its turned copies.
+static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegionSummary *made) {
+  const CwSkeleton *skeleton = &run->domain[d].skeleton;
+  int32_t copies = cw_region_copies(skeleton, region);
+  for (int32_t turns = 0; turns < copies; turns++) {
+    int32_t copy = cw_orbit_region(&skeleton->orbits, skeleton->plan, region, turns);
+    run->summary[d][copy] = *made;
+    run->cells += (int64_t)made->tetrahedra + made->pyramids + made->prisms;
+  }
+}
+
+// Regions are made, and the turned copies of each as soon as it is whole. *failed: how many regions could not be made;
+// they have no copies.
+static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  uint64_t open_faces[CW_DOMAINS_MOST] = {0};
+  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0, *after = NULL;
+  for (int d = 0; d < run->domains.count; d++) {
+    regions[d] = run->domain[d].plan.region_count;
+    all += regions[d];
+    free(run->summary[d]);
+    free(run->region_seconds[d]);
+    run->summary[d] = NULL;
+    run->region_seconds[d] = NULL;
+    CW_NEW(run->summary[d], regions[d]);
+    CW_NEW(run->region_seconds[d], regions[d]);
+  }
+  CW_NEW(task, all);
+  CW_NEW(after, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    for (int32_t r = 0; r < regions[d]; r++) {
+      if (cw_orbit_region_first(&skeleton->orbits, skeleton->plan, r) != r) continue;
+      int32_t first = count, copies = cw_region_copies(skeleton, r);
+      double cost = run->domain[d].plan.predicted_cells[r];
+      after[count] = -1;
+      task[count++] = (CwMeshTask){d, r, cost};
+      for (int32_t turns = 1; turns < copies; turns++) {
+        after[count] = first;
+        task[count++] = (CwMeshTask){d, cw_orbit_region(&skeleton->orbits, skeleton->plan, r, turns), COPY_COST * cost};
+      }
+    }
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes,
+                     run->region_seconds));
+  cw_ledger_part("results");
+  run->cells = 0;
+  *failed = 0;
+  for (int32_t i = 0; i < count; i++) {
+    const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
+    if (after[i] < 0) take_summaries(run, task[i].domain, task[i].index, made);
+    open_faces[task[i].domain] += made->quality.open_faces;
+    *failed += made->failure.failed;
+  }
+  if (*failed) goto done;
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
+               run->domain[d].name, run->run_path);
+  }
+done:
+  cw_results_free(&results);
+  free(after);
+  free(task);
+  return status;
+}
+
+// Sets the factor of the tetrahedra to what the last pass made of them.
+static void learn_tets(CwMeshRun *run) {
+  double made = 0, integral = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) made += run->summary[d][r].tetrahedra;
+    integral += cw_domain_tet_integral(&run->domain[d], run->scale);
+  }
+  run->tet_factor = made * run->scale * run->scale * run->scale / integral;
+  cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals", run->tet_factor,
+               run->prism_factor / run->table->walls.layer_count);
+}
+
+// CW_RETRY where a symmetric domain does not come out symmetric, or the plan of one, *unfit (else -1), fits neither
+// walls nor layers.
+static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight, int *unfit) {
+  CwStatus status = CW_OK;
+  *unfit = -1;
+  CW_TRY(mesh_walls(run, unfit));
+  CW_TRY(cw_run_layers(run, unfit));
+  CW_TRY(mesh_inner(run, tight));
+done:
+  return status;
+}
+
+// One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal,
+// the impeller is meshed whole; a domain with a plane that grazes a wall, or on which no column leaves one, gets other
+// planes; surfaces and regions that fail are tried again with thinner layers.
+static CwStatus mesh_pass(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  int32_t failed = 0, tight = 0;
+  int unfit;
+  for (int attempt = 0;;) {
+    status = mesh_surfaces(run, &tight, &unfit);
+    if (status == CW_RETRY) {
+      cw_end_thinning(run); // the walls will be others
+      CW_TRY(unfit < 0 || run->domain[unfit].symmetry ? cw_mesh_plan_whole(run) : cw_mesh_plan_again(run, unfit));
+      continue;
+    }
+    CW_TRY(status);
+    if (tight > 0) {
+      CW_TRY(cw_thin_tight(run, attempt++));
+      continue;
+    }
+    CW_TRY(refine_interfaces(run));
+    cw_ledger_part("points that regions share");
+    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+    CW_TRY(mesh_regions(run, &failed));
+    if (!failed) break;
+    CW_TRY(cw_thin_columns(run, attempt++));
+  }
+done:
+  cw_end_thinning(run);
+  return status;
+}
+
+static double rounded(double value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.12g", value);
+  return strtod(text, NULL);
+}
+
+CwStatus cw_mesh_run(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  char path[4096], fingerprint[33];
+  snprintf(path, sizeof path, "%s/mesh", run->run_path);
+  CW_TRY(cw_make_directory(path));
+  CW_TRY(cw_mesh_open(run));
+  double asked = (double)run->table->mesh.cells;
+  run->scale = 1;
+  run->prism_factor = run->tet_factor = 0;
+  solve_scale(run);
+  run->prism_factor = prisms_per_layer(run->scale) * run->table->walls.layer_count;
+  run->tet_factor = tets_per_volume(run->scale);
+  CwPassState state = {.pass = 1};
+  CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
+  cw_pass_state_read(run->run_path, fingerprint, &state);
+  for (int d = 0; d < run->domains.count; d++) run->domain[d].more_regions = state.more_regions[d];
+  CW_TRY(cw_mesh_plan(run));
+  if (state.pass > 1) {
+    run->prism_factor = state.prism_factor;
+    run->tet_factor = state.tet_factor;
+    solve_scale(run);
+    cw_log("going on with pass %d of an earlier run", state.pass);
+    if (state.whole) CW_TRY(cw_mesh_plan_whole(run));
+  }
+  for (run->passes = state.pass;; run->passes++) {
+    CW_TRY(mesh_pass(run));
+    double off = (double)run->cells / asked - 1;
+    cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
+    learn_tets(run);
+    if (fabs(off) <= COUNT_TOLERANCE) break;
+    if (run->passes == PASSES_MOST) {
+      cw_log_warn("%lld cells made, %.1f %% off the asked %.0f after %d passes", (long long)run->cells, 100 * off,
+                  asked, run->passes);
+      break;
+    }
+    // As many digits as the file keeps, so that a run that goes on from it has the same bits.
+    run->prism_factor = rounded(run->prism_factor);
+    run->tet_factor = rounded(run->tet_factor);
+    state = (CwPassState){run->passes + 1, run->prism_factor, run->tet_factor, run->whole, {0}};
+    for (int d = 0; d < run->domains.count; d++) state.more_regions[d] = run->domain[d].more_regions;
+    if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
+    for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
+    solve_scale(run);
+  }
+  cw_ledger_part("manifest");
+  if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));
+done:
+  return status;
+}
+
+void cw_mesh_run_free(CwMeshRun *run) {
+  for (int d = 0; d < run->domains.count; d++) {
+    cw_domain_close(&run->domain[d]);
+    free(run->summary[d]);
+    free(run->region_seconds[d]);
+  }
+}

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The bodies of the mesher's tasks.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/fill/tet_bound.h"
+#include "mesher/region/region_boundary.h"
+#include "mesher/region/region_copy.h"
+#include "mesher/run/mesh_run.h"
+#include "pipeline/log.h"
+
+CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_background_face(&run->domain[task.domain], task.index, bytes, size);
+}
+
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_seed(&run->domain[task.domain], run->table, task.index, bytes, size);
+}
+
+CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_domain_make_size(&run->domain[task.domain], run->table, run->seeds[task.domain], task.index, bytes,
+                             size);
+}
+
+CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_skeleton_mesh_cap(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  return cw_skeleton_mesh_interface(&run->domain[task.domain].skeleton, task.index, bytes, size);
+}
+
+CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  const CwDomain *domain = &run->domain[task.domain];
+  char name[64];
+  snprintf(name, sizeof name, "%s region %d", domain->name, task.index + 1);
+  return cw_interface_rule(&domain->skeleton, domain->number, task.index, name, bytes, size);
+}
+
+static double face_area(const CwRegionMesh *mesh, const int32_t *corner, int corners) {
+  double sum[3] = {0, 0, 0};
+  for (int i = 2; i < corners; i++) {
+    double u[3], v[3], n[3];
+    cw_sub(mesh->x[corner[i - 1]], mesh->x[corner[0]], u);
+    cw_sub(mesh->x[corner[i]], mesh->x[corner[0]], v);
+    cw_cross(u, v, n);
+    for (int k = 0; k < 3; k++) sum[k] += n[k] / 2;
+  }
+  return cw_norm(sum);
+}
+
+static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
+  summary->points = mesh->point_count;
+  summary->own_points = mesh->point_count - mesh->shared_count;
+  summary->tetrahedra = mesh->tetrahedron_count;
+  summary->pyramids = mesh->pyramid_count;
+  summary->prisms = mesh->prism_count;
+  summary->triangles = mesh->triangle_count;
+  summary->quads = mesh->quad_count;
+  summary->way = mesh->way;
+  for (int32_t i = 0; i < mesh->triangle_count; i++) {
+    summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
+  }
+  for (int32_t i = 0; i < mesh->quad_count; i++) {
+    summary->patch_area[mesh->quad_patch[i]] += face_area(mesh, mesh->quad[i], 4);
+  }
+}
+
+int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  return cw_orbit_region(orbits, skeleton->plan, region, 1) == region ? 1 : orbits->symmetry->count;
+}
+
+static CwStatus region_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(snprintf(path, size, "%s/mesh/%s-%04d.h5", run->run_path, domain->name, region + 1) < (int)size,
+             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+done:
+  return status;
+}
+
+// Makes a turned copy of the region `source`, whose file at `source_path` is whole, or takes it up where an earlier run
+// left it so.
+static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source, const char *source_path,
+                          CwQuality *quality) {
+  CwStatus status = CW_OK;
+  const CwDomain *domain = &run->domain[task.domain];
+  const CwSkeletonOrbits *orbits = &domain->skeleton.orbits;
+  CwRegionMesh first = {0}, mesh = {0};
+  char path[4096], fingerprint[33];
+  int32_t turns = 1;
+  while (cw_orbit_region(orbits, &domain->plan, source, turns) != task.index) turns++;
+  CW_TRY(cw_region_read(source_path, &first));
+  CW_TRY(region_path(run, domain, task.index, sizeof path, path));
+  cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
+  if (cw_region_is_current(path, fingerprint)) { // its cells come from a file
+    CW_TRY(cw_region_read(path, &mesh));
+    CW_TRY(cw_audit_region(&mesh, quality));
+  } else {
+    CW_TRY(cw_region_copy(&domain->context, &first, turns, domain->number[task.index], fingerprint, &mesh));
+    CW_TRY(cw_audit_copy(&mesh, &quality->open_faces));
+    CW_TRY(cw_region_write(path, &mesh));
+  }
+done:
+  cw_region_free(&first);
+  cw_region_free(&mesh);
+  return status;
+}
+
+// Of its summary the open faces alone; it has failed where its first has, which then has no file.
+static CwStatus step_copy(const CwMeshRun *run, CwMeshTask task, int32_t first, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  CwRegionSummary *summary = NULL;
+  char path[4096];
+  CW_NEW(summary, 1);
+  CW_TRY(region_path(run, &run->domain[task.domain], first, sizeof path, path));
+  summary->failure.failed = access(path, F_OK) != 0;
+  if (!summary->failure.failed) CW_TRY(make_copy(run, task, first, path, &summary->quality));
+  *bytes = summary;
+  *size = sizeof *summary;
+  summary = NULL;
+done:
+  free(summary);
+  return status;
+}
+
+// The last layers of the region, beside what the case allows them.
+static CwStatus measure_layers(const CwMeshRun *run, int d, int32_t region, const CwRegionMesh *mesh,
+                               CwRegionSummary *summary) {
+  CwStatus status = CW_OK;
+  CwRatioWall *wall = NULL;
+  CW_TRY(cw_column_heights_ratio(&run->domain[d].heights, &run->domain[d].skeleton, region, &wall));
+  cw_domain_coverage(&run->domain[d], region, CW_PATCH_LIMIT, summary->coverage);
+  CW_TRY(cw_layer_ratio(mesh, run->table->walls.layer_count, wall, CW_PATCH_LIMIT, summary->ratio));
+done:
+  free(wall);
+  return status;
+}
+
+// What the region's boundary allows the tetrahedra.
+static CwStatus bound_angles(const CwDomain *domain, int32_t region, double *allowed) {
+  CwStatus status = CW_OK;
+  CwRegionBoundary boundary = {0};
+  int32_t worst;
+  CW_TRY(cw_region_boundary_make(&domain->skeleton, region, 0, &boundary));
+  CwFillInput input = cw_region_fill_input(&domain->skeleton, &boundary, domain->name);
+  CW_TRY(cw_tet_bound(&input, allowed, &worst));
+done:
+  cw_region_boundary_free(&boundary);
+  return status;
+}
+
+// Makes the region, or takes it up from its file where an earlier run left it whole. A turned copy is made of its
+// first.
+CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  const CwDomain *domain = &run->domain[task.domain];
+  CwRegionMesh mesh = {0};
+  CwRegionSummary *summary = NULL;
+  char path[4096], boundary_path[4096], fingerprint[33];
+  int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, task.index);
+  if (first != task.index) return step_copy(run, task, first, bytes, size);
+  CW_TRY(region_path(run, domain, task.index, sizeof path, path));
+  snprintf(boundary_path, sizeof boundary_path, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name,
+           task.index + 1);
+  CW_NEW(summary, 1);
+  cw_region_fingerprint(&domain->context, task.index, fingerprint);
+  int current = cw_region_is_current(path, fingerprint);
+  CwStatus made = current ? cw_region_read(path, &mesh)
+                          : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
+  if (made == CW_OK) made = cw_audit_region(&mesh, &summary->quality);
+  if (made == CW_ERR_MESH) {
+    CW_TRY(cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path,
+                                     &summary->failure));
+    remove(path); // of an earlier attempt: it must not be copied
+  } else {
+    CW_TRY(made);
+    if (!current) CW_TRY(cw_region_write(path, &mesh));
+    summarise(&mesh, summary);
+    CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
+    CW_TRY(measure_layers(run, task.domain, task.index, &mesh, summary));
+    remove(boundary_path); // of an earlier attempt
+  }
+  *bytes = summary;
+  *size = sizeof *summary;
+  summary = NULL;
+done:
+  cw_region_free(&mesh);
+  free(summary);
+  return status;
+}

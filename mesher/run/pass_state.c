@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/pass_state.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "mesher/common/hash.h"
+#include "pipeline/record.h"
+
+enum { PATH_SIZE = 4096 };
+
+static CwStatus hash_file(CwHash *hash, const char *run_path, const char *name) {
+  CwStatus status = CW_OK;
+  char path[PATH_SIZE], block[65536];
+  size_t size;
+  snprintf(path, sizeof path, "%s/geometry/%s", run_path, name);
+  FILE *file = fopen(path, "rb");
+  CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s; made by cutwater-geometry", path, strerror(errno));
+  while ((size = fread(block, 1, sizeof block, file)) > 0) cw_hash_bytes(hash, block, size);
+  CW_REQUIRE(!ferror(file), CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+done:
+  if (file) fclose(file);
+  return status;
+}
+
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
+                             char fingerprint[33]) {
+  CwStatus status = CW_OK;
+  static const char *const FILES[] = {"faces.csv", "interfaces.csv", "design.json"};
+  CwHash hash = cw_hash_start();
+  const CwWalls *walls = &table->walls;
+  const CwMeshTable *mesh = &table->mesh;
+  // Value by value: structures have padding.
+  const double value[] = {walls->layer_count, walls->growth_ratio, walls->total_thickness, walls->y_plus_at,
+                          (double)mesh->cells, (double)mesh->cells_per_region, mesh->least_regions, mesh->fill,
+                          mesh->periodic_impeller,
+                          mesh->gradation, mesh->curvature_angle,
+                          mesh->cells_across_gap, mesh->size_blade, mesh->size_hub_shroud, mesh->size_volute,
+                          mesh->size_pipe, mesh->size_interface, table->fluid.kinematic_viscosity};
+  cw_hash_bytes(&hash, value, sizeof value);
+  const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
+  for (size_t i = 0; i < sizeof group / sizeof *group; i++) {
+    const double of_group[] = {group[i]->y_plus, group[i]->velocity, group[i]->first_height, group[i]->growth_ratio,
+                               group[i]->total_thickness};
+    cw_hash_bytes(&hash, of_group, sizeof of_group);
+  }
+  for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++) CW_TRY(hash_file(&hash, run_path, FILES[i]));
+  for (int d = 0; d < domains->count; d++) {
+    char name[CW_NAME_SIZE + 8];
+    snprintf(name, sizeof name, "%s.brep", domains->name[d]);
+    CW_TRY(hash_file(&hash, run_path, name));
+  }
+  cw_hash_hex(&hash, fingerprint);
+done:
+  return status;
+}
+
+void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state) {
+  char path[PATH_SIZE];
+  snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
+  json_t *file = json_load_file(path, 0, NULL);
+  const char *of = json_string_value(json_object_get(file, "fingerprint"));
+  json_int_t pass = json_integer_value(json_object_get(file, "pass"));
+  double prisms = json_number_value(json_object_get(file, "prism_factor"));
+  double tets = json_number_value(json_object_get(file, "tet_factor"));
+  if (of && !strcmp(of, fingerprint) && pass > 1 && prisms > 0 && tets > 0) {
+    *state = (CwPassState){(int)pass, prisms, tets, json_is_true(json_object_get(file, "whole")), {0}};
+    for (size_t d = 0; d < CW_DOMAINS_MOST; d++) {
+      state->more_regions[d] = (int32_t)json_integer_value(json_array_get(json_object_get(file, "more_regions"), d));
+    }
+  }
+  json_decref(file);
+}
+
+CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state) {
+  CwStatus status = CW_OK;
+  char path[PATH_SIZE];
+  json_t *more = json_array(), *file = NULL;
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) json_array_append_new(more, json_integer(state->more_regions[d]));
+  file = json_pack("{s:s, s:i, s:f, s:f, s:b, s:o}", "fingerprint", fingerprint, "pass", state->pass, "prism_factor",
+                   state->prism_factor, "tet_factor", state->tet_factor, "whole", state->whole, "more_regions", more);
+  CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
+  snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
+  CW_TRY(cw_json_write(file, path));
+done:
+  json_decref(file);
+  return status;
+}

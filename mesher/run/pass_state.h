@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the mesher knows after a pass that missed the asked count: kept in RUN/mesh/pass.json, so that a killed run goes
+// on with the same pass, finds its region files current, and ends in the same bytes.
+#ifndef CUTWATER_MESHER_RUN_PASS_STATE_H
+#define CUTWATER_MESHER_RUN_PASS_STATE_H
+
+#include "mesher/run/domain_table.h"
+
+typedef struct {
+  int pass;                        // the pass to run, from 1
+  double prism_factor, tet_factor; // cells per unit of the integrals, as learned
+  int whole;                       // 1: the symmetry of the impeller was given up
+  int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
+} CwPassState;
+
+// Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.
+CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
+                             char fingerprint[33]);
+
+// Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise. Never fails.
+void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state);
+
+CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state);
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What is done about the layers of all domains, side by side: the heights they are asked to have, and the layers.
+#ifndef CUTWATER_MESHER_RUN_RUN_LAYERS_H
+#define CUTWATER_MESHER_RUN_RUN_LAYERS_H
+
+#include "mesher/run/mesh_run.h"
+
+// All are collective.
+
+// First heights and targets of all wall vertices, and what they take of the volume, once the walls are merged.
+CwStatus cw_run_heights(CwMeshRun *run);
+
+// Layers of those heights and the room of their columns. CW_RETRY where the layers of a domain, *unfit, do not fit its
+// symmetry or plan.
+CwStatus cw_run_layers(CwMeshRun *run, int *unfit);
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/run_step.h"
+
+#include <stdlib.h>
+
+#include "mesher/parallel/schedule.h"
+#include "pipeline/log.h"
+
+typedef struct {
+  CwMeshRun *run;
+  const CwMeshTask *task;
+  CwMeshStep step;
+} StepContext;
+
+static CwStatus run_one(void *context, int32_t index, void **bytes, int64_t *size) {
+  StepContext *step = context;
+  return step->step(step->run, step->task[index], bytes, size);
+}
+
+CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshStep body, int32_t count,
+                     const CwMeshTask *task, const int32_t *after, void ***bytes, double **seconds) {
+  CwStatus status = CW_OK;
+  void **result = NULL;
+  int64_t *size = NULL;
+  double *cost = NULL, *time = NULL, started = cw_seconds();
+  StepContext context = {run, task, body};
+  CW_NEW(result, count);
+  CW_NEW(size, count);
+  CW_NEW(cost, count);
+  CW_NEW(time, count);
+  for (int32_t i = 0; i < count; i++) cost[i] = task[i].cost;
+  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .after = after, .run = run_one,
+                         .context = &context, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, result, size, time));
+  for (int32_t i = 0; i < count; i++) {
+    bytes[task[i].domain][task[i].index] = result[i];
+    result[i] = NULL;
+    if (seconds) seconds[task[i].domain][task[i].index] = time[i];
+  }
+  if (run->rank == 0) CW_TRY(cw_record_step(run->record, name, cw_seconds() - started, count, unit));
+done:
+  if (result) {
+    for (int32_t i = 0; i < count; i++) free(result[i]);
+  }
+  free(result);
+  free(size);
+  free(cost);
+  free(time);
+  return status;
+}
+
+CwStatus cw_results_make(CwResults *results, int domains, const int32_t *count) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < domains; d++) {
+    results->count[d] = count[d];
+    CW_NEW(results->bytes[d], results->count[d]);
+  }
+done:
+  return status;
+}
+
+void cw_results_free(CwResults *results) {
+  for (int d = 0; d < CW_DOMAINS_MOST; d++) {
+    for (int32_t i = 0; results->bytes[d] && i < results->count[d]; i++) free(results->bytes[d][i]);
+    free(results->bytes[d]);
+    results->bytes[d] = NULL;
+  }
+}
+
+void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]) {
+  for (int d = 0; d < run->domains.count; d++) count[d] = cw_cad_face_count(run->domain[d].cad);
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <stdlib.h>
+
+#include "mesher/size/size_sources.h"
+
+static const double crease_angle_cosine = 0.94; // 20 degrees between the normals of the two faces
+
+enum { LEAST_PARTS = 4, MOST_PARTS = 200 };
+
+// A CAD edge as a polyline.
+typedef struct {
+  int count; // points
+  double (*x)[3];
+  char *crease; // whether the faces meet at an angle there, by point
+  double length;
+  double *width; // least distance to an opposite crease of one of the two faces, by point
+  int vertex[2], face[2];
+} Polyline;
+
+static void face_normal(const CwCad *cad, int edge, int face, double t, double n[3]) {
+  double uv[2], x[3], xu[3], xv[3];
+  cw_cad_edge_uv(cad, edge, face, t, uv);
+  cw_cad_face_point(cad, face, uv, x, xu, xv);
+  for (int k = 0; k < 3; k++)
+    n[k] = xu[(k + 1) % 3] * xv[(k + 2) % 3] - xu[(k + 2) % 3] * xv[(k + 1) % 3];
+  double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (cw_cad_face_reversed(cad, face))
+    size = -size;
+  for (int k = 0; k < 3; k++)
+    n[k] = size != 0 ? n[k] / size : 0;
+}
+
+static double distance(const double a[3], const double b[3]) {
+  double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
+  CwStatus status = CW_OK;
+  double t[2], before[3], x[3];
+  cw_cad_edge_range(cad, edge, t);
+  cw_cad_edge_vertices(cad, edge, line->vertex);
+  cw_cad_edge_faces(cad, edge, line->face);
+  for (int i = 0; i <= 2 * LEAST_PARTS; i++) { // rough length, for the number of parts
+    cw_cad_edge_point(cad, edge, t[0] + (t[1] - t[0]) * i / (2 * LEAST_PARTS), x, NULL);
+    if (i > 0)
+      line->length += distance(before, x);
+    for (int k = 0; k < 3; k++)
+      before[k] = x[k];
+  }
+  int parts = (int)fmin(fmax(ceil(line->length / step), LEAST_PARTS), MOST_PARTS);
+  line->count = parts + 1;
+  CW_NEW(line->x, line->count);
+  CW_NEW(line->crease, line->count);
+  CW_NEW(line->width, line->count);
+  for (int i = 0; i <= parts; i++) {
+    double at = t[0] + (t[1] - t[0]) * i / parts, n[3], m[3];
+    cw_cad_edge_point(cad, edge, at, line->x[i], NULL);
+    face_normal(cad, edge, line->face[0], at, n);
+    face_normal(cad, edge, line->face[1], at, m);
+    line->crease[i] = n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < crease_angle_cosine;
+    line->width[i] = INFINITY;
+  }
+done:
+  return status;
+}
+
+static double distance_to_part(const double p[3], const double a[3], const double b[3]) {
+  double ab = 0, ap = 0, nearest[3];
+  for (int k = 0; k < 3; k++) {
+    ab += (b[k] - a[k]) * (b[k] - a[k]);
+    ap += (b[k] - a[k]) * (p[k] - a[k]);
+  }
+  double s = ab > 0 ? fmin(fmax(ap / ab, 0), 1) : 0;
+  for (int k = 0; k < 3; k++)
+    nearest[k] = a[k] + s * (b[k] - a[k]);
+  return distance(p, nearest);
+}
+
+// Two edges of one face without a common vertex are its two sides; widths go to `line`.
+static void measure_between(Polyline *line, const Polyline *other) {
+  for (int i = 0; i < 2; i++) {
+    for (int j = 0; j < 2; j++) {
+      if (line->vertex[i] == other->vertex[j])
+        return;
+    }
+  }
+  for (int i = 0; i < line->count; i++) {
+    if (!line->crease[i])
+      continue;
+    for (int j = 0; j + 1 < other->count; j++) {
+      if (!other->crease[j] && !other->crease[j + 1])
+        continue;
+      line->width[i] = fmin(line->width[i], distance_to_part(line->x[i], other->x[j], other->x[j + 1]));
+    }
+  }
+}
+
+static void seed_line(const CwSizeInput *input, const Polyline *line, CwSizeGrid *grid) {
+  double floor_size = cw_size_least_share * input->base_size;
+  for (int i = 0; i + 1 < line->count; i++) {
+    if (!line->crease[i] && !line->crease[i + 1])
+      continue;
+    double size = fmax(fmin(line->length, fmin(line->width[i], line->width[i + 1])), floor_size);
+    int parts = (int)ceil(distance(line->x[i], line->x[i + 1]) / grid->spacing) + 1;
+    for (int j = 0; j <= parts; j++) {
+      double s = (double)j / parts, x[3];
+      for (int k = 0; k < 3; k++)
+        x[k] = line->x[i][k] + s * (line->x[i + 1][k] - line->x[i][k]);
+      cw_size_grid_seed(grid, x, size);
+    }
+  }
+}
+
+CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid) {
+  CwStatus status = CW_OK;
+  int count = cw_cad_edge_count(input->cad);
+  Polyline *line = NULL;
+  CW_NEW(line, count);
+  for (int e = 0; e < count; e++)
+    CW_TRY(trace(input->cad, e, 0.5 * input->base_size, &line[e]));
+  for (int e = 0; e < count; e++) {
+    for (int o = 0; o < count; o++) {
+      int common = line[e].face[0] == line[o].face[0] || line[e].face[0] == line[o].face[1] ||
+                   line[e].face[1] == line[o].face[0] || line[e].face[1] == line[o].face[1];
+      if (o != e && common)
+        measure_between(&line[e], &line[o]);
+    }
+  }
+  for (int e = 0; e < count; e++)
+    seed_line(input, &line[e], grid);
+done:
+  for (int e = 0; line && e < count; e++) {
+    free(line[e].x);
+    free(line[e].crease);
+    free(line[e].width);
+  }
+  free(line);
+  return status;
+}
+
+static int is_wall(const CwCad *cad, int face) {
+  return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
+}
+
+// Walks along the rims: seeds `grid`, and returns the mean share of what is allowed in `wanted`; either may be NULL.
+static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSizeGrid *grid) {
+  const CwCad *cad = input->cad;
+  double shares = 0, count = 0;
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    int face[2];
+    double t[2], from[3], to[3];
+    cw_cad_edge_faces(cad, e, face);
+    if (is_wall(cad, face[0]) == is_wall(cad, face[1]))
+      continue;
+    double size = input->rim_size[cw_cad_face_patch(cad, is_wall(cad, face[0]) ? face[0] : face[1])];
+    cw_cad_edge_range(cad, e, t);
+    cw_cad_edge_point(cad, e, t[0], from, NULL);
+    for (int i = 1; i <= MOST_PARTS; i++) {
+      cw_cad_edge_point(cad, e, t[0] + (t[1] - t[0]) * i / MOST_PARTS, to, NULL);
+      int parts = (int)ceil(distance(from, to) / (grid ? grid : wanted)->spacing);
+      for (int j = 0; j <= parts; j++) {
+        double x[3];
+        for (int k = 0; k < 3; k++)
+          x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
+        if (grid) cw_size_grid_seed(grid, x, size);
+        if (wanted) shares += size / cw_size_grid_at(wanted, x);
+        count++;
+      }
+      for (int k = 0; k < 3; k++)
+        from[k] = to[k];
+    }
+  }
+  return count > 0 ? shares / count : 0;
+}
+
+void cw_size_seed_rims(const CwSizeInput *input, CwSizeGrid *grid) {
+  walk_rims(input, NULL, grid);
+}
+
+double cw_size_rims_ask(const CwSizeInput *input, const CwSizeGrid *wanted) {
+  return walk_rims(input, wanted, NULL);
+}

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/cad/rays.h"
+#include "mesher/common/cubes.h"
+#include "mesher/size/size_sources.h"
+
+static const double spacing_share = 0.6; // of the base size
+static const int64_t node_limit = 6000000;
+static const double least_curvature_share = 0.4; // of the patch size
+static const double least_facing = 0.7;           // cosine of the angle between a ray and the wall it meets
+static const double parallel_facing = 0.95;       // from here on no crease can be the cause
+static const double crease_angle_cosine = 0.94;   // 20 degrees between normals
+
+enum { PIECE_STACK = 128 };
+
+typedef struct {
+  double x[3][3];
+  double curvature[3]; // at the corners, 1/m
+} Piece;
+
+struct CwSizeSurface {
+  CwSizeInput input;
+  CwSizeGrid grid;        // of the face in hand; unset in between
+  float *curvature;       // of each background point on that face, 1/m; below 0: not known yet
+  CwRays *rays;
+  int32_t *face_start;    // triangles of face f: face_triangle[face_start[f] .. face_start[f + 1])
+  int32_t *face_triangle;
+  double (*crease)[3];    // points along creases where walls meet at less than 160 degrees of fluid
+  int32_t crease_count, crease_capacity;
+  CwCubes cubes;          // of these
+};
+
+typedef struct {
+  int32_t node;
+  float value;
+} Seed;
+
+typedef struct CwSizeSurface Surface;
+
+static double length(const double a[3]) {
+  return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void unit_cross(const double a[3], const double b[3], double n[3]) {
+  for (int k = 0; k < 3; k++)
+    n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+  double size = length(n);
+  for (int k = 0; k < 3; k++)
+    n[k] = size > 0 ? n[k] / size : 0;
+}
+
+static void triangle_normal(const CwBackground *background, int32_t t, double n[3]) {
+  const int32_t *p = background->triangle[t];
+  double e[3], f[3];
+  for (int k = 0; k < 3; k++) {
+    e[k] = background->x[p[1]][k] - background->x[p[0]][k];
+    f[k] = background->x[p[2]][k] - background->x[p[0]][k];
+  }
+  unit_cross(e, f, n);
+}
+
+// Exact outward normal at the middle of edge (k, k+1) of a triangle: facets would show creases on every
+// coarse curve.
+static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3]) {
+  const CwBackground *b = input->background;
+  const double *p = b->uv[t][k], *q = b->uv[t][(k + 1) % 3];
+  const double uv[2] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])};
+  double x[3], xu[3], xv[3];
+  cw_cad_face_point(input->cad, b->face[t], uv, x, xu, xv);
+  unit_cross(xu, xv, n);
+  if (cw_cad_face_reversed(input->cad, b->face[t])) {
+    for (int i = 0; i < 3; i++)
+      n[i] = -n[i];
+  }
+}
+
+static CwStatus add_crease(Surface *surface, const double a[3], const double b[3]) {
+  CwStatus status = CW_OK;
+  double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  int count = (int)ceil(length(d) / surface->grid.spacing) + 1;
+  CW_GROW(surface->crease, surface->crease_capacity, surface->crease_count + count + 1);
+  for (int i = 0; i <= count; i++) {
+    double s = (double)i / count;
+    for (int k = 0; k < 3; k++)
+      surface->crease[surface->crease_count][k] = a[k] + s * d[k];
+    surface->crease_count++;
+  }
+done:
+  return status;
+}
+
+static CwStatus find_creases(Surface *surface) {
+  CwStatus status = CW_OK;
+  const CwBackground *b = surface->input.background;
+  const int32_t(*neighbour)[3] = (const int32_t(*)[3])b->neighbour;
+  for (int32_t t = 0; t < b->triangle_count; t++) {
+    for (int k = 0; k < 3; k++) {
+      int32_t other = neighbour[t][k];
+      if (other < t || b->face[other] == b->face[t])
+        continue;
+      int side = 0;
+      while (neighbour[other][side] != t)
+        side++;
+      double n[3], m[3], facet[3], away[3];
+      edge_normal(&surface->input, t, k, n);
+      edge_normal(&surface->input, other, side, m);
+      if (dot(n, m) > crease_angle_cosine)
+        continue;
+      triangle_normal(b, t, facet);
+      const double *from = b->x[b->triangle[t][k]], *apex = b->x[b->triangle[other][(side + 2) % 3]];
+      for (int i = 0; i < 3; i++)
+        away[i] = apex[i] - from[i];
+      if (dot(facet, away) >= 0)
+        continue; // the walls turn away from each other: no wedge of fluid
+      CW_TRY(add_crease(surface, from, b->x[b->triangle[t][(k + 1) % 3]]));
+    }
+  }
+  CW_TRY(cw_cubes_make(surface->crease_count, (const double(*)[3])surface->crease, 4 * surface->grid.spacing,
+                       &surface->cubes));
+done:
+  return status;
+}
+
+static int crease_within(const Surface *surface, const double x[3], double radius) {
+  const CwCubes *cubes = &surface->cubes;
+  int32_t from[3], to[3];
+  cw_cubes_near(cubes, x, radius, from, to);
+  if (from[0] > to[0])
+    return 0;
+  for (int32_t c = from[2]; c <= to[2]; c++) {
+    for (int32_t b = from[1]; b <= to[1]; b++) {
+      int32_t end = cubes->start[cw_cube(cubes, to[0], b, c) + 1];
+      for (int32_t i = cubes->start[cw_cube(cubes, from[0], b, c)]; i < end; i++) {
+        const double *p = surface->crease[cubes->member[i]];
+        double d[3] = {p[0] - x[0], p[1] - x[1], p[2] - x[2]};
+        if (dot(d, d) < radius * radius)
+          return 1;
+      }
+    }
+  }
+  return 0;
+}
+
+// Size that the gap before x asks for, or infinity.
+static double gap_size(const Surface *surface, int32_t t, const double x[3], const double outward[3],
+                       double patch_size) {
+  const CwSizeInput *input = &surface->input;
+  const CwBackground *b = input->background;
+  const double inward[3] = {-outward[0], -outward[1], -outward[2]};
+  double cells = fmax(input->table->cells_across_gap, 1), distance;
+  int32_t hit = cw_rays_exit(surface->rays, x, inward, 1e-3 * patch_size, cells * patch_size, &distance);
+  if (hit < 0)
+    return INFINITY;
+  int patch = cw_cad_face_patch(input->cad, b->face[t]),
+      hit_patch = cw_cad_face_patch(input->cad, b->face[hit]);
+  // Before an open face there are no layers and no velocity profile: two cells do.
+  if (cw_cad_patch_kind(input->cad, patch) != CW_PATCH_WALL ||
+      cw_cad_patch_kind(input->cad, hit_patch) != CW_PATCH_WALL) {
+    cells = fmin(cells, 2);
+  }
+  double met[3];
+  triangle_normal(b, hit, met);
+  double facing = dot(inward, met);
+  if (facing < least_facing)
+    return INFINITY;
+  if (facing < parallel_facing) {
+    // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
+    double meeting = distance * facing / sqrt(1 - facing * facing);
+    if (crease_within(surface, x, fmax(2 * patch_size, 1.2 * meeting)))
+      return INFINITY;
+  }
+  return fmax(distance / cells, cw_size_least_share * input->base_size);
+}
+
+static void centre_of(const Piece *piece, double x[3], double *curvature) {
+  for (int k = 0; k < 3; k++)
+    x[k] = (piece->x[0][k] + piece->x[1][k] + piece->x[2][k]) / 3;
+  *curvature = (piece->curvature[0] + piece->curvature[1] + piece->curvature[2]) / 3;
+}
+
+// Halves the longest edge where it is longer than `limit`; the second half goes to *other. Returns whether it
+// did.
+static int halve(Piece *piece, double limit, Piece *other) {
+  int longest = 0;
+  double most = -1;
+  for (int k = 0; k < 3; k++) {
+    const double *p = piece->x[k], *q = piece->x[(k + 1) % 3];
+    double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, size = length(d);
+    if (size > most) {
+      most = size;
+      longest = k;
+    }
+  }
+  if (most <= limit)
+    return 0;
+  int next = (longest + 1) % 3;
+  *other = *piece;
+  for (int k = 0; k < 3; k++) {
+    double mid = 0.5 * (piece->x[longest][k] + piece->x[next][k]);
+    piece->x[next][k] = mid;
+    other->x[longest][k] = mid;
+  }
+  double mid = 0.5 * (piece->curvature[longest] + piece->curvature[next]);
+  piece->curvature[next] = mid;
+  other->curvature[longest] = mid;
+  return 1;
+}
+
+static void seed_piece(Surface *surface, const Piece *whole, double size, double patch_size) {
+  Piece stack[PIECE_STACK];
+  int top = 0;
+  stack[top++] = *whole;
+  while (top > 0) {
+    Piece piece = stack[--top], other;
+    if (top + 2 <= PIECE_STACK && halve(&piece, 0.7 * surface->grid.spacing, &other)) {
+      stack[top++] = other;
+      stack[top++] = piece;
+      continue;
+    }
+    double x[3], curvature;
+    centre_of(&piece, x, &curvature);
+    double turn = surface->input.table->curvature_angle / fmax(curvature, 1e-9);
+    cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, least_curvature_share * patch_size)));
+  }
+}
+
+static void seed_triangle(Surface *surface, int32_t t) {
+  const CwSizeInput *input = &surface->input;
+  const CwBackground *b = input->background;
+  double patch_size = input->base_size * input->patch_size[cw_cad_face_patch(input->cad, b->face[t])];
+  double outward[3];
+  Piece stack[PIECE_STACK];
+  int top = 1;
+  triangle_normal(b, t, outward);
+  for (int k = 0; k < 3; k++) {
+    memcpy(stack[0].x[k], b->x[b->triangle[t][k]], sizeof stack[0].x[k]);
+    float *curvature = &surface->curvature[b->triangle[t][k]];
+    if (*curvature < 0)
+      *curvature = (float)cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k]);
+    stack[0].curvature[k] = *curvature;
+  }
+  while (top > 0) {
+    Piece piece = stack[--top], other;
+    // A ray sees a gap for a place of about two spacings: distances vary slowly along the walls of a gap.
+    if (top + 2 <= PIECE_STACK && halve(&piece, 2 * surface->grid.spacing, &other)) {
+      stack[top++] = other;
+      stack[top++] = piece;
+      continue;
+    }
+    double x[3], curvature;
+    centre_of(&piece, x, &curvature);
+    seed_piece(surface, &piece, fmin(patch_size, gap_size(surface, t, x, outward, patch_size)), patch_size);
+  }
+}
+
+void cw_size_box(const CwBackground *background, double low[3], double high[3]) {
+  for (int k = 0; k < 3; k++)
+    low[k] = INFINITY, high[k] = -INFINITY;
+  for (int32_t i = 0; i < background->point_count; i++) {
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], background->x[i][k]);
+      high[k] = fmax(high[k], background->x[i][k]);
+    }
+  }
+}
+
+void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid) {
+  double low[3], high[3];
+  cw_size_box(input->background, low, high);
+  cw_size_grid_shape(low, high, spacing_share * input->base_size, node_limit, grid);
+}
+
+CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) {
+  CwStatus status = CW_OK;
+  Surface *surface = NULL;
+  const CwBackground *b = input->background;
+  int faces = cw_cad_face_count(input->cad);
+  CW_NEW(surface, 1);
+  surface->input = *input;
+  cw_size_surface_grid(input, &surface->grid);
+  CW_NEW_UNSET(surface->grid.value, cw_size_grid_nodes(&surface->grid));
+  cw_size_grid_clear(&surface->grid);
+  CW_NEW(surface->curvature, b->point_count);
+  CW_NEW(surface->face_start, faces + 1);
+  CW_NEW(surface->face_triangle, b->triangle_count);
+  for (int32_t t = 0; t < b->triangle_count; t++)
+    surface->face_start[b->face[t]]++;
+  for (int f = 0; f < faces; f++) // ends of the faces, filled from behind
+    surface->face_start[f + 1] += surface->face_start[f];
+  for (int32_t t = b->triangle_count - 1; t >= 0; t--)
+    surface->face_triangle[--surface->face_start[b->face[t]]] = t;
+  CW_TRY(cw_rays_make(b, &surface->rays));
+  CW_TRY(find_creases(surface));
+  *result = surface;
+  surface = NULL;
+done:
+  cw_size_surface_free(&surface);
+  return status;
+}
+
+void cw_size_surface_free(CwSizeSurface **surface) {
+  if (!*surface)
+    return;
+  cw_rays_free(&(*surface)->rays);
+  cw_cubes_free(&(*surface)->cubes);
+  cw_size_grid_free(&(*surface)->grid);
+  free((*surface)->curvature);
+  free((*surface)->face_start);
+  free((*surface)->face_triangle);
+  free((*surface)->crease);
+  free(*surface);
+  *surface = NULL;
+}
+
+// Nodes of the grid that the face can have seeded.
+static void box_of_face(const Surface *surface, int face, int32_t from[3], int32_t to[3]) {
+  const CwSizeGrid *grid = &surface->grid;
+  const CwBackground *b = surface->input.background;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++) {
+    for (int c = 0; c < 9; c++) {
+      double x = b->x[b->triangle[surface->face_triangle[i]][c / 3]][c % 3];
+      low[c % 3] = fmin(low[c % 3], x);
+      high[c % 3] = fmax(high[c % 3], x);
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    from[k] = (int32_t)fmax(floor((low[k] - grid->low[k]) / grid->spacing) - 1, 0);
+    to[k] = (int32_t)fmin(ceil((high[k] - grid->low[k]) / grid->spacing) + 1, grid->count[k] - 1);
+  }
+}
+
+// Packs the seeds among the nodes from..to, and unsets these.
+static CwStatus pack_seeds(CwSizeGrid *grid, const int32_t from[3], const int32_t to[3], void **bytes,
+                           int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  int64_t count = 0;
+  char *block = NULL;
+  for (int store = 0; store < 2; store++) {
+    Seed *seed = store ? (Seed *)(block + sizeof count) : NULL;
+    count = 0;
+    for (int32_t k = from[2]; k <= to[2]; k++) {
+      for (int32_t j = from[1]; j <= to[1]; j++) {
+        int64_t line = ((int64_t)k * grid->count[1] + j) * grid->count[0];
+        if (!cw_size_grid_any_set(grid, line + from[0], line + to[0]))
+          continue; // most lines
+        for (int64_t node = line + from[0]; node <= line + to[0]; node++) {
+          if (!cw_size_grid_is_set(grid, node))
+            continue;
+          if (store) {
+            seed[count] = (Seed){.node = (int32_t)node, .value = grid->value[node]};
+            cw_size_grid_unset(grid, node);
+          }
+          count++;
+        }
+      }
+    }
+    if (!store)
+      CW_NEW(block, sizeof count + (size_t)count * sizeof(Seed));
+  }
+  memcpy(block, &count, sizeof count);
+  *bytes = block;
+  *byte_count = (int64_t)(sizeof count + (size_t)count * sizeof(Seed));
+done:
+  return status;
+}
+
+CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count) {
+  int32_t from[3], to[3];
+  for (int32_t i = 0; i < surface->input.background->point_count; i++)
+    surface->curvature[i] = -1;
+  for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++)
+    seed_triangle(surface, surface->face_triangle[i]);
+  box_of_face(surface, face, from, to);
+  return pack_seeds(&surface->grid, from, to, bytes, byte_count);
+}
+
+CwStatus cw_size_seed_creases(CwSizeSurface *surface, void **bytes, int64_t *byte_count) {
+  CwStatus status = CW_OK;
+  const int32_t *n = surface->grid.count, from[3] = {0, 0, 0}, to[3] = {n[0] - 1, n[1] - 1, n[2] - 1};
+  CW_TRY(cw_size_seed_edges(&surface->input, &surface->grid));
+  CW_TRY(pack_seeds(&surface->grid, from, to, bytes, byte_count));
+done:
+  return status;
+}
+
+CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines) {
+  double low[3], high[3];
+  cw_size_box(surface->input.background, low, high);
+  return cw_scanlines_make(surface->input.background, &low[1], &high[1], surface->grid.spacing, lines);
+}
+
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes) {
+  int64_t count;
+  memcpy(&count, bytes, sizeof count);
+  const Seed *seed = (const Seed *)((const char *)bytes + sizeof count);
+  for (int64_t i = 0; i < count; i++) {
+    if (seed[i].value < grid->value[seed[i].node])
+      grid->value[seed[i].node] = seed[i].value;
+  }
+}

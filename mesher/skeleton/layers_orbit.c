@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Layers over the first of each orbit of a symmetric wall, and their copies: all ranks grow and check them together,
+// and each turns them for itself.
+#include <stdlib.h>
+
+#include "mesher/layers/layers_inner.h"
+#include "mesher/parallel/ledger.h"
+#include "mesher/skeleton/orbit_skeleton.h"
+#include "pipeline/log.h"
+
+enum { ROUNDS = 20 };
+static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
+static const double VALID = 0.02;    // least prism quality
+static const double THIN = 0.8;      // what a column keeps where the copies do not fit one another
+static const double SLOPE = 0.3;     // heights change by no more per distance, as where they are graded (layers_gap)
+static const double SAME = 1e-9;     // m: fronts that differ less are the same
+
+// The part of the wall that the first ones and what stands near them make up.
+typedef struct {
+  const CwSkeleton *skeleton;
+  const CwLayerInput *whole;
+  CwLayerInput in;
+  uint8_t *is_first;       // of each point of the whole: on a face that is the first of its orbit
+  int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
+  double (*x)[3], *target, *least, (*guide_normal)[2][3];
+  int32_t (*triangle)[3], *guide_count;
+  uint8_t *guide_stays;
+} Part;
+
+static void part_free(Part *part) {
+  free(part->is_first);
+  free(part->global);
+  free(part->local);
+  free(part->x);
+  free(part->target);
+  free(part->least);
+  free(part->guide_normal);
+  free(part->triangle);
+  free(part->guide_count);
+  free(part->guide_stays);
+}
+
+static void snap(const void *context, int32_t vertex, double x[3]) {
+  const Part *part = context;
+  part->whole->snap(part->whole->snap_context, part->global[vertex], x);
+}
+
+// The first ones.
+typedef struct {
+  const double (*x)[3];
+  const int32_t *vertex; // of each item of the tree
+} Firsts;
+
+static CwBox box_of(const void *context, int32_t item) {
+  const Firsts *firsts = context;
+  return cw_box_of_point(firsts->x[firsts->vertex[item]]);
+}
+
+// A point, and whether one of others was met within reach of it.
+typedef struct {
+  const double (*x)[3], *p;
+  const int32_t *vertex; // of each item of the tree
+  double reach;
+  int met;
+} Near;
+
+static int meet(void *context, int32_t item) {
+  Near *near = context;
+  near->met = distance3(near->x[near->vertex[item]], near->p) < near->reach;
+  return near->met;
+}
+
+typedef struct {
+  const CwBoxTree *tree; // of the first ones
+  Near near;
+  const uint8_t *is_first;
+} Reach;
+
+static CwStatus find_near(void *context, int32_t v, void *out) {
+  const Reach *reach = context;
+  Near near = reach->near;
+  CwBox box;
+  near.p = near.x[v];
+  near.met = reach->is_first[v];
+  for (int k = 0; k < 3; k++) box.low[k] = near.p[k] - near.reach, box.high[k] = near.p[k] + near.reach;
+  if (!near.met) cw_box_tree_overlaps(reach->tree, &box, meet, &near);
+  *(uint8_t *)out = (uint8_t)near.met;
+  return CW_OK;
+}
+
+// Marks the points within reach of the first ones. Collective.
+static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole, uint8_t *is_first, uint8_t *near) {
+  CwStatus status = CW_OK;
+  CwBoxTree tree = {0};
+  CwBox within = cw_box_empty();
+  int32_t *vertex = NULL, firsts = 0;
+  double longest = 0, thickest = 0;
+  for (int32_t t = 0; t < whole->triangle_count; t++) {
+    const int32_t *corner = whole->triangle[t];
+    if (skeleton->wall_source[t] != t) continue;
+    for (int k = 0; k < 3; k++) {
+      is_first[corner[k]] = 1;
+      longest = fmax(longest, distance3(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));
+      thickest = fmax(thickest, whole->target[corner[k]]);
+    }
+  }
+  CW_NEW_UNSET(vertex, whole->point_count);
+  for (int32_t v = 0; v < whole->point_count; v++) {
+    if (!is_first[v]) continue;
+    cw_box_add_point(&within, whole->x[v]);
+    vertex[firsts++] = v;
+  }
+  CW_TRY(cw_box_tree_make(firsts, &within, box_of, &(Firsts){whole->x, vertex}, &tree));
+  Reach reach = {&tree, {.x = whole->x, .vertex = vertex, .reach = REACH * thickest + longest}, is_first};
+  CW_TRY(cw_share("layers: reach", whole->point_count, sizeof *near, find_near, &reach, near));
+done:
+  cw_box_tree_free(&tree);
+  free(vertex);
+  return status;
+}
+
+static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole, Part *part) {
+  CwStatus status = CW_OK;
+  int32_t points = 0, triangles = 0;
+  uint8_t *near = NULL;
+  part->skeleton = skeleton;
+  part->whole = whole;
+  CW_NEW(near, whole->point_count);
+  CW_NEW(part->is_first, whole->point_count);
+  CW_TRY(mark_near(skeleton, whole, part->is_first, near));
+  CW_NEW(part->global, whole->point_count);
+  CW_NEW(part->local, whole->point_count);
+  CW_NEW(part->triangle, whole->triangle_count);
+  for (int32_t v = 0; v < whole->point_count; v++) part->local[v] = -1;
+  for (int32_t t = 0; t < whole->triangle_count; t++) {
+    const int32_t *corner = whole->triangle[t];
+    if (!near[corner[0]] && !near[corner[1]] && !near[corner[2]]) continue;
+    for (int k = 0; k < 3; k++) {
+      if (part->local[corner[k]] < 0) {
+        part->global[points] = corner[k];
+        part->local[corner[k]] = points++;
+      }
+      part->triangle[triangles][k] = part->local[corner[k]];
+    }
+    triangles++;
+  }
+  CW_NEW(part->x, points);
+  CW_NEW(part->target, points);
+  if (whole->least) {
+    CW_NEW(part->least, points);
+  }
+  CW_NEW(part->guide_count, points);
+  CW_NEW(part->guide_normal, points);
+  CW_NEW(part->guide_stays, points);
+  for (int32_t i = 0; i < points; i++) {
+    int32_t v = part->global[i];
+    memcpy(part->x[i], whole->x[v], sizeof *part->x);
+    part->target[i] = whole->target[v];
+    if (whole->least) part->least[i] = whole->least[v];
+    part->guide_count[i] = whole->guide_count[v];
+    memcpy(part->guide_normal[i], whole->guide_normal[v], sizeof *part->guide_normal);
+    part->guide_stays[i] = whole->guide_stays[v];
+  }
+  part->in = *whole;
+  part->in.point_count = points;
+  part->in.x = (const double(*)[3])part->x;
+  part->in.triangle_count = triangles;
+  part->in.triangle = (const int32_t(*)[3])part->triangle;
+  part->in.target = part->target;
+  part->in.least = part->least;
+  part->in.guide_count = part->guide_count;
+  part->in.guide_normal = (const double(*)[2][3])part->guide_normal;
+  part->in.guide_stays = part->guide_stays;
+  part->in.snap = snap;
+  part->in.snap_context = part;
+done:
+  free(near);
+  return status;
+}
+
+// Takes the columns of the first ones from the part and turns them for the copies. Of two members of an orbit that both
+// are on first faces (on a seam) that with the smaller number counts.
+static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  uint8_t *placed = NULL;
+  CW_NEW(placed, part->whole->point_count);
+  for (int32_t v = 0; v < part->whole->point_count; v++) {
+    if (!part->is_first[v] || placed[v]) continue;
+    int32_t local = part->local[v], at = v, turns = 0;
+    do {
+      cw_orbit_point(orbits, turns++, made->front[local], layers->front[at]);
+      layers->height[at] = made->height[local];
+      layers->reason[at] = made->reason[local];
+      placed[at] = 1;
+      at = cw_orbit_node(orbits, at, 1);
+    } while (at >= 0 && at != v);
+  }
+done:
+  free(placed);
+  return status;
+}
+
+static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
+  for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
+}
+
+// The part with the columns as they were spread.
+typedef struct {
+  const Part *part;
+  CwLayerWork work;
+  double (*front)[3];
+  double *off;    // of each point: how far from where it was made, m
+  uint8_t *moved; // more than rounding
+} Spread;
+
+// Of a triangle with a first point, how far its columns are off; whether it is no sound prism any more.
+typedef struct {
+  double off;
+  int32_t bad;
+} Checked;
+
+static CwStatus check_triangle(void *context, int32_t f, void *out) {
+  const Spread *spread = context;
+  const int32_t *corner = spread->part->in.triangle[f];
+  Checked *made = out;
+  int beside = 0, changed = 0;
+  for (int k = 0; k < 3; k++) {
+    beside |= spread->part->is_first[spread->part->global[corner[k]]];
+    changed |= spread->moved[corner[k]];
+  }
+  for (int k = 0; k < 3 && beside; k++) made->off = fmax(made->off, spread->off[corner[k]]);
+  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, (const double(*)[3])spread->front) >= VALID);
+  return CW_OK;
+}
+
+// Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What
+// has not moved was checked as it was made. Collective.
+static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad,
+                      int32_t *bad_count) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *in = &part->in;
+  Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}};
+  CwLayerCrossing crossing = {0};
+  Checked *checked = NULL;
+  double most = 0;
+  *bad_count = 0;
+  memset(bad, 0, (size_t)part->whole->point_count);
+  CW_NEW_UNSET(spread.front, in->point_count);
+  CW_NEW_UNSET(spread.off, in->point_count);
+  CW_NEW_UNSET(spread.moved, in->point_count);
+  CW_NEW_UNSET(checked, in->triangle_count);
+  for (int32_t i = 0; i < in->point_count; i++) {
+    memcpy(spread.front[i], layers->front[part->global[i]], sizeof *spread.front);
+    spread.off[i] = distance3(spread.front[i], made->front[i]);
+    spread.moved[i] = spread.off[i] >= SAME;
+  }
+  CW_TRY(cw_share("layers: copies", in->triangle_count, sizeof *checked, check_triangle, &spread, checked));
+  for (int32_t f = 0; f < in->triangle_count; f++) {
+    if (checked[f].off > most) most = checked[f].off;
+    if (!checked[f].bad) continue;
+    ++*bad_count;
+    mark(part, f, bad);
+  }
+  cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
+               in->triangle_count, part->whole->triangle_count, 1e3 * most);
+  if (*bad_count || most < SAME) goto done; // crossings only between sound prisms
+  CW_TRY(cw_layers_crossing_make(&spread.work, &crossing));
+  CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])spread.front, spread.moved));
+  for (int32_t i = 0; i < crossing.pair_count; i++) {
+    const CwLayerPair *pair = &crossing.pair[i];
+    if (pair->kind_f == 1 && pair->kind_g == 1) continue; // the wall is as it is
+    ++*bad_count;
+    mark(part, pair->f, bad);
+    if (pair->kind_g < 2) mark(part, pair->g, bad);
+  }
+done:
+  cw_layers_crossing_free(&crossing);
+  free(spread.front);
+  free(spread.off);
+  free(spread.moved);
+  free(checked);
+  return status;
+}
+
+// Gives the columns of all turned copies of v the height `height`, and marks them.
+static void lower(const Part *part, int32_t v, double height, CwLayers *layers, uint8_t *lowered) {
+  const CwLayerInput *whole = part->whole;
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  int32_t first = part->is_first[v] ? v : -1;
+  for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+    if (part->is_first[at] && (first < 0 || at < first)) first = at;
+  }
+  double *end = layers->front[first], share = height / layers->height[first];
+  for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
+  if (whole->guide_count[first]) whole->snap(whole->snap_context, first, end);
+  int32_t at = first, turns = 0;
+  do {
+    if (at != first) cw_orbit_point(orbits, turns, end, layers->front[at]);
+    layers->height[at] = height;
+    layers->reason[at] = CW_LAYER_REPAIR;
+    lowered[at] = 1;
+    turns++;
+    at = cw_orbit_node(orbits, at, 1);
+  } while (at >= 0 && at != first);
+}
+
+// Lowers the columns of all orbits with a bad one, and those around that would stand out.
+static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  const CwLayerInput *whole = part->whole;
+  uint8_t *lowered = NULL;
+  CW_NEW(lowered, whole->point_count);
+  for (int32_t v = 0; v < whole->point_count; v++) {
+    if (bad[v] && !lowered[v]) lower(part, v, THIN * layers->height[v], layers, lowered);
+  }
+  for (int again = 1; again;) {
+    again = 0;
+    for (int32_t f = 0; f < part->in.triangle_count; f++) {
+      const int32_t *corner = part->in.triangle[f];
+      for (int k = 0; k < 6; k++) { // either way along each edge
+        int32_t v = part->global[corner[k / 2]], w = part->global[corner[(k / 2 + 1 + k % 2) % 3]];
+        if (!lowered[v]) continue;
+        double most = layers->height[v] + SLOPE * distance3(whole->x[v], whole->x[w]);
+        if (layers->height[w] <= most) continue;
+        lower(part, w, most, layers, lowered);
+        again = 1;
+      }
+    }
+  }
+done:
+  free(lowered);
+  return status;
+}
+
+CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  Part part = {0};
+  CwLayers made = {0};
+  uint8_t *bad = NULL;
+  const double *near = input->x[0];
+  memset(layers, 0, sizeof *layers);
+  CW_NEW(layers->front, input->point_count);
+  CW_NEW(layers->height, input->point_count);
+  CW_NEW(layers->reason, input->point_count);
+  CW_NEW(bad, input->point_count);
+  cw_ledger_part("layers: copies");
+  CW_TRY(part_make(skeleton, input, &part));
+  CW_TRY(cw_layers_make(&part.in, &made));
+  cw_ledger_part("layers: copies");
+  CW_TRY(spread(&part, &made, layers));
+  layers->repair_rounds = made.repair_rounds;
+  layers->thinned_count = made.thinned_count;
+  int32_t bad_count = 1;
+  for (int round = 0; round < ROUNDS && bad_count; round++) {
+    CW_TRY(check(&part, &made, layers, bad, &bad_count));
+    if (!bad_count) break;
+    int32_t first = 0;
+    while (!bad[first]) first++;
+    near = input->x[first];
+    cw_log_debug("%d prisms and pairs of the front do not fit their turned copies, near (%.3f, %.3f, %.3f) mm",
+                 bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
+    CW_TRY(thin(&part, bad, layers));
+  }
+  CW_REQUIRE(!bad_count, CW_RETRY,
+             "after %d rounds %d prisms and pairs of the front do not fit their turned copies, near "
+             "(%.3f, %.3f, %.3f) mm",
+             ROUNDS, bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
+done:
+  part_free(&part);
+  cw_layers_free(&made);
+  free(bad);
+  if (status != CW_OK) cw_layers_free(layers);
+  return status;
+}

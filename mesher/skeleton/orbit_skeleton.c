@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/skeleton/orbit_skeleton.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/plan/fan.h"
+
+static int by_number(const void *p, const void *q) {
+  int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
+  return (a > b) - (a < b);
+}
+
+CwStatus cw_orbit_copy_curve(CwSkeleton *skeleton, int32_t first, const int32_t *corner_node, double (*const *x)[3],
+                             CwAddCurveNode add) {
+  CwStatus status = CW_OK;
+  CwNetwork *network = &skeleton->network;
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  const CwCurve *curve = &network->curve[first];
+  int32_t copies = cw_orbit_copies(orbits, &orbits->curve, first), previous = first;
+  for (int32_t turns = 1; turns <= copies && copies > 1; turns++) {
+    int32_t index = orbits->curve.next[previous];
+    CwCurve *copy = &network->curve[index];
+    if (turns < copies) {
+      copy->point_count = curve->point_count;
+      CW_NEW(copy->node, curve->point_count);
+      CW_NEW(copy->parameter, curve->point_count);
+      memcpy(copy->parameter, curve->parameter, (size_t)curve->point_count * sizeof *copy->parameter);
+    }
+    for (int32_t k = 0; k < curve->point_count; k++) {
+      if (k == 0 || k == curve->point_count - 1) {
+        copy->node[k] = corner_node[copy->corner[k > 0]];
+        continue;
+      }
+      if (turns < copies) {
+        double turned[3];
+        cw_orbit_point(orbits, turns, (*x)[curve->node[k]], turned);
+        CW_TRY(add(skeleton, copy, turned, &copy->node[k]));
+      }
+      CW_TRY(cw_orbit_link(orbits, network->curve[previous].node[k], copy->node[k], turns % copies));
+    }
+    previous = index;
+  }
+done:
+  return status;
+}
+
+CwStatus cw_orbit_outlines(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  CwSkeletonOrbits *orbits = &skeleton->orbits;
+  int32_t count = skeleton->outline_count, turns = orbits->symmetry->count, *next = NULL, *corner = NULL, *start = NULL;
+  CW_NEW(start, count + 1);
+  for (int32_t i = 0; i < count; i++) start[i + 1] = start[i] + skeleton->outline[i].corner_count;
+  CW_NEW(corner, 2 * (size_t)start[count]); // ascending: of each outline, then as one turn takes them
+  for (int32_t i = 0; i < count; i++) {
+    size_t n = (size_t)skeleton->outline[i].corner_count;
+    for (size_t k = 0; k < n; k++) {
+      int32_t node = skeleton->outline[i].corner[k];
+      corner[start[i] + (int32_t)k] = node;
+      corner[start[count] + start[i] + (int32_t)k] = cw_orbit_node(orbits, node, 1);
+    }
+    qsort(corner + start[i], n, sizeof *corner, by_number);
+    qsort(corner + start[count] + start[i], n, sizeof *corner, by_number);
+  }
+  CW_NEW(next, count);
+  for (int32_t i = 0; i < count; i++) {
+    const CwInterfaceOutline *outline = &skeleton->outline[i];
+    int32_t node = cw_fan_turned_node(skeleton->plan, turns, 1, outline->node);
+    next[i] = -1;
+    for (int32_t j = 0; j < count && next[i] < 0; j++) {
+      if (skeleton->outline[j].node != node || skeleton->outline[j].corner_count != outline->corner_count) continue;
+      size_t size = (size_t)outline->corner_count * sizeof *corner;
+      if (!memcmp(corner + start[j], corner + start[count] + start[i], size)) next[i] = j;
+    }
+    const double *x = skeleton->node_x[outline->corner[0]];
+    CW_REQUIRE(next[i] >= 0, CW_RETRY, "an interface on plane %d has no turned copy, near (%.3f, %.3f, %.3f) mm",
+               outline->node, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  }
+  status = cw_orbits_make(count, next, turns, 1, &orbits->outline);
+  next = NULL;
+  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring the interfaces to themselves");
+done:
+  free(next);
+  free(corner);
+  free(start);
+  return status;
+}
+
+void cw_orbit_copy_triangles(CwSkeleton *skeleton) {
+  const CwSkeletonOrbits *orbits = &skeleton->orbits;
+  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+    int32_t source = skeleton->wall_source[t];
+    if (source == t) continue;
+    int32_t turns = orbits->symmetry->face.turns[skeleton->wall_face[t]];
+    for (int k = 0; k < 3; k++) {
+      skeleton->wall_triangle[t][k] = cw_orbit_node(orbits, skeleton->wall_triangle[source][k], turns);
+    }
+  }
+}

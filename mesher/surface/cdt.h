@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The constrained Delaunay triangulation of the given points and edges of a patch: where its mesh starts. The
+// one bridge of the surface mesher to CGAL (exact predicates). No point is added.
+#ifndef CUTWATER_MESHER_SURFACE_CDT_H
+#define CUTWATER_MESHER_SURFACE_CDT_H
+
+#include <stdint.h>
+
+#include "mesher/surface/patch_mesh.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  int32_t triangle_count;
+  int32_t (*triangle)[3];  // counter-clockwise; the smallest point first, sorted by points
+  int32_t (*neighbour)[3]; // triangle opposite to each corner; -1 outside the patch
+  uint8_t *given;          // bit i: the edge opposite to corner i is a given edge
+  int32_t *component;      // of each triangle, numbered in the order of the triangles
+  int32_t component_count;
+} CwCdt;
+
+// Triangulates the plane of (scale[0] u, scale[1] v) (both scales above 0) and keeps the triangles that lie
+// inside by parity through the boundary edges, cut into components by all given edges. Fails with
+// CW_ERR_INPUT and the place where an index or a number is wrong, points coincide, an edge is given twice,
+// edges cross or a point lies on an edge, the boundary is open, or nothing is inside.
+CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cdt);
+void cw_cdt_free(CwCdt *cdt);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

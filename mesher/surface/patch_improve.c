@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/surface/patch_improve.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Edges longer or shorter than these shares of the wanted length are split or drawn together.
+static const double long_edge = 1.45, short_edge = 0.62;
+
+// Free points keep this share of their wanted length from given edges.
+static const double least_height = 0.4;
+
+static double edge_size(const CwPatchWork *work, int32_t a, int32_t b) {
+  return 0.5 * (work->size[a] + work->size[b]);
+}
+
+// The free point's ring and what it allows.
+typedef struct {
+  int count;
+  int32_t triangle[CW_PATCH_RING], ring[CW_PATCH_RING];
+} Ring;
+
+// The worst quality of the ring with p at uv, x. Negative where a triangle would be turned in (u,v) or p
+// would come nearer to a given edge than 0.4 of its size and nearer than `height` (the least one now).
+static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, const double uv[2],
+                           const double x[3], const double normal[3]) {
+  double worst = 1;
+  for (int k = 0; k < r->count; k++) {
+    int32_t a = r->ring[k], b = r->ring[(k + 1) % r->count], t = r->triangle[k];
+    if (!(cw_patch_cross(work->uv[a], work->uv[b], uv) > 0))
+      return -1;
+    double quality = cw_patch_quality_at(x, work->x[a], work->x[b], normal);
+    if (quality < worst)
+      worst = quality;
+    if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1) {
+      // Height over the edge from the area, which the quality holds.
+      double l = cw_patch_distance2(work->x[a], work->x[b]);
+      double sum = l + cw_patch_distance2(x, work->x[a]) + cw_patch_distance2(x, work->x[b]);
+      double height = quality * sum / (2 * sqrt(3) * sqrt(l)), limit = least_height * work->size[p];
+      if (height < limit && quality > 0)
+        worst = fmin(worst, 0.5 * height / limit);
+    }
+  }
+  return worst;
+}
+
+// Tries p moved by `step` (in space, tangential); keeps the move if the worst triangle of the ring stays
+// above `least`.
+static int try_move(CwPatchWork *work, const Ring *r, int32_t p, const double step[3], double least) {
+  const double *m = work->metric[p];
+  double det = m[0] * m[2] - m[1] * m[1], f[2] = {0, 0}, uv[2], x[3], xu[3], xv[3], n[3];
+  if (!(det > 1e-12 * m[0] * m[2]))
+    return 0;
+  for (int k = 0; k < 3; k++) {
+    f[0] += step[k] * work->xu[p][k];
+    f[1] += step[k] * work->xv[p][k];
+  }
+  uv[0] = work->uv[p][0] + (m[2] * f[0] - m[1] * f[1]) / det;
+  uv[1] = work->uv[p][1] + (m[0] * f[1] - m[1] * f[0]) / det;
+  for (int k = 0; k < r->count; k++)
+    if (!(cw_patch_cross(work->uv[r->ring[k]], work->uv[r->ring[(k + 1) % r->count]], uv) > 0))
+      return 0;
+  work->input->surface(work->input->surface_context, uv, x, xu, xv);
+  n[0] = xu[1] * xv[2] - xu[2] * xv[1];
+  n[1] = xu[2] * xv[0] - xu[0] * xv[2];
+  n[2] = xu[0] * xv[1] - xu[1] * xv[0];
+  if (ring_quality(work, r, p, uv, x, n) <= least)
+    return 0;
+  memcpy(work->uv[p], uv, sizeof uv);
+  memcpy(work->x[p], x, sizeof x);
+  memcpy(work->xu[p], xu, sizeof xu);
+  memcpy(work->xv[p], xv, sizeof xv);
+  double *g = work->metric[p];
+  g[0] = xu[0] * xu[0] + xu[1] * xu[1] + xu[2] * xu[2];
+  g[1] = xu[0] * xv[0] + xu[1] * xv[1] + xu[2] * xv[2];
+  g[2] = xv[0] * xv[0] + xv[1] * xv[1] + xv[2] * xv[2];
+  double size = work->input->size(work->input->size_context, x);
+  for (int k = 0; k < r->count; k++)
+    size = fmin(size, work->size[r->ring[k]] + 0.3 * sqrt(cw_patch_distance2(x, work->x[r->ring[k]])));
+  work->size[p] = size;
+  return 1;
+}
+
+// Moves p to the middle of its neighbours, or part of the way there.
+static void smooth_point(CwPatchWork *work, int32_t p) {
+  Ring r;
+  double step[3] = {0, 0, 0}, n[3];
+  r.count = cw_patch_ring(work, p, r.triangle, r.ring);
+  if (!r.count)
+    return;
+  for (int k = 0; k < r.count; k++)
+    for (int c = 0; c < 3; c++)
+      step[c] += (work->x[r.ring[k]][c] - work->x[p][c]) / r.count;
+  // A point that stands well is left alone: most do, and evaluating the surface is what costs.
+  double still = 0.01 * work->size[p];
+  if (step[0] * step[0] + step[1] * step[1] + step[2] * step[2] < still * still)
+    return;
+  cw_patch_normal(work, p, n);
+  // A loss of the worst triangle is allowed where it stays good.
+  double least = fmin(ring_quality(work, &r, p, work->uv[p], work->x[p], n), 0.7);
+  for (int attempt = 0; attempt < 2; attempt++) {
+    if (try_move(work, &r, p, step, least))
+      return;
+    for (int c = 0; c < 3; c++)
+      step[c] *= 0.4;
+  }
+}
+
+static void smooth(CwPatchWork *work) {
+  for (int32_t p = work->given_count; p < work->point_count; p++)
+    if (work->point_triangle[p] >= 0)
+      smooth_point(work, p);
+}
+
+static CwStatus split_long(CwPatchWork *work) {
+  CwStatus status = CW_OK;
+  int32_t count = work->triangle_count;
+  for (int32_t t = 0; t < count; t++) {
+    if (work->corner[t][0] < 0)
+      continue;
+    // The longest edge only: splitting the others would make needles.
+    int longest = -1;
+    double most = 0;
+    for (int i = 0; i < 3; i++) {
+      double d =
+          cw_patch_distance2(work->x[work->corner[t][(i + 1) % 3]], work->x[work->corner[t][(i + 2) % 3]]);
+      if (d > most) {
+        most = d;
+        longest = i;
+      }
+    }
+    if (longest < 0 || work->given[t] >> longest & 1)
+      continue;
+    int32_t a = work->corner[t][(longest + 1) % 3], b = work->corner[t][(longest + 2) % 3];
+    double size = edge_size(work, a, b);
+    if (most < long_edge * long_edge * size * size)
+      continue;
+    double uv[2] = {0.5 * (work->uv[a][0] + work->uv[b][0]), 0.5 * (work->uv[a][1] + work->uv[b][1])};
+    status = cw_patch_insert(work, uv, t, 0.55, size * 1.1);
+    if (status == CW_RETRY)
+      status = CW_OK;
+    CW_TRY(status);
+  }
+done:
+  return status;
+}
+
+// Height of the corner opposite to edge a b of a triangle with the corner at p.
+static double height_over(const CwPatchWork *work, int32_t p, int32_t a, int32_t b) {
+  double ab = cw_patch_distance2(work->x[a], work->x[b]), ap = cw_patch_distance2(work->x[a], work->x[p]);
+  double dot = 0.5 * (ab + ap - cw_patch_distance2(work->x[b], work->x[p]));
+  return sqrt(fmax(ap - dot * dot / ab, 0));
+}
+
+// Free points too near to another point or a given edge, and those with so few triangles that these are wide.
+static void remove_crowded(CwPatchWork *work) {
+  for (int32_t p = work->given_count; p < work->point_count; p++) {
+    if (work->point_triangle[p] < 0)
+      continue;
+    Ring r;
+    r.count = cw_patch_ring(work, p, r.triangle, r.ring);
+    int crowded = r.count <= 4;
+    for (int k = 0; k < r.count && !crowded; k++) {
+      int32_t a = r.ring[k], b = r.ring[(k + 1) % r.count], t = r.triangle[k];
+      double limit = short_edge * edge_size(work, p, a);
+      crowded = cw_patch_distance2(work->x[p], work->x[a]) < limit * limit;
+      if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1)
+        crowded |= height_over(work, p, a, b) < least_height * work->size[p];
+    }
+    if (crowded && r.count)
+      cw_patch_remove(work, p, 0.45, 1.5);
+  }
+}
+
+// What the number of triangles at a point lacks to six, or to as many as fit into the angle at a given point.
+static void find_excess(const CwPatchWork *work, double *turn, int32_t *excess) {
+  for (int32_t p = 0; p < work->point_count; p++) {
+    excess[p] = cw_patch_is_free(work, p) ? -6 : 0;
+    turn[p] = 0;
+  }
+  for (int32_t t = 0; t < work->triangle_count; t++) {
+    const int32_t *c = work->corner[t];
+    if (c[0] < 0)
+      continue;
+    for (int i = 0; i < 3; i++) {
+      excess[c[i]]++;
+      if (cw_patch_is_free(work, c[i]))
+        continue;
+      const double *x = work->x[c[i]], *y = work->x[c[(i + 1) % 3]], *z = work->x[c[(i + 2) % 3]];
+      double b = cw_patch_distance2(x, y), d = cw_patch_distance2(x, z), a = cw_patch_distance2(y, z);
+      turn[c[i]] += acos(fmax(-1, fmin(1, (b + d - a) / (2 * sqrt(b * d)))));
+    }
+  }
+  for (int32_t p = 0; p < work->given_count; p++)
+    excess[p] -= (int32_t)fmax(1, round(turn[p] / (M_PI / 3)));
+}
+
+// Flips that even out the number of triangles at the points: smoothing can make only such rings equilateral.
+static CwStatus even_out(CwPatchWork *work) {
+  CwStatus status = CW_OK;
+  int32_t *excess = NULL;
+  double *turn = NULL;
+  CW_NEW(excess, work->point_count);
+  CW_NEW(turn, work->point_count);
+  find_excess(work, turn, excess);
+  for (int32_t t = 0; t < work->triangle_count; t++) {
+    if (work->corner[t][0] < 0)
+      continue;
+    for (int i = 0; i < 3; i++) {
+      int32_t n = work->neighbour[t][i];
+      if (work->given[t] >> i & 1)
+        continue;
+      int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
+      int32_t d = work->corner[n][0] + work->corner[n][1] + work->corner[n][2] - b - c;
+      // Half the change of the sum of squares.
+      if (excess[a] + excess[d] - excess[b] - excess[c] + 2 >= 0)
+        continue;
+      double worst = fmin(cw_patch_quality(work, a, b, d), cw_patch_quality(work, a, d, c));
+      if (worst < 0.5 || !cw_patch_flip(work, t, i))
+        continue;
+      excess[a]++;
+      excess[d]++;
+      excess[b]--;
+      excess[c]--;
+    }
+  }
+done:
+  free(excess);
+  free(turn);
+  return status;
+}
+
+static double triangle_quality(const CwPatchWork *work, int32_t t) {
+  return cw_patch_quality(work, work->corner[t][0], work->corner[t][1], work->corner[t][2]);
+}
+
+// Flips the edge of t that betters the worse one of its two triangles most.
+static int flip_best(CwPatchWork *work, int32_t t) {
+  int best = -1;
+  double gain = 1e-3, own = triangle_quality(work, t);
+  for (int i = 0; i < 3; i++) {
+    int32_t n = work->neighbour[t][i];
+    if (work->given[t] >> i & 1)
+      continue;
+    int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
+    int32_t d = work->corner[n][0] + work->corner[n][1] + work->corner[n][2] - b - c;
+    double then = fmin(cw_patch_quality(work, a, b, d), cw_patch_quality(work, a, d, c));
+    double now = fmin(own, triangle_quality(work, n));
+    if (then - now > gain) {
+      gain = then - now;
+      best = i;
+    }
+  }
+  return best >= 0 && cw_patch_flip(work, t, best);
+}
+
+// Moves p by shorter and shorter steps in six directions of the tangent plane while its worst triangle gets
+// better.
+static int climb(CwPatchWork *work, int32_t p) {
+  static const double direction[6][2] = {{1, 0},  {0.5, 0.8660254037844386},   {-0.5, 0.8660254037844386},
+                                         {-1, 0}, {-0.5, -0.8660254037844386}, {0.5, -0.8660254037844386}};
+  Ring r;
+  int moved = 0;
+  r.count = cw_patch_ring(work, p, r.triangle, r.ring);
+  if (!r.count)
+    return 0;
+  for (double step = 0.2 * work->size[p]; step > 0.02 * work->size[p]; step *= 0.5)
+    for (int k = 0; k < 6; k++) {
+      double n[3], first[3], second[3], move[3], nn = 0, ff = 0;
+      cw_patch_normal(work, p, n);
+      for (int c = 0; c < 3; c++) {
+        nn += n[c] * n[c];
+        ff += work->xu[p][c] * work->xu[p][c];
+      }
+      if (!(nn > 0 && ff > 0))
+        return moved;
+      for (int c = 0; c < 3; c++) {
+        first[c] = work->xu[p][c] / sqrt(ff);
+        n[c] /= sqrt(nn);
+      }
+      second[0] = n[1] * first[2] - n[2] * first[1];
+      second[1] = n[2] * first[0] - n[0] * first[2];
+      second[2] = n[0] * first[1] - n[1] * first[0];
+      for (int c = 0; c < 3; c++)
+        move[c] = step * (direction[k][0] * first[c] + direction[k][1] * second[c]);
+      cw_patch_normal(work, p, n);
+      moved += try_move(work, &r, p, move, ring_quality(work, &r, p, work->uv[p], work->x[p], n) + 1e-3);
+    }
+  return moved;
+}
+
+// Goes through the triangles below `bound` and takes the first change that betters the worst triangle it
+// touches.
+static int64_t mend_worst(CwPatchWork *work, double bound) {
+  int64_t changes = 0;
+  for (int32_t t = 0; t < work->triangle_count; t++) {
+    if (work->corner[t][0] < 0 || triangle_quality(work, t) >= bound)
+      continue;
+    int done = flip_best(work, t);
+    for (int i = 0; i < 3 && !done; i++) {
+      int32_t p = work->corner[t][i];
+      if (!cw_patch_is_free(work, p))
+        continue;
+      Ring r;
+      double n[3];
+      r.count = cw_patch_ring(work, p, r.triangle, r.ring);
+      cw_patch_normal(work, p, n);
+      double now = ring_quality(work, &r, p, work->uv[p], work->x[p], n);
+      // Its own triangle counts too: the gain must be there.
+      done = r.count && cw_patch_remove(work, p, fmax(now, 0) + 0.05, 1.5);
+      if (!done)
+        done = climb(work, p);
+    }
+    changes += done;
+  }
+  return changes;
+}
+
+CwStatus cw_patch_improve(CwPatchWork *work) {
+  CwStatus status = CW_OK;
+  enum { SWEEPS = 4, MENDS = 4 };
+  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    cw_patch_delaunay(work, 1);
+    remove_crowded(work);
+    CW_TRY(split_long(work));
+    cw_patch_delaunay(work, 1);
+    // The last sweep keeps what is best for the angles.
+    if (sweep + 1 < SWEEPS)
+      CW_TRY(even_out(work));
+    smooth(work);
+    smooth(work);
+  }
+  cw_patch_delaunay(work, 1);
+  for (int mend = 0; mend < MENDS; mend++)
+    if (!mend_worst(work, 0.8))
+      break;
+done:
+  return status;
+}

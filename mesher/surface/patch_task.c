@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/surface/patch_task.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+
+CwStatus cw_outline_start(CwPatchOutline *outline, int32_t node_count) {
+  CwStatus status = CW_OK;
+  memset(outline, 0, sizeof *outline);
+  outline->node_count = node_count;
+  CW_NEW(outline->local, node_count);
+  for (int32_t i = 0; i < node_count; i++) outline->local[i] = -1;
+done:
+  return status;
+}
+
+CwStatus cw_outline_point(CwPatchOutline *outline, int32_t node, const double uv[2], const double x[3],
+                          int32_t *local) {
+  CwStatus status = CW_OK;
+  if (outline->local[node] < 0) {
+    if (outline->point_count == outline->point_capacity) {
+      int32_t capacity = outline->point_capacity ? 2 * outline->point_capacity : 256;
+      void *nodes = realloc(outline->node, (size_t)capacity * sizeof *outline->node);
+      if (nodes) outline->node = nodes;
+      void *uvs = realloc(outline->uv, (size_t)capacity * sizeof *outline->uv);
+      if (uvs) outline->uv = uvs;
+      void *xs = realloc(outline->x, (size_t)capacity * sizeof *outline->x);
+      if (xs) outline->x = xs;
+      CW_REQUIRE(nodes && uvs && xs, CW_ERR_MEMORY, "out of memory: an outline of %d points", capacity);
+      outline->point_capacity = capacity;
+    }
+    int32_t k = outline->local[node] = outline->point_count++;
+    outline->node[k] = node;
+    memcpy(outline->uv[k], uv, sizeof outline->uv[k]);
+    cw_copy(x, outline->x[k]);
+  }
+  *local = outline->local[node];
+done:
+  return status;
+}
+
+CwStatus cw_outline_edge(CwPatchOutline *outline, int32_t a, int32_t b, int boundary) {
+  CwStatus status = CW_OK;
+  if (outline->edge_count == outline->edge_capacity) {
+    int32_t capacity = outline->edge_capacity ? 2 * outline->edge_capacity : 256;
+    void *edges = realloc(outline->edge, (size_t)capacity * sizeof *outline->edge);
+    if (edges) outline->edge = edges;
+    void *flags = realloc(outline->boundary, (size_t)capacity);
+    if (flags) outline->boundary = flags;
+    CW_REQUIRE(edges && flags, CW_ERR_MEMORY, "out of memory: an outline of %d edges", capacity);
+    outline->edge_capacity = capacity;
+  }
+  outline->edge[outline->edge_count][0] = a;
+  outline->edge[outline->edge_count][1] = b;
+  outline->boundary[outline->edge_count++] = (uint8_t)boundary;
+done:
+  return status;
+}
+
+void cw_outline_free(CwPatchOutline *outline) {
+  free(outline->node);
+  free(outline->uv);
+  free(outline->x);
+  free(outline->edge);
+  free(outline->boundary);
+  free(outline->local);
+  memset(outline, 0, sizeof *outline);
+}
+
+// The label of each component: that of the centre of its largest triangle, which is the farthest from its edges.
+static CwStatus component_labels(const CwPatchMesh *mesh, CwLabelAt label, const void *context, int32_t *result) {
+  CwStatus status = CW_OK;
+  double *largest = NULL;
+  CW_NEW(largest, mesh->component_count);
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    const double *a = mesh->x[mesh->triangle[t][0]], *b = mesh->x[mesh->triangle[t][1]],
+                 *c = mesh->x[mesh->triangle[t][2]];
+    double u[3], v[3], n[3];
+    cw_sub(b, a, u);
+    cw_sub(c, a, v);
+    cw_cross(u, v, n);
+    double area = cw_norm(n);
+    int32_t component = mesh->component[t];
+    if (area <= largest[component]) continue;
+    largest[component] = area;
+    double centre[3];
+    for (int k = 0; k < 3; k++) centre[k] = (a[k] + b[k] + c[k]) / 3;
+    result[component] = label(context, centre);
+  }
+done:
+  free(largest);
+  return status;
+}
+
+// The packed form: counts of outline points, new points and triangles; then coordinates, nodes of the outline, triangles,
+// labels.
+enum { HEADER = 16 };
+
+CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
+                       const void *size_context, int turned, CwLabelAt label, const void *label_context,
+                       const char *name, void **bytes, int64_t *size_of_bytes) {
+  CwStatus status = CW_OK;
+  CwPatchMesh mesh = {0};
+  int32_t *labels = NULL;
+  char *block = NULL;
+  CwPatchInput input = {.surface = surface,
+                        .surface_context = surface_context,
+                        .size = size,
+                        .size_context = size_context,
+                        .point_count = outline->point_count,
+                        .uv = (const double(*)[2])outline->uv,
+                        .x = (const double(*)[3])outline->x,
+                        .edge_count = outline->edge_count,
+                        .edge = (const int32_t(*)[2])outline->edge,
+                        .boundary = outline->boundary,
+                        .name = name};
+  CW_TRY(cw_patch_mesh(&input, &mesh));
+  CW_NEW(labels, mesh.component_count);
+  CW_TRY(component_labels(&mesh, label, label_context, labels));
+  int32_t fresh = mesh.point_count - outline->point_count;
+  size_t nodes = (size_t)outline->point_count * sizeof *outline->node;
+  size_t total = HEADER + (size_t)fresh * 24 + nodes + (size_t)mesh.triangle_count * 16;
+  CW_NEW(block, total);
+  int32_t header[3] = {outline->point_count, fresh, mesh.triangle_count};
+  memcpy(block, header, sizeof header);
+  char *at = block + HEADER;
+  memcpy(at, mesh.x + outline->point_count, (size_t)fresh * 24);
+  at += (size_t)fresh * 24;
+  memcpy(at, outline->node, nodes);
+  at += nodes;
+  for (int32_t t = 0; t < mesh.triangle_count; t++, at += 12) {
+    int32_t corner[3] = {mesh.triangle[t][0], mesh.triangle[t][turned ? 2 : 1], mesh.triangle[t][turned ? 1 : 2]};
+    memcpy(at, corner, sizeof corner);
+  }
+  for (int32_t t = 0; t < mesh.triangle_count; t++, at += 4) memcpy(at, &labels[mesh.component[t]], 4);
+  *bytes = block;
+  *size_of_bytes = (int64_t)total;
+  block = NULL;
+done:
+  cw_patch_mesh_free(&mesh);
+  free(labels);
+  free(block);
+  return status;
+}
+
+void cw_patch_block(const void *bytes, CwPatchBlock *block) {
+  int32_t header[3];
+  memcpy(header, bytes, sizeof header);
+  block->outline_points = header[0];
+  block->point_count = header[1];
+  block->triangle_count = header[2];
+  const char *at = (const char *)bytes + HEADER;
+  block->x = (const double(*)[3])at;
+  at += (size_t)header[1] * 24;
+  block->outline_node = (const int32_t *)at;
+  at += (size_t)header[0] * sizeof *block->outline_node;
+  block->triangle = (const int32_t(*)[3])at;
+  at += (size_t)header[2] * 12;
+  block->label = (const int32_t *)at;
+}

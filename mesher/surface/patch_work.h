@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The triangulation of a patch while it is being meshed: triangles with neighbours in the (u,v) plane, points
+// with their place on the surface and its derivatives, and the local changes that keep it valid:
+//
+//   insert      p goes in; triangles whose circle holds p go out (Bowyer-Watson in the metric of the surface
+//   at p) flip        the diagonal of two triangles is turned remove      a free point is drawn into one of
+//   its neighbours
+//
+// Every change keeps all triangles counter-clockwise in (u,v), all given edges, and all given points.
+#ifndef CUTWATER_MESHER_SURFACE_PATCH_WORK_H
+#define CUTWATER_MESHER_SURFACE_PATCH_WORK_H
+
+#include <math.h>
+#include <stdint.h>
+
+#include "mesher/surface/cdt.h"
+#include "mesher/surface/patch_mesh.h"
+
+enum { CW_PATCH_RING = 48 }; // free points with more triangles than that are left alone
+
+// Corner i of a triangle faces its edge i, which runs from corner i+1 to corner i+2.
+typedef struct {
+  const CwPatchInput *input;
+  int32_t given_count; // points below are given, the others free
+  int32_t point_count, point_room;
+  double (*uv)[2], (*x)[3];
+  double (*xu)[3], (*xv)[3]; // derivatives of the map
+  double (*metric)[3];       // first fundamental form: xu.xu, xu.xv, xv.xv
+  double *size; // wanted edge length at the point: the field, held down by nearby short given edges
+  int32_t *point_triangle;               // one triangle at the point; -1: none (a removed point)
+  int32_t triangle_count, triangle_room; // slots
+  int32_t (*corner)[3];                  // corner[t][0] < 0: a free slot, the next one in neighbour[t][0]
+  int32_t (*neighbour)[3];               // across edge i; -1: outside
+  uint8_t *given;                        // bit i: edge i is given
+  int32_t *component;
+  uint32_t *mark; // scratch: equal to `marker` where marked
+  uint32_t marker;
+  int32_t free_slot; // -1: none
+  // The cavity of the last insertion; its new triangles after it.
+  int32_t cavity_count, rim_count, cavity_room;
+  int32_t *cavity;
+  int32_t (*rim)[3]; // from, to, triangle outside
+  uint8_t *rim_given;
+  int32_t *fresh;
+  int32_t *point_fresh; // per point: the new triangle whose rim edge starts there
+} CwPatchWork;
+
+// Takes the triangulation over (it may be freed afterwards). `input` must outlive the work.
+CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatchWork *work);
+void cw_patch_work_close(CwPatchWork *work);
+
+// The triangle that holds uv, found by walking from triangle `from` on; -1 where a given edge is in the way.
+int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t from);
+
+// Puts a point at uv, looked for from triangle `from` on without crossing a given edge. Refuses with CW_RETRY
+// a point that is outside, nearer than `least` times its size to another point, or nearer than 0.4 of its
+// size to a given edge of the cavity. `size_cap` bounds the size of the new point. On CW_OK the new point is
+// the last one and fresh[0 .. rim_count) are its triangles.
+CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap);
+
+// Turns edge i of triangle t; refuses (returns 0) where the edge is given or a triangle would not be
+// counter-clockwise in (u,v).
+int cw_patch_flip(CwPatchWork *work, int32_t t, int i);
+
+// Triangles and neighbours around a free point, counter-clockwise: triangle k has the corners p, ring[k],
+// ring[k+1]. Returns their number, 0 where there are more than CW_PATCH_RING.
+int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING],
+                  int32_t ring[CW_PATCH_RING]);
+
+// Draws free point p into a neighbour, the one that leaves the best worst triangle, if that is better than
+// `least_quality` and no new edge is longer than `most` times the mean size of its ends. Returns whether it
+// did.
+int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double most);
+
+// Flips towards Delaunay: in the metric of the surface (on_chords = 0; for coarse triangles) or by the angles
+// of the triangles in space (1). Returns the number of flips.
+int64_t cw_patch_delaunay(CwPatchWork *work, int on_chords);
+
+// Quality of a triangle of given points in space: 1 for equilateral, 0 for flat, negative when its normal is
+// against the surface's.
+double cw_patch_quality(const CwPatchWork *work, int32_t a, int32_t b, int32_t c);
+double cw_patch_quality_at(const double a[3], const double b[3], const double c[3], const double normal[3]);
+
+// The normal of the surface at point p, not of unit length.
+static inline void cw_patch_normal(const CwPatchWork *work, int32_t p, double n[3]) {
+  const double *a = work->xu[p], *b = work->xv[p];
+  n[0] = a[1] * b[2] - a[2] * b[1];
+  n[1] = a[2] * b[0] - a[0] * b[2];
+  n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+// Twice the signed area of a, b, c in (u,v).
+static inline double cw_patch_cross(const double a[2], const double b[2], const double c[2]) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static inline double cw_patch_distance2(const double a[3], const double b[3]) {
+  double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+  return x * x + y * y + z * z;
+}
+
+static inline int cw_patch_corner_of(const int32_t corner[3], int32_t p) {
+  return corner[0] == p ? 0 : corner[1] == p ? 1 : 2;
+}
+
+static inline int cw_patch_is_free(const CwPatchWork *work, int32_t p) {
+  return p >= work->given_count;
+}
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <math.h>
+
+#include <cmocka.h>
+
+#include "mesher/cad/rays.h"
+#include "octahedron.h"
+
+static void rays_leave_where_they_should(void **state) {
+  Octahedron shape;
+  CwBackground background = octahedron(&shape, 1);
+  CwRays *rays = NULL;
+  double s = 0;
+  assert_true(fabs(cw_background_volume(&background) - 4.0 / 3 * (1 - 1.0 / 64)) < 1e-15);
+  assert_int_equal(cw_rays_make(&background, &rays), CW_OK);
+
+  // From (0.3, 0.1, 0.1) along +x: to |x| = 0.8, through the triangle of the octant + + +.
+  const double right[3] = {1, 0, 0}, left[3] = {-1, 0, 0}, start[3] = {0.3, 0.1, 0.1};
+  assert_int_equal(cw_rays_exit(rays, start, right, 0, 10, &s), 0);
+  assert_true(fabs(s - 0.5) < 1e-14);
+  // Along -x: into the hole at x = 0.05, which is an exit; without the hole to x = -0.8.
+  assert_int_equal(cw_rays_exit(rays, start, left, 0, 10, &s), 8);
+  assert_true(fabs(s - 0.25) < 1e-14);
+  // Past it: the ray comes out of the hole (an entry, passed over) and leaves at x = -0.8 through octant - +
+  // +.
+  assert_int_equal(cw_rays_exit(rays, start, left, 0.26, 10, &s), 1);
+  assert_true(fabs(s - 1.1) < 1e-14);
+  assert_int_equal(cw_rays_exit(rays, start, left, 0, 0.2, &s), -1);
+  assert_int_equal(cw_rays_exit(rays, start, left, 2, 10, &s), -1);
+  cw_rays_free(&rays);
+  assert_null(rays);
+}
+
+static void many_rays_agree_with_the_formula(void **state) {
+  Octahedron shape;
+  CwBackground background = octahedron(&shape, 0);
+  CwRays *rays = NULL;
+  uint32_t seed = 7;
+  assert_int_equal(cw_rays_make(&background, &rays), CW_OK);
+  for (int i = 0; i < 10000; i++) {
+    double x[3], d[3], size = 0, s = 0;
+    for (int k = 0; k < 3; k++) {
+      x[k] = ((seed = seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5) * 0.6;
+      d[k] = (seed = seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5;
+      size += d[k] * d[k];
+    }
+    for (int k = 0; k < 3; k++)
+      d[k] /= sqrt(size);
+    assert_true(cw_rays_exit(rays, x, d, 0, 10, &s) >= 0);
+    double sum = 0;
+    for (int k = 0; k < 3; k++)
+      sum += fabs(x[k] + s * d[k]);
+    assert_true(fabs(sum - 1) < 1e-13);
+  }
+  cw_rays_free(&rays);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rays_leave_where_they_should),
+      cmocka_unit_test(many_rays_agree_with_the_formula),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

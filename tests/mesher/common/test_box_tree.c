@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The tree against a plain loop over all boxes, before and after they move.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/common/box_tree.h"
+
+enum { COUNT = 700 };
+
+static double noise(uint32_t *seed) {
+  *seed = *seed * 1664525u + 1013904223u;
+  return (*seed >> 8) / 16777216.0;
+}
+
+static void random_boxes(uint32_t seed, CwBox *box) {
+  for (int i = 0; i < COUNT; i++) {
+    for (int k = 0; k < 3; k++) {
+      box[i].low[k] = noise(&seed);
+      box[i].high[k] = box[i].low[k] + 0.1 * noise(&seed);
+    }
+  }
+}
+
+static const CwBox WITHIN = {{0, 0, 0}, {1.1, 1.1, 1.1}};
+
+static CwBox box_of(const void *context, int32_t item) {
+  return ((const CwBox *)context)[item];
+}
+
+static int mark(void *context, int32_t item) {
+  ((uint8_t *)context)[item] = 1;
+  return 0;
+}
+
+static void check_overlaps(const CwBoxTree *tree, const CwBox *box) {
+  for (int i = 0; i < COUNT; i += 7) {
+    uint8_t seen[COUNT] = {0};
+    int met = 0;
+    cw_box_tree_overlaps(tree, &box[i], mark, seen);
+    for (int j = 0; j < COUNT; j++) {
+      if (cw_boxes_meet(&box[i], &box[j])) assert_true(seen[j]), met++;
+    }
+    assert_true(met >= 1);
+  }
+}
+
+static void finds_all_that_meet(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree;
+  random_boxes(1, box);
+  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  check_overlaps(&tree, box);
+  random_boxes(2, box);
+  assert_int_equal(cw_box_tree_fit(&tree, box_of, box), CW_OK);
+  check_overlaps(&tree, box);
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
+static void follows_those_that_move(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree, whole;
+  uint8_t moved[COUNT - 1] = {0};
+  random_boxes(6, box);
+  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &whole), CW_OK);
+  for (int i = 0; i < COUNT - 1; i += 10) {
+    moved[i] = 1;
+    for (int k = 0; k < 3; k++) box[i].low[k] += 1, box[i].high[k] += 2;
+  }
+  cw_box_tree_follow(&tree, moved, COUNT - 1, box_of, box);
+  assert_int_equal(cw_box_tree_fit(&whole, box_of, box), CW_OK);
+  assert_memory_equal(tree.node + 1, whole.node + 1, (2 * (size_t)tree.leaves - 1) * sizeof *tree.node);
+  cw_box_tree_free(&tree);
+  cw_box_tree_free(&whole);
+  free(box);
+}
+
+static void passes_by_most(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree;
+  random_boxes(3, box);
+  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  uint8_t seen[COUNT] = {0};
+  int visited = 0;
+  cw_box_tree_overlaps(&tree, &box[5], mark, seen);
+  for (int j = 0; j < COUNT; j++) visited += seen[j];
+  assert_true(visited < COUNT / 4);
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
+// Rays along x through the middle of each box: every box whose sides enclose the line is visited.
+static void rays_meet_what_lies_on_them(void **state) {
+  CwBox *box = calloc(COUNT, sizeof *box);
+  CwBoxTree tree;
+  random_boxes(4, box);
+  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  for (int i = 0; i < COUNT; i += 11) {
+    const double x[3] = {-1, 0.5 * (box[i].low[1] + box[i].high[1]), 0.5 * (box[i].low[2] + box[i].high[2])};
+    const double g[3] = {1, 0, 0};
+    double far = 1.5;
+    uint8_t seen[COUNT] = {0};
+    cw_box_tree_ray(&tree, x, g, &far, mark, seen);
+    for (int j = 0; j < COUNT; j++) {
+      if (box[j].low[0] <= 0.5 && box[j].low[1] <= x[1] && x[1] <= box[j].high[1] && box[j].low[2] <= x[2] &&
+          x[2] <= box[j].high[2])
+        assert_true(seen[j]);
+    }
+  }
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
+static int stop(void *context, int32_t item) {
+  return ++*(int *)context == 3;
+}
+
+static void empty_and_stopped(void **state) {
+  CwBoxTree tree;
+  CwBox all = {{-1, -1, -1}, {2, 2, 2}}, *box = calloc(COUNT, sizeof *box);
+  int visits = 0;
+  assert_int_equal(cw_box_tree_make(0, &WITHIN, box_of, NULL, &tree), CW_OK);
+  cw_box_tree_overlaps(&tree, &all, stop, &visits);
+  assert_int_equal(visits, 0);
+  cw_box_tree_free(&tree);
+  random_boxes(5, box);
+  assert_int_equal(cw_box_tree_make(COUNT, &WITHIN, box_of, box, &tree), CW_OK);
+  cw_box_tree_overlaps(&tree, &all, stop, &visits);
+  assert_int_equal(visits, 3);
+  cw_box_tree_free(&tree);
+  free(box);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(finds_all_that_meet),
+                                     cmocka_unit_test(follows_those_that_move), cmocka_unit_test(passes_by_most),
+                                     cmocka_unit_test(rays_meet_what_lies_on_them),
+                                     cmocka_unit_test(empty_and_stopped)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

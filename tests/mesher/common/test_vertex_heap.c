@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "mesher/common/vertex_heap.h"
+
+enum { COUNT = 1000 };
+
+static void least_first_and_ties_by_number(void **state) {
+  CwHeap heap = {0};
+  CwHeapItem last = {-1, -1};
+  (void)state;
+  for (int32_t i = 0; i < COUNT; i++) {
+    int32_t v = (int32_t)(((int64_t)i * 617) % COUNT);
+    assert_int_equal(cw_heap_push(&heap, v % 10, v), CW_OK);
+  }
+  for (int i = 0; i < COUNT; i++) {
+    CwHeapItem top = cw_heap_pop(&heap);
+    assert_true(top.key > last.key || (top.key == last.key && top.v > last.v));
+    assert_int_equal(top.v % 10, (int)top.key);
+    last = top;
+  }
+  assert_int_equal(heap.count, 0);
+  cw_heap_free(&heap);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(least_first_and_ties_by_number)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

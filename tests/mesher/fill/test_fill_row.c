@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/fill/fill_row.h"
+
+#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
+
+static double size_at(const void *context, const double x[3]) {
+  (void)x;
+  return *(const double *)context;
+}
+
+// Over an equilateral triangle in the plane z = 0 whose normal, out of the region, is +z.
+static CwRowPlace place_for(double size, double edge) {
+  const double x[3][3] = {{0, 0, 0}, {edge, 0, 0}, {0.5 * edge, edge * sqrt(0.75), 0}};
+  const int32_t triangle[1][3] = {{0, 1, 2}};
+  CwFillInput input = {.point_count = 3, .x = x, .triangle_count = 1, .triangle = triangle, .size = size_at,
+                       .size_context = &size, .row_count = 1};
+  return cw_row_place(&input, 0);
+}
+
+static void stands_inside_over_the_middle(void **unused) {
+  CwRowPlace place = place_for(2, 2);
+  NEAR(place.spacing, 2);
+  NEAR(place.x[0], 1);
+  NEAR(place.x[1], sqrt(1.0 / 3.0));
+  NEAR(place.x[2], -1.5);
+}
+
+// At equal lengths its tetrahedron has edges within a twentieth of one another.
+static void makes_a_good_tetrahedron(void **unused) {
+  CwRowPlace place = place_for(1, 1);
+  double side = cw_norm(place.x);
+  assert_true(side > 0.94 && side < 1.0);
+}
+
+static void spacing_is_between_the_wanted_length_and_the_edges(void **unused) {
+  NEAR(place_for(1.21, 1).spacing, 1.1);
+  NEAR(place_for(1, 1.21).spacing, 1.1);
+  NEAR(place_for(9, 1).spacing, 1.3);
+}
+
+static void order_is_along_a_line_then_by_triangle(void **unused) {
+  const CwRowPlace place[4] = {
+      {.x = {0, 0, 0}, .triangle = 7}, {.x = {0, 0, 0}, .triangle = 8}, {.x = {0, 1, 0}}, {.x = {1, -1, 0}}};
+  for (int k = 0; k < 4; k++) {
+    for (int l = 0; l < 4; l++) assert_int_equal(cw_row_compare(&place[k], &place[l]), (k > l) - (k < l));
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(stands_inside_over_the_middle),
+      cmocka_unit_test(makes_a_good_tetrahedron),
+      cmocka_unit_test(order_is_along_a_line_then_by_triangle),
+      cmocka_unit_test(spacing_is_between_the_wanted_length_and_the_edges),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Every boundary of the library and of a row of random ones must be filled, whatever it takes. With a number
+// as argument, as many random ones as that; with a name, that boundary of the library alone; with `seed N`, that
+// random one alone.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <cmocka.h>
+
+#include "fill_fault.h"
+#include "hard_boundaries.h"
+#include "random_boundary.h"
+#include "mesher/fill/boundary_check.h"
+#include "mesher/fill/fill_sure.h"
+#include "mesher/fill/kernel.h"
+#include "pipeline/log.h"
+
+// On a failure TetGen itself loses three small lists.
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+  return "leak:tetgenmesh::recoverboundary\n";
+}
+
+static int random_count = 40;
+
+typedef struct {
+  int filled, whole, flipped, cleared, divided, tetgen;
+} Count;
+
+static void add(Count *count, const CwFillWay *way) {
+  count->filled++;
+  if (way->tetgen)
+    count->tetgen++;
+  else if (way->divided)
+    count->divided++;
+  else if (way->cleared)
+    count->cleared++;
+  else if (way->missing)
+    count->flipped++;
+  else
+    count->whole++;
+}
+
+static void print_count(const char *what, const Count *c) {
+  printf("%s: %d filled: %d Delaunay as they are, %d by flips, %d with hollows cleared, %d with the boundary divided, "
+         "%d by TetGen\n",
+         what, c->filled, c->whole, c->flipped, c->cleared, c->divided, c->tetgen);
+}
+
+// Fills it both ways; gives NULL or what is wrong.
+static const char *fill_one(const Surface *s, const char *name, double size, Count *count) {
+  CwFillInput input = fill_input(s, &size);
+  CwFill fill;
+  struct timespec from, to;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
+  if (cw_fill_sure(&input, CW_FILL_KERNEL, &fill) != CW_OK)
+    return cw_fail_message();
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
+  const char *fault = fill_fault(s, &fill);
+  if (getenv("CUTWATER_VERBOSE"))
+    printf("%-32s %6d triangles %7d cells %5d missing %6d flips %3d cleared %4d divided%s, flatness %.2g, %.2f s\n",
+           name, s->triangle_count, fill.tetrahedron_count, fill.way.missing, fill.way.flips,
+           fill.way.cleared, fill.way.divided, fill.way.tetgen ? ", TetGen" : "", cw_fill_flatness(&fill),
+           (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
+  add(count, &fill.way);
+  cw_fill_free(&fill);
+  return fault;
+}
+
+static void library(void **unused) {
+  Count count = {0};
+  int faults = 0;
+  for (int k = 0; k < hard_boundary_count(); k++) {
+    Surface s;
+    double size;
+    const char *name = hard_boundary(k, &s, &size), *fault;
+    CwFillInput input = fill_input(&s, &size);
+    if (cw_boundary_check_crossing(&input) != CW_OK)
+      fail_msg("%s: no boundary: %s", name, cw_fail_message());
+    fault = fill_one(&s, name, size, &count);
+    if (fault)
+      print_error("%s: %s\n", name, fault);
+    faults += fault != NULL;
+    surface_free(&s);
+  }
+  print_count("library", &count);
+  assert_true(count.filled >= 40);
+  assert_int_equal(faults, 0);
+}
+
+// Those that cross themselves or have triangles without area do not count, but must be refused with a place.
+static void random_ones(void **unused) {
+  Count count = {0};
+  int faults = 0, crossing = 0;
+  for (uint64_t seed = 1; count.filled + faults < random_count; seed++) {
+    Surface s;
+    double size;
+    char name[32];
+    random_boundary(seed, &s, &size);
+    snprintf(name, sizeof name, "seed %llu", (unsigned long long)seed);
+    CwFillInput input = fill_input(&s, &size);
+    const char *fault = NULL;
+    if (cw_boundary_check(&input) != CW_OK || cw_boundary_check_crossing(&input) != CW_OK) {
+      CwFill fill;
+      crossing++;
+      CwStatus status = cw_fill_sure(&input, CW_FILL_KERNEL, &fill);
+      if (status != CW_ERR_MESH || !strstr(cw_fail_message(), " mm"))
+        fault = "a boundary that crosses itself was not refused with its place";
+      cw_fill_free(&fill);
+    } else {
+      fault = fill_one(&s, name, size, &count);
+    }
+    if (fault)
+      print_error("%s: %s\n", name, fault);
+    faults += fault != NULL;
+    surface_free(&s);
+  }
+  print_count("random", &count);
+  printf("%d more were no boundaries and were refused\n", crossing);
+  assert_int_equal(faults, 0);
+}
+
+static void equal_bits_twice(void **unused) {
+  for (int k = 0; k < hard_boundary_count(); k += 6) {
+    Surface s;
+    double size;
+    CwFill fill[2];
+    hard_boundary(k, &s, &size);
+    CwFillInput input = fill_input(&s, &size);
+    assert_int_equal(cw_fill_sure(&input, CW_FILL_KERNEL, &fill[0]), CW_OK);
+    void *shift = malloc(4321); // other addresses the second time
+    assert_int_equal(cw_fill_sure(&input, CW_FILL_KERNEL, &fill[1]), CW_OK);
+    assert_int_equal(fill[0].point_count, fill[1].point_count);
+    assert_int_equal(fill[0].tetrahedron_count, fill[1].tetrahedron_count);
+    assert_memory_equal(fill[0].x, fill[1].x, (size_t)fill[0].point_count * sizeof *fill[0].x);
+    assert_memory_equal(fill[0].tetrahedron, fill[1].tetrahedron,
+                        (size_t)fill[0].tetrahedron_count * sizeof *fill[0].tetrahedron);
+    free(shift);
+    cw_fill_free(&fill[0]);
+    cw_fill_free(&fill[1]);
+    surface_free(&s);
+  }
+}
+
+static int one_alone(const char *name, uint64_t seed) {
+  Count count = {0};
+  const char *fault = "there is no such boundary";
+  Surface s = {0};
+  double size;
+  if (!name) {
+    random_boundary(seed, &s, &size);
+    fault = fill_one(&s, "random", size, &count);
+  }
+  for (int k = 0; k < hard_boundary_count() && name; k++) {
+    if (strcmp(hard_boundary(k, &s, &size), name) == 0)
+      fault = fill_one(&s, name, size, &count);
+    surface_free(&s);
+  }
+  surface_free(&s);
+  if (fault)
+    printf("%s\n", fault);
+  return fault != NULL;
+}
+
+int main(int argc, char **argv) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(library), cmocka_unit_test(random_ones),
+                                     cmocka_unit_test(equal_bits_twice)};
+  const struct CMUnitTest many[] = {cmocka_unit_test(random_ones)};
+  if (getenv("CUTWATER_VERBOSE"))
+    cw_log_open("test", NULL, 1, getenv("CUTWATER_VERBOSE")[0] == '2');
+  if (argc == 3)
+    return one_alone(NULL, strtoull(argv[2], NULL, 10));
+  if (argc == 2 && atoi(argv[1]) == 0)
+    return one_alone(argv[1], 0);
+  if (argc == 2) {
+    random_count = atoi(argv[1]);
+    return cmocka_run_group_tests(many, NULL, NULL);
+  }
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "fill_fault.h"
+#include "surface_shapes.h"
+#include "mesher/fill/kernel.h"
+#include "mesher/common/quality.h"
+
+typedef struct {
+  double dihedral_least, aspect_mean;
+} Shape;
+
+// All that a fill promises, and its shape.
+static Shape check(const Surface *s, const CwFill *fill) {
+  Shape worst = {180.0, 0.0};
+  const char *fault = fill_fault(s, fill);
+  if (fault)
+    fail_msg("%s", fault);
+  for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
+    const double *x[4];
+    CwTetShape shape;
+    for (int i = 0; i < 4; i++)
+      x[i] = fill->x[fill->tetrahedron[t][i]];
+    cw_tet_shape(x, &shape);
+    worst.dihedral_least = fmin(worst.dihedral_least, shape.dihedral_least);
+    worst.aspect_mean += shape.edge_longest / shape.edge_shortest / fill->tetrahedron_count;
+  }
+  return worst;
+}
+
+static Shape fill_and_check(const Surface *s, double size) {
+  CwFillInput input = fill_input(s, &size);
+  CwFill fill;
+  CwStatus status = cw_kernel_fill(&input, &fill);
+  if (status == CW_RETRY)
+    fail_msg("not recovered");
+  if (status != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  Shape shape = check(s, &fill);
+  cw_fill_free(&fill);
+  return shape;
+}
+
+static const double origin[3] = {0, 0, 0};
+
+static void sphere(void **unused) {
+  Surface s = {0};
+  surface_add_sphere(&s, origin, 0.05, 4, 1);
+  Shape shape = fill_and_check(&s, 0.0036);
+  assert_true(shape.dihedral_least > 15.0);
+  assert_true(shape.aspect_mean < 1.5);
+  surface_free(&s);
+}
+
+// Cocircular points everywhere: half of the diagonals are wrong for the mesh as it comes.
+static void cube(void **unused) {
+  Surface s = {0};
+  surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){12, 12, 12}, 1);
+  Shape shape = fill_and_check(&s, 0.04 / 12);
+  assert_true(shape.dihedral_least > 10.0);
+  surface_free(&s);
+}
+
+static void coarse_without_inner_points(void **unused) {
+  Surface s = {0};
+  surface_add_sphere(&s, origin, 0.05, 0, 1);
+  fill_and_check(&s, 0.05);
+  surface_free(&s);
+}
+
+static void shell_in_a_void_of_a_shell(void **unused) {
+  Surface s = {0};
+  surface_add_sphere(&s, origin, 0.05, 3, 1);
+  surface_add_sphere(&s, origin, 0.03, 3, 0);
+  surface_add_sphere(&s, (double[3]){0.001, 0, 0}, 0.02, 2, 1);
+  fill_and_check(&s, 0.006);
+  surface_free(&s);
+}
+
+static void thin_slabs(void **unused) {
+  Surface s = {0};
+  surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.06, 0.04, 0.004}, (int[3]){30, 20, 2}, 1);
+  fill_and_check(&s, 0.002);
+  surface_free(&s);
+  surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.02, 0.02, 0.001}, (int[3]){10, 10, 1}, 1);
+  fill_and_check(&s, 0.002);
+  surface_free(&s);
+}
+
+static void wrong_diagonals_are_recovered(void **unused) {
+  for (uint32_t seed = 1; seed <= 6; seed++) {
+    Surface s = {0};
+    surface_add_sphere(&s, origin, 0.05, 4, 1);
+    assert_true(shape_turn_diagonals(&s, seed, seed % 2 ? 40 : 12) > 40);
+    fill_and_check(&s, 0.0036);
+    surface_free(&s);
+  }
+}
+
+// A long thin needle of triangles on a box: edges three times as long as the box is thick.
+static void stretched_triangles(void **unused) {
+  Surface s = {0};
+  surface_add_box(&s, (double[3]){0, 0, 0}, (double[3]){0.06, 0.02, 0.01}, (int[3]){6, 8, 5}, 1);
+  fill_and_check(&s, 0.005);
+  surface_free(&s);
+}
+
+static void equal_bits_twice(void **unused) {
+  Surface s = {0};
+  surface_add_sphere(&s, origin, 0.05, 4, 1);
+  shape_turn_diagonals(&s, 5, 12);
+  double size = 0.0036;
+  CwFillInput input = fill_input(&s, &size);
+  CwFill one, two;
+  assert_int_equal(cw_kernel_fill(&input, &one), CW_OK);
+  assert_int_equal(cw_kernel_fill(&input, &two), CW_OK);
+  assert_int_equal(one.point_count, two.point_count);
+  assert_int_equal(one.tetrahedron_count, two.tetrahedron_count);
+  assert_memory_equal(one.x, two.x, (size_t)one.point_count * sizeof *one.x);
+  assert_memory_equal(one.tetrahedron, two.tetrahedron,
+                      (size_t)one.tetrahedron_count * sizeof *one.tetrahedron);
+  cw_fill_free(&one);
+  cw_fill_free(&two);
+  surface_free(&s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(sphere),
+      cmocka_unit_test(cube),
+      cmocka_unit_test(coarse_without_inner_points),
+      cmocka_unit_test(shell_in_a_void_of_a_shell),
+      cmocka_unit_test(thin_slabs),
+      cmocka_unit_test(wrong_diagonals_are_recovered),
+      cmocka_unit_test(stretched_triangles),
+      cmocka_unit_test(equal_bits_twice),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "mesher/common/quality.h"
+#include "mesher/fill/tet_patch.h"
+#include "mesher/fill/tet_work.h"
+#include "shaken_lattice.h"
+
+enum { SIZE = 6000 };
+
+// Least dihedral angle, degrees, and the volume; all are positive.
+static double least_angle(const CwDelaunay *mesh, double *volume) {
+  double least = 180.0;
+  *volume = 0.0;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const double *x[4];
+    CwTetShape shape;
+    if (mesh->tet[t].corner[0] < 0) continue;
+    for (int i = 0; i < 4; i++) x[i] = mesh->point[mesh->tet[t].corner[i]].x;
+    cw_tet_shape(x, &shape);
+    assert_true(shape.volume > 0.0);
+    *volume += shape.volume;
+    least = fmin(least, shape.dihedral_least);
+  }
+  return least;
+}
+
+// A lump out of a shaken lattice, its hull fixed, in which `spoilt` points then go nearly as far as a face opposite.
+static CwTetWork lump(int spoilt, CwTetPatch *patch) {
+  double(*x)[3];
+  int32_t outside, count = shaken_lattice(14, 0.1, &outside, &x), middle = -1;
+  CwDelaunay whole;
+  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
+  for (int32_t t = 0; t < whole.tet_count && middle < 0; t++) {
+    const double *p = whole.tet[t].corner[0] < 0 ? NULL : whole.point[whole.tet[t].corner[0]].x;
+    if (p && fmax(fabs(p[0] - 7.0), fmax(fabs(p[1] - 7.0), fabs(p[2] - 7.0))) < 0.7) middle = t;
+  }
+  assert_int_equal(cw_tet_patch_take(&whole, middle, SIZE, outside, patch), CW_OK);
+  cw_delaunay_free(&whole);
+  free(x);
+  CwDelaunay *mesh = &patch->mesh;
+  CwTetWork w = {.flips = {.mesh = mesh},
+                 .mesh = mesh,
+                 .limit = CW_TET_IMPROVE,
+                 .insert = 0.4226,
+                 .insert_round = 0.38,
+                 .fixed_count = 1,
+                 .source_count = 2};
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  assert_int_equal(cw_tet_improve_list(&w, 5, 1), CW_OK);
+  for (int32_t t = 40; spoilt > 0; t += 1500, spoilt--) {
+    while (mesh->tet[t].corner[0] < 0 || mesh->source[mesh->tet[t].corner[0]] == 0) t++;
+    const int32_t *c = mesh->tet[t].corner;
+    double *p = mesh->point[c[0]].x;
+    for (int i = 0; i < 3; i++) {
+      double opposite = (mesh->point[c[1]].x[i] + mesh->point[c[2]].x[i] + mesh->point[c[3]].x[i]) / 3.0;
+      p[i] += 0.9 * (opposite - p[i]);
+    }
+  }
+  w.next_count = 0;
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  return w;
+}
+
+static void finish(CwTetWork *w, CwTetPatch *patch) {
+  free(w->bad);
+  free(w->next);
+  cw_tet_patch_free(patch);
+}
+
+// What is bad becomes good, twice the same way; hull and volume stay.
+static void bad_ones_become_good(void **state) {
+  CwTetPatch patch, again;
+  CwTetWork w = lump(3, &patch), v = lump(3, &again);
+  double volume, after, hull[SIZE][3];
+  assert_true(least_angle(w.mesh, &volume) < 8.0);
+  for (int32_t p = 0; p < patch.point_count; p++) memcpy(hull[p], w.mesh->point[p].x, sizeof hull[p]);
+  assert_int_equal(cw_tet_search(&w), CW_OK);
+  assert_int_equal(cw_tet_search(&v), CW_OK);
+  assert_true(least_angle(w.mesh, &after) > 13.0);
+  assert_true(fabs(after / volume - 1.0) < 1e-12);
+  assert_true(w.count.patches_changed >= 1 && w.count.patches_changed <= 3);
+  for (int32_t p = 0; p < patch.point_count; p++) {
+    if (w.mesh->source[p] == 0) assert_memory_equal(w.mesh->point[p].x, hull[p], sizeof hull[p]);
+  }
+  assert_int_equal(w.mesh->tet_count, v.mesh->tet_count);
+  assert_int_equal(w.mesh->point_count, v.mesh->point_count);
+  for (int32_t t = 0; t < w.mesh->tet_count; t++)
+    assert_memory_equal(w.mesh->tet[t].corner, v.mesh->tet[t].corner, sizeof v.mesh->tet[t].corner);
+  for (int32_t p = 0; p < w.mesh->point_count; p++)
+    assert_memory_equal(w.mesh->point[p].x, v.mesh->point[p].x, sizeof v.mesh->point[p].x);
+  finish(&w, &patch);
+  finish(&v, &again);
+}
+
+static void good_ones_are_left_alone(void **state) {
+  CwTetPatch patch;
+  CwTetWork w = lump(0, &patch);
+  double before, after, least = least_angle(w.mesh, &before);
+  assert_true(least > 13.0);
+  int32_t tets = w.mesh->tet_count, points = w.mesh->point_count;
+  assert_int_equal(cw_tet_search(&w), CW_OK);
+  assert_true(least_angle(w.mesh, &after) == least && after == before);
+  assert_int_equal(w.mesh->tet_count, tets);
+  assert_int_equal(w.mesh->point_count, points);
+  assert_int_equal(w.count.patches_changed, 0);
+  finish(&w, &patch);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bad_ones_become_good),
+      cmocka_unit_test(good_ones_are_left_alone),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Heights worked by hand on walls of a few triangles; lengths in any unit.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/heights/column_heights.h"
+#include "mesher/layers/layers.h"
+
+#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-9)
+
+enum { MOST = 16 };
+
+typedef struct {
+  CwSkeleton skeleton;
+  int32_t source[MOST], region_start[2], region_wall[MOST];
+  double height[MOST];
+  uint8_t reason[MOST];
+  double size;
+  CwIncident around;
+} Wall;
+
+static double constant(const void *size, const double x[3]) {
+  return *(const double *)size;
+}
+
+// All in one region, where edges are `size` long.
+static void make_wall(Wall *wall, double size, int points, double (*x)[3], int triangles, int32_t (*triangle)[3],
+                      int32_t *face) {
+  memset(wall, 0, sizeof *wall);
+  wall->size = size;
+  wall->region_start[1] = triangles;
+  for (int t = 0; t < triangles; t++) wall->source[t] = wall->region_wall[t] = t;
+  wall->skeleton = (CwSkeleton){.size_at = constant, .size = &wall->size, .wall_count = points, .wall_x = x,
+                                .wall_triangle_count = triangles, .wall_triangle = triangle, .wall_face = face,
+                                .wall_source = wall->source, .region_wall_start = wall->region_start,
+                                .region_wall = wall->region_wall, .height = wall->height, .reason = wall->reason};
+  assert_int_equal(cw_incident_make(points, triangles, (const int32_t(*)[3])triangle, &wall->around), CW_OK);
+}
+
+static void free_wall(Wall *wall, CwColumnHeights *heights) {
+  cw_incident_free(&wall->around);
+  cw_column_heights_free(heights);
+}
+
+// The unit square, its diagonal from corner 0 to corner 2.
+static double square_x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+static int32_t square[2][3] = {{0, 1, 2}, {0, 2, 3}}, square_face[2] = {0, 0};
+
+// Layers of 1, 2 and 4.
+static const CwLayerTarget DOUBLING = {.first_height = 1, .growth = 2, .thickness = 7};
+
+static void a_flat_wall(void **state) {
+  NEAR(cw_column_height_flat(&DOUBLING, 3, 10), 7);                // a tetrahedron is 8.16 high
+  NEAR(cw_column_height_flat(&DOUBLING, 3, 2.25 / 0.816), 4.75);   // 2.25 high: layers of 1, 1.5 and 2.25
+  NEAR(cw_column_height_flat(&DOUBLING, 3, 0.5), 3.15);            // 1.05 times three even layers
+  NEAR(cw_column_height_least(1, 3), 3.15);
+  CwLayerTarget thin = DOUBLING;
+  thin.thickness = 4;
+  NEAR(cw_column_height_flat(&thin, 3, 10), 4);
+  // Five layers below tetrahedra of 1. With a last one of 1 the column would be taller than 2.5 wanted lengths of
+  // 1 / 0.816; up to 3.25 of them it may be for a last one of three quarters.
+  CwLayerTarget five = {.first_height = 0.4, .growth = 2, .thickness = INFINITY};
+  NEAR(cw_column_height_flat(&five, 5, 1 / 0.816), 2.5 / 0.816);
+  five.first_height = 0.5;
+  NEAR(cw_column_height_flat(&five, 5, 1 / 0.816), 0.5 * (pow(1.5, 1.25) - 1) / (pow(1.5, 0.25) - 1));
+  NEAR(cw_column_height_flat(&(CwLayerTarget){.first_height = 0.1, .growth = 2, .thickness = INFINITY}, 15, 1 / 0.816),
+       3.25 / 0.816);
+}
+
+static void the_finer_patch_holds_where_two_meet(void **state) {
+  // A strip of two triangles a step; the first step belongs to face 0.
+  double x[8][3];
+  int32_t triangle[6][3], face[6];
+  for (int i = 0; i < 8; i++) memcpy(x[i], (double[3]){i / 2, i % 2, 0}, sizeof x[i]);
+  for (int i = 0; i < 3; i++) {
+    memcpy(triangle[2 * i], (int32_t[3]){2 * i, 2 * i + 2, 2 * i + 1}, sizeof *triangle);
+    memcpy(triangle[2 * i + 1], (int32_t[3]){2 * i + 1, 2 * i + 2, 2 * i + 3}, sizeof *triangle);
+    face[2 * i] = face[2 * i + 1] = i > 0;
+  }
+  const CwLayerTarget layers[2] = {{.first_height = 0.1, .growth = 2, .thickness = 0.7},
+                                   {.first_height = 0.5, .growth = 1.5, .thickness = 2}};
+  Wall wall;
+  CwColumnHeights heights = {0};
+  make_wall(&wall, 10, 8, x, 6, triangle, face);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, layers, 3, &heights), CW_OK);
+  // Three layers that grow by 1.1 are 3.31 times the first, and heights rise by 0.3.
+  for (int v = 0; v < 4; v++) NEAR(heights.first_height[v], 0.1);
+  for (int v = 4; v < 8; v++) NEAR(heights.first_height[v], 0.1 + 0.3 / 3.31 * (x[v][0] - 1));
+  for (int v = 0; v < 8; v++) NEAR(heights.growth[v], v < 4 ? 2 : 1.5);
+  // Growth of the face that has most, thickness of the one that has least.
+  for (int v = 0; v < 4; v++) NEAR(heights.target[v], 0.7);
+  NEAR(heights.target[4], heights.first_height[4] * 4.75);
+  free_wall(&wall, &heights);
+}
+
+// A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below a hollow.
+static double roof_height(double size, int fluid_above) {
+  double x[5][3] = {{0, 0, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 0, -1}, {1, 0, -1}};
+  int32_t triangle[4][3] = {{1, 4, 0}, {0, 4, 2}, {2, 3, 0}, {0, 3, 1}}, face[4] = {0};
+  Wall wall;
+  CwColumnHeights heights = {0};
+  for (int t = 0; t < 4 && fluid_above; t++) {
+    int32_t swap = triangle[t][1];
+    triangle[t][1] = triangle[t][2], triangle[t][2] = swap;
+  }
+  make_wall(&wall, size, 5, x, 4, triangle, face);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_OK);
+  double height = heights.target[0];
+  free_wall(&wall, &heights);
+  return height;
+}
+
+static void bends_of_the_wall(void **state) {
+  // In the hollow the last layer is 0.65 cos 45 of the tetrahedron: 2.25, after 1 and 1.5.
+  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 0), 4.75);
+  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 1), 7);
+  NEAR(roof_height(2.25 / 0.816, 1), 4.75);
+  NEAR(roof_height(1.8, 1), 3.6); // no taller than two wanted lengths
+}
+
+static void a_vertex_without_triangle_is_an_error(void **state) {
+  double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  Wall wall;
+  CwColumnHeights heights = {0};
+  make_wall(&wall, 10, 4, x, 1, square, square_face);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_ERR_MESH);
+  free_wall(&wall, &heights);
+}
+
+static void the_share_of_graded_columns(void **state) {
+  const CwLayerTarget layers = {.first_height = 1, .growth = 2, .thickness = 2};
+  Wall wall;
+  CwColumnHeights heights = {0};
+  double share = 0;
+  make_wall(&wall, 10, 4, square_x, 2, square, square_face);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &layers, 2, &heights), CW_OK);
+  assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &wall.around, &layers, &share), CW_OK);
+  NEAR(share, 1);
+  heights.target[0] = 1; // its neighbours come down to 1.3, the corner over the diagonal to 1 + 0.3 sqrt(2)
+  assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &wall.around, &layers, &share), CW_OK);
+  NEAR(share, (1 + 1.3 + 1 + 0.3 * sqrt(2)) / 3 / 2);
+  free_wall(&wall, &heights);
+}
+
+static void room_and_what_it_allows(void **state) {
+  Wall wall;
+  CwColumnHeights heights = {0};
+  CwRatioWall *ratio = NULL;
+  make_wall(&wall, 10, 4, square_x, 2, square, square_face);
+  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_OK);
+  wall.reason[1] = CW_LAYER_GAP, wall.height[1] = 6.8;
+  wall.reason[3] = CW_LAYER_GRADATION, wall.height[3] = 5;
+  assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
+  NEAR(heights.room[1], 6.8);
+  for (int v = 0; v < 4; v++) NEAR(heights.room[v], v == 1 ? 6.8 : 7); // 0.3 more is above 7; gradation does not count
+  wall.height[1] = 4.75;
+  free(heights.room);
+  assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
+  NEAR(heights.room[0], 5.05);
+  NEAR(heights.room[2], 5.05);
+  NEAR(heights.room[3], 4.75 + 0.6);
+  assert_int_equal(cw_column_heights_ratio(&heights, &wall.skeleton, 0, &ratio), CW_OK);
+  assert_true(ratio[0].cramped);
+  assert_false(ratio[1].cramped);
+  // Layers of 1, g and g^2 that are h together: g^2 = h - 1 - g, g = (sqrt(4 h - 3) - 1) / 2.
+  double last[4];
+  for (int v = 0; v < 4; v++) last[v] = heights.room[v] - 1 - (sqrt(4 * heights.room[v] - 3) - 1) / 2;
+  NEAR(ratio[0].last, (last[0] + last[1] + last[2]) / 3);
+  NEAR(ratio[1].last, (last[0] + last[2] + last[3]) / 3);
+  NEAR(ratio[1].first, 1);
+  free(ratio);
+  free_wall(&wall, &heights);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_flat_wall),
+                                     cmocka_unit_test(the_finer_patch_holds_where_two_meet),
+                                     cmocka_unit_test(bends_of_the_wall),
+                                     cmocka_unit_test(a_vertex_without_triangle_is_an_error),
+                                     cmocka_unit_test(the_share_of_graded_columns),
+                                     cmocka_unit_test(room_and_what_it_allows)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "mesher/layers/thin_prism.h"
+
+// Determinant of a right prism from its faces, as checkMesh has it. The triangle lies in z = 0.
+static double by_faces(const double corner[3][2], double height, int on_wall) {
+  double sum[3][3] = {{0}}, face[5][3] = {{0}}, mean = 0;
+  double area = 0.5 * fabs((corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+                           (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]));
+  int count = 0;
+  face[count++][2] = area;
+  if (!on_wall) face[count++][2] = -area;
+  for (int k = 0; k < 3; k++, count++) {
+    const double *p = corner[k], *q = corner[(k + 1) % 3];
+    face[count][0] = height * (q[1] - p[1]);
+    face[count][1] = height * (p[0] - q[0]);
+  }
+  for (int f = 0; f < count; f++) mean += sqrt(face[f][0] * face[f][0] + face[f][1] * face[f][1] +
+                                               face[f][2] * face[f][2]) / count;
+  for (int f = 0; f < count; f++) {
+    for (int i = 0; i < 9; i++) sum[i / 3][i % 3] += face[f][i / 3] * face[f][i % 3] / (mean * mean);
+  }
+  return (sum[0][0] * (sum[1][1] * sum[2][2] - sum[1][2] * sum[2][1]) -
+          sum[0][1] * (sum[1][0] * sum[2][2] - sum[1][2] * sum[2][0]) +
+          sum[0][2] * (sum[1][0] * sum[2][1] - sum[1][1] * sum[2][0])) / 8;
+}
+
+static void as_by_the_faces(void **state) {
+  const double shape[2][3][2] = {{{0, 0}, {1, 0}, {0.5, 0.75}}, {{0, 0}, {3, 0.2}, {0.4, 1.1}}};
+  for (int s = 0; s < 2; s++) {
+    double around = 0, area = 0;
+    for (int k = 0; k < 3; k++) {
+      const double *p = shape[s][k], *q = shape[s][(k + 1) % 3];
+      around += hypot(q[0] - p[0], q[1] - p[1]);
+      area += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    for (int on_wall = 0; on_wall < 2; on_wall++) {
+      for (double height = 0.01; height < 2; height *= 5) {
+        double wanted = by_faces(shape[s], height, on_wall);
+        double made = cw_thin_prism_determinant(area, around, height, on_wall);
+        assert_true(fabs(made / wanted - 1) < 1e-12);
+      }
+    }
+  }
+}
+
+// On an equilateral triangle: small from edges of 39 heights on, on the wall of 65.
+static void limits_by_hand(void **state) {
+  const struct {
+    double length, wanted;
+    int on_wall;
+  } side[] = {{39, 1, 0}, {65, 1, 1}, {78, 1.88, 0}}; // not 2: sides count in the mean
+  for (int i = 0; i < 3; i++) {
+    double determinant = cw_thin_prism_determinant(sqrt(3) / 4, 3, 1 / side[i].length, side[i].on_wall);
+    assert_true(fabs(cw_thin_prism_wanted(determinant) / side[i].wanted - 1) < 0.03);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(as_by_the_faces), cmocka_unit_test(limits_by_hand)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

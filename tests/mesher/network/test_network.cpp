@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Planes that touch a face or an edge where they ought to cross it: they are refused, so that others may be tried.
+#include <cstring>
+
+#include <BRepPrimAPI_MakeCylinder.hxx>
+
+extern "C" {
+#include "mesher/network/network.h"
+}
+
+#include "solids.h"
+
+// Half a cylinder of 20 mm radius and 30 mm length over the plane y = 0, and one dividing plane.
+struct Half {
+  CwCad *cad = open_solid(BRepPrimAPI_MakeCylinder(20, 30, M_PI).Shape());
+  CwBackground background;
+  CwInside *inside = nullptr;
+  CwPlanNode node = {};
+  double none[2] = {0, 0};
+  CwNetwork network;
+
+  Half() {
+    assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
+    assert_int_equal(cw_inside_make(background.point_count, background.x, background.triangle_count,
+                                    background.triangle, &inside),
+                     CW_OK);
+  }
+  ~Half() {
+    cw_inside_free(&inside);
+    cw_background_free(&background);
+    cw_cad_close(&cad);
+  }
+  CwStatus divide(const CwPlane &plane) {
+    node = {plane, -1, {-1, -2}};
+    CwPlan plan = {1, 2, &node, none, none, 0, 0, 0, 0};
+    CwStatus status = cw_network_make(cad, &background, inside, &plan, &network);
+    if (status == CW_OK) cw_network_free(&network);
+    return status;
+  }
+};
+
+// The highest point of the background, on one of the two arcs.
+static double highest(const CwBackground &background, double *x) {
+  double most = 0;
+  for (int i = 0; i < background.point_count; i++) {
+    if (background.x[i][1] > most) most = background.x[i][1], *x = background.x[i][0];
+  }
+  return most;
+}
+
+static void a_plane_through_the_middle_divides(void **) {
+  Half half;
+  assert_int_equal(half.divide({{0, 1, 0}, 0.011}), CW_OK);
+  assert_int_equal(half.divide({{0, 0, 1}, 0.017}), CW_OK);
+}
+
+static void a_plane_that_grazes_is_refused(void **) {
+  Half half;
+  double x = 0, top = highest(half.background, &x);
+  // A tenth of a micrometre below a point of the background on the arc, and parallel to the surface there.
+  assert_near(std::hypot(x, top), 0.02, 1e-9);
+  CwPlane plane = {{x / 0.02, top / 0.02, 0}, 0.02 - 1e-7};
+  assert_int_equal(half.divide(plane), CW_RETRY);
+  assert_non_null(strstr(cw_fail_message(), "dividing plane 0 grazes"));
+  assert_non_null(strstr(cw_fail_message(), " mm"));
+  print_message("  %s\n", cw_fail_message());
+  cw_fail_clear();
+}
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(a_plane_through_the_middle_divides),
+                              cmocka_unit_test(a_plane_that_grazes_is_refused)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "launch.h"
+#include "mesher/parallel/schedule.h"
+#include "pipeline/log.h"
+
+enum { TASKS = 40 };
+
+typedef struct {
+  const char *mode;
+  int ran[TASKS], order[TASKS], count;
+} Work;
+
+static int64_t result_size(const Work *work, int32_t task) {
+  if (!strcmp(work->mode, "large"))
+    return task == 3 ? 150000001 : 0; // more than two broadcasts
+  return task % 5 == 4 ? 0 : 100 + 13 * task;
+}
+
+static unsigned char result_byte(int32_t task, int64_t at) {
+  return (unsigned char)(task * 31 + at * 7 + at / 251);
+}
+
+static CwStatus run(void *context, int32_t task, void **bytes, int64_t *size) {
+  Work *work = context;
+  CwStatus status = CW_OK;
+  work->ran[task]++;
+  work->order[work->count++] = task;
+  CW_REQUIRE(strcmp(work->mode, "fail") || task != 17, CW_ERR_MESH, "region 17 is too thin at (1, 2, 3) mm");
+  CW_REQUIRE(strcmp(work->mode, "all-fail"), CW_ERR_MESH, "every task fails");
+  if (!strcmp(work->mode, "killed") && task == 5)
+    raise(SIGKILL);
+  if (!strcmp(work->mode, "idle") && task == 0)
+    sleep(4);
+  else if (strcmp(work->mode, "alone") && strcmp(work->mode, "idle"))
+    usleep(2000);
+  *size = result_size(work, task);
+  if (*size) {
+    unsigned char *result = malloc((size_t)*size);
+    for (int64_t at = 0; at < *size; at++)
+      result[at] = result_byte(task, at);
+    *bytes = result;
+  }
+done:
+  return status;
+}
+
+static CwSchedule schedule_of(Work *work, const double *cost) {
+  return (CwSchedule){.step = "tasks",
+                      .unit = "tasks",
+                      .count = TASKS,
+                      .cost = cost,
+                      .run = run,
+                      .context = work,
+                      .gather = 1};
+}
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+// Gives when it began and ended. The first takes long, so that whoever is free reaches the tasks that wait for it.
+static CwStatus run_timed(void *context, int32_t task, void **bytes, int64_t *size) {
+  CwStatus status = CW_OK;
+  double *time = NULL;
+  CW_NEW(time, 2);
+  time[0] = now();
+  usleep(task == 0 ? 300000 : 1000);
+  CW_REQUIRE(strcmp(context, "first-fails") || task != 0, CW_ERR_MESH, "the first task fails");
+  time[1] = now();
+  *bytes = time;
+  *size = sizeof(double[2]);
+  time = NULL;
+done:
+  free(time);
+  return status;
+}
+
+// Of four tasks three wait for the first. How many began before it had ended, or -1 where the schedule failed.
+static int began_too_early(char *mode) {
+  int early = 0;
+  double cost[TASKS];
+  int32_t after[TASKS];
+  void *bytes[TASKS] = {0};
+  int64_t size[TASKS] = {0};
+  for (int k = 0; k < TASKS; k++) {
+    cost[k] = k % 4 == 0 ? 2 : 1;
+    after[k] = k % 4 == 0 ? -1 : k - k % 4;
+  }
+  CwSchedule schedule = {.step = "tasks", .unit = "tasks", .count = TASKS, .cost = cost, .after = after,
+                         .run = run_timed, .context = mode, .gather = 1};
+  if (cw_schedule_run(&schedule, bytes, size, NULL) != CW_OK) early = -1;
+  for (int k = 0; k < TASKS && early >= 0; k++) {
+    early += after[k] >= 0 && ((double *)bytes[k])[0] < ((double *)bytes[after[k]])[1];
+  }
+  for (int k = 0; k < TASKS; k++) free(bytes[k]);
+  return early;
+}
+
+static int results_wrong(const Work *work, void **bytes, const int64_t *size) {
+  int wrong = 0;
+  for (int32_t task = 0; task < TASKS; task++) {
+    wrong += size[task] != result_size(work, task);
+    for (int64_t at = 0; at < size[task]; at++) {
+      wrong += ((unsigned char *)bytes[task])[at] != result_byte(task, at);
+    }
+    free(bytes[task]);
+    bytes[task] = NULL;
+  }
+  return wrong;
+}
+
+static int be_a_rank(int argc, char **argv) {
+  int rank, ranks, wrong = 0;
+  cw_mpi_start(&argc, &argv, &rank, &ranks);
+  cw_log_open("test", NULL, rank == 0, 0);
+  if (!strcmp(argv[1], "after") || !strcmp(argv[1], "first-fails")) {
+    printf("RANK %d EARLY %d\n", rank, began_too_early(argv[1]));
+    cw_log_close();
+    cw_mpi_end();
+    return 0;
+  }
+  for (int repeat = 0; repeat < (strcmp(argv[1], "large") ? 3 : 1); repeat++) {
+    Work work = {.mode = argv[1]};
+    double cost[TASKS], seconds[TASKS];
+    void *bytes[TASKS] = {0};
+    int64_t size[TASKS] = {0};
+    for (int k = 0; k < TASKS; k++)
+      cost[k] = k % 7;
+    CwSchedule schedule = schedule_of(&work, cost);
+    if (cw_schedule_run(&schedule, bytes, size, seconds) != CW_OK)
+      return 99; // fails inside with many ranks
+    wrong += results_wrong(&work, bytes, size);
+    for (int k = 0; k < TASKS; k++)
+      wrong += !(seconds[k] > 0 && seconds[k] < 0.1) && !strcmp(argv[1], "work");
+    // Each rank took its tasks largest first.
+    for (int k = 1; k < work.count; k++)
+      wrong += cost[work.order[k]] > cost[work.order[k - 1]];
+    printf("RANK %d RAN %d WRONG %d\n", rank, work.count, wrong);
+    if (!strcmp(argv[1], "idle"))
+      break;
+  }
+  cw_log_close();
+  cw_mpi_end();
+  return wrong != 0;
+}
+
+static char output[100000];
+
+static void every_task_runs_once_and_all_get_all(void **state) {
+  for (int ranks = 2; ranks <= 8; ranks += 3) { // more than the cores of a small machine
+    int lines, code = launch(ranks, "work", output, sizeof output);
+    if (code)
+      fail_msg("exit status %d: %s", code, output);
+    assert_int_equal(sum_of(output, " RAN ", &lines), 3 * TASKS);
+    assert_int_equal(lines, 3 * ranks);
+    assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+  }
+}
+
+static void large_results_come_whole(void **state) {
+  int lines;
+  assert_int_equal(launch(2, "large", output, sizeof output), 0);
+  assert_int_equal(sum_of(output, " RAN ", &lines), TASKS);
+}
+
+static void failing_task_ends_the_run_with_one_line(void **state) {
+  double start = now();
+  assert_int_equal(launch(4, "fail", output, sizeof output), CW_ERR_MESH);
+  assert_true(now() - start < 10.0);
+  assert_int_equal(count_lines_with(output, "error:"), 1);
+  assert_non_null(strstr(output, "cutwater-test: error: region 17 is too thin at (1, 2, 3) mm"));
+  assert_null(strstr(output, "MPI_ABORT"));
+}
+
+static void many_failing_tasks_print_one_line(void **state) {
+  assert_int_equal(launch(4, "all-fail", output, sizeof output), CW_ERR_MESH);
+  assert_int_equal(count_lines_with(output, "error:"), 1);
+}
+
+static void tasks_wait_for_those_they_come_after(void **state) {
+  (void)state;
+  assert_int_equal(began_too_early("after"), 0);
+  static const int RANKS[] = {2, 3, 5};
+  for (int i = 0; i < 3; i++) {
+    int lines, code = launch(RANKS[i], "after", output, sizeof output);
+    if (code) fail_msg("exit status %d: %s", code, output);
+    assert_int_equal(sum_of(output, " EARLY ", &lines), 0);
+    assert_int_equal(lines, RANKS[i]);
+  }
+}
+
+// Those that wait do not wait for ever.
+static void failing_task_ends_those_that_wait(void **state) {
+  (void)state;
+  double start = now();
+  assert_int_equal(began_too_early("first-fails"), -1);
+  assert_int_equal(launch(3, "first-fails", output, sizeof output), CW_ERR_MESH);
+  assert_int_equal(count_lines_with(output, "error: the first task fails"), 1);
+  assert_true(now() - start < 10.0);
+}
+
+// A task that others would wait for without end is refused.
+static void tasks_wait_for_none_that_is_taken_later(void **state) {
+  (void)state;
+  const double cost[2] = {1, 2};
+  const int32_t after[2] = {-1, 0};
+  CwSchedule schedule = {.step = "tasks", .count = 2, .cost = cost, .after = after, .run = run_timed,
+                         .context = "after"};
+  assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_ERR_INPUT);
+}
+
+static void killed_rank_ends_the_run(void **state) {
+  double start = now();
+  assert_int_equal(launch(4, "killed", output, sizeof output), 128 + SIGKILL);
+  assert_true(now() - start < 10.0);
+}
+
+static double children_cpu(void) {
+  struct rusage usage;
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+// Five ranks wait four seconds for one task: two busy cores would burn eight seconds.
+static void waiting_ranks_sleep(void **state) {
+  double before = children_cpu();
+  assert_int_equal(launch(5, "idle", output, sizeof output), 0);
+  assert_true(children_cpu() - before < 5.0);
+}
+
+static void one_rank_runs_largest_first(void **state) {
+  Work work = {.mode = "alone"};
+  double cost[TASKS], seconds[TASKS];
+  void *bytes[TASKS] = {0};
+  int64_t size[TASKS] = {0};
+  for (int k = 0; k < TASKS; k++)
+    cost[k] = k % 3;
+  CwSchedule schedule = schedule_of(&work, cost);
+  assert_int_equal(cw_schedule_run(&schedule, bytes, size, seconds), CW_OK);
+  assert_int_equal(work.count, TASKS);
+  for (int k = 0; k < TASKS; k++)
+    assert_int_equal(work.ran[k], 1);
+  assert_int_equal(work.order[0], 2); // cost 2: 2, 5, 8, ...; then 1, 4, 7, ...
+  assert_int_equal(work.order[1], 5);
+  assert_int_equal(work.order[13], 1);
+  assert_int_equal(results_wrong(&work, bytes, size), 0);
+}
+
+static void one_rank_gives_the_failure_back(void **state) {
+  Work work = {.mode = "fail"};
+  void *bytes[TASKS] = {0};
+  int64_t size[TASKS] = {0};
+  CwSchedule schedule = schedule_of(&work, NULL);
+  assert_int_equal(cw_schedule_run(&schedule, bytes, size, NULL), CW_ERR_MESH);
+  assert_string_equal(cw_fail_message(), "region 17 is too thin at (1, 2, 3) mm");
+  for (int k = 0; k < TASKS; k++)
+    free(bytes[k]);
+}
+
+int main(int argc, char **argv) {
+  if (launched(argc))
+    return be_a_rank(argc, argv);
+  cw_log_open("test", NULL, 0, 0);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(one_rank_runs_largest_first),
+      cmocka_unit_test(one_rank_gives_the_failure_back),
+      cmocka_unit_test(every_task_runs_once_and_all_get_all),
+      cmocka_unit_test(large_results_come_whole),
+      cmocka_unit_test(failing_task_ends_the_run_with_one_line),
+      cmocka_unit_test(many_failing_tasks_print_one_line),
+      cmocka_unit_test(tasks_wait_for_those_they_come_after),
+      cmocka_unit_test(failing_task_ends_those_that_wait),
+      cmocka_unit_test(tasks_wait_for_none_that_is_taken_later),
+      cmocka_unit_test(killed_rank_ends_the_run),
+      cmocka_unit_test(waiting_ranks_sleep),
+  };
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  cw_log_close();
+  return failed;
+}

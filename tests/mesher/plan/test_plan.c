@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The planner on the solids of the paper's pump: balance, angles, determinism and rooms for few and many regions. With
+// arguments (paper 60 100): of that case's pump, so many regions a domain, which takes its time.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/network/network.h"
+#include "mesher/plan/plan_model.h"
+#include "mesher/run/domain.h"
+#include "mesher/run/domain_table.h"
+#include "mesher/run/mesh_plan.h"
+
+enum { CELLS_PER_REGION = 20000 };
+
+static const char *case_name = "paper";
+static int asked_count;
+static char **asked;
+static CwCase table;
+static CwDomainTable domains;
+static CwDomain domain[CW_DOMAINS_MOST];
+static CwSymmetry *symmetry; // of the rotor
+static double prism_factor;
+static const double TET_FACTOR = 11.6;
+
+static void check(CwStatus status) {
+  if (status != CW_OK) fail_msg("%s", cw_fail_message());
+}
+
+static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
+  void **part, **seed, **field;
+  int64_t size;
+  check(cw_domain_open(made, name, folder, &table, scales));
+  int faces = cw_cad_face_count(made->cad);
+  part = calloc((size_t)faces, sizeof *part);
+  assert_non_null(part);
+  check(cw_domain_start_background(made));
+  for (int f = 0; f < faces; f++) check(cw_domain_background_face(made, f, &part[f], &size));
+  check(cw_domain_take_background(made, part));
+  for (int f = 0; f < faces; f++) free(part[f]);
+  free(part);
+  int seeds = cw_size_seed_parts(made->cad);
+  seed = calloc((size_t)seeds, sizeof *seed);
+  assert_non_null(seed);
+  for (int i = 0; i < seeds; i++) check(cw_domain_seed(made, &table, i, &seed[i], &size));
+  int parts = cw_domain_size_parts(made);
+  field = calloc((size_t)parts, sizeof *field);
+  assert_non_null(field);
+  for (int i = 0; i < parts; i++) check(cw_domain_make_size(made, &table, seed, i, &field[i], &size));
+  check(cw_domain_take_size(made, field));
+  for (int i = 0; i < seeds; i++) free(seed[i]);
+  free(seed);
+  for (int i = 0; i < parts; i++) free(field[i]);
+  free(field);
+}
+
+static int open_pump(void **state) {
+  char folder[] = "test-plan-XXXXXX", command[1024], path[128], case_path[512];
+  CwFlowScales scales;
+  assert_non_null(mkdtemp(folder));
+  snprintf(case_path, sizeof case_path, "%s/cases/%s/case.yaml", CUTWATER_SOURCE_DIR, case_name);
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case %s --run %s > /dev/null 2>&1", CUTWATER_BIN_DIR,
+           case_path, folder);
+  assert_int_equal(system(command), 0);
+  check(cw_case_read(case_path, &table));
+  prism_factor = 2.45 * table.walls.layer_count;
+  snprintf(path, sizeof path, "%s/geometry/design.json", folder);
+  check(cw_flow_scales_read(path, &scales));
+  snprintf(path, sizeof path, "%s/geometry", folder);
+  check(cw_domain_table_read(path, &domains));
+  for (int d = 0; d < domains.count; d++) open_domain(&domain[d], domains.name[d], path, &scales);
+  check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
+  assert_true(symmetry || strcmp(case_name, "paper") != 0);
+  snprintf(command, sizeof command, "rm -r %s", folder);
+  assert_int_equal(system(command), 0);
+  return 0;
+}
+
+static int close_pump(void **state) {
+  for (int d = 0; d < domains.count; d++) cw_domain_close(&domain[d]);
+  cw_symmetry_free(&symmetry);
+  return 0;
+}
+
+static double cells_at(const CwDomain *of, double scale) {
+  return prism_factor * of->prism_integral / (scale * scale) +
+         TET_FACTOR * cw_domain_tet_integral(of, scale) / (scale * scale * scale);
+}
+
+// A plan of so many regions, of so many cells each or more.
+static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *plan) {
+  double scale = 1.1;
+  while (cells_at(of, scale) < each * regions) scale *= 0.99;
+  cw_size_set_scale(of->size, scale);
+  table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
+  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, TET_FACTOR));
+  *plan = of->plan;
+  of->plan = (CwPlan){0};
+}
+
+static void make_plan(CwDomain *of, int32_t regions, CwPlan *plan) {
+  make_plan_of(of, regions, CELLS_PER_REGION, plan);
+}
+
+typedef struct {
+  double least, greatest; // work of a region over the mean
+  int off;                // regions more than 15 % off the mean
+  double angle;           // degrees, the sharpest of all planes to walls
+  int sharp;              // planes under 40 degrees; one for all its turned copies
+} Figures;
+
+static int is_copy(const CwPlan *plan, int32_t node) {
+  int32_t end = plan->fan_first + plan->fan_count;
+  if (plan->fan_count == 0 || node < plan->fan_first) return 0;
+  return node < end ? node >= plan->fan_first + plan->fan_count / plan->fan_turns
+                    : node >= end + (plan->node_count - end) / plan->fan_turns;
+}
+
+static Figures figures_of(const CwPlan *plan) {
+  Figures figures = {INFINITY, 0, 0, 90, 0};
+  double sum = 0;
+  for (int32_t r = 0; r < plan->region_count; r++) sum += plan->predicted_cells[r];
+  for (int32_t r = 0; r < plan->region_count; r++) {
+    double share = plan->predicted_cells[r] / sum * plan->region_count;
+    figures.least = fmin(figures.least, share);
+    figures.greatest = fmax(figures.greatest, share);
+    figures.off += fabs(share - 1) > 0.15;
+  }
+  for (int32_t n = 0; n < plan->node_count; n++) {
+    double angle = asin(plan->worst_angle[n]) * 180 / M_PI;
+    figures.angle = fmin(figures.angle, angle);
+    figures.sharp += angle < 40 && !is_copy(plan, n);
+  }
+  return figures;
+}
+
+// Every leaf once, parents before children, both halves there.
+static void check_tree(const CwPlan *plan) {
+  int *seen = calloc((size_t)plan->region_count, sizeof *seen);
+  assert_non_null(seen);
+  assert_int_equal(plan->node_count, plan->region_count - 1);
+  for (int32_t n = 0; n < plan->node_count; n++) {
+    assert_true(plan->node[n].parent < n);
+    assert_true(fabs(cw_norm(plan->node[n].plane.normal) - 1) < 1e-12);
+    for (int s = 0; s < 2; s++) {
+      int32_t child = plan->node[n].child[s];
+      if (child < 0) {
+        assert_true(-1 - child < plan->region_count);
+        seen[-1 - child]++;
+      } else {
+        assert_int_equal(plan->node[child].parent, n);
+      }
+    }
+  }
+  for (int32_t r = 0; r < plan->region_count; r++) assert_int_equal(seen[r], 1);
+  free(seen);
+}
+
+// Predicted work against a count of its own: all samples of the size field where they lie, and no layers.
+static void check_work(const CwDomain *of, const CwPlan *plan) {
+  double(*x)[3], *volume, *tets = calloc((size_t)plan->region_count, sizeof *tets), sum = 0, predicted = 0;
+  int32_t count;
+  assert_non_null(tets);
+  check(cw_size_samples(of->size, &count, &x, &volume));
+  for (int32_t i = 0; i < count; i++) {
+    double h = cw_size_at(of->size, x[i]), cells = TET_FACTOR * volume[i] / (h * h * h);
+    tets[cw_plan_locate(plan, x[i])] += cells;
+    sum += cells;
+  }
+  for (int32_t r = 0; r < plan->region_count; r++) predicted += plan->predicted_cells[r];
+  for (int32_t r = 0; r < plan->region_count; r++) {
+    double share = plan->predicted_cells[r] / predicted * plan->region_count;
+    double other = tets[r] / sum * plan->region_count;
+    // With the layers, and without: of one order. Small regions between walls are all layers.
+    assert_true(fabs(share - other) < (plan->region_count > 50 ? 1.5 : 0.5));
+  }
+  free(x);
+  free(volume);
+  free(tets);
+}
+
+// All regions within 15 % of the mean, and no plane slantwise on a wall.
+static void judge(int d, int32_t regions) {
+  CwPlan plan;
+  make_plan(&domain[d], regions, &plan);
+  Figures figures = figures_of(&plan);
+  print_message("%s: %d of %d regions, work %.3f to %.3f of the mean, walls at %.0f degrees, %d planes under 40\n",
+                domain[d].name, plan.region_count, regions, figures.least, figures.greatest, figures.angle,
+                figures.sharp);
+  check_tree(&plan);
+  check_work(&domain[d], &plan);
+  assert_int_equal(plan.region_count, regions);
+  assert_int_equal(figures.off, 0);
+  assert_int_equal(figures.sharp, 0);
+  cw_plan_free(&plan);
+}
+
+static void few_regions_are_even_and_cut_cleanly(void **state) {
+  for (int d = 0; d < domains.count; d++) {
+    judge(d, 4);
+    judge(d, 8);
+  }
+}
+
+static void dozens_of_regions_too(void **state) {
+  for (int d = 0; d < domains.count; d++) judge(d, 32);
+}
+
+static void two_plans_are_the_same(void **state) {
+  CwPlan a, b;
+  make_plan(&domain[0], 12, &a);
+  make_plan(&domain[0], 12, &b);
+  assert_int_equal(a.region_count, b.region_count);
+  assert_memory_equal(a.node, b.node, (size_t)a.node_count * sizeof *a.node);
+  assert_memory_equal(a.predicted_cells, b.predicted_cells, (size_t)a.region_count * sizeof *a.predicted_cells);
+  cw_plan_free(&a);
+  cw_plan_free(&b);
+}
+
+static void packed_plans_come_back_whole(void **state) {
+  CwPlan plan, copy;
+  void *bytes;
+  int64_t size;
+  make_plan(&domain[1], 5, &plan);
+  check(cw_plan_pack(&plan, &bytes, &size));
+  check(cw_plan_unpack(bytes, &copy));
+  assert_int_equal(copy.region_count, plan.region_count);
+  assert_memory_equal(copy.node, plan.node, (size_t)plan.node_count * sizeof *plan.node);
+  const double x[3] = {0.05, 0.1, 0.001};
+  assert_int_equal(cw_plan_locate(&copy, x), cw_plan_locate(&plan, x));
+  assert_true(cw_plan_in_region(&copy, cw_plan_locate(&plan, x), x, 0));
+  free(bytes);
+  cw_plan_free(&plan);
+  cw_plan_free(&copy);
+}
+
+// Planned anew, a domain has one region more, other planes and the scale of before; three times, then the run ends.
+static void plans_that_do_not_fit_give_way(void **state) {
+  CwMeshRun run = {.table = &table, .domains = domains, .prism_factor = 2 * prism_factor, .tet_factor = 2 * TET_FACTOR,
+                   .planned_prism_factor = prism_factor, .planned_tet_factor = TET_FACTOR, .planned_scale = 2};
+  memcpy(run.domain, domain, sizeof domain);
+  cw_mesh_set_scale(&run, 2);
+  table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
+  cw_mesh_set_scale(&run, 1.7);
+  const double x[3] = {0.05, 0.1, 0.001}, wanted = cw_size_at(domain[1].size, x);
+  check(cw_mesh_plan_again(&run, 1));
+  CwPlane first = run.domain[1].plan.node[0].plane;
+  assert_int_equal(run.domain[1].plan.region_count, 7);
+  check(cw_mesh_plan_again(&run, 1));
+  assert_int_equal(run.domain[1].plan.region_count, 8);
+  assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
+  check(cw_mesh_plan_again(&run, 1));
+  assert_int_equal(run.domain[1].plan.region_count, 9);
+  assert_true(run.scale == 1.7 && run.prism_factor == 2 * prism_factor && run.tet_factor == 2 * TET_FACTOR);
+  assert_true(cw_size_at(domain[1].size, x) == wanted);
+  assert_int_equal(CW_FAIL(CW_RETRY, "dividing plane 3 grazes a face"), CW_RETRY);
+  assert_int_equal(cw_mesh_plan_again(&run, 1), CW_ERR_MESH);
+  assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans");
+  cw_fail_clear();
+  cw_plan_free(&run.domain[1].plan);
+}
+
+// Layers on a face at x, m; 0 on caps.
+static double layers_at(const CwDomain *of, int face, const double x[3]) {
+  int patch = cw_cad_face_patch(of->cad, face);
+  const CwLayerTarget *target = &of->patch_layers[patch];
+  if (cw_cad_patch_kind(of->cad, patch) != CW_PATCH_WALL) return 0;
+  return fmin(target->thickness,
+              fmax(1.05 * of->layer_count * target->first_height, 2.5 * cw_size_at(of->size, x)));
+}
+
+static double layers_at_corner(const CwDomain *of, const CwCorner *corner) {
+  double most = corner->face >= 0 ? layers_at(of, corner->face, corner->x) : 0;
+  int faces[2];
+  if (corner->edge >= 0) {
+    cw_cad_edge_faces(of->cad, corner->edge, faces);
+    for (int s = 0; s < 2; s++) most = fmax(most, layers_at(of, faces[s], corner->x));
+  }
+  return most;
+}
+
+// True where the plane runs along a sharp CAD edge, nearer than half of the layers there.
+static int runs_along(const CwDomain *of, const CwPlan *plan, int32_t node, int edge) {
+  double range[2], x[3], tangent[3];
+  int face[2];
+  cw_cad_edge_range(of->cad, edge, range);
+  cw_cad_edge_faces(of->cad, edge, face);
+  for (int i = 0; i <= 100; i++) {
+    cw_cad_edge_point(of->cad, edge, range[0] + (range[1] - range[0]) * i / 100, x, tangent);
+    cw_unit(tangent);
+    double layers = fmax(layers_at(of, face[0], x), layers_at(of, face[1], x));
+    if (fabs(cw_plane_distance(&plan->node[node].plane, x)) < layers / 2 &&
+        fabs(cw_dot(plan->node[node].plane.normal, tangent)) < 0.35 && cw_plan_in_cell(plan, node, x, 0, NULL, 0)) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+typedef struct {
+  int filled; // pieces of lines that the layers at their ends fill
+  int along;  // planes and edges; one for all turned copies of a plane
+} Room;
+
+// By the network that follows from the plan, not by what the planner thought of it. CW_RETRY where a plane grazes an edge:
+// then the mesher plans again with one region more.
+static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
+  CwNetwork network;
+  Room room = {0};
+  CwStatus status = cw_network_make(of->cad, &of->background, of->inside, plan, &network);
+  if (status == CW_RETRY) return status;
+  check(status);
+  for (int32_t i = 0; i < network.curve_count; i++) {
+    const CwCurve *curve = &network.curve[i];
+    if (curve->kind != CW_CURVE_LINE) continue;
+    double layers = 0;
+    for (int k = 0; k < 2; k++) layers += layers_at_corner(of, &network.corner[curve->corner[k]]);
+    room.filled += curve->fine_length[curve->fine_count - 1] < layers;
+  }
+  cw_network_free(&network);
+  for (int e = 0; e < cw_cad_edge_count(of->cad); e++) {
+    if (cw_plan_edge_is_smooth(of->cad, e)) continue;
+    for (int32_t n = 0; n < plan->node_count; n++) room.along += !is_copy(plan, n) && runs_along(of, plan, n, e);
+  }
+  *found = room;
+  return CW_OK;
+}
+
+// All ways of dividing the pump: regions are even, planes and lines keep clear of layers, but for `filled` lines, and no
+// plane stands slantwise on walls, but for `few` of the rotor's; `along` may run along edges.
+static void judge_room(int32_t regions, double each, int few, int filled, int along) {
+  for (int way = 0; way < 3; way++) {
+    CwDomain *of = &domain[way == 2];
+    CwPlan plan;
+    if (way == 1 && !symmetry) continue;
+    of->symmetry = way == 1 ? symmetry : NULL;
+    Room room;
+    make_plan_of(of, regions, each, &plan);
+    for (int more = 1; room_of(of, &plan, &room) == CW_RETRY; more++) {
+      assert_true(more <= 3 && way != 1);
+      cw_fail_clear();
+      cw_plan_free(&plan);
+      make_plan_of(of, regions + more, each, &plan);
+    }
+    of->symmetry = NULL;
+    Figures figures = figures_of(&plan);
+    print_message(
+        "%s%s: %d of %d regions, work %.3f to %.3f of the mean, %d more than 15 %% off, walls at %.0f degrees, "
+        "%d planes under 40, %d lines filled, %d planes along edges\n",
+        of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
+        figures.off, figures.angle, figures.sharp, room.filled, room.along);
+    assert_int_equal(plan.fan_count > 0, way == 1);
+    assert_int_equal(figures.off, 0);
+    assert_true(figures.sharp <= (way == 2 ? 0 : few) && room.filled <= filled && room.along <= along);
+    cw_plan_free(&plan);
+  }
+}
+
+static void planes_keep_clear_of_edges_and_layers(void **state) {
+  judge_room(8, 4e5, 0, 0, 0);
+  judge_room(30, 1e5, 0, 0, 0);
+}
+
+// Hundreds do not find room beside all edges. From some 190 on the layers before the nose of the nut and the nose where
+// it is blunt are longer than a slice of a periodic rotor may be, and planes between slices can only stand across. One plane
+// of the rotor of ns200 in 32 regions has 38 degrees, whatever four tries of each small part find.
+static void all_that_are_asked_can_be_had(void **state) {
+  for (int i = 0; i < asked_count; i++) {
+    int regions = atoi(asked[i]);
+    judge_room(regions, regions < 100 ? 1e5 : 4e5, 1, regions / 100, regions / 8);
+  }
+}
+
+int main(int argc, char **argv) {
+  const struct CMUnitTest quick[] = {
+      cmocka_unit_test(few_regions_are_even_and_cut_cleanly),
+      cmocka_unit_test(dozens_of_regions_too),
+      cmocka_unit_test(planes_keep_clear_of_edges_and_layers),
+      cmocka_unit_test(two_plans_are_the_same),
+      cmocka_unit_test(plans_that_do_not_fit_give_way),
+      cmocka_unit_test(packed_plans_come_back_whole),
+  };
+  const struct CMUnitTest many[] = {cmocka_unit_test(all_that_are_asked_can_be_had)};
+  if (argc < 2) return cmocka_run_group_tests(quick, open_pump, close_pump);
+  case_name = argv[1];
+  asked = argv + 2;
+  asked_count = argc - 2;
+  return cmocka_run_group_tests(many, open_pump, close_pump);
+}

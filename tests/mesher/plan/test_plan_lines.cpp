@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Lines in which a new plane meets the plane above it, in a box with layers on its walls.
+#include <vector>
+
+#include <BRepPrimAPI_MakeBox.hxx>
+
+extern "C" {
+#include "mesher/plan/plan_lines.h"
+}
+
+#include "solids.h"
+
+static void check(CwStatus status) {
+  if (status != CW_OK) fail_msg("%s", cw_fail_message());
+}
+
+// A box of 40 x 30 x 20 mm with layers of 1 mm, divided by the plane x = 21 mm.
+struct Box {
+  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(40, 30, 20).Shape());
+  CwBackground background;
+  CwInside *inside = nullptr;
+  CwSize *size = nullptr;
+  CwPlanModel model;
+  CwPlanPart whole;
+  CwPlanNode node[2] = {};
+  double none[3] = {0, 0, 0};
+  CwPlan plan = {1, 2, node, none, none, 0, 0, 0, 0};
+
+  Box() {
+    CwMeshTable table = {};
+    const double relative = 1, thickness = 1e-3;
+    int64_t bytes;
+    void *block = nullptr;
+    table.gradation = 0.2;
+    table.curvature_angle = 0.3;
+    table.cells_across_gap = 1;
+    check(cw_background_make(cad, 1e-4, 0.2, &background));
+    check(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
+    CwSizeSeeds *seeds = nullptr;
+    std::vector<void *> seed(cw_size_seed_parts(cad));
+    check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
+    for (size_t i = 0; i < seed.size(); i++) check(cw_size_seeds_part(seeds, (int)i, &seed[i], &bytes));
+    cw_size_seeds_free(&seeds);
+    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block,
+                       &bytes));
+    check(cw_size_unpack(&block, &size));
+    for (void *one : seed) free(one);
+    CwPlanOptions options = {3, &thickness, nullptr, 0, 11, 12};
+    check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
+    check(cw_plan_part_whole(&model, &whole));
+    model.mean_work = whole.work / 3;
+    node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, 1}};
+    node[1].parent = 0;
+  }
+  ~Box() {
+    cw_plan_part_free(&whole);
+    cw_plan_model_free(&model);
+    cw_size_free(&size);
+    cw_inside_free(&inside);
+    cw_background_free(&background);
+    cw_cad_close(&cad);
+  }
+  // Of the plane with this normal through a point, in mm.
+  double cost(double nx, double ny, double nz, double x, double y, double z) {
+    double length = std::sqrt(nx * nx + ny * ny + nz * nz);
+    CwPlane plane = {{nx / length, ny / length, nz / length}, 0};
+    plane.offset = (nx * x + ny * y + nz * z) / length * 1e-3;
+    return cw_plan_lines(&model, &plan, 1, &whole, &plane, INFINITY);
+  }
+};
+
+static void lines_with_room_cost_nothing(void **) {
+  Box box;
+  assert_near(box.cost(0, 1, 0, 30, 14, 10), 0, 1e-9);
+  assert_near(box.cost(0, 0, 1, 30, 14, 10), 0, 1e-9);
+}
+
+// The line comes from the wall y = 30 mm to the floor at y = 2 mm; its cosine to the floor's normal is that of the
+// case.
+static void lines_tangent_to_a_wall_are_refused(void **) {
+  Box box;
+  const double cosine[] = {0.1, 0.14, 0.16, 0.4};
+  for (double c : cosine) {
+    double cost = box.cost(0, -c, std::sqrt(1 - c * c), 30, 2, 0);
+    assert_int_equal(std::isinf(cost), c < 0.15);
+    assert_true(cost > 0);
+  }
+}
+
+static void lines_in_the_layers_are_refused(void **) {
+  Box box;
+  assert_true(std::isinf(box.cost(0, 0, 1, 30, 14, 0.9)));
+  assert_true(std::isinf(box.cost(0, 0, 1, 30, 14, 19.1)));
+  double cramped = box.cost(0, 0, 1, 30, 14, 1.3);
+  assert_true(cramped > 0 && !std::isinf(cramped));
+}
+
+// Planes that meet under 40 degrees cost more than those over it, and parallel ones leave a region between them.
+static void sharp_lines_cost_much(void **) {
+  Box box;
+  double sharp = box.cost(std::cos(35 * M_PI / 180), std::sin(35 * M_PI / 180), 0, 21, 15, 10);
+  double fair = box.cost(std::cos(55 * M_PI / 180), std::sin(55 * M_PI / 180), 0, 21, 15, 10);
+  assert_true(sharp > fair + 4);
+  assert_true(std::isinf(box.cost(1, 0, 0, 21.1, 15, 10)));
+  assert_near(box.cost(1, 0, 0, 31, 15, 10), 0, 1e-9);
+}
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(lines_with_room_cost_nothing), cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
+      cmocka_unit_test(lines_in_the_layers_are_refused), cmocka_unit_test(sharp_lines_cost_much)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

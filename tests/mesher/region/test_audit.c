@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "mesher/region/audit.h"
+
+#define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
+
+// A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
+static double x[8][3];
+static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4],
+    quad_patch[4], quad_cell[4];
+
+static CwRegionMesh prism_and_tet(void) {
+  static const double points[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                      {1, 0, 1}, {0, 1, 1}, {0, 0, 2}, {5, 5, 5}};
+  static const int32_t triangles[4][3] = {{0, 2, 1}, {3, 4, 6}, {4, 5, 6}, {5, 3, 6}};
+  static const int32_t cells[4] = {1, 0, 0, 0};
+  static const int32_t quads[3][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  memcpy(x, points, sizeof points);
+  memcpy(tet[0], (int32_t[4]){3, 4, 5, 6}, sizeof tet[0]);
+  memcpy(prism[0], (int32_t[6]){0, 1, 2, 3, 4, 5}, sizeof prism[0]);
+  memcpy(triangle, triangles, sizeof triangles);
+  memcpy(triangle_cell, cells, sizeof cells);
+  memcpy(quad, quads, sizeof quads);
+  for (int k = 0; k < 3; k++)
+    quad_cell[k] = 1;
+  CwRegionMesh r = {.domain = "rotor", .region = 3, .number = 1};
+  r.point_count = 7, r.x = x;
+  r.tetrahedron_count = 1, r.tetrahedron = tet;
+  r.prism_count = 1, r.prism = prism;
+  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch,
+  r.triangle_cell = triangle_cell;
+  r.quad_count = 3, r.quad = quad, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
+  return r;
+}
+
+static void fails_with(const CwRegionMesh *r, const char *part) {
+  CwQuality q;
+  cw_fail_clear();
+  assert_int_equal(cw_audit_region(r, &q), CW_ERR_MESH);
+  assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
+  if (!strstr(cw_fail_message(), part))
+    fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
+}
+
+static void good_region_passes_with_its_figures(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
+  NEAR(q.least_volume, 1.0 / 6.0, 1e-15);
+  assert_int_equal(q.cells, 2);
+  NEAR(q.aspect_mean, sqrt(2.0), 1e-15);
+  assert_int_equal(q.aspect_class[0], 1);
+  NEAR(q.dihedral_least, 54.735610317245, 1e-9);
+  assert_int_equal(q.dihedral_bin[5], 1);
+  assert_int_equal(q.prism_count, 1);
+  NEAR(q.prism_least_scaled_jacobian, sqrt(0.5) * 2.0 / sqrt(3.0), 1e-14); // corners of 45 degrees
+  assert_int_equal(q.prism_jacobian_bin[16], 1);
+}
+
+static void single_tetrahedron(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  static const int32_t corner[4] = {0, 1, 2, 3}, faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  memcpy(tet[0], corner, sizeof corner);
+  memcpy(triangle, faces, sizeof faces);
+  memset(triangle_cell, 0, sizeof triangle_cell);
+  r.point_count = 4, r.prism_count = 0, r.quad_count = 0;
+  CwQuality q;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  NEAR(q.volume, 1.0 / 6.0, 1e-16);
+  assert_int_equal(q.prism_count, 0);
+}
+
+static void inverted_cells_are_named_with_their_place(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  tet[0][0] = 4, tet[0][1] = 3;
+  fails_with(&r, "tetrahedron of cell 0 at (250, 250, 1250) mm has no positive volume");
+  r = prism_and_tet();
+  memcpy(prism[0], (int32_t[6]){3, 4, 5, 0, 1, 2}, sizeof prism[0]);
+  fails_with(&r, "prism of cell 1");
+  r = prism_and_tet();
+  x[6][2] = 1.0; // flat
+  fails_with(&r, "no positive volume");
+  r = prism_and_tet();
+  x[6][2] = NAN;
+  fails_with(&r, "no positive volume");
+}
+
+// Two cells fit on both sides of a triangle; a third and a fourth do not, whichever two of them would make a pair.
+static void cells_above_and_below_one_face(void **state) {
+  double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {0, 0, -3}, {0, 0, 6}, {0, 0, -6}};
+  int32_t cells[4][4] = {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}, {0, 2, 1, 6}};
+  int64_t shared_id[7] = {0, 1, 2, 3, 4, 5, 6};
+  static const char *const fault[5] = {NULL, NULL, NULL,
+                                       "triangle of cell 2 at (1000, 1000, 0) mm belongs to more than two cells",
+                                       "triangle of cell 2 at (1000, 1000, 0) mm belongs to more than two cells"};
+  for (int count = 1; count <= 4; count++) {
+    CwRegionMesh r = {.domain = "rotor", .region = 3, .x = points, .tetrahedron = cells, .shared_id = shared_id};
+    CwQuality q;
+    r.tetrahedron_count = count;
+    r.point_count = r.shared_count = 3 + count;
+    if (fault[count])
+      fails_with(&r, fault[count]);
+    else
+      assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  }
+}
+
+static void two_cells_on_one_side(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  memcpy(tet[1], (int32_t[4]){3, 4, 5, 7}, sizeof tet[1]);
+  r.tetrahedron_count = 2, r.prism_count = 0, r.triangle_count = 0, r.quad_count = 0, r.point_count = 5;
+  // Points 3..7 alone, renumbered 0..4.
+  memmove(x, x + 3, 5 * sizeof x[0]);
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; i < 4; i++)
+      tet[k][i] -= 3;
+  }
+  fails_with(&r, "has both of its cells on one side");
+}
+
+static void open_face_is_allowed_only_on_dividing_planes(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q;
+  r.quad_count = 2; // quad 2, 0, 3, 5 is no longer listed
+  fails_with(&r, "is open");
+  r.shared_count = 5;
+  fails_with(&r, "quadrilateral of cell 1 at (0, 500, 500) mm is open");
+  int64_t shared_id[7] = {10, 11, 12, 13, 14, 15, 16};
+  r.shared_count = 6;
+  r.shared_id = shared_id;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  // The sum tells of the open face's numbers and coordinates, and of nothing else.
+  uint64_t sum = q.open_faces;
+  assert_true(sum != 0);
+  shared_id[1] = 17;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces == sum);
+  shared_id[0] = 18;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces != sum);
+  shared_id[0] = 10;
+  double x = r.x[5][2];
+  r.x[5][2] = nextafter(x, 2 * x);
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces != sum);
+  r.x[5][2] = x;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_true(q.open_faces == sum);
+}
+
+// The same mesh with the corners of its cells and faces named from another one on.
+static void corners_may_be_turned(void **state) {
+  for (int way = 0; way < 12 * 3 * 4; way++) {
+    CwRegionMesh r = prism_and_tet();
+    CwQuality q;
+    // Even permutations of four: one of four corners first, the other three turned.
+    static const int even[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+    int turn = way % 3, first = way / 3 % 4, prism_turn = way / 12 % 3, face_turn = way / 36;
+    static const int32_t corner[4] = {3, 4, 5, 6};
+    tet[0][0] = corner[even[first][0]];
+    for (int k = 0; k < 3; k++) {
+      tet[0][1 + k] = corner[even[first][1 + (k + turn) % 3]];
+      prism[0][k] = (k + prism_turn) % 3;
+      prism[0][3 + k] = 3 + (k + prism_turn) % 3;
+    }
+    for (int f = 0; f < r.triangle_count; f++) {
+      int32_t was[3];
+      memcpy(was, triangle[f], sizeof was);
+      for (int k = 0; k < 3; k++)
+        triangle[f][k] = was[(k + face_turn) % 3];
+    }
+    for (int f = 0; f < r.quad_count; f++) {
+      int32_t was[4];
+      memcpy(was, quad[f], sizeof was);
+      for (int k = 0; k < 4; k++)
+        quad[f][k] = was[(k + face_turn) % 4];
+    }
+    assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+    NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);
+  }
+}
+
+// A ring of tetrahedra about one edge: every one of its faces but one for each has that edge's first point.
+static void many_faces_at_one_point(void **state) {
+  enum { RING = 200 };
+  static double points[RING + 2][3];
+  static int32_t cells[RING][4], faces[2 * RING][3], patches[2 * RING], of_cell[2 * RING];
+  points[0][2] = -1.0;
+  points[1][2] = 1.0;
+  for (int k = 0; k < RING; k++) {
+    double angle = 2.0 * 3.14159265358979323846 * k / RING;
+    int32_t a = 2 + k, b = 2 + (k + 1) % RING;
+    points[a][0] = cos(angle), points[a][1] = sin(angle);
+    memcpy(cells[k], (int32_t[4]){0, a, b, 1}, sizeof cells[k]);
+    memcpy(faces[2 * k], (int32_t[3]){0, b, a}, sizeof faces[0]);
+    memcpy(faces[2 * k + 1], (int32_t[3]){a, b, 1}, sizeof faces[0]);
+    of_cell[2 * k] = of_cell[2 * k + 1] = k;
+  }
+  CwRegionMesh r = {.domain = "rotor", .region = 3, .point_count = RING + 2, .x = points};
+  r.tetrahedron_count = RING, r.tetrahedron = cells;
+  r.triangle_count = 2 * RING, r.triangle = faces, r.triangle_patch = patches, r.triangle_cell = of_cell;
+  CwQuality q;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  for (int k = 0; k < 2 * RING; k++) {
+    const int last = 2 * RING - 1;
+    char fault[60];
+    int32_t kept[3];
+    snprintf(fault, sizeof fault, "triangle of cell %d at ", k / 2);
+    of_cell[k] = (k / 2 + 1) % RING;
+    fails_with(&r, fault);
+    assert_non_null(strstr(cw_fail_message(), "with the wrong cell"));
+    memcpy(kept, faces[k], sizeof kept);
+    memcpy(faces[k], faces[last], sizeof kept);
+    of_cell[k] = of_cell[last];
+    r.triangle_count = last; // all but this one
+    fails_with(&r, fault);
+    assert_non_null(strstr(cw_fail_message(), "is open"));
+    memcpy(faces[k], kept, sizeof kept);
+    of_cell[k] = k / 2;
+    r.triangle_count = 2 * RING;
+  }
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  r.tetrahedron_count = RING - 1; // its faces are listed, and two of its neighbours' are open
+  fails_with(&r, "is listed as boundary but is no face of a cell");
+}
+
+// A copy has the sum of a whole audit, from the faces on dividing planes alone, and its cells are looked at.
+static void copies_are_audited_by_what_is_their_own(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q;
+  uint64_t sum = 0;
+  int64_t shared_id[6] = {10, 11, 12, 13, 14, 15};
+  r.quad_count = 2, r.shared_count = 6, r.shared_id = shared_id; // quad 2, 0, 3, 5 lies on a plane
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  assert_int_equal(cw_audit_copy(&r, &sum), CW_OK);
+  assert_true(sum != 0 && sum == q.open_faces);
+  x[6][2] = 1.0;
+  cw_fail_clear();
+  assert_int_equal(cw_audit_copy(&r, &sum), CW_ERR_MESH);
+  assert_non_null(strstr(cw_fail_message(), "tetrahedron of cell 0"));
+  assert_non_null(strstr(cw_fail_message(), "no positive volume"));
+}
+
+static void wrong_lists_are_found(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  memcpy(triangle[4], triangle[1], sizeof triangle[1]);
+  triangle_cell[4] = triangle_cell[1];
+  r.triangle_count = 5;
+  fails_with(&r, "more than once");
+  r = prism_and_tet();
+  memcpy(triangle[4], (int32_t[3]){3, 5, 4}, sizeof triangle[4]); // of the tetrahedron and the prism
+  triangle_cell[4] = 0;
+  r.triangle_count = 5;
+  fails_with(&r, "belongs to more than two cells or boundary faces");
+  r = prism_and_tet();
+  memcpy(triangle[0], (int32_t[3]){0, 1, 2}, sizeof triangle[0]);
+  fails_with(&r, "with its normal into the domain");
+  r = prism_and_tet();
+  triangle_cell[0] = 0;
+  fails_with(&r, "wrong cell");
+  r = prism_and_tet();
+  memcpy(triangle[4], (int32_t[3]){0, 1, 6}, sizeof triangle[4]);
+  r.triangle_count = 5;
+  fails_with(&r, "no face of a cell");
+  r = prism_and_tet();
+  memcpy(quad[0], (int32_t[4]){0, 4, 1, 3}, sizeof quad[0]); // corners in a wrong order
+  fails_with(&r, "boundary");
+}
+
+static void points_and_indices_are_checked(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  r.point_count = 8;
+  fails_with(&r, "point 7 at (5000, 5000, 5000) mm belongs to no cell");
+  r = prism_and_tet();
+  tet[0][3] = 7;
+  fails_with(&r, "names point 7; 0 to 6 are allowed");
+}
+
+static void sums_of_two_regions(void **state) {
+  CwRegionMesh r = prism_and_tet();
+  CwQuality q, sum;
+  assert_int_equal(cw_audit_region(&r, &q), CW_OK);
+  cw_quality_start(&sum);
+  cw_quality_add(&sum, &q, 1);
+  q.aspect_mean = 3.0, q.aspect_max = 4.0, q.dihedral_least = 12.0;
+  q.aspect_class[0] = 0, q.aspect_class[2] = 3;
+  cw_quality_add(&sum, &q, 3);
+  NEAR(sum.aspect_mean, (sqrt(2.0) + 9.0) / 4.0, 1e-14);
+  NEAR(sum.aspect_max, 4.0, 0.0);
+  NEAR(sum.dihedral_least, 12.0, 0.0);
+  NEAR(sum.volume, 2.0 * (0.5 + 1.0 / 6.0), 1e-15);
+  assert_int_equal(sum.cells, 4);
+  assert_int_equal(sum.aspect_class[2], 3);
+  assert_int_equal(sum.prism_count, 2);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(good_region_passes_with_its_figures),
+      cmocka_unit_test(single_tetrahedron),
+      cmocka_unit_test(inverted_cells_are_named_with_their_place),
+      cmocka_unit_test(cells_above_and_below_one_face),
+      cmocka_unit_test(two_cells_on_one_side),
+      cmocka_unit_test(open_face_is_allowed_only_on_dividing_planes),
+      cmocka_unit_test(corners_may_be_turned),
+      cmocka_unit_test(many_faces_at_one_point),
+      cmocka_unit_test(copies_are_audited_by_what_is_their_own),
+      cmocka_unit_test(wrong_lists_are_found),
+      cmocka_unit_test(points_and_indices_are_checked),
+      cmocka_unit_test(sums_of_two_regions),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "mesher/region/region_file.h"
+
+static char folder[256], path[300], other[300];
+
+static int make_folder(void **state) {
+  const char *base = getenv("TMPDIR");
+  snprintf(folder, sizeof folder, "%s/region-XXXXXX", base ? base : P_tmpdir);
+  if (!mkdtemp(folder))
+    return 1;
+  snprintf(path, sizeof path, "%s/rotor-0001.h5", folder);
+  snprintf(other, sizeof other, "%s/rotor-0002.h5", folder);
+  return 0;
+}
+
+static int remove_folder(void **state) {
+  unlink(path);
+  unlink(other);
+  return rmdir(folder); // fails where a temporary file was left behind
+}
+
+static double points[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},    {0, 0, 1},
+                              {1, 0, 1}, {0, 1, 1}, {0.2, 0.2, 2}};
+static int64_t ids[2] = {7, 5000000000};
+static int32_t tetrahedra[1][4] = {{3, 4, 5, 6}}, prisms[1][6] = {{0, 1, 2, 3, 4, 5}};
+static int32_t triangles[2][3] = {{0, 2, 1}, {3, 4, 6}}, triangle_patch[2] = {0, 3},
+               triangle_cell[2] = {1, 0};
+static int32_t quads[1][4] = {{0, 1, 4, 3}}, quad_patch[1] = {2}, quad_cell[1] = {1};
+
+static CwRegionMesh region_by_hand(void) {
+  CwRegionMesh r = {
+      .domain = "rotor", .region = 1, .number = 4, .fingerprint = "0123456789abcdef0123456789abcdef"};
+  r.point_count = 7, r.shared_count = 2, r.x = points, r.shared_id = ids;
+  r.tetrahedron_count = 1, r.tetrahedron = tetrahedra;
+  r.prism_count = 1, r.prism = prisms;
+  r.triangle_count = 2, r.triangle = triangles, r.triangle_patch = triangle_patch,
+  r.triangle_cell = triangle_cell;
+  r.quad_count = 1, r.quad = quads, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
+  return r;
+}
+
+static void comes_back_as_it_was(void **state) {
+  CwRegionMesh r = region_by_hand(), got;
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  assert_int_equal(cw_region_read(path, &got), CW_OK);
+  assert_string_equal(got.domain, "rotor");
+  assert_string_equal(got.fingerprint, r.fingerprint);
+  assert_int_equal(got.region, 1);
+  assert_int_equal(got.number, 4);
+  assert_int_equal(got.point_count, 7);
+  assert_int_equal(got.shared_count, 2);
+  assert_int_equal(got.pyramid_count, 0);
+  assert_memory_equal(got.x, points, sizeof points);
+  assert_memory_equal(got.shared_id, ids, sizeof ids);
+  assert_memory_equal(got.tetrahedron, tetrahedra, sizeof tetrahedra);
+  assert_memory_equal(got.prism, prisms, sizeof prisms);
+  assert_memory_equal(got.triangle, triangles, sizeof triangles);
+  assert_memory_equal(got.triangle_patch, triangle_patch, sizeof triangle_patch);
+  assert_memory_equal(got.triangle_cell, triangle_cell, sizeof triangle_cell);
+  assert_memory_equal(got.quad, quads, sizeof quads);
+  assert_memory_equal(got.quad_patch, quad_patch, sizeof quad_patch);
+  assert_memory_equal(got.quad_cell, quad_cell, sizeof quad_cell);
+  cw_region_free(&got);
+}
+
+static size_t read_all(const char *name, char **bytes) {
+  FILE *file = fopen(name, "rb");
+  assert_non_null(file);
+  fseek(file, 0, SEEK_END);
+  size_t size = (size_t)ftell(file);
+  rewind(file);
+  *bytes = malloc(size + 1);
+  assert_int_equal(fread(*bytes, 1, size, file), size);
+  fclose(file);
+  return size;
+}
+
+static void equal_regions_give_equal_bytes(void **state) {
+  CwRegionMesh r = region_by_hand();
+  char *a, *b;
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  sleep(1); // a time stamp would differ
+  assert_int_equal(cw_region_write(other, &r), CW_OK);
+  size_t size = read_all(path, &a);
+  assert_int_equal(read_all(other, &b), size);
+  assert_memory_equal(a, b, size);
+  free(a);
+  free(b);
+}
+
+static void current_only_with_the_fingerprint_and_whole(void **state) {
+  CwRegionMesh r = region_by_hand();
+  assert_false(cw_region_is_current("no such folder/file.h5", r.fingerprint));
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  assert_true(cw_region_is_current(path, r.fingerprint));
+  assert_false(cw_region_is_current(path, "0123456789abcdef0123456789abcdee"));
+  char *bytes;
+  size_t size = read_all(path, &bytes);
+  assert_int_equal(truncate(path, (off_t)size - 8), 0);
+  assert_false(cw_region_is_current(path, r.fingerprint));
+  CwRegionMesh got;
+  assert_int_equal(cw_region_read(path, &got), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), path));
+  free(bytes);
+}
+
+static void wrong_index_is_named(void **state) {
+  CwRegionMesh r = region_by_hand(), got;
+  tetrahedra[0][2] = 7;
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  tetrahedra[0][2] = 5;
+  assert_int_equal(cw_region_read(path, &got), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "dataset 'tetrahedra': entry 2 is 7; allowed 0 to 6"));
+  quad_cell[0] = 2;
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  quad_cell[0] = 1;
+  assert_int_equal(cw_region_read(path, &got), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "dataset 'quad_cell': entry 0 is 2; allowed 0 to 1"));
+  points[3][1] = NAN;
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  points[3][1] = 0;
+  assert_int_equal(cw_region_read(path, &got), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "point 3 has a coordinate"));
+}
+
+static void folder_that_is_not_there_is_an_io_error(void **state) {
+  CwRegionMesh r = region_by_hand();
+  char nowhere[400];
+  snprintf(nowhere, sizeof nowhere, "%s/none/rotor-0001.h5", folder);
+  assert_int_equal(cw_region_write(nowhere, &r), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), nowhere));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(comes_back_as_it_was),
+      cmocka_unit_test(equal_regions_give_equal_bytes),
+      cmocka_unit_test(current_only_with_the_fingerprint_and_whole),
+      cmocka_unit_test(wrong_index_is_named),
+      cmocka_unit_test(folder_that_is_not_there_is_an_io_error),
+  };
+  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "mesher/run/pass_state.h"
+
+static char run[] = "pass-state-XXXXXX";
+static const char *const FILES[] = {"rotor.brep", "stator.brep", "faces.csv", "interfaces.csv", "design.json"};
+enum { FILE_COUNT = sizeof FILES / sizeof *FILES };
+static const CwDomainTable domains = {.count = 2, .name = {"rotor", "stator"}};
+
+enum { PATH_SIZE = 128 };
+
+static void path_of(char path[PATH_SIZE], const char *name) {
+  assert_true(snprintf(path, PATH_SIZE, "%s/%s", run, name) < PATH_SIZE);
+}
+
+static void write_file(const char *name, const char *text) {
+  char path[PATH_SIZE];
+  path_of(path, name);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(text, file);
+  fclose(file);
+}
+
+static int make_run(void **state) {
+  char path[PATH_SIZE];
+  if (!mkdtemp(run)) return -1;
+  path_of(path, "geometry");
+  mkdir(path, 0777);
+  path_of(path, "mesh");
+  mkdir(path, 0777);
+  for (int i = 0; i < FILE_COUNT; i++) {
+    snprintf(path, sizeof path, "geometry/%s", FILES[i]);
+    write_file(path, FILES[i]);
+  }
+  return 0;
+}
+
+static int remove_run(void **state) {
+  char path[PATH_SIZE], name[64];
+  for (int i = 0; i < FILE_COUNT; i++) {
+    snprintf(name, sizeof name, "geometry/%s", FILES[i]);
+    path_of(path, name);
+    unlink(path);
+  }
+  path_of(path, "mesh/pass.json");
+  unlink(path);
+  path_of(path, "mesh");
+  rmdir(path);
+  path_of(path, "geometry");
+  rmdir(path);
+  return rmdir(run);
+}
+
+static void state_comes_back_as_written(void **unused) {
+  CwCase table;
+  cw_case_defaults(&table);
+  char fingerprint[33];
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, fingerprint), CW_OK);
+  const CwPassState written = {3, 12.2450980392, 10.8712345678, 1, {0, 2}};
+  assert_int_equal(cw_pass_state_write(run, fingerprint, &written), CW_OK);
+  CwPassState read = {.pass = 1};
+  cw_pass_state_read(run, fingerprint, &read);
+  assert_int_equal(read.pass, 3);
+  assert_int_equal(read.whole, 1);
+  assert_memory_equal(read.more_regions, written.more_regions, sizeof read.more_regions);
+  assert_memory_equal(&read.prism_factor, &written.prism_factor, sizeof(double));
+  assert_memory_equal(&read.tet_factor, &written.tet_factor, sizeof(double));
+}
+
+static void another_case_or_geometry_starts_anew(void **unused) {
+  CwCase table;
+  cw_case_defaults(&table);
+  char before[33], after[33];
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, before), CW_OK);
+  table.mesh.cells++;
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
+  assert_string_not_equal(before, after);
+  CwPassState read = {.pass = 1};
+  cw_pass_state_read(run, after, &read);
+  assert_int_equal(read.pass, 1);
+  table.mesh.cells--;
+  write_file("geometry/faces.csv", "changed");
+  assert_int_equal(cw_pass_fingerprint(&table, run, &domains, after), CW_OK);
+  assert_string_not_equal(before, after);
+}
+
+static void broken_state_is_left_aside(void **unused) {
+  write_file("mesh/pass.json", "{\"fingerprint\": \"x\", \"pass\": 2");
+  CwPassState read = {.pass = 1};
+  cw_pass_state_read(run, "x", &read);
+  assert_int_equal(read.pass, 1);
+}
+
+static void missing_geometry_is_named(void **unused) {
+  CwCase table;
+  cw_case_defaults(&table);
+  char fingerprint[33];
+  assert_int_equal(cw_pass_fingerprint(&table, "nowhere", &domains, fingerprint), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "nowhere/geometry/faces.csv"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(state_comes_back_as_written),
+      cmocka_unit_test(another_case_or_geometry_starts_anew),
+      cmocka_unit_test(broken_state_is_left_aside),
+      cmocka_unit_test(missing_geometry_is_named),
+  };
+  return cmocka_run_group_tests(tests, make_run, remove_run);
+}

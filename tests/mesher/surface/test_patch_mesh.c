@@ -1,0 +1,551 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/surface/patch_mesh.h"
+
+enum { MOST = 20000 };
+
+// The map is chosen by `shape`, the field by `size` and `slope`.
+typedef struct {
+  enum { PLANE, STRETCHED, CYLINDER, SPHERE, FUNNEL } shape;
+  double size, slope;
+  double uv[MOST][2], x[MOST][3];
+  int32_t edge[MOST][2];
+  uint8_t boundary[MOST];
+  CwPatchInput input;
+} Plan;
+
+static void surface_at(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
+  const Plan *plan = context;
+  double u = uv[0], v = uv[1], su = plan->shape == STRETCHED ? 0.02 : 1;
+  double at[3] = {su * u, v, 0}, du[3] = {su, 0, 0}, dv[3] = {0, 1, 0};
+  if (plan->shape == CYLINDER) {
+    memcpy(at, (double[3]){0.1 * cos(u), 0.1 * sin(u), v}, sizeof at);
+    memcpy(du, (double[3]){-0.1 * sin(u), 0.1 * cos(u), 0}, sizeof du);
+    memcpy(dv, (double[3]){0, 0, 1}, sizeof dv);
+  } else if (plan->shape == SPHERE) {
+    memcpy(at, (double[3]){cos(u) * cos(v), sin(u) * cos(v), sin(v)}, sizeof at);
+    memcpy(du, (double[3]){-sin(u) * cos(v), cos(u) * cos(v), 0}, sizeof du);
+    memcpy(dv, (double[3]){-cos(u) * sin(v), -sin(u) * sin(v), cos(v)}, sizeof dv);
+  } else if (plan->shape == FUNNEL) { // a cone whose parameter v runs faster and faster, with shear
+    double r = 0.2 + v * v, w = u + v;
+    memcpy(at, (double[3]){r * cos(w), r * sin(w), v * v}, sizeof at);
+    memcpy(du, (double[3]){-r * sin(w), r * cos(w), 0}, sizeof du);
+    memcpy(dv, (double[3]){2 * v * cos(w) - r * sin(w), 2 * v * sin(w) + r * cos(w), 2 * v}, sizeof dv);
+  }
+  memcpy(x, at, sizeof at);
+  if (xu)
+    memcpy(xu, du, sizeof du);
+  if (xv)
+    memcpy(xv, dv, sizeof dv);
+}
+
+// Least at x = 0, growing with |x|.
+static double size_at(const void *context, const double x[3]) {
+  const Plan *plan = context;
+  return plan->size + plan->slope * fabs(x[0]);
+}
+
+static Plan *new_plan(int shape, double size) {
+  Plan *plan = calloc(1, sizeof *plan);
+  assert_non_null(plan);
+  plan->shape = shape;
+  plan->size = size;
+  plan->input = (CwPatchInput){.surface = surface_at,
+                               .surface_context = plan,
+                               .size = size_at,
+                               .size_context = plan,
+                               .uv = (const double(*)[2])plan->uv,
+                               .x = (const double(*)[3])plan->x,
+                               .edge = (const int32_t(*)[2])plan->edge,
+                               .boundary = plan->boundary,
+                               .name = "lid"};
+  return plan;
+}
+
+static int32_t add_point(Plan *plan, double u, double v) {
+  int32_t p = plan->input.point_count++;
+  assert_true(p < MOST);
+  plan->uv[p][0] = u;
+  plan->uv[p][1] = v;
+  surface_at(plan, plan->uv[p], plan->x[p], NULL, NULL);
+  return p;
+}
+
+static void add_edge(Plan *plan, int32_t a, int32_t b, int boundary) {
+  int32_t e = plan->input.edge_count++;
+  assert_true(e < MOST);
+  plan->edge[e][0] = a;
+  plan->edge[e][1] = b;
+  plan->boundary[e] = (uint8_t)boundary;
+}
+
+// Joins points a and b by a straight line in (u,v), cut to the size field.
+static void add_line(Plan *plan, int32_t a, int32_t b, int boundary) {
+  enum { PIECES = 2000 };
+  static double along[PIECES + 1]; // wanted edges up to there
+  double last[3];
+  memcpy(last, plan->x[a], sizeof last);
+  along[0] = 0;
+  for (int k = 1; k <= PIECES; k++) {
+    double t = (double)k / PIECES, uv[2], x[3], d = 0;
+    for (int c = 0; c < 2; c++)
+      uv[c] = (1 - t) * plan->uv[a][c] + t * plan->uv[b][c];
+    surface_at(plan, uv, x, NULL, NULL);
+    for (int c = 0; c < 3; c++)
+      d += (x[c] - last[c]) * (x[c] - last[c]);
+    along[k] = along[k - 1] + sqrt(d) / size_at(plan, x);
+    memcpy(last, x, sizeof last);
+  }
+  int count = (int)fmax(1, round(along[PIECES]));
+  int32_t from = a;
+  for (int i = 1, k = 1; i < count; i++) {
+    while (along[k] < along[PIECES] * i / count)
+      k++;
+    double t = (k - 1 + (along[PIECES] * i / count - along[k - 1]) / (along[k] - along[k - 1])) / PIECES;
+    int32_t p = add_point(plan, (1 - t) * plan->uv[a][0] + t * plan->uv[b][0],
+                          (1 - t) * plan->uv[a][1] + t * plan->uv[b][1]);
+    add_edge(plan, from, p, boundary);
+    from = p;
+  }
+  add_edge(plan, from, b, boundary);
+}
+
+static void add_loop(Plan *plan, int count, const double (*corner)[2]) {
+  int32_t first = plan->input.point_count;
+  for (int k = 0; k < count; k++)
+    add_point(plan, corner[k][0], corner[k][1]);
+  for (int k = 0; k < count; k++)
+    add_line(plan, first + k, first + (k + 1) % count, 1);
+}
+
+static void add_rectangle(Plan *plan, double u0, double v0, double u1, double v1) {
+  const double corner[4][2] = {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+  add_loop(plan, 4, corner);
+}
+
+typedef struct {
+  double least_angle, mean_angle; // degrees; the mean is of the least angle of each triangle
+  double outside;                 // share of edges not within 0.5 to 1.6 of the wanted length
+  double clearance;               // least height of a free point over a given edge, in wanted lengths
+  double area;                    // in space
+} Figures;
+
+typedef struct {
+  int32_t a, b, triangle;
+} Side;
+
+static int compare_sides(const void *left, const void *right) {
+  const Side *l = left, *r = right;
+  return l->a != r->a ? (l->a > r->a) - (l->a < r->a) : (l->b > r->b) - (l->b < r->b);
+}
+
+static double distance(const double a[3], const double b[3]) {
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+static double height_over(const CwPatchMesh *mesh, int32_t p, int32_t a, int32_t b) {
+  double ab = distance(mesh->x[a], mesh->x[b]), ap = distance(mesh->x[a], mesh->x[p]),
+         bp = distance(mesh->x[b], mesh->x[p]);
+  double along = (ab * ab + ap * ap - bp * bp) / (2 * ab);
+  return sqrt(fmax(ap * ap - along * along, 0));
+}
+
+// Every triangle has three sides; a side belongs to one triangle exactly where it is a boundary edge, to two
+// elsewhere; the given edges are among the sides; vertices - edges + triangles is as expected; components
+// meet at given edges only. Returns the clearance of the free points over the given edges.
+static double check_topology(const Plan *plan, const CwPatchMesh *mesh, int euler) {
+  double clearance = 1;
+  int32_t count = 3 * mesh->triangle_count, edges = 0, points = 0, given = plan->input.edge_count, found = 0;
+  Side *side = calloc((size_t)(count + given), sizeof *side);
+  uint8_t *used = calloc((size_t)mesh->point_count, 1);
+  assert_non_null(side);
+  assert_non_null(used);
+  for (int32_t k = 0; k < count + given; k++) {
+    int32_t a, b;
+    if (k < count) {
+      a = mesh->triangle[k / 3][k % 3];
+      b = mesh->triangle[k / 3][(k + 1) % 3];
+      used[a] = 1;
+    } else {
+      a = plan->edge[k - count][0];
+      b = plan->edge[k - count][1];
+    }
+    side[k] = (Side){a < b ? a : b, a < b ? b : a, k < count ? k / 3 : -1 - plan->boundary[k - count]};
+  }
+  qsort(side, (size_t)(count + given), sizeof *side, compare_sides);
+  for (int32_t k = 0, next; k < count + given; k = next) {
+    int triangles = 0, wall = 0, is_given = 0;
+    int32_t component[2] = {0, 0}, apex[2] = {-1, -1};
+    for (next = k; next < count + given && !compare_sides(&side[k], &side[next]); next++)
+      if (side[next].triangle >= 0) {
+        assert_true(triangles < 2);
+        const int32_t *c = mesh->triangle[side[next].triangle];
+        apex[triangles] = c[0] + c[1] + c[2] - side[k].a - side[k].b;
+        component[triangles++] = mesh->component[side[next].triangle];
+      } else {
+        is_given = 1;
+        wall = side[next].triangle == -2;
+      }
+    assert_int_equal(triangles, wall ? 1 : 2);
+    if (!is_given)
+      assert_int_equal(component[0], component[1]);
+    for (int i = 0; is_given && i < 2; i++)
+      if (apex[i] >= plan->input.point_count)
+        clearance = fmin(clearance,
+                         height_over(mesh, apex[i], side[k].a, side[k].b) / size_at(plan, mesh->x[apex[i]]));
+    found += is_given;
+    edges++;
+  }
+  for (int32_t p = 0; p < mesh->point_count; p++)
+    points += used[p];
+  assert_int_equal(points, mesh->point_count);
+  assert_int_equal(found, given);
+  assert_int_equal(points - edges + mesh->triangle_count, euler);
+  free(side);
+  free(used);
+  return clearance;
+}
+
+static void check_places(const Plan *plan, const CwPatchMesh *mesh, double uv_area) {
+  double sum = 0;
+  assert_memory_equal(mesh->x, plan->x, sizeof plan->x[0] * (size_t)plan->input.point_count);
+  assert_memory_equal(mesh->uv, plan->uv, sizeof plan->uv[0] * (size_t)plan->input.point_count);
+  for (int32_t p = 0; p < mesh->point_count; p++) {
+    double x[3];
+    surface_at(plan, mesh->uv[p], x, NULL, NULL);
+    assert_true(distance(x, mesh->x[p]) < 1e-12);
+  }
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    const int32_t *c = mesh->triangle[t];
+    const double *a = mesh->uv[c[0]], *b = mesh->uv[c[1]], *d = mesh->uv[c[2]];
+    double cross = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
+    assert_true(cross > 0);
+    assert_true(mesh->component[t] >= 0 && mesh->component[t] < mesh->component_count);
+    sum += 0.5 * cross;
+  }
+  assert_float_equal(sum / uv_area, 1, 1e-11);
+  assert_int_equal(mesh->folded_count, 0);
+}
+
+static Figures measure(const Plan *plan, const CwPatchMesh *mesh) {
+  Figures figures = {180, 0, 0, 0, 0};
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    double l[3], least = 180;
+    for (int i = 0; i < 3; i++) {
+      const double *a = mesh->x[mesh->triangle[t][(i + 1) % 3]], *b = mesh->x[mesh->triangle[t][(i + 2) % 3]];
+      l[i] = distance(a, b);
+      double ratio = 2 * l[i] / (size_at(plan, a) + size_at(plan, b));
+      figures.outside += (ratio < 0.5 || ratio > 1.6) / (3.0 * mesh->triangle_count);
+    }
+    for (int i = 0; i < 3; i++) {
+      double b = l[(i + 1) % 3], c = l[(i + 2) % 3];
+      least = fmin(least, acos(fmax(-1, fmin(1, (b * b + c * c - l[i] * l[i]) / (2 * b * c)))) * 180 / M_PI);
+    }
+    double s = 0.5 * (l[0] + l[1] + l[2]);
+    figures.area += sqrt(fmax(0, s * (s - l[0]) * (s - l[1]) * (s - l[2])));
+    figures.least_angle = fmin(figures.least_angle, least);
+    figures.mean_angle += least / mesh->triangle_count;
+  }
+  return figures;
+}
+
+// Meshes the plan twice, checks all that must hold of any mesh, prints its figures, and frees the plan.
+static Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int euler, int components,
+                              int32_t *triangle_count) {
+  CwPatchMesh mesh, again;
+  if (cw_patch_mesh(&plan->input, &mesh) != CW_OK)
+    fail_msg("%s: %s", title, cw_fail_message());
+  double clearance = check_topology(plan, &mesh, euler);
+  check_places(plan, &mesh, uv_area);
+  assert_int_equal(mesh.component_count, components);
+  assert_int_equal(cw_patch_mesh(&plan->input, &again), CW_OK);
+  assert_int_equal(again.point_count, mesh.point_count);
+  assert_int_equal(again.triangle_count, mesh.triangle_count);
+  assert_memory_equal(again.x, mesh.x, sizeof mesh.x[0] * (size_t)mesh.point_count);
+  assert_memory_equal(again.triangle, mesh.triangle, sizeof mesh.triangle[0] * (size_t)mesh.triangle_count);
+  assert_memory_equal(again.component, mesh.component,
+                      sizeof mesh.component[0] * (size_t)mesh.triangle_count);
+  Figures figures = measure(plan, &mesh);
+  figures.clearance = clearance;
+  printf("%-24s %7d triangles, least angle %5.1f, mean %5.2f, edges out of size %.2f %%, clearance %.2f\n",
+         title, mesh.triangle_count, figures.least_angle, figures.mean_angle, 100 * figures.outside,
+         clearance);
+  if (triangle_count)
+    *triangle_count = mesh.triangle_count;
+  cw_patch_mesh_free(&again);
+  cw_patch_mesh_free(&mesh);
+  free(plan);
+  return figures;
+}
+
+static void check_good(Figures figures, double least, double mean) {
+  assert_true(figures.least_angle >= least);
+  assert_true(figures.mean_angle >= mean);
+  assert_true(figures.outside <= 0.01);
+  assert_true(figures.clearance >= 0.4);
+}
+
+static void unit_square(void **state) {
+  Plan *plan = new_plan(PLANE, 0.02);
+  int32_t count;
+  add_rectangle(plan, 0, 0, 1, 1);
+  Figures figures = mesh_and_check(plan, "unit square", 1, 1, 1, &count);
+  check_good(figures, 30, 55);
+  double expected = 1 / (sqrt(3) / 4 * 0.02 * 0.02);
+  assert_in_range(count, (uintmax_t)(0.85 * expected), (uintmax_t)(1.15 * expected));
+}
+
+static void graded_field(void **state) {
+  Plan *plan = new_plan(PLANE, 0.005);
+  int32_t count;
+  plan->slope = 0.25;
+  add_rectangle(plan, -1, 0, 1, 1);
+  check_good(mesh_and_check(plan, "graded field", 2, 1, 1, &count), 25, 50);
+  // The integral of 1/h^2: 2 int_0^1 dx / (s + g x)^2 = 2 (1/s - 1/(s + g)) / g.
+  double expected = 2 * (1 / 0.005 - 1 / 0.255) / 0.25 / (sqrt(3) / 4);
+  assert_in_range(count, (uintmax_t)(0.8 * expected), (uintmax_t)(1.2 * expected));
+}
+
+static void annulus(void **state) {
+  Plan *plan = new_plan(PLANE, 0.04);
+  double ring[60][2], area = 0.5 * 60 * sin(2 * M_PI / 60) * (1 - 0.16);
+  for (int side = 0; side < 2; side++) {
+    for (int k = 0; k < 60; k++) {
+      ring[k][0] = (side ? 0.4 : 1) * cos(2 * M_PI * k / 60);
+      ring[k][1] = (side ? 0.4 : 1) * sin(2 * M_PI * k / 60);
+    }
+    add_loop(plan, 60, (const double(*)[2])ring);
+  }
+  check_good(mesh_and_check(plan, "annulus", area, 0, 1, NULL), 30, 50);
+}
+
+static void two_holes_and_a_dividing_line(void **state) {
+  Plan *plan = new_plan(PLANE, 0.03);
+  const double outer[5][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1.5}, {0, 1}};
+  const double first[3][2] = {{0.3, 0.3}, {0.6, 0.8}, {0.7, 0.4}},
+               second[4][2] = {{1.4, 0.4}, {1.6, 0.4}, {1.6, 0.7}, {1.4, 0.6}};
+  add_loop(plan, 5, outer);
+  add_loop(plan, 3, first);
+  add_loop(plan, 4, second);
+  // From the top corner to the origin, past the first hole.
+  add_line(plan, 3, 0, 0);
+  double area = 2.5 - 0.5 * fabs(0.3 * 0.1 - 0.5 * 0.4) - 0.5 * (0.2 + 0.3) * 0.2;
+  check_good(mesh_and_check(plan, "two holes, divided", area, -1, 2, NULL), 20, 53);
+}
+
+static void a_slit_keeps_its_two_sides(void **state) {
+  Plan *plan = new_plan(PLANE, 0.05);
+  add_rectangle(plan, 0, 0, 1, 1);
+  int32_t a = add_point(plan, 0.3, 0.5), b = add_point(plan, 0.7, 0.55);
+  add_line(plan, a, b, 0);
+  check_good(mesh_and_check(plan, "slit", 1, 1, 1, NULL), 25, 50);
+}
+
+static void cylinder(void **state) {
+  Plan *plan = new_plan(CYLINDER, 0.004);
+  add_rectangle(plan, 0, 0, 6, 0.2);
+  Figures figures = mesh_and_check(plan, "cylinder, 344 degrees", 1.2, 1, 1, NULL);
+  check_good(figures, 30, 55);
+  // Chords lie inside: less area by h^2/(24 r^2) and the like.
+  assert_float_equal(figures.area / 0.12, 1, 3e-4);
+}
+
+static void stretched_fifty_to_one(void **state) {
+  Plan *plan = new_plan(STRETCHED, 0.02);
+  add_rectangle(plan, 0, 0, 50, 1);
+  check_good(mesh_and_check(plan, "stretched 50:1", 50, 1, 1, NULL), 30, 55);
+}
+
+static void sphere_patch(void **state) {
+  Plan *plan = new_plan(SPHERE, 0.03);
+  add_rectangle(plan, 0, -0.5, 3, 1.3);
+  Figures figures = mesh_and_check(plan, "sphere patch", 5.4, 1, 1, NULL);
+  check_good(figures, 28, 51);
+  assert_float_equal(figures.area / (3 * (sin(1.3) + sin(0.5))), 1, 1e-3);
+}
+
+static void funnel(void **state) {
+  Plan *plan = new_plan(FUNNEL, 0.02);
+  add_rectangle(plan, 0, 0.1, 4, 1);
+  check_good(mesh_and_check(plan, "sheared funnel", 3.6, 1, 1, NULL), 25, 50);
+}
+
+static void narrow_strips(void **state) {
+  const double widths[4] = {0.3, 0.8, 1.2, 2.2};
+  for (int k = 0; k < 4; k++) {
+    Plan *plan = new_plan(PLANE, 0.02);
+    char title[40];
+    double width = 0.02 * widths[k];
+    snprintf(title, sizeof title, "strip %.1f h wide", widths[k]);
+    add_rectangle(plan, 0, 0, 1, width);
+    Figures figures = mesh_and_check(plan, title, width, 1, 1, NULL);
+    assert_true(figures.least_angle >= fmin(30, 0.9 * atan(widths[k]) * 180 / M_PI));
+  }
+}
+
+static void slender_trapezoid(void **state) {
+  Plan *plan = new_plan(PLANE, 0.02);
+  const double corner[4][2] = {{0, 0}, {1, 0}, {0.525, 0.7}, {0.475, 0.7}};
+  add_loop(plan, 4, corner);
+  check_good(mesh_and_check(plan, "trapezoid 20:1", 0.5 * 1.05 * 0.7, 1, 1, NULL), 30, 53);
+}
+
+// Three points on a line at the sharp corner allow no better angle than the corner's.
+static void sharp_corner(void **state) {
+  for (int degrees = 5; degrees <= 10; degrees += 5) {
+    Plan *plan = new_plan(PLANE, 0.02);
+    const double corner[3][2] = {{0, 0}, {1, 0}, {1, tan(degrees * M_PI / 180)}};
+    add_loop(plan, 3, corner);
+    Figures figures = mesh_and_check(plan, "sharp corner", 0.5 * corner[2][1], 1, 1, NULL);
+    assert_true(figures.least_angle > 0.8 * degrees);
+    assert_true(figures.mean_angle > 45);
+  }
+}
+
+// A boundary much finer and one much coarser than the field.
+static void foreign_boundary_spacing(void **state) {
+  for (int side = 0; side < 2; side++) {
+    Plan *plan = new_plan(PLANE, side ? 0.1 : 0.01);
+    add_rectangle(plan, 0, 0, 1, 1);
+    plan->size = 0.03;
+    Figures figures = mesh_and_check(plan, side ? "coarse boundary" : "fine boundary", 1, 1, 1, NULL);
+    assert_true(figures.least_angle >= 20);
+    assert_true(figures.mean_angle >= 48);
+  }
+}
+
+static uint32_t seed;
+
+static double random_unit(void) {
+  seed = seed * 1664525u + 1013904223u;
+  return (seed >> 8) / 16777216.0;
+}
+
+// Fewer than five edges around a half turn: chords and surface part, but no triangle may turn over.
+static void coarse_on_curvature(void **state) {
+  const double sizes[3] = {0.04, 0.08, 0.15};
+  for (int k = 0; k < 3; k++) {
+    Plan *plan = new_plan(CYLINDER, sizes[k]);
+    add_rectangle(plan, 0, 0, 6, 1);
+    Figures figures = mesh_and_check(plan, "coarse cylinder", 6, 1, 1, NULL);
+    assert_true(figures.least_angle >= 30);
+  }
+}
+
+// A straight side whose points are off by rounding has slivers in its Delaunay triangulation: none may stay.
+static void noisy_straight_sides(void **state) {
+  seed = 7;
+  for (int k = 0; k < 6; k++) {
+    Plan *plan = new_plan(PLANE, 0.03);
+    double area = 0, noise = pow(10, -16 + 2 * k);
+    add_rectangle(plan, 0.01, 0, 1, 1);
+    for (int32_t p = 4; p < plan->input.point_count; p++) {
+      for (int i = 0; i < 2; i++)
+        plan->uv[p][i] += noise * (random_unit() - 0.5);
+      surface_at(plan, plan->uv[p], plan->x[p], NULL, NULL);
+    }
+    for (int32_t e = 0; e < plan->input.edge_count; e++) {
+      const double *a = plan->uv[plan->edge[e][0]], *b = plan->uv[plan->edge[e][1]];
+      area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+    check_good(mesh_and_check(plan, "noisy sides", area, 1, 1, NULL), 30, 55);
+  }
+}
+
+// The given places may contradict the map: here they mirror it, so that the one triangle lies upside down.
+static void folds_are_counted(void **state) {
+  Plan *plan = new_plan(PLANE, 1);
+  CwPatchMesh mesh;
+  const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  add_loop(plan, 3, corner);
+  for (int k = 0; k < 3; k++)
+    plan->x[k][0] = -plan->x[k][0];
+  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_OK);
+  assert_int_equal(mesh.triangle_count, 1);
+  assert_int_equal(mesh.folded_count, 1);
+  assert_float_equal(mesh.folded_at[0], -1.0 / 3, 1e-12);
+  cw_patch_mesh_free(&mesh);
+  free(plan);
+}
+
+static void random_stars(void **state) {
+  seed = 20240229;
+  for (int round = 0; round < 40; round++) {
+    Plan *plan = new_plan(round % 2 ? STRETCHED : PLANE, 0.02 + 0.08 * random_unit());
+    plan->slope = round % 3 == 0 ? 0.2 : 0;
+    double corner[24][2], area = 0, su = round % 2 ? 50 : 1;
+    int count = 5 + (int)(19 * random_unit());
+    for (int k = 0; k < count; k++) {
+      double r = 0.25 + 0.75 * random_unit(), angle = 2 * M_PI * (k + 0.6 * random_unit()) / count;
+      corner[k][0] = su * r * cos(angle);
+      corner[k][1] = r * sin(angle);
+    }
+    for (int k = 0; k < count; k++) {
+      const double *a = corner[k], *b = corner[(k + 1) % count];
+      area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+    add_loop(plan, count, (const double(*)[2])corner);
+    char title[40];
+    snprintf(title, sizeof title, "star %d", round);
+    Figures figures = mesh_and_check(plan, title, area, 1, 1, NULL);
+    assert_true(figures.mean_angle > 45);
+  }
+}
+
+static void expect_refusal(Plan *plan, const char *text, const char *place) {
+  CwPatchMesh mesh;
+  cw_fail_clear();
+  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_ERR_INPUT);
+  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) ||
+      !strstr(cw_fail_message(), place))
+    fail_msg("unexpected message: %s", cw_fail_message());
+  assert_null(mesh.triangle);
+  free(plan);
+}
+
+static void wrong_input_is_refused_with_its_place(void **state) {
+  Plan *plan = new_plan(PLANE, 2);
+  const double bow_tie[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  add_loop(plan, 4, bow_tie);
+  expect_refusal(plan, "cross", "(500, 500, 0) mm");
+  plan = new_plan(PLANE, 0.5);
+  add_rectangle(plan, 0, 0, 1, 1);
+  plan->input.edge_count--;
+  expect_refusal(plan, "open", "(0, 0, 0) mm");
+  plan = new_plan(PLANE, 1);
+  expect_refusal(plan, "0 points", "at least 3");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(unit_square),
+      cmocka_unit_test(graded_field),
+      cmocka_unit_test(annulus),
+      cmocka_unit_test(two_holes_and_a_dividing_line),
+      cmocka_unit_test(a_slit_keeps_its_two_sides),
+      cmocka_unit_test(cylinder),
+      cmocka_unit_test(stretched_fifty_to_one),
+      cmocka_unit_test(sphere_patch),
+      cmocka_unit_test(funnel),
+      cmocka_unit_test(narrow_strips),
+      cmocka_unit_test(slender_trapezoid),
+      cmocka_unit_test(sharp_corner),
+      cmocka_unit_test(foreign_boundary_spacing),
+      cmocka_unit_test(coarse_on_curvature),
+      cmocka_unit_test(noisy_straight_sides),
+      cmocka_unit_test(folds_are_counted),
+      cmocka_unit_test(random_stars),
+      cmocka_unit_test(wrong_input_is_refused_with_its_place),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
