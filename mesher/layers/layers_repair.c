@@ -180,7 +180,7 @@ static double judge(const Repair *repair, int32_t f) {
     int32_t v = work->in->triangle[f][k];
     if (work->t[v] > least_height(work, v)) return fmin(prism, front_quality(work, f, front));
   }
-  return prism < KEPT ? prism : fmax(prism, GOOD);
+  return prism < KEPT ? prism : GOOD;
 }
 
 static CwStatus judge_prism(void *repair, int32_t f, void *out) {
@@ -434,11 +434,38 @@ done:
   return status;
 }
 
+// Turns once more the columns that keep their first height although prism or front could be better: those were turned
+// last while they were taller. *turned: whether any did. Collective.
+static CwStatus turn_kept(Repair *repair, int *turned) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = repair->work;
+  const double (*front)[3] = (const double (*)[3])repair->front;
+  *turned = 0;
+  for (int pass = 0; pass < TURNS; pass++) {
+    int marked = 0;
+    memset(repair->mark, 0, (size_t)work->n);
+    for (int32_t f = 0; f < work->in->triangle_count; f++) {
+      if (repair->quality[f] != GOOD) continue;
+      if (fmin(cw_layers_prism_quality(work, f, front), front_quality(work, f, front)) >= GOOD) continue;
+      for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[f][k]] = FOR_SHAPE;
+      marked = 1;
+    }
+    if (!marked) break;
+    CW_TRY(turn_marked(repair));
+    if (!repair->moved_count) break;
+    *turned = 1;
+    CW_TRY(find_bad(repair));
+  }
+done:
+  return status;
+}
+
 CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   Repair repair = {.work = work, .front = front};
   int32_t crossing = 0;
+  int once_more = 0;
   CW_NEW(repair.quality, in->triangle_count);
   CW_NEW(repair.mark, work->n);
   CW_NEW(repair.moved, work->n);
@@ -470,7 +497,14 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
       if (!repair.bad_count) continue;
     } else {
       CW_TRY(find_crossings(&repair, &crossing));
-      if (crossing == 0) goto done;
+      if (crossing == 0) {
+        int turned = 0;
+        if (!once_more++) {
+          CW_TRY(turn_kept(&repair, &turned));
+        }
+        if (!turned) goto done;
+        continue;
+      }
     }
     CW_TRY(thin_marked(&repair));
     // What is bad still leans as the old heights asked; less height needs less lean. Once only: the turned columns are

@@ -264,19 +264,33 @@ static int32_t count_lower(const Case *c, double height) {
   return count;
 }
 
-// Columns are not thinned below the height that keeps their first one for rounder prisms, only for valid ones.
+static int32_t count_flatter(const Case *c, double quality) {
+  int32_t count = 0;
+  for (int32_t f = 0; f < c->wall.triangle_count; f++) {
+    const int32_t *v = c->wall.triangle[f];
+    const double *const wall[3] = {c->wall.x[v[0]], c->wall.x[v[1]], c->wall.x[v[2]]};
+    const double *const front[3] = {c->out.front[v[0]], c->out.front[v[1]], c->out.front[v[2]]};
+    count += cw_layers_corner_quality(wall, front) < quality;
+  }
+  return count;
+}
+
+// Columns are not thinned below the height that keeps their first one for rounder prisms, only for valid ones; but they
+// are turned for them.
 static void least_height_of_blade(void **state) {
   const double least = 0.52 * MM, lower = 0.9 * least;
-  int32_t count[2];
+  int32_t count[2], flat[2];
   for (int i = 0; i < 2; i++) {
     Case c = {.target = 0.6 * MM, .lowest = i ? least : 0};
     blade_wall(&c.wall, tan(30 * M_PI / 180), 0.15 * MM);
     case_run(&c, i ? "blade, least height" : "blade");
     count[i] = count_lower(&c, lower);
-    print_message("  %d columns lower than %.2f mm\n", count[i], lower / MM);
+    flat[i] = count_flatter(&c, 0.12);
+    print_message("  %d columns lower than %.2f mm, %d prisms below 0.12\n", count[i], lower / MM, flat[i]);
     case_free(&c);
   }
   assert_true(count[1] < 0.56 * count[0]);
+  assert_true(flat[0] == 0 && flat[1] <= 8); // 14 where they were not turned once more
 }
 
 // Sphere of six grids with bumps: random waves of a fixed seed.
