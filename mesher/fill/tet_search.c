@@ -4,13 +4,16 @@
 #include <string.h>
 
 #include "mesher/common/mix.h"
+#include "mesher/fill/tet_bound.h"
 #include "mesher/fill/tet_patch.h"
 #include "mesher/fill/tet_work.h"
 
+static const double degree = 3.14159265358979323846 / 180.0;
 // Sines of dihedral angles.
 static const double wanted = 0.2250;  // 13 degrees: a search begins where there is less
 static const double reached = 0.2419; // 14 degrees: it ends
-static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again
+static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again,
+static const double worthwhile = 0.85; // and below so much of the angle that the boundary allows, too
 static const double counted = 0.3746; // 22 degrees: what is less counts in a patch
 static const double sound = 0.02;     // what a disturbance leaves, at least; flatter ones are no matter of this search
 static const double alike = 0.05;     // above the worst: those that are disturbed, too
@@ -20,8 +23,8 @@ enum {
   PLACES = 6,      // of a mesh
   TRIES = 400,     // of a beginning
   IDLE = 250,      // of these, without a gain
-  SHARE = 25,      // one try for as many tetrahedra of the mesh,
-  PRESSED = 3000,  // and so many more where an angle is pressing
+  SHARE = 500,     // one try for as many tetrahedra of the mesh: half as long as their fill takes,
+  FEWEST = 600,    // or so many
   BEGINNINGS = 8,  // of a place where one is
   MIXED = 3,       // in one beginning of as many points do not only go in
   FEW = 250,       // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
@@ -46,7 +49,8 @@ typedef struct {
   Found now, best;        // of this beginning; of all of a place
   CwDelaunay trial;
   uint64_t random;
-  int32_t tries, pressed; // left: of all, and of those for pressing angles alone
+  int32_t tries;          // left
+  double again;           // least sine below which a search begins again
   int mixed;              // all kinds of disturbances, though an angle is pressing
 } Search;
 
@@ -213,11 +217,6 @@ done:
   return status;
 }
 
-static int may_try(Search *s, double least) {
-  int32_t *left = s->tries > 0 || least >= pressing ? &s->tries : &s->pressed;
-  return *left > 0 ? (*left)-- : 0;
-}
-
 // Goes on from the best that was found (iterated local search; H. Lourenco, O. Martin and T. Stuetzle, in: Handbook of
 // Metaheuristics, 2003).
 static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
@@ -226,8 +225,9 @@ static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
   *best = rate(&s->now.patch.mesh);
   s->now.gain = best->deficit;
-  for (int k = 0, idle = 0; best->least < reached && k < TRIES && idle < IDLE; k++, idle++) {
-    if (!may_try(s, best->least)) break;
+  for (int k = 0, idle = 0; best->least < reached && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
+    s->tries--;
+    s->whole->count.patches_tried++;
     CW_TRY(try_disturbed(s, best->least, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
     CwDelaunay swap = s->now.patch.mesh;
@@ -244,7 +244,7 @@ done:
 // What leads nowhere from one beginning may do from another.
 static CwStatus search_place(Search *s, int32_t t) {
   CwStatus status = CW_OK;
-  for (int k = 0; k < BEGINNINGS && (k == 0 || s->best.rated.least < pressing); k++) {
+  for (int k = 0; k < BEGINNINGS && (k == 0 || s->best.rated.least < s->again); k++) {
     s->mixed = k % MIXED == MIXED - 1;
     CW_TRY(search_patch(s, t, patch_size[k % 2]));
     double more = s->now.rated.least - s->best.rated.least;
@@ -281,17 +281,44 @@ static int32_t count_bad(const CwTetWork *w) {
   return count;
 }
 
+// The least sine below which a place of this mesh is searched again and again.
+static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
+  CwStatus status = CW_OK;
+  double(*x)[3] = NULL, allowed;
+  int32_t(*triangle)[3] = NULL, count = 0, worst;
+  for (int32_t k = 0; k < 4 * mesh->tet_count; k++)
+    count += mesh->tet[k / 4].corner[0] >= 0 && mesh->tet[k / 4].neighbour[k % 4] < 0;
+  CW_NEW(x, mesh->point_count);
+  CW_NEW(triangle, count);
+  for (int32_t p = 0; p < mesh->point_count; p++) memcpy(x[p], mesh->point[p].x, sizeof x[p]);
+  count = 0;
+  for (int32_t k = 0; k < 4 * mesh->tet_count; k++) {
+    const CwDelaunayTet *tet = &mesh->tet[k / 4];
+    if (tet->corner[0] < 0 || tet->neighbour[k % 4] >= 0) continue;
+    for (int i = 0; i < 3; i++) triangle[count][i] = tet->corner[cw_tet_face[k % 4][i]];
+    count++;
+  }
+  CwFillInput boundary = {.point_count = mesh->point_count,
+                          .x = (const double(*)[3])x,
+                          .triangle_count = count,
+                          .triangle = (const int32_t(*)[3])triangle};
+  CW_TRY(cw_tet_bound(&boundary, &allowed, &worst));
+  *sine = fmin(pressing, sin(worthwhile * allowed * degree));
+done:
+  free(triangle);
+  free(x);
+  return status;
+}
+
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
   Search s = {.whole = w, .work = {.limit = counted, .insert = wanted, .insert_round = wanted, .fixed_count = 1}};
   double place[PLACES][3], reach[PLACES];
   s.work.mesh = s.work.flips.mesh = &s.trial;
   s.work.source_count = 1;
-  if (count_bad(w) <= w->mesh->tet_count / FEW) {
-    s.tries = w->mesh->tet_count / SHARE;
-    s.pressed = PRESSED;
-  }
-  for (int n = 0; n < PLACES && (s.tries > 0 || s.pressed > 0); n++) {
+  if (count_bad(w) <= w->mesh->tet_count / FEW)
+    s.tries = w->mesh->tet_count > SHARE * FEWEST ? w->mesh->tet_count / SHARE : FEWEST;
+  for (int n = 0; n < PLACES && s.tries > 0; n++) {
     double least = wanted;
     int32_t worst = -1;
     for (int32_t k = 0; k < w->next_count; k++) {
@@ -301,6 +328,7 @@ CwStatus cw_tet_search(CwTetWork *w) {
       if (sine < least && sine > sound && !is_near(w, t, n, (const double(*)[3])place, reach)) least = sine, worst = t;
     }
     if (worst < 0) break;
+    if (n == 0 && least < pressing) CW_TRY(least_worthwhile(w->mesh, &s.again));
     memcpy(place[n], cw_tet_at(w, w->mesh->tet[worst].corner[0]), sizeof place[n]);
     reach[n] = 2.0 * mean_edge(w->mesh, worst); // what else is bad there was before the same search
     CW_TRY(search_place(&s, worst));

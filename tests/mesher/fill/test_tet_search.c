@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
 #include "mesher/fill/tet_patch.h"
 #include "mesher/fill/tet_work.h"
 #include "shaken_lattice.h"
@@ -114,10 +115,89 @@ static void good_ones_are_left_alone(void **state) {
   finish(&w, &patch);
 }
 
+// Least sine of the tetrahedra at a point.
+static double least_round(const CwDelaunay *mesh, int32_t point) {
+  double least = 1.0;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *c = mesh->tet[t].corner;
+    if (c[0] < 0 || (c[0] != point && c[1] != point && c[2] != point && c[3] != point)) continue;
+    least = fmin(least, cw_tet_quality(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x,
+                                       mesh->point[c[3]].x));
+  }
+  return least;
+}
+
+static void normal_of(const CwDelaunay *mesh, const CwDelaunayTet *tet, int face, double normal[3]) {
+  const double *x[3];
+  double u[3], v[3];
+  for (int i = 0; i < 3; i++) x[i] = mesh->point[tet->corner[cw_tet_face[face][i]]].x;
+  cw_sub(x[1], x[0], u);
+  cw_sub(x[2], x[0], v);
+  cw_cross(u, v, normal);
+  cw_unit(normal);
+}
+
+// Moves a corner of the hull nearly upon a triangle of it, where the tetrahedra round the corner allow it: across an
+// edge that both share (2 open faces of their tetrahedron, a wedge) or from the far side (1).
+static int pinch_hull(CwDelaunay *mesh, int open_faces, double left) {
+  for (int32_t k = 0; k < 4 * mesh->tet_count; k++) {
+    const CwDelaunayTet *tet = &mesh->tet[k / 4];
+    int open = 0, other = -1;
+    if (tet->corner[0] < 0 || tet->neighbour[k % 4] >= 0 || mesh->source[tet->corner[k % 4]] != 0) continue;
+    for (int i = 0; i < 4; i++) {
+      open += tet->neighbour[i] < 0;
+      if (tet->neighbour[i] < 0 && i != k % 4) other = i;
+    }
+    if (open != open_faces) continue;
+    double normal[2][3], u[3], *p = mesh->point[tet->corner[k % 4]].x, old[3];
+    normal_of(mesh, tet, k % 4, normal[0]);
+    memcpy(old, p, sizeof old);
+    cw_sub(p, mesh->point[tet->corner[cw_tet_face[k % 4][0]]].x, u);
+    double height = cw_dot(u, normal[0]);
+    for (int i = 0; i < 3; i++) p[i] -= (1.0 - left) * height * normal[0][i];
+    if (other >= 0) normal_of(mesh, tet, other, normal[1]);
+    int sharp = other < 0 || cw_dot(normal[0], normal[1]) < -0.9;
+    if (sharp && least_round(mesh, tet->corner[k % 4]) > 0.5 * left) return 1;
+    memcpy(p, old, sizeof old);
+  }
+  return 0;
+}
+
+// What the boundary itself forces is searched once: there is nothing to be gained from another beginning.
+static void what_the_boundary_forces_is_not_pressed(void **state) {
+  CwTetPatch patch;
+  CwTetWork w = lump(0, &patch);
+  double volume;
+  assert_true(pinch_hull(w.mesh, 2, 0.1));
+  w.next_count = 0;
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  assert_true(least_angle(w.mesh, &volume) < 10.0);
+  assert_int_equal(cw_tet_search(&w), CW_OK);
+  assert_true(least_angle(w.mesh, &volume) < 10.0);
+  assert_in_range(w.count.patches_tried, 1, 400);
+  finish(&w, &patch);
+}
+
+// Where the boundary's edges are no reason to end, the search begins again until it has used its tries.
+static void tries_are_bounded(void **state) {
+  CwTetPatch patch;
+  CwTetWork w = lump(0, &patch);
+  double volume;
+  assert_true(pinch_hull(w.mesh, 1, 0.02));
+  w.next_count = 0;
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  assert_int_equal(cw_tet_search(&w), CW_OK);
+  assert_true(least_angle(w.mesh, &volume) < 12.0);
+  assert_int_equal(w.count.patches_tried, 600);
+  finish(&w, &patch);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bad_ones_become_good),
       cmocka_unit_test(good_ones_are_left_alone),
+      cmocka_unit_test(what_the_boundary_forces_is_not_pressed),
+      cmocka_unit_test(tries_are_bounded),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
