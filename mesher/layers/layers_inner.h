@@ -141,6 +141,10 @@ double cw_layers_corner_quality(const double *const wall[3], const double *const
 // and their front all the same needles or folds, on which only flat tetrahedra fit.
 double cw_layers_front_quality(const double *const wall[3], const double *const front[3]);
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
+// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
+// `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and then the one
+// that was the worst: most other directions fail there too.
+double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first);
 // Takes the tree of walls and obstacles over.
 CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds);
 

@@ -83,10 +83,7 @@ static double front_quality(const CwLayerWork *work, int32_t f, const double (*f
   return FRONT * cw_layers_front_quality(wall, end);
 }
 
-// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
-// `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and then the one
-// that was the worst: most other directions fail there too.
-static double around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {
+double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {
   double prism = INFINITY, end = INFINITY, quality = INFINITY;
   int32_t start = work->face_start[v], count = work->face_start[v + 1] - start, worst = *first;
   for (int32_t i = 0; i < count && quality > floor; i++) {
@@ -113,7 +110,7 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
   int guides = in->guide_count ? in->guide_count[v] : 0;
   if (guides == 2) return;
   int32_t first = 0;
-  double best = around(work, v, (const double (*)[3])front, -INFINITY, &first), kept[3], column[3];
+  double best = cw_layers_around(work, v, (const double (*)[3])front, -INFINITY, &first), kept[3], column[3];
   double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
   memcpy(kept, front[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
@@ -141,7 +138,7 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
       if (cosine < least_cosine) continue;
       for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
       cw_layers_place(work, v, front[v]);
-      double quality = around(work, v, (const double (*)[3])front, best, &first);
+      double quality = cw_layers_around(work, v, (const double (*)[3])front, best, &first);
       if (quality > best) {
         best = quality;
         memcpy(kept, front[v], sizeof kept);

@@ -3,12 +3,13 @@
 // and each turns them for itself.
 #include <stdlib.h>
 
+#include "mesher/common/incident.h"
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/ledger.h"
 #include "mesher/skeleton/orbit_skeleton.h"
 #include "pipeline/log.h"
 
-enum { ROUNDS = 20 };
+enum { ROUNDS = 20, SWEEPS = 2 }; // of thinning; over the seams, to choose their columns
 static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
 static const double VALID = 0.02;    // least prism quality
 static const double THIN = 0.8;      // what a column keeps where the copies do not fit one another
@@ -178,8 +179,31 @@ done:
   return status;
 }
 
+// The first of the members of the orbit of v that are on first faces.
+static int32_t first_member(const Part *part, int32_t v) {
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  int32_t first = part->is_first[v] ? v : -1;
+  for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+    if (part->is_first[at] && (first < 0 || at < first)) first = at;
+  }
+  return first;
+}
+
+// Gives all members of the orbit of v the height of the column of `from`, and its end, which lies at `end` for v.
+static void turn_from(const Part *part, const CwLayers *made, int32_t from, int32_t v, const double end[3],
+                      CwLayers *layers) {
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  int32_t at = v, turns = 0;
+  do {
+    cw_orbit_point(orbits, turns++, end, layers->front[at]);
+    layers->height[at] = made->height[part->local[from]];
+    layers->reason[at] = made->reason[part->local[from]];
+    at = cw_orbit_node(orbits, at, 1);
+  } while (at >= 0 && at != v);
+}
+
 // Takes the columns of the first ones from the part and turns them for the copies. Of two members of an orbit that both
-// are on first faces (on a seam) that with the smaller number counts.
+// are on first faces (on a seam) that with the smaller number counts, until one is chosen.
 static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers) {
   CwStatus status = CW_OK;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
@@ -187,17 +211,82 @@ static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers)
   CW_NEW(placed, part->whole->point_count);
   for (int32_t v = 0; v < part->whole->point_count; v++) {
     if (!part->is_first[v] || placed[v]) continue;
-    int32_t local = part->local[v], at = v, turns = 0;
+    turn_from(part, made, v, v, made->front[part->local[v]], layers);
+    int32_t at = v;
     do {
-      cw_orbit_point(orbits, turns++, made->front[local], layers->front[at]);
-      layers->height[at] = made->height[local];
-      layers->reason[at] = made->reason[local];
       placed[at] = 1;
       at = cw_orbit_node(orbits, at, 1);
     } while (at >= 0 && at != v);
   }
 done:
   free(placed);
+  return status;
+}
+
+// How sound the prisms around the members of the orbit of v are, which all get the column that ends at `end` for v.
+static double place_orbit(const Part *part, const CwLayerWork *work, int32_t v, const double end[3],
+                          double (*front)[3]) {
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  double least = INFINITY;
+  for (int around = 0; around < 2; around++) { // all are placed before prisms are looked at
+    int32_t at = v, turns = 0;
+    do {
+      int32_t local = part->local[at], first = 0;
+      if (!around && local >= 0) cw_orbit_point(orbits, turns, end, front[local]);
+      if (around && part->is_first[at]) {
+        least = fmin(least, cw_layers_around(work, local, (const double (*)[3])front, -INFINITY, &first));
+      }
+      turns++;
+      at = cw_orbit_node(orbits, at, 1);
+    } while (at >= 0 && at != v);
+  }
+  return least;
+}
+
+// On a seam repair may have turned or thinned one member of an orbit and not the others. Gives all of them the column
+// with which the prisms around them are soundest.
+static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers) {
+  CwStatus status = CW_OK;
+  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
+  int32_t count = orbits->symmetry ? orbits->symmetry->count : 1;
+  CwIncident incident = {0};
+  double(*front)[3] = NULL;
+  CW_TRY(cw_incident_make(part->in.point_count, part->in.triangle_count, part->in.triangle, &incident));
+  CwLayerWork work = {.in = &part->in, .n = part->in.point_count, .face_start = incident.start,
+                      .face = incident.triangle};
+  CW_NEW_UNSET(front, part->in.point_count);
+  for (int32_t i = 0; i < part->in.point_count; i++) memcpy(front[i], layers->front[part->global[i]], sizeof *front);
+  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    for (int32_t v = 0; v < part->whole->point_count; v++) {
+      if (!part->is_first[v] || first_member(part, v) != v) continue;
+      const double *own = made->front[part->local[v]];
+      double best = -INFINITY, kept[3], end[3];
+      int32_t from = v, turns = 0;
+      memcpy(kept, layers->front[v], sizeof kept);
+      for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
+        turns++;
+        if (!part->is_first[at]) continue;
+        cw_orbit_point(orbits, count - turns, made->front[part->local[at]], end);
+        if (distance3(end, own) < SAME) continue;
+        if (best == -INFINITY) best = place_orbit(part, &work, v, kept, front);
+        for (int k = 0; k < 2; k++) {
+          const double *tried = k ? end : own;
+          if (distance3(tried, kept) < SAME) continue;
+          double quality = place_orbit(part, &work, v, tried, front);
+          if (quality <= best) continue;
+          best = quality;
+          from = k ? at : v;
+          memcpy(kept, tried, sizeof kept);
+        }
+      }
+      if (best == -INFINITY) continue;
+      place_orbit(part, &work, v, kept, front);
+      if (distance3(kept, layers->front[v]) >= SAME) turn_from(part, made, from, v, kept, layers);
+    }
+  }
+done:
+  cw_incident_free(&incident);
+  free(front);
   return status;
 }
 
@@ -287,10 +376,7 @@ done:
 static void lower(const Part *part, int32_t v, double height, CwLayers *layers, uint8_t *lowered) {
   const CwLayerInput *whole = part->whole;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
-  int32_t first = part->is_first[v] ? v : -1;
-  for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
-    if (part->is_first[at] && (first < 0 || at < first)) first = at;
-  }
+  int32_t first = first_member(part, v);
   double *end = layers->front[first], share = height / layers->height[first];
   for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
   if (whole->guide_count[first]) whole->snap(whole->snap_context, first, end);
@@ -349,6 +435,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   CW_TRY(cw_layers_make(&part.in, &made));
   cw_ledger_part("layers: copies");
   CW_TRY(spread(&part, &made, layers));
+  CW_TRY(choose(&part, &made, layers));
   layers->repair_rounds = made.repair_rounds;
   layers->thinned_count = made.thinned_count;
   int32_t bad_count = 1;
