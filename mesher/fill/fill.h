@@ -23,10 +23,11 @@ typedef struct {
   CwSizeAt size;
   const void *size_context;
   const char *name; // for messages: "rotor region 3"
-  // The last `row_count` triangles have a row of points over them (fill_row.h). The last `open_count` keep points of
+  // The last `row_count` triangles have a row of points over them (fill_row.h), of which those over the last
+  // `interface_count` are chosen first. The last `open_count` keep points of
   // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the
   // inner points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
-  int32_t row_count, open_count, inner_count;
+  int32_t row_count, interface_count, open_count, inner_count;
   const double (*inner)[3];
   const CwLatticeSite *inner_site;
 } CwFillInput;

@@ -12,7 +12,8 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
   double u[3], v[3], normal[3];
-  CwRowPlace place = {.triangle = t};
+  int on_interface = t >= input->triangle_count - input->interface_count;
+  CwRowPlace place = {.triangle = t, .on_interface = on_interface};
   cw_sub(b, a, u);
   cw_sub(c, a, v);
   cw_cross(u, v, normal);
@@ -28,6 +29,8 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
 
 int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b) {
   static const double line[3] = {1.0, 0.37, 0.61}; // along no axis, so that few places of regular triangles are level
+  if (a->on_interface != b->on_interface)
+    return b->on_interface - a->on_interface;
   double here = cw_dot(line, a->x), there = cw_dot(line, b->x);
   if (here != there)
     return here < there ? -1 : 1;

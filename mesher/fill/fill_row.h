@@ -21,12 +21,14 @@ extern "C" {
 typedef struct {
   double x[3], spacing; // m
   int32_t triangle;
+  int on_interface;
 } CwRowPlace;
 
 // The place over the middle of triangle t, inward, whatever is there. The spacing is the mean of what is wanted there
 // and of the triangle's edges, which it exceeds by little.
 CwRowPlace cw_row_place(const CwFillInput *input, int32_t t);
-// The order in which places are best taken, for qsort: along a line. What is taken so is as regular as the triangles
+// The order in which places are best taken, for qsort: those over interfaces first, since they are continued on the
+// other side, and along a line. What is taken so is as regular as the triangles
 // are; in any other order, gaps are left between beginnings.
 int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b);
 

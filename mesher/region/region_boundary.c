@@ -83,5 +83,6 @@ CwFillInput cw_region_fill_input(const CwSkeleton *skeleton, const CwRegionBound
                        .size = skeleton->size_at,
                        .size_context = skeleton->size,
                        .name = name,
-                       .row_count = boundary->wall_count + boundary->cap_count + boundary->interface_count};
+                       .row_count = boundary->wall_count + boundary->cap_count + boundary->interface_count,
+                       .interface_count = boundary->interface_count};
 }

@@ -48,11 +48,22 @@ static void spacing_is_between_the_wanted_length_and_the_edges(void **unused) {
   NEAR(place_for(9, 1).spacing, 1.3);
 }
 
-static void order_is_along_a_line_then_by_triangle(void **unused) {
-  const CwRowPlace place[4] = {
-      {.x = {0, 0, 0}, .triangle = 7}, {.x = {0, 0, 0}, .triangle = 8}, {.x = {0, 1, 0}}, {.x = {1, -1, 0}}};
-  for (int k = 0; k < 4; k++) {
-    for (int l = 0; l < 4; l++) assert_int_equal(cw_row_compare(&place[k], &place[l]), (k > l) - (k < l));
+static void last_triangles_are_on_the_interface(void **unused) {
+  const double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, size = 1.0;
+  const int32_t triangle[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}};
+  CwFillInput input = {.point_count = 3, .x = x, .triangle_count = 3, .triangle = triangle, .size = size_at,
+                       .size_context = &size, .row_count = 3, .interface_count = 2};
+  for (int t = 0; t < 3; t++) assert_int_equal(cw_row_place(&input, t).on_interface, t >= 1);
+}
+
+static void order_is_interfaces_first_then_along_a_line_then_by_triangle(void **unused) {
+  const CwRowPlace place[5] = {{.x = {2, 0, 0}, .triangle = 9, .on_interface = 1},
+                               {.x = {0, 0, 0}, .triangle = 7},
+                               {.x = {0, 0, 0}, .triangle = 8},
+                               {.x = {0, 1, 0}},
+                               {.x = {1, -1, 0}}};
+  for (int k = 0; k < 5; k++) {
+    for (int l = 0; l < 5; l++) assert_int_equal(cw_row_compare(&place[k], &place[l]), (k > l) - (k < l));
   }
 }
 
@@ -60,7 +71,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stands_inside_over_the_middle),
       cmocka_unit_test(makes_a_good_tetrahedron),
-      cmocka_unit_test(order_is_along_a_line_then_by_triangle),
+      cmocka_unit_test(last_triangles_are_on_the_interface),
+      cmocka_unit_test(order_is_interfaces_first_then_along_a_line_then_by_triangle),
       cmocka_unit_test(spacing_is_between_the_wanted_length_and_the_edges),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
