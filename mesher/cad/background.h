@@ -28,8 +28,8 @@ typedef struct {
 // other ranks have made.
 CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackground *background);
 
-// From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with CW_ERR_GEOMETRY where the result is not closed (the place is
-// named).
+// From the faces (background_tessellate.h). Turns the solid where they enclose a volume below zero. Fails with
+// CW_ERR_GEOMETRY where the result is not closed (the place is named).
 CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
 void cw_background_free(CwBackground *background);
 

@@ -20,7 +20,7 @@ enum {
 // What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a
 // slice too large is better than a plane along a wall.
 static const double UNEVEN = 0.33;
-static const double OFF_MOST = 0.14,  OFF_FAR = 100; // but past that share of its work a slice costs so much more
+static const double OFF_MOST = 0.14, OFF_FAR = 100; // but past that share of its work a slice costs so much more
 static const double OFF_COST = 3;                    // at most
 // Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
 enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
@@ -49,7 +49,8 @@ static CwPlane across(const Fan *fan, double place) {
 
 // What a slice costs that is so much larger or smaller than wanted.
 static double slice_cost(double work, double wanted) {
-  return UNEVEN * cw_plan_unevenness(work, wanted, 1) + fmin(OFF_FAR * fmax(0, fabs(work / wanted - 1) - OFF_MOST), OFF_COST);
+  double far = fmax(0, fabs(work / wanted - 1) - OFF_MOST);
+  return UNEVEN * cw_plan_unevenness(work, wanted, 1) + fmin(OFF_FAR * far, OFF_COST);
 }
 
 // What a plane across the axis costs.

@@ -54,8 +54,8 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
                         const CwFlowScales *scales);
 
 // What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
-// part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these few,
-// for ranks that none is left for, what each face adds to the exact volume.
+// part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these
+// few, for ranks that none is left for, what each face adds to the exact volume.
 CwStatus cw_domain_start_background(CwDomain *domain);
 double cw_domain_background_cost(const CwDomain *domain, int face);
 CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);

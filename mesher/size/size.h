@@ -36,8 +36,8 @@ void cw_size_seeds_free(CwSizeSeeds **seeds);
 // have a side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims
 // are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of
 // it in the mean.
-// Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it. They come in one
-// block of bytes (malloc'd), to travel between ranks.
+// Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it. They come in
+// one block of bytes (malloc'd), to travel between ranks.
 typedef enum { CW_SIZE_SEEDS, CW_SIZE_RIMS } CwSizePart;
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
                       const double *patch_size, double base_size, const double *rim_size, void *const *seeds,

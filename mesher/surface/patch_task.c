@@ -95,8 +95,8 @@ done:
   return status;
 }
 
-// The packed form: counts of outline points, new points and triangles; then coordinates, nodes of the outline, triangles,
-// labels.
+// The packed form: counts of outline points, new points and triangles; then coordinates, nodes of the outline,
+// triangles, labels.
 enum { HEADER = 16 };
 
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
