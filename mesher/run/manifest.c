@@ -155,7 +155,7 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
   if (sum == 0) return;
   cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s). They "
               "are sound; it would name none with %.1f times the first height, or with edges as much shorter",
-              domain, (long long)sum, where, wanted);
+              domain, (long long)sum, where, 0.1 * ceil(10 * wanted));
 }
 
 static json_t *domain_json(const CwMeshRun *run, int d) {

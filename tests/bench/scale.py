@@ -112,6 +112,7 @@ def main():
     print(f"{'asked':>8}{'made':>13}{'passes':>7}{'mesher':>9}{'export':>9}{'mesher':>9}{'export':>9}  {'regions':>11} "
           f"{'balance':>23} {'least dihedral':>14} {'aspect':>14}")
     for cells in options.cells:
+        options.work and options.work.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=options.work) as name:
             run = Path(name) / "run"
             for stage in ("geometry", "mesh", "export"):
