@@ -57,7 +57,7 @@ CwStatus cw_columns_make(const CwFillInput *input, CwColumns **result) {
     }
   }
   for (int i = 0; i < 2; i++) {
-    columns->bins[i] = (int32_t)ceil(sqrt(0.5 * input->triangle_count)) + 1;
+    columns->bins[i] = (int32_t)ceil(sqrt((double)input->triangle_count)) + 1;
     columns->per_bin[i] = high[i] > columns->low[i] ? columns->bins[i] / (high[i] - columns->low[i]) : 0.0;
   }
   int64_t bins = (int64_t)columns->bins[0] * columns->bins[1], total = 0;

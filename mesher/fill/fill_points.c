@@ -35,7 +35,8 @@ typedef struct {
 // Of the row, where it is chosen.
 typedef struct {
   CwRowPlace place;
-  int32_t cell; // that it lies in, or -1
+  int32_t at[3]; // finest cell that it lies in
+  int32_t cell;  // that it lies in, or -1
   int chosen;
 } RowPoint;
 
@@ -54,21 +55,11 @@ typedef struct {
   int32_t cell_count, cell_space;
   int32_t *list;
   int64_t list_count, list_space;
+  uint8_t *children; // of the cell that is divided, which each item of its list reaches into
   Place *place;
   int64_t place_count, place_space;
   uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
 } Tree;
-
-#define ROOM(array, space, wanted)                                                                           \
-  do {                                                                                                       \
-    if ((wanted) > (space)) {                                                                                \
-      size_t more = 3 * (size_t)(wanted) / 2 + 1024;                                                         \
-      void *grown = realloc((array), more * sizeof *(array));                                                \
-      CW_REQUIRE(grown, CW_ERR_MEMORY, "%s: out of memory: %zu places", tree->input->name, more);            \
-      (array) = grown;                                                                                       \
-      (space) = (__typeof__(space))more;                                                                     \
-    }                                                                                                        \
-  } while (0)
 
 static double size_at(const CwFillInput *input, const double x[3]) {
   return input->size(input->size_context, x);
@@ -114,7 +105,7 @@ static double distance_square(const double a[3], const double b[3]) {
 // Whether an item of the cell keeps a point of the lattice, or of the row, away from x.
 static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3], int of_row) {
   const CwFillInput *input = tree->input;
-  double h = tree->clearance * size_at(input, x), apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
+  double h = 0.0, apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
   for (int32_t k = cell->list_count - 1; k >= 0; k--) { // the row first: it is soon asked
     int32_t t = tree->list[cell->list + k], place = t - input->triangle_count;
@@ -127,6 +118,8 @@ static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3], i
         return 1;
       continue;
     }
+    if (h == 0.0)
+      h = tree->clearance * size_at(input, x);
     int open = !of_row && t >= input->triangle_count - input->open_count;
     const int32_t *q = input->triangle[t];
     if ((!open && cw_reach_in_ball(&tree->ball[t], x)) ||
@@ -183,14 +176,54 @@ static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t li
   return 1;
 }
 
-// Cuts down to coarse cells; the list of the cell's items stands at the end of tree->list. *kept: it is
-// in use there.
-static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
-                           int *kept) {
+// The halves of a cell, by axis, that the box of an item reaches into: bits of its children 0 to 7. The item reaches
+// into the cell; `low` and `high` are its middle, rounded down and up.
+static uint8_t children_of(const CwReachBox *box, const float low[3], const float high[3]) {
+  static const uint8_t lower[3] = {0x55, 0x33, 0x0f};
+  unsigned children = 0xff;
+  for (int i = 0; i < 3; i++)
+    children &= (box->low[i] <= high[i] ? lower[i] : 0u) | (box->high[i] >= low[i] ? 0xffu & ~lower[i] : 0u);
+  return (uint8_t)children;
+}
+
+// Hands the items of a cell down to its children, of which child c gets child_count[c] from list[child_list[c]] on.
+static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
+                            int64_t child_list[8], int32_t child_count[8]) {
+  CwStatus status = CW_OK;
+  float low[3], high[3];
+  for (int i = 0; i < 3; i++) {
+    double middle = tree->origin[i] + tree->unit * (at[i] + (1 << (level - 1)));
+    low[i] = nextafterf((float)middle, -INFINITY);
+    high[i] = nextafterf((float)middle, INFINITY);
+  }
+  memset(child_count, 0, 8 * sizeof *child_count);
+  for (int32_t k = 0; k < list_count; k++) {
+    uint8_t children = tree->children[k] = children_of(&tree->box[tree->list[list + k]], low, high);
+    for (; children; children &= (uint8_t)(children - 1))
+      child_count[__builtin_ctz(children)]++;
+  }
+  for (int c = 0; c < 8; c++) {
+    child_list[c] = tree->list_count;
+    tree->list_count += child_count[c];
+  }
+  CW_GROW(tree->list, tree->list_space, tree->list_count);
+  int64_t to[8];
+  memcpy(to, child_list, sizeof to);
+  for (int32_t k = 0; k < list_count; k++) {
+    for (uint8_t children = tree->children[k]; children; children &= (uint8_t)(children - 1))
+      tree->list[to[__builtin_ctz(children)]++] = tree->list[list + k];
+  }
+done:
+  return status;
+}
+
+// Cuts down to coarse cells.
+static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
   CwStatus status = CW_OK;
   double centre[3], size, edge = tree->unit * (double)(1 << level);
+  int64_t child_list[8];
+  int32_t child_count[8];
   int inside;
-  *kept = 0;
   centre_of(tree, at, level, centre);
   CW_TRY(wanted_size(tree->input, centre, &size));
   if (list_count == 0 || level == 0 || edge <= coarse * lattice_constant * size) {
@@ -198,34 +231,16 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
     CW_TRY(test_inside(tree, centre, &inside));
     if (list_count == 0 && !inside)
       goto done;
-    ROOM(tree->cell, tree->cell_space, tree->cell_count + 1);
-    tree->cell[tree->cell_count++] = (Cell){{at[0], at[1], at[2]}, level, list_count, list, list_count == 0, clear, inside};
-    *kept = 1;
+    CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
+    tree->cell[tree->cell_count++] =
+        (Cell){{at[0], at[1], at[2]}, level, list_count, list, list_count == 0, clear, inside};
     goto done;
   }
+  CW_TRY(divide_list(tree, at, level, list, list_count, child_list, child_count));
   for (int child = 0; child < 8; child++) {
-    int32_t corner[3], count = 0;
-    int64_t from = tree->list_count;
-    float low[3], high[3];
-    int kept_child;
+    int32_t corner[3];
     child_of(at, level, child, corner);
-    for (int i = 0; i < 3; i++) {
-      low[i] = nextafterf((float)(tree->origin[i] + tree->unit * corner[i]), -INFINITY);
-      high[i] = nextafterf((float)(tree->origin[i] + tree->unit * corner[i] + 0.5 * edge), INFINITY);
-    }
-    ROOM(tree->list, tree->list_space, from + list_count);
-    for (int32_t k = 0; k < list_count; k++) {
-      int32_t t = tree->list[list + k];
-      const CwReachBox *b = &tree->box[t];
-      tree->list[from + count] = t;
-      count += (b->low[0] <= high[0]) & (b->high[0] >= low[0]) & (b->low[1] <= high[1]) &
-               (b->high[1] >= low[1]) & (b->low[2] <= high[2]) & (b->high[2] >= low[2]);
-    }
-    tree->list_count += count;
-    CW_TRY(cut_coarse(tree, corner, level - 1, from, count, &kept_child));
-    if (!kept_child)
-      tree->list_count = from;
-    *kept |= kept_child;
+    CW_TRY(cut_coarse(tree, corner, level - 1, child_list[child], child_count[child]));
   }
 done:
   return status;
@@ -251,7 +266,7 @@ static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int leve
     tree->wanted += edge / asked * (edge / asked) * (edge / asked);
     goto done;
   }
-  ROOM(tree->place, tree->place_space, tree->place_count + 9);
+  CW_GROW(tree->place, tree->place_space, tree->place_count + 9);
   for (int k = 0; k < 9; k++) {
     int32_t there[3];
     for (int i = 0; i < 3; i++)
@@ -344,17 +359,19 @@ static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alon
 
 // Which cell each place of the row lies in.
 static void find_cells(Tree *tree) {
-  int32_t first = tree->input->triangle_count;
+  for (int32_t p = 0; p < tree->input->row_count; p++) {
+    for (int i = 0; i < 3; i++)
+      tree->row[p].at[i] = (int32_t)floor((tree->row[p].place.x[i] - tree->origin[i]) / tree->unit);
+  }
   for (int32_t c = 0; c < tree->cell_count; c++) {
     const Cell *cell = &tree->cell[c];
-    for (int32_t k = 0; k < cell->list_count; k++) {
-      int32_t p = tree->list[cell->list + k] - first;
-      int within = p >= 0;
-      for (int i = 0; i < 3 && within; i++) {
-        double at = floor((tree->row[p].place.x[i] - tree->origin[i]) / tree->unit) - cell->at[i];
-        within = at >= 0.0 && at < (double)(1 << cell->level);
-      }
-      if (within)
+    for (int32_t k = cell->list_count - 1; k >= 0; k--) { // the row comes last
+      int32_t p = tree->list[cell->list + k] - tree->input->triangle_count;
+      if (p < 0)
+        break;
+      const int32_t *at = tree->row[p].at;
+      int32_t over = (at[0] - cell->at[0]) | (at[1] - cell->at[1]) | (at[2] - cell->at[2]);
+      if (over >> cell->level == 0) // neither below its corner nor beyond its edge
         tree->row[p].cell = c;
     }
   }
@@ -466,7 +483,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   Tree whole = {.input = input, .fit = 1.0, .clearance = clearance}, *tree = &whole;
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   double area = 0.0, weight = 0.0, extent = 0.0;
-  int above = 0, kept;
+  int above = 0;
   *count = 0;
   *x = NULL;
   if (site)
@@ -476,7 +493,8 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CW_NEW(tree->box, items);
   CW_NEW(tree->ball, input->triangle_count);
   CW_NEW(tree->row, input->row_count);
-  ROOM(tree->list, tree->list_space, items);
+  CW_NEW(tree->children, items);
+  CW_GROW(tree->list, tree->list_space, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     tree->list[tree->list_count++] = t;
     CW_TRY(reach_of(tree, t, &area, &weight));
@@ -487,7 +505,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
     }
   }
   for (int32_t p = 0; p < input->row_count; p++)
-    tree->row[p] = (RowPoint){cw_row_place(input, input->triangle_count - input->row_count + p), -1, 0};
+    tree->row[p] = (RowPoint){.place = cw_row_place(input, input->triangle_count - input->row_count + p), .cell = -1};
   qsort(tree->row, (size_t)input->row_count, sizeof *tree->row, compare_row);
   for (int32_t p = 0; p < input->row_count; p++) {
     tree->box[input->triangle_count + p] =
@@ -507,7 +525,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   for (int i = 0; i < 3; i++) {
     tree->origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->unit * (double)(1 << (above + below));
   }
-  CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items, &kept));
+  CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items));
   CW_TRY(fit_spacing(tree));
   CW_NEW(tree->seen, 1 << SEEN);
   memset(tree->seen, 0xff, sizeof *tree->seen << SEEN);
@@ -520,6 +538,7 @@ done:
   free(tree->row);
   free(tree->cell);
   free(tree->list);
+  free(tree->children);
   free(tree->place);
   free(tree->seen);
   cw_columns_free(&tree->columns);

@@ -7,6 +7,7 @@
 
 static const double height = 0.75; // of the spacing; sqrt(2/3) in a close packing, which is denser than asked for
 static const double most = 1.3;    // spacing over the edges of the triangle
+static const double line[3] = {1.0, 0.37, 0.61}; // along no axis, so that few places of regular triangles are level
 
 CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
@@ -24,15 +25,14 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   place.spacing = fmin(sqrt(edge * input->size(input->size_context, place.x)), most * edge);
   for (int i = 0; i < 3; i++)
     place.x[i] -= height * place.spacing * normal[i];
+  place.along = cw_dot(line, place.x);
   return place;
 }
 
 int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b) {
-  static const double line[3] = {1.0, 0.37, 0.61}; // along no axis, so that few places of regular triangles are level
   if (a->on_interface != b->on_interface)
     return b->on_interface - a->on_interface;
-  double here = cw_dot(line, a->x), there = cw_dot(line, b->x);
-  if (here != there)
-    return here < there ? -1 : 1;
+  if (a->along != b->along)
+    return a->along < b->along ? -1 : 1;
   return (a->triangle > b->triangle) - (a->triangle < b->triangle);
 }

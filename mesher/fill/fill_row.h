@@ -20,6 +20,7 @@ extern "C" {
 
 typedef struct {
   double x[3], spacing; // m
+  double along;         // the line of cw_row_compare
   int32_t triangle;
   int on_interface;
 } CwRowPlace;

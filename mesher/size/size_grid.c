@@ -77,7 +77,8 @@ static size_t locate(const CwSizeGrid *grid, const double x[3], double part[3]) 
     double place = (x[k] - grid->low[k]) / grid->spacing;
     int32_t last = grid->count[k] - 2;
     int32_t i = place > 0 ? (place < last ? (int32_t)place : last) : 0;
-    part[k] = fmin(fmax(place - i, 0.0), 1.0);
+    double beyond = place - i;
+    part[k] = beyond > 0.0 ? (beyond < 1.0 ? beyond : 1.0) : 0.0;
     index = index * (size_t)grid->count[k] + (size_t)i;
   }
   return index;

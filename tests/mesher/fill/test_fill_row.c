@@ -35,6 +35,21 @@ static void stands_inside_over_the_middle(void **unused) {
   NEAR(place.x[2], -1.5);
 }
 
+// The line of the order runs along no axis: it grows with each coordinate, by different amounts.
+static void line_runs_along_no_axis(void **unused) {
+  double along[4], grown[3];
+  for (int k = 0; k < 4; k++) {
+    double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, size = 1.0;
+    const int32_t triangle[1][3] = {{0, 1, 2}};
+    for (int i = 0; i < 3 && k > 0; i++) x[i][k - 1] += 1.0;
+    CwFillInput input = {.point_count = 3, .x = (const double(*)[3])x, .triangle_count = 1, .triangle = triangle,
+                         .size = size_at, .size_context = &size, .row_count = 1};
+    along[k] = cw_row_place(&input, 0).along;
+  }
+  for (int k = 0; k < 3; k++) grown[k] = along[k + 1] - along[0];
+  for (int k = 0; k < 3; k++) assert_true(grown[k] > 0.1 && fabs(grown[k] - grown[(k + 1) % 3]) > 0.1);
+}
+
 // At equal lengths its tetrahedron has edges within a twentieth of one another.
 static void makes_a_good_tetrahedron(void **unused) {
   CwRowPlace place = place_for(1, 1);
@@ -57,11 +72,11 @@ static void last_triangles_are_on_the_interface(void **unused) {
 }
 
 static void order_is_interfaces_first_then_along_a_line_then_by_triangle(void **unused) {
-  const CwRowPlace place[5] = {{.x = {2, 0, 0}, .triangle = 9, .on_interface = 1},
-                               {.x = {0, 0, 0}, .triangle = 7},
-                               {.x = {0, 0, 0}, .triangle = 8},
-                               {.x = {0, 1, 0}},
-                               {.x = {1, -1, 0}}};
+  const CwRowPlace place[5] = {{.along = 2, .triangle = 9, .on_interface = 1},
+                               {.along = 0, .triangle = 7},
+                               {.along = 0, .triangle = 8},
+                               {.along = 0.4},
+                               {.along = 0.6}};
   for (int k = 0; k < 5; k++) {
     for (int l = 0; l < 5; l++) assert_int_equal(cw_row_compare(&place[k], &place[l]), (k > l) - (k < l));
   }
@@ -70,6 +85,7 @@ static void order_is_interfaces_first_then_along_a_line_then_by_triangle(void **
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stands_inside_over_the_middle),
+      cmocka_unit_test(line_runs_along_no_axis),
       cmocka_unit_test(makes_a_good_tetrahedron),
       cmocka_unit_test(last_triangles_are_on_the_interface),
       cmocka_unit_test(order_is_interfaces_first_then_along_a_line_then_by_triangle),
