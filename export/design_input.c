@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/design_input.h"
 
-#include <errno.h>
-#include <jansson.h>
-#include <string.h>
+#include "pipeline/json_read.h"
 
-CwStatus cw_design_read(const char *path, CwDesign *design) {
+CwStatus cw_design_read(const char *path, CwDesign *design, CwCase *table) {
   CwStatus status = CW_OK;
-  json_error_t error;
-  json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+  json_t *root = NULL;
   const struct {
     const char *key;
     double *value;
-  } keys[] = {
+  } always[] = {
       {"interface_radius_m", &design->interface_radius},
       {"impeller_tip_speed_m_per_s", &design->tip_speed},
       {"relative_speed_m_per_s", &design->relative_speed},
@@ -20,40 +17,17 @@ CwStatus cw_design_read(const char *path, CwDesign *design) {
       {"suction_speed_m_per_s", &design->suction_speed},
       {"discharge_speed_m_per_s", &design->discharge_speed},
       {"predicted_head_m", &design->predicted_head},
-  };
-  CW_REQUIRE(root || error.line > 0, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
-  CW_REQUIRE(root, CW_ERR_INPUT, "%s:%d:%d: %s", path, error.line, error.column, error.text);
-  for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
-    const json_t *item = json_object_get(root, keys[i].key);
-    CW_REQUIRE(json_is_number(item) && json_number_value(item) > 0, CW_ERR_INPUT,
-               "%s: '%s' must be a number above 0", path, keys[i].key);
-    *keys[i].value = json_number_value(item);
-  }
-done:
-  json_decref(root);
-  return status;
-}
-
-CwStatus cw_design_complete_case(const char *path, CwCase *table) {
-  CwStatus status = CW_OK;
-  json_error_t error;
-  json_t *root = NULL;
-  const struct {
-    const char *key;
-    double *value;
-  } keys[] = {
+  }, where_open[] = {
       {"inlet_diameter_m", &table->impeller.inlet_diameter},
       {"outlet_diameter_m", &table->impeller.outlet_diameter},
       {"outlet_width_m", &table->impeller.outlet_width},
   };
-  for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
-    if (cw_case_given(*keys[i].value)) continue;
-    if (!root) root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
-    CW_REQUIRE(root, CW_ERR_INPUT, "%s: cannot be read: %s", path, error.text);
-    const double value = json_number_value(json_object_get(root, keys[i].key));
-    CW_REQUIRE(value > 0, CW_ERR_INPUT, "%s: '%s' must be a number above 0", path, keys[i].key);
-    *keys[i].value = value;
-  }
+  CW_TRY(cw_json_read(path, &root));
+  for (size_t i = 0; i < sizeof always / sizeof *always; ++i)
+    CW_TRY(cw_json_positive(root, path, always[i].key, always[i].value));
+  for (size_t i = 0; i < sizeof where_open / sizeof *where_open; ++i)
+    if (!cw_case_given(*where_open[i].value))
+      CW_TRY(cw_json_positive(root, path, where_open[i].key, where_open[i].value));
 done:
   json_decref(root);
   return status;

@@ -12,10 +12,8 @@ typedef struct {
   double predicted_head;                                                          // m
 } CwDesign;
 
-// Fails with CW_ERR_IO or CW_ERR_INPUT, naming the key.
-CwStatus cw_design_read(const char *path, CwDesign *design);
-
-// Fills the impeller's D1, D2 and b2 of the case, where it leaves them open, from the design.
-CwStatus cw_design_complete_case(const char *path, CwCase *table);
+// Reads the design, and fills the impeller's D1, D2 and b2 of the case from it where the case leaves them open. Fails
+// with CW_ERR_IO or CW_ERR_INPUT, naming the key.
+CwStatus cw_design_read(const char *path, CwDesign *design, CwCase *table);
 
 #endif

@@ -14,7 +14,8 @@ int main(int argc, char **argv) {
       .stage = "export",
       .summary =
           "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
-          "Runs under mpirun with any number of ranks; what it writes is the same for all.\n"};
+          "Runs under mpirun with any number of ranks; what it writes is the same for all.\n",
+      .reads = {"geometry", "mesh"}};
   CwStageArgs args = {0};
   CwCase table;
   CwRanks ranks = {.comm = MPI_COMM_WORLD};

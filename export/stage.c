@@ -16,6 +16,7 @@
 #include "export/interface.h"
 #include "export/region_check.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
@@ -225,20 +226,10 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
   CW_TRY(paths_make(run, &paths));
   CW_TRY(cw_record_start("export", &record));
-  CW_TRY(join(paths.folder, "record.json", &path));
-  if (ranks->rank == 0)
-    unlink(path); // the record of an earlier run does not outlive a failed one
-  free(path);
-  path = NULL;
   CW_TRY(join(run, "geometry/design.json", &path));
-  status = cw_design_read(path, &design);
-  if (status == CW_OK)
-    status = cw_design_complete_case(path, &whole);
+  status = cw_design_read(path, &design, &whole);
   if (status == CW_OK)
     status = cw_mesh_manifest_read(run, &mesh);
-  if (status == CW_OK && strcmp(mesh.case_name, table->name) != 0)
-    status = CW_FAIL(CW_ERR_INPUT, "%s/mesh: holds the mesh of case '%s'; allowed: that of the case file, '%s'", run,
-                     mesh.case_name, table->name);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
   checked = cw_seconds();
@@ -261,6 +252,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
     CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
     CW_TRY(cw_record_step(record, "check and write the mesh", written - planned, cells, "cells"));
     CW_TRY(record_results(&assembly, interfaces, record));
+    CW_TRY(cw_record_json(record, "case", cw_case_origin(table)));
     CW_TRY(cw_record_integer(record, "ranks", ranks->size));
     cw_record_set_peak_memory(record, memory);
     CW_TRY(finish_files(&paths));

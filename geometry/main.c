@@ -12,6 +12,7 @@
 #include "geometry/pump.h"
 #include "geometry/step_file.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 #include "pipeline/stage_args.h"
@@ -188,6 +189,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
     path = NULL;
   }
   CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + pump.count, "files"));
+  CW_TRY(cw_record_json(record, "case", cw_case_origin(table)));
   CW_TRY(cw_record_json(record, "measured", cw_measured_json(&measured)));
   CW_TRY(cw_record_number(record, "predicted_head_m", design.predicted_head));
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
@@ -209,7 +211,6 @@ int main(int argc, char **argv) {
   if (args.finished)
     goto done;
   CW_TRY(in_folder(&args, "record.json", &record_path));
-  remove(record_path); // of an earlier run: it must not vouch for files that this run is about to replace
   CW_TRY(cw_record_start("geometry", &record));
   CW_TRY(make_geometry(&args, &table, record));
   CW_TRY(cw_record_write(record, record_path));

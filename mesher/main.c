@@ -6,6 +6,7 @@
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/run/mesh_run.h"
+#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
 
@@ -14,6 +15,7 @@ static const CwStageUsage USAGE = {
     .summary =
         "Meshes RUN/geometry into region files and a manifest in RUN/mesh. Regions that an earlier run left whole\n"
         "are kept. Start it under mpirun for more than one rank; the mesh is the same for any number.\n",
+    .reads = {"geometry"},
 };
 
 int main(int argc, char **argv) {
@@ -38,6 +40,7 @@ int main(int argc, char **argv) {
   if (run.rank == 0) {
     CW_TRY(cw_stage_path(&args, "mesh/record.json", &record_path));
     cw_record_set_peak_memory(run.record, all);
+    CW_TRY(cw_record_json(run.record, "case", cw_case_origin(&table)));
     CW_TRY(cw_record_write(run.record, record_path));
   }
 done:

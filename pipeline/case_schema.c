@@ -315,6 +315,11 @@ int cw_case_section_known(const char *section) {
   return 0;
 }
 
+int cw_case_key_shapes_pump(const CwCaseKey *key) {
+  return strcmp(key->section, "walls") && strcmp(key->section, "mesh") && key->offset != AT(fluid.kinematic_viscosity) &&
+         key->offset != AT(operating_point.time_step_angle);
+}
+
 void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]) {
   snprintf(path, CW_KEY_PATH_SIZE, "%s%s%s", key->section, key->section[0] ? "." : "", key->key);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/case_origin.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
 #include "pipeline/log.h"
@@ -143,7 +144,7 @@ done:
 CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args,
                         CwCase *table) {
   CwStatus status = CW_OK;
-  char *log_path = NULL, name[64];
+  char *log_path = NULL, *record_path = NULL, name[64];
   CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0));
   CW_TRY(cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args));
   if (args->finished) goto done;
@@ -152,7 +153,13 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
   CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));
   CW_TRY(cw_case_read(args->case_path, table));
   if (args->cells) table->mesh.cells = args->cells;
+  for (const char *const *stage = usage->reads; *stage; ++stage)
+    CW_TRY(cw_case_origin_check(table, args->run_path, *stage));
+  snprintf(name, sizeof name, "%s/record.json", usage->stage);
+  CW_TRY(cw_stage_path(args, name, &record_path));
+  if (speaks) remove(record_path);
 done:
   free(log_path);
+  free(record_path);
   return status;
 }

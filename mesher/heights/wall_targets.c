@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/heights/wall_targets.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <string.h>
 
 #include "mesher/heights/layer_heights.h"
+#include "pipeline/json_read.h"
 
 CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
   CwStatus status = CW_OK;
-  json_error_t error;
-  json_t *design = json_load_file(design_path, 0, &error);
-  CW_REQUIRE(design || error.line >= 0, CW_ERR_IO, "%s; made by cutwater-geometry", error.text); // names the file
-  CW_REQUIRE(design, CW_ERR_IO, "%s:%d: %s; made by cutwater-geometry", design_path, error.line, error.text);
+  json_t *design = NULL;
+  CW_TRY(cw_json_read(design_path, &design));
   double outlet_radius = 0, throat_speed = 0;
   const struct {
     const char *key;
@@ -23,12 +21,8 @@ CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
                 {"throat_speed_m_per_s", &throat_speed},
                 {"discharge_speed_m_per_s", &scales->discharge_speed},
                 {"interface_radius_m", &outlet_radius}};
-  for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
-    const json_t *value = json_object_get(design, wanted[i].key);
-    CW_REQUIRE(json_is_number(value) && json_number_value(value) > 0, CW_ERR_INPUT,
-               "%s: %s is missing or not a number above 0", design_path, wanted[i].key);
-    *wanted[i].value = json_number_value(value);
-  }
+  for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+    CW_TRY(cw_json_positive(design, design_path, wanted[i].key, wanted[i].value));
   // The diffuser widens like a cone, from throat to discharge: along it the mean of Q / (pi r^2) is Q / (pi r0 r1).
   scales->diffuser_speed = sqrt(throat_speed * scales->discharge_speed);
   // Lengths along which the boundary layers grow: a blade is a little longer than the outlet radius, the spiral runs

@@ -56,8 +56,7 @@ static json_t *manifest_json(const CwMeshRun *run) {
                                              cw_json_number(domain->solid_volume), "patches",
                                              patches_json(domain), "regions", regions_json(run, d)));
   }
-  return json_pack("{s:i, s:s, s:o, s:o}", "format", 1, "case", run->table->name, "domains", domains, "interfaces",
-                   interfaces_json(&run->domains));
+  return json_pack("{s:i, s:o, s:o}", "format", 1, "domains", domains, "interfaces", interfaces_json(&run->domains));
 }
 
 static json_t *counts_json(const int64_t *count, int size) {

@@ -2,11 +2,12 @@
 #include "pipeline/mesh/manifest.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "pipeline/json_read.h"
 
 static const char *const first_domains[] = {"rotor", "stator"};
 
@@ -219,17 +220,10 @@ CwStatus cw_mesh_manifest_read(const char *run, CwMesh *mesh) {
   CwStatus status = CW_OK;
   char *file = NULL;
   json_t *root = NULL;
-  json_error_t error;
   CW_REQUIRE(asprintf(&file, "%s/mesh/manifest.json", run) >= 0, CW_ERR_MEMORY, "out of memory");
-  root = json_load_file(file, JSON_REJECT_DUPLICATES, &error);
-  CW_REQUIRE(root || error.line > 0, CW_ERR_IO, "%s: cannot be read: %s", file, strerror(errno));
-  CW_REQUIRE(root, CW_ERR_INPUT, "%s:%d:%d: %s", file, error.line, error.column, error.text);
+  CW_TRY(cw_json_read(file, &root));
   CW_REQUIRE(json_integer_value(json_object_get(root, "format")) == 1, CW_ERR_INPUT,
              "%s: 'format' must be 1: the mesh was written by another version", file);
-  const char *name = json_string_value(json_object_get(root, "case"));
-  CW_REQUIRE(name && strlen(name) < sizeof mesh->case_name, CW_ERR_INPUT,
-             "%s: 'case' must be a name of at most %zu characters", file, sizeof mesh->case_name - 1);
-  snprintf(mesh->case_name, sizeof mesh->case_name, "%s", name);
   const json_t *domains = json_object_get(root, "domains");
   CW_REQUIRE(json_array_size(domains) >= 2 && json_array_size(domains) <= CW_DOMAINS_MOST, CW_ERR_INPUT,
              "%s: 'domains' must list rotor, stator and at most %d more", file, CW_DOMAINS_MOST - 2);

@@ -48,7 +48,6 @@ typedef struct {
 // The manifest: rotor first, stator second, then the others; patches and regions of all in one list each. The
 // first interface is the one between rotor and stator.
 typedef struct {
-  char case_name[CW_MESH_NAME_SIZE];
   int domain_count, interface_count;
   CwMeshDomain domains[CW_DOMAINS_MOST];
   CwMeshInterface interfaces[CW_DOMAINS_MOST];

@@ -13,6 +13,7 @@ static const CwStageUsage usage = {
     .summary = "Writes RUN/report/index.html: figures, charts and pictures of RUN/geometry, RUN/mesh and, "
                "where it is\n"
                "there, RUN/export. The page is one file that refers to nothing outside itself.\n",
+    .reads = {"geometry", "mesh"},
 };
 
 static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *record) {

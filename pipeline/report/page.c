@@ -6,7 +6,7 @@
 
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/json_read.h"
+#include "pipeline/json_read.h"
 
 static const char style[] =
     ":root{--ink:#1f2933;--soft:#5f6c7b;--line:#dde3e9;--blue:#0b5c8a;--ground:#f6f8fa}\n"

@@ -4,19 +4,23 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "pipeline/report/json_read.h"
+#include "pipeline/case_origin.h"
+#include "pipeline/json_read.h"
 #include "pipeline/report/page.h"
 
 const char *const cw_report_stage[CW_STAGES] = {"geometry", "mesh", "export"};
 
-static CwStatus read_record(const char *run, int stage, json_t **record) {
+static CwStatus read_record(const char *run, const CwCase *table, int stage, json_t **record) {
   CwStatus status = CW_OK;
   char path[4096];
   const char *name;
   json_t *value;
   snprintf(path, sizeof path, "%s/%s/record.json", run, cw_report_stage[stage]);
-  if (!strcmp(cw_report_stage[stage], "export") && access(path, F_OK) != 0)
-    goto done; // not exported yet
+  if (!strcmp(cw_report_stage[stage], "export")) {
+    if (access(path, F_OK) != 0)
+      goto done; // not exported yet
+    CW_TRY(cw_case_origin_check(table, run, "export"));
+  }
   CW_TRY(cw_json_read(path, record));
   CW_TRY(cw_json_text(*record, path, "stage", &name));
   CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path,
@@ -47,11 +51,8 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   CW_TRY(cw_json_read(path, &data->design));
   for (int s = 0; s < CW_STAGES; s++)
-    CW_TRY(read_record(run, s, &data->record[s]));
+    CW_TRY(read_record(run, table, s, &data->record[s]));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
-  CW_REQUIRE(!strcmp(data->mesh.case_name, table->name), CW_ERR_INPUT,
-             "%s/mesh/manifest.json: the mesh is of case '%s', the case file is '%s'", run, data->mesh.case_name,
-             table->name);
 done:
   return status;
 }
@@ -70,14 +71,13 @@ void cw_report_data_free(CwReportData *data) {
 CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   CwStatus status = CW_OK;
   static const char *const keys[] = {"blade_count", "outlet_diameter_m", "interface_radius_m", "base_diameter_m"};
+  char path[4096];
   double value[4], splitters = cw_json_real(data->design, "splitter_count");
   double leading = fmax(cw_json_real(data->design, "leading_edge_radius_hub_m"),
                         cw_json_real(data->design, "leading_edge_radius_shroud_m"));
-  for (int i = 0; i < 4; i++) {
-    value[i] = cw_json_real(data->design, keys[i]);
-    CW_REQUIRE(value[i] > 0, CW_ERR_INPUT, "%s/geometry/design.json: '%s' must be a number above 0", data->run,
-               keys[i]);
-  }
+  snprintf(path, sizeof path, "%s/geometry/design.json", data->run);
+  for (int i = 0; i < 4; i++)
+    CW_TRY(cw_json_positive(data->design, path, keys[i], &value[i]));
   *sizes = (CwPumpSizes){.blade_count = (int)value[0] + (splitters > 0 ? (int)splitters : 0),
                          .leading_radius = leading > 0 ? 1.1 * leading : INFINITY,
                          .outlet_radius = 0.5 * value[1],

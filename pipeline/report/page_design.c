@@ -9,7 +9,7 @@
 #include "pipeline/case_schema.h"
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/json_read.h"
+#include "pipeline/json_read.h"
 #include "pipeline/report/page.h"
 #include "pipeline/report/quantity.h"
 

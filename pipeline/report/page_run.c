@@ -6,7 +6,7 @@
 
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
-#include "pipeline/report/json_read.h"
+#include "pipeline/json_read.h"
 #include "pipeline/report/page.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/quantity.h"

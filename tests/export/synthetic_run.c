@@ -10,6 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "pipeline/case_origin.h"
+
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 typedef struct {
@@ -469,6 +471,19 @@ static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_r
   return domain;
 }
 
+// What later stages ask of a stage's record: the case that it ran for.
+static int write_record(const char *run, const char *stage) {
+  char path[4000];
+  CwCase table;
+  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK)
+    return -1;
+  json_t *root = json_pack("{s:{s:o}}", "results", "case", cw_case_origin(&table));
+  snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
+  const int failed = json_dump_file(root, path, JSON_INDENT(1));
+  json_decref(root);
+  return failed;
+}
+
 int synthetic_run_write(const char *run, const SyntheticPump *pump) {
   char path[4000];
   mkdir(run, 0777);
@@ -482,8 +497,7 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
     json_decref(stator);
     return -1;
   }
-  json_t *root = json_pack("{s:i, s:s, s:[o, o], s:[[s, s]]}", "format", 1, "case", "paper", "domains", rotor,
-                           stator, "interfaces", "rotor_interface", "stator_interface");
+  json_t *root = json_pack("{s:i, s:[o, o], s:[[s, s]]}", "format", 1, "domains", rotor, stator, "interfaces", "rotor_interface", "stator_interface");
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
@@ -494,5 +508,5 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   failed |= json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
-  return failed ? -1 : 0;
+  return failed || write_record(run, "geometry") || write_record(run, "mesh") ? -1 : 0;
 }

@@ -106,8 +106,8 @@ static void files_that_are_missing_or_cut_are_told(void **state) {
   (void)state;
   char run[STAGE_PATH_SIZE + 40];
   copy_run("bad", run);
-  assert_int_equal(stage_shell(output, "sed -i '0,/paper/s//other/' '%s/mesh/manifest.json'", run), 0);
-  expect_error(run, "holds the mesh of case 'other'; allowed: that of the case file, 'paper'");
+  assert_int_equal(stage_shell(output, "sed -i '0,/paper/s//other/' '%s/mesh/record.json'", run), 0);
+  expect_error(run, "mesh: made with name: other, the case file has paper; allowed: the same pump, run cutwater-mesh");
   copy_run("bad", run);
   stage_shell(output, "rm '%s/mesh/stator-0002.h5'", run);
   expect_error(run, "stator-0002.h5: is missing");
@@ -120,6 +120,9 @@ static void files_that_are_missing_or_cut_are_told(void **state) {
   copy_run("bad", run);
   stage_shell(output, "rm '%s/geometry/design.json'", run);
   expect_error(run, "geometry/design.json: cannot be read");
+  copy_run("bad", run);
+  stage_shell(output, "rm '%s/mesh/record.json'", run);
+  expect_error(run, "mesh/record.json: it is missing; cutwater-mesh writes it");
 }
 
 static void a_manifest_that_does_not_fit_is_told(void **state) {

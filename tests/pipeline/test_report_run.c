@@ -16,6 +16,7 @@
 #include <hdf5.h>
 
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_origin.h"
 
 #define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
 
@@ -32,6 +33,18 @@ static void write_text(const char *name, const char *text) {
   assert_non_null(file);
   fputs(text, file);
   fclose(file);
+}
+
+// A stage's record, with the case that it ran for.
+static void write_record(const char *name, const char *text) {
+  CwCase table;
+  assert_int_equal(cw_case_read(CASE, &table), CW_OK);
+  json_t *record = json_loads(text, 0, NULL);
+  assert_int_equal(json_object_set_new(json_object_get(record, "results"), "case", cw_case_origin(&table)), 0);
+  char *whole = json_dumps(record, 0);
+  write_text(name, whole);
+  free(whole);
+  json_decref(record);
 }
 
 static char *read_text(const char *name) {
@@ -119,7 +132,7 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
   "{\"name\":\"" end "\",\"kind\":\"" end "\"},{\"name\":\"" c "\",\"kind\":\"interface\"}]"
 #define MESHED(name, patches, file) "{\"name\":\"" name "\",\"shared_points\":0,\"solid_volume_m3\":1," \
   "\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
-#define MANIFEST(name) "{\"format\":1,\"case\":\"" name "\",\"domains\":[" \
+#define MANIFEST "{\"format\":1,\"domains\":[" \
   MESHED("rotor", PATCHES("shroud", "hub", "inlet", "rotor_interface"), "rotor-0001.h5") "," \
   MESHED("stator", PATCHES("volute", "tongue", "outlet", "stator_interface"), "stator-0001.h5") "]," \
   "\"interfaces\":[[\"rotor_interface\",\"stator_interface\"]]}"
@@ -146,18 +159,18 @@ static int make_run(void **state) {
                                      "\"outlet_diameter_m\":0.2,\"base_diameter_m\":0.204,"
                                      "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
                                      "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
-  write_text("geometry/record.json",
+  write_record("geometry/record.json",
              "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
              "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
              "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
   write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
-  write_text("mesh/record.json",
+  write_record("mesh/record.json",
              "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
              "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
              "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
              "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":[" DOMAIN(
                  "rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
-  write_text("mesh/manifest.json", MANIFEST("paper"));
+  write_text("mesh/manifest.json", MANIFEST);
   write_region("rotor", 0.03, 0.101, 7);
   write_region("stator", 0.101, 0.14, 7);
   return 0;
@@ -249,7 +262,7 @@ static void export_figures_are_shown(void **state) {
   char path[200];
   path_in_run("export", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  write_text("export/record.json",
+  write_record("export/record.json",
              "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
              "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
              "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
@@ -282,16 +295,16 @@ static void wrong_content_is_named(void **state) {
   } wrong[] = {
       {"mesh/manifest.json", "{\"format\":1,", "mesh/manifest.json:1:"},
       {"mesh/manifest.json", "{\"format\":2}", "'format' must be 1"},
-      {"mesh/manifest.json", MANIFEST("other"), "of case 'other'"},
-      {"mesh/manifest.json", "{\"format\":1,\"case\":\"paper\",\"domains\":[]}", "'domains' must list rotor, stator"},
+      {"mesh/manifest.json", "{\"format\":1,\"domains\":[]}", "'domains' must list rotor, stator"},
       {"geometry/design.json", "[]", "object"},
       {"geometry/design.json", "{}", "blade_count"},
       {"geometry/design.json", "{\"blade_count\":6}", "outlet_diameter_m"},
-      {"geometry/record.json", "{\"stage\":\"mesh\"}", "'stage' is mesh"},
+      {"geometry/record.json", "{\"stage\":\"mesh\",\"results\":{}}", "'stage' is mesh"},
       {"mesh/record.json",
        "{\"stage\":\"mesh\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],\"warnings\":[],"
        "\"results\":{}}",
        "'asked_cells'"},
+      {"mesh/record.json", "{\"results\":{\"case\":{}}}", "mesh: made with name: (left out), the case file has paper"},
       {"geometry/velocity_triangles.svg", "<svg>", "not a whole SVG"},
   };
   char path[200], aside[200];
@@ -299,7 +312,7 @@ static void wrong_content_is_named(void **state) {
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
     path_in_run(wrong[k].file, path);
     assert_int_equal(rename(path, aside), 0);
-    write_text(wrong[k].file, wrong[k].text);
+    (strstr(wrong[k].text, "\"stage\"") ? write_record : write_text)(wrong[k].file, wrong[k].text);
     fails(CW_ERR_INPUT, wrong[k].message);
     assert_int_equal(rename(aside, path), 0);
   }

@@ -17,7 +17,8 @@ static const CwStageOption own_options[] = {
     {"format", "NAME", "cgns or openfoam"},
     {"whole", NULL, "all passages"},
 };
-static const CwStageUsage usage = {"export", "Writes the solver's files.\n", own_options, 2};
+static const CwStageUsage usage = {
+    .stage = "export", .summary = "Writes the solver's files.\n", .options = own_options, .option_count = 2};
 
 // Splits a command line at its blanks and reads it.
 static CwStatus read_line(const char *line, FILE *out, CwStageArgs *args) {

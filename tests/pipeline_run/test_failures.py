@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Bad input and failing runs through the real programs: one line, an exit status, nothing half-written."""
 import os
+import shutil
 import signal
 import time
 import unittest
 from pathlib import Path
 
-from cutwater import CELLS, PAPER, error_lines, fresh, ranks_of, stage, start, state, with_geometry
+from cutwater import CELLS, PAPER, RUN, digests, done, error_lines, fresh, ranks_of, stage, start, state, with_geometry
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
@@ -90,6 +91,40 @@ class BadInput(unittest.TestCase):
                 self.assertNotEqual(result.returncode, 0)
                 self.assertEqual(len(error_lines(result.stdout, "mesh")), 1, result.stdout)
                 self.assertFalse((run / "mesh/manifest.json").exists())
+
+    def test_a_folder_of_another_pump(self):
+        run = with_geometry("bad-origin")
+        (run / "mesh").mkdir()
+        shutil.copy(RUN / "mesh/record.json", run / "mesh")
+        case = run / "case.yaml"
+        case.write_text(PAPER.read_text().replace("outlet_width_mm: 8", "outlet_width_mm: 9", 1))
+        for name in ("mesh", "export", "report"):
+            with self.subTest(name):
+                result = stage(name, run, case=case, cells=CELLS, ranks=2)
+                self.assertEqual(result.returncode, 3, result.stdout)
+                self.assertEqual(len(result.stdout.strip().splitlines()), 1, result.stdout)
+                self.assertIn(f"cutwater-{name}: error: {run}/geometry: made with impeller.outlet_width_mm: 8, "
+                              "the case file has 9; allowed: the same pump, run cutwater-geometry", result.stdout)
+        done(self, "geometry", run, case=case)
+        result = stage("export", run, case=case, ranks=2)
+        self.assertEqual(len(error_lines(result.stdout, "export")), 1, result.stdout)
+        self.assertIn(f"{run}/mesh: made with impeller.outlet_width_mm: 8", result.stdout)
+
+    def test_keys_that_the_pump_does_not_follow_from(self):
+        # The geometry has the same bytes, and one that was made before is taken.
+        run = fresh("other-mesh-keys")
+        case = run / "case.yaml"
+        text = PAPER.read_text()
+        for old, new in (("layer_count: 5", "layer_count: 3"), ("viscosity_m2_per_s: 1.004e-6", "viscosity_m2_per_s: 2e-6"),
+                         ("cells: 1000000", "cells: 100000"), ("time_step_deg: 1", "time_step_deg: 2")):
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        case.write_text(text)
+        done(self, "geometry", run, case=case)
+        self.assertEqual(digests(run / "geometry"), digests(RUN / "geometry"))
+        shutil.rmtree(run / "geometry")
+        shutil.copytree(RUN / "geometry", run / "geometry")
+        done(self, "mesh", run, case=case, ranks=2)
 
 
 class Failures(unittest.TestCase):

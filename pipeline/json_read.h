@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Reading the stages' JSON files with one clear line for what is not there.
-#ifndef CUTWATER_PIPELINE_REPORT_JSON_READ_H
-#define CUTWATER_PIPELINE_REPORT_JSON_READ_H
+#ifndef CUTWATER_PIPELINE_JSON_READ_H
+#define CUTWATER_PIPELINE_JSON_READ_H
 
 #include <jansson.h>
 
@@ -17,6 +17,8 @@ CwStatus cw_json_object(json_t *object, const char *where, const char *key, json
 CwStatus cw_json_array(json_t *object, const char *where, const char *key, json_t **value);
 CwStatus cw_json_text(json_t *object, const char *where, const char *key, const char **value);
 CwStatus cw_json_count(json_t *object, const char *where, const char *key, int64_t *value); // not negative
+
+CwStatus cw_json_positive(json_t *object, const char *where, const char *key, double *value);          // above 0
 
 // A number, or NAN where there is none (null, missing, another type).
 double cw_json_real(json_t *object, const char *key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "pipeline/report/json_read.h"
+#include "pipeline/json_read.h"
 
 #include <errno.h>
 #include <math.h>
@@ -48,6 +48,11 @@ CwStatus cw_json_count(json_t *object, const char *where, const char *key, int64
   return json_is_integer(number) && *value >= 0
              ? CW_OK
              : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and a whole number from 0", where, key);
+}
+
+CwStatus cw_json_positive(json_t *object, const char *where, const char *key, double *value) {
+  *value = cw_json_real(object, key);
+  return *value > 0 ? CW_OK : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and a number above 0", where, key);
 }
 
 double cw_json_real(json_t *object, const char *key) {
