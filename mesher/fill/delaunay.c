@@ -78,6 +78,31 @@ void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
   mesh->spare = tet + 1;
 }
 
+void cw_delaunay_pack(CwDelaunay *mesh) {
+  int32_t kept = 0;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    if (mesh->tet[t].corner[0] < 0)
+      continue;
+    CwDelaunayTet *tet = &mesh->tet[kept];
+    if (kept != t)
+      *tet = mesh->tet[t];
+    for (int i = 0; i < 4 && kept != t; i++) {
+      if (tet->neighbour[i] >= 0)
+        mesh->tet[tet->neighbour[i] >> 2].neighbour[tet->neighbour[i] & 3] = 4 * kept + i;
+    }
+    kept++;
+  }
+  mesh->tet_count = kept;
+  mesh->spare = 0;
+  // Some room is left for those to come, since a larger pool stands beside this one for a moment.
+  int32_t space = kept + kept / 32 + 64;
+  CwDelaunayTet *pool = space < mesh->tet_space ? realloc(mesh->tet, (size_t)space * sizeof *pool) : NULL;
+  if (pool) { // as a rule in its place, and so aligned as before
+    mesh->tet = pool;
+    mesh->tet_space = space;
+  }
+}
+
 CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point) {
   CwStatus status = CW_OK;
   if (mesh->point_count == mesh->point_space) {

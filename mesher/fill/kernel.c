@@ -55,6 +55,11 @@ enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free a
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
 
+// Stands in the square, as a number below 0.
+static int place_of(const CwDelaunayTet *tet) { return tet->square < 0.0 ? -(int)tet->square : 0; }
+
+static void add_place(CwDelaunayTet *tet, int place) { tet->square = -(double)(place_of(tet) | place); }
+
 // A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of
 // these hang together.
 static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
@@ -76,21 +81,20 @@ static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
 // between inner sides, and is cut off at them. What waits is chained through corner[1], of no use outside.
 static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
-  uint8_t *place = NULL;
   int own = 0;
   int32_t waiting = -1, enclosing = find_enclosing(mesh, &own);
   const double *x = mesh->point[mesh->tet[enclosing].corner[own]].x;
-  CW_NEW(place, mesh->tet_count);
   for (int32_t f = 0; f < facets->count; f++) {
     int32_t inner = facets->inner[f], outer = mesh->tet[inner / 4].neighbour[inner % 4];
+    CwDelaunayTet *inside = &mesh->tet[inner / 4], *outside = &mesh->tet[outer / 4];
     const double *y = mesh->point[facets->corner[f][0]].x;
-    if (!(place[outer / 4] & OUTSIDE)) {
-      mesh->tet[outer / 4].corner[1] = waiting;
+    if (!(place_of(outside) & OUTSIDE)) {
+      outside->corner[1] = waiting;
       waiting = outer / 4;
     }
-    place[inner / 4] |= (uint8_t)(INNER | 1 << inner % 4);
-    place[outer / 4] |= (uint8_t)(OUTSIDE | 1 << outer % 4);
-    CW_REQUIRE((place[inner / 4] & OUTSIDE) == 0 && (place[outer / 4] & INNER) == 0, CW_ERR_MESH,
+    add_place(inside, INNER | 1 << inner % 4);
+    add_place(outside, OUTSIDE | 1 << outer % 4);
+    CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
   }
@@ -99,32 +103,32 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     const CwDelaunayTet *tet = &mesh->tet[t];
     waiting = tet->corner[1];
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0 || place[t] & 1 << i)
+      if (tet->neighbour[i] < 0 || place_of(tet) & 1 << i)
         continue;
-      int32_t next = tet->neighbour[i] / 4;
+      CwDelaunayTet *next = &mesh->tet[tet->neighbour[i] / 4];
       const double *y = mesh->point[tet->corner[0]].x;
-      CW_REQUIRE((place[next] & INNER) == 0, CW_ERR_MESH,
+      CW_REQUIRE((place_of(next) & INNER) == 0, CW_ERR_MESH,
                  "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
                  input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
-      if (place[next] & OUTSIDE)
+      if (place_of(next) & OUTSIDE)
         continue;
-      place[next] |= OUTSIDE;
-      mesh->tet[next].corner[1] = waiting;
-      waiting = next;
+      add_place(next, OUTSIDE);
+      next->corner[1] = waiting;
+      waiting = tet->neighbour[i] / 4;
     }
   }
-  CW_REQUIRE(place[enclosing] & OUTSIDE, CW_ERR_MESH,
+  CW_REQUIRE(place_of(&mesh->tet[enclosing]) & OUTSIDE, CW_ERR_MESH,
              "%s: the boundary encloses all that lies outside it: its normals point inward near "
              "(%.6g, %.6g, %.6g) mm",
              input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
   for (int32_t f = 0; f < facets->count; f++)
     mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (place[t] & OUTSIDE)
+    if (place_of(&mesh->tet[t]) & OUTSIDE)
       cw_delaunay_free_tet(mesh, t);
   }
+  cw_delaunay_pack(mesh);
 done:
-  free(place);
   return status;
 }
 

@@ -28,8 +28,13 @@ static int same_points(const int32_t p[3], const int32_t q[3]) {
   return 1;
 }
 
+// The place of a hash in a table of `space` places, and the one after another.
+static uint32_t place_of(uint32_t hash, uint32_t space) { return (uint32_t)((uint64_t)hash * space >> 32); }
+
+static uint32_t after(uint32_t place, uint32_t space) { return place + 1 < space ? place + 1 : 0; }
+
 int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]) {
-  for (uint32_t k = scatter_three(corner) & facets->mask;; k = (k + 1) & facets->mask) {
+  for (uint32_t k = place_of(scatter_three(corner), facets->table_space);; k = after(k, facets->table_space)) {
     int32_t f = facets->table[k];
     if (f == EMPTY)
       return -1;
@@ -38,54 +43,54 @@ int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]) {
   }
 }
 
+static int is_edge(const CwFacets *facets, int32_t side, int32_t a, int32_t b) {
+  const int32_t *p = facets->corner[side / 3];
+  int32_t from = p[side % 3], to = p[(side + 1) % 3];
+  return (from == a && to == b) || (from == b && to == a);
+}
+
 // The place of an edge in the table, or the empty one where it belongs.
-static uint32_t edge_place(const CwFacets *facets, int32_t low, int32_t high) {
-  uint32_t k = scatter((uint64_t)low << 32 | (uint64_t)high) & facets->edge_mask;
-  while (facets->edge[k][0] != EMPTY && (facets->edge[k][0] != low || facets->edge[k][1] != high))
-    k = (k + 1) & facets->edge_mask;
+static uint32_t edge_place(const CwFacets *facets, int32_t a, int32_t b) {
+  int32_t low = a < b ? a : b, high = a < b ? b : a;
+  uint32_t k = place_of(scatter((uint64_t)low << 32 | (uint64_t)high), facets->edge_space);
+  while (facets->edge[k] != EMPTY && (facets->edge[k] == DIVIDED || !is_edge(facets, facets->edge[k], a, b)))
+    k = after(k, facets->edge_space);
   return k;
 }
 
 int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b) {
-  return facets->edge[edge_place(facets, a < b ? a : b, a < b ? b : a)][0] >= 0;
-}
-
-static void note_edge(CwFacets *facets, int32_t a, int32_t b) {
-  int32_t low = a < b ? a : b, high = a < b ? b : a, *edge = facets->edge[edge_place(facets, low, high)];
-  facets->edge_used += edge[0] == EMPTY;
-  edge[0] = low;
-  edge[1] = high;
+  return facets->edge[edge_place(facets, a, b)] >= 0;
 }
 
 static void note_facet(CwFacets *facets, int32_t f) {
   const int32_t *p = facets->corner[f];
-  uint32_t place = scatter_three(p) & facets->mask;
+  uint32_t place = place_of(scatter_three(p), facets->table_space);
   while (facets->table[place] >= 0)
-    place = (place + 1) & facets->mask;
-  facets->used += facets->table[place] == EMPTY;
+    place = after(place, facets->table_space);
+  facets->table_used += facets->table[place] == EMPTY;
   facets->table[place] = f;
-  for (int k = 0; k < 3; k++)
-    note_edge(facets, p[k], p[(k + 1) % 3]);
+  for (int k = 0; k < 3; k++) {
+    if (p[k] > p[(k + 1) % 3])
+      continue; // the boundary is closed: another facet has the edge the other way round
+    int32_t *edge = &facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])];
+    facets->edge_used += *edge == EMPTY;
+    *edge = 3 * f + k;
+  }
 }
 
 // Empty tables with room for `count` facets, which are not in them yet.
 static CwStatus make_tables(CwFacets *facets, int32_t count) {
   CwStatus status = CW_OK;
-  uint32_t size = 16, edge_size = 16;
-  while (size < 2 * (uint32_t)count)
-    size *= 2;
-  while (edge_size < 2 * (uint32_t)count)
-    edge_size *= 2; // 1.5 edges a triangle
   free(facets->table);
   free(facets->edge);
   facets->edge = NULL;
-  facets->mask = size - 1;
-  facets->edge_mask = edge_size - 1;
-  facets->used = facets->edge_used = 0;
-  CW_NEW(facets->table, size);
-  CW_NEW(facets->edge, edge_size);
-  memset(facets->table, EMPTY, size * sizeof *facets->table);
-  memset(facets->edge, EMPTY, edge_size * sizeof *facets->edge);
+  facets->table_space = 2 * (uint32_t)count + 16;
+  facets->edge_space = 2 * (uint32_t)count + 16; // 1.5 edges a triangle, seldom asked for
+  facets->table_used = facets->edge_used = 0;
+  CW_NEW(facets->table, facets->table_space);
+  CW_NEW(facets->edge, facets->edge_space);
+  memset(facets->table, EMPTY, facets->table_space * sizeof *facets->table);
+  memset(facets->edge, EMPTY, facets->edge_space * sizeof *facets->edge);
 done:
   return status;
 }
@@ -133,8 +138,8 @@ static CwStatus make_room(CwFacets *facets, int more) {
     facets->inner = inner;
     facets->space = space;
   }
-  if ((uint32_t)(facets->used + 2 * more) * 4 > 3 * facets->mask ||
-      (uint32_t)(facets->edge_used + 4 * more) * 4 > 3 * facets->edge_mask) {
+  if ((facets->table_used + 2 * (uint32_t)more) * 8 > 7 * facets->table_space ||
+      (facets->edge_used + 4 * (uint32_t)more) * 8 > 7 * facets->edge_space) {
     CW_TRY(make_tables(facets, facets->space));
     for (int32_t f = 0; f < facets->count; f++)
       note_facet(facets, f);
@@ -150,11 +155,18 @@ static void put_facet(CwFacets *facets, int32_t f, int32_t a, int32_t b, int32_t
   note_facet(facets, f);
 }
 
+// Its edges go too, as far as the table has them from it: those that are left come back with its parts.
 static void forget_facet(CwFacets *facets, int32_t f) {
-  uint32_t place = scatter_three(facets->corner[f]) & facets->mask;
+  const int32_t *p = facets->corner[f];
+  uint32_t place = place_of(scatter_three(p), facets->table_space);
   while (facets->table[place] != f)
-    place = (place + 1) & facets->mask;
+    place = after(place, facets->table_space);
   facets->table[place] = DIVIDED;
+  for (int k = 0; k < 3; k++) {
+    int32_t *edge = &facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])];
+    if (*edge == 3 * f + k)
+      *edge = DIVIDED;
+  }
 }
 
 CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s, int *count, int32_t ends[2][2],
@@ -180,10 +192,9 @@ CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s
   if (*count != 2)
     goto done;
   CW_TRY(make_room(facets, 2));
-  int32_t *edge = facets->edge[edge_place(facets, a < b ? a : b, a < b ? b : a)];
-  edge[0] = edge[1] = DIVIDED;
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 2; k++)
     forget_facet(facets, at[k]);
+  for (int k = 0; k < 2; k++) {
     put_facet(facets, at[k], ends[k][0], s, apex[k]);
     put_facet(facets, facets->count++, s, ends[k][1], apex[k]);
   }
@@ -228,21 +239,19 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
     if (count < 3)
       continue;
     for (int i = 0; i < 4; i++) {
-      if ((on_boundary | 1 << i) != 15)
-        continue;
-      int32_t p[3];
+      int32_t p[3], beyond = tet->neighbour[i];
+      if ((on_boundary | 1 << i) != 15 || (beyond >= 0 && beyond < 4 * t))
+        continue; // each face once
       for (int k = 0; k < 3; k++)
         p[k] = tet->corner[tet_face[i][k]];
       int32_t f = cw_facets_find(facets, p);
       if (f < 0)
         continue;
-      // Outward for the tetrahedron and for the region: it lies inside.
+      // Where outward for the tetrahedron is outward for the region, it lies inside, else the one beyond.
       const int32_t *q = facets->corner[f];
       int k = q[0] == p[0] ? 0 : q[1] == p[0] ? 1 : 2;
-      if (q[(k + 1) % 3] != p[1])
-        continue;
-      facets->inner[f] = 4 * t + i;
-      facets->missing_count--;
+      facets->inner[f] = q[(k + 1) % 3] == p[1] ? 4 * t + i : beyond;
+      facets->missing_count -= facets->inner[f] >= 0;
     }
   }
 }

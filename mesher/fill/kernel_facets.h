@@ -19,14 +19,12 @@ typedef struct {
   int32_t (*corner)[3]; // points of the Delaunay mesh; normal out of the region
   int32_t *inner;       // 4 * tetrahedron + face: the face of each facet, seen from inside; -1: missing
   int32_t missing_count;
-  int32_t *table;     // hash table of facets by their points; -1: empty, -2: one that was divided
-  uint32_t mask;      // its length less one
-  int32_t (*edge)[2]; // hash table of their edges, ascending; -1: empty, -2: one that was divided
-  uint32_t edge_mask;
-  int32_t space;         // of corner and inner
-  int32_t used;          // places of the table that are not empty
-  int32_t edge_used;
-  int32_t divided_from;  // points with sources from here on may be corners too
+  int32_t *table;       // hash table of facets by their points; -1: empty, -2: one that was divided
+  int32_t *edge;        // hash table of their edges, as 3 * facet + side of one facet that has it upward; -1, -2 likewise
+  uint32_t table_space, edge_space;
+  uint32_t table_used, edge_used; // places that are not empty
+  int32_t space;                  // of corner and inner
+  int32_t divided_from;           // points with sources from here on may be corners too
 } CwFacets;
 
 // Numbers the facets as the mesh does. Fails with CW_ERR_MESH where one is listed twice.

@@ -110,6 +110,55 @@ static void random_points(void **unused) {
   free(x);
 }
 
+// Every other tetrahedron is freed: the rest keeps its order and its neighbours, with nothing between.
+static void packed(void **unused) {
+  double(*x)[3] = malloc(300 * sizeof *x);
+  CwDelaunay mesh;
+  state = 5;
+  for (int i = 0; i < 900; i++)
+    x[i / 3][i % 3] = draw();
+  assert_int_equal(cw_delaunay_make(300, (const double(*)[3])x, &mesh), CW_OK);
+  int32_t before = mesh.tet_count, kept = 0, (*corner)[4] = malloc((size_t)before * sizeof *corner);
+  for (int32_t t = 0; t < before; t++) {
+    if (mesh.tet[t].corner[0] < 0)
+      continue;
+    if (t % 2 == 0) {
+      memcpy(corner[kept++], mesh.tet[t].corner, sizeof *corner);
+      continue;
+    }
+    for (int i = 0; i < 4; i++) {
+      int32_t beyond = mesh.tet[t].neighbour[i];
+      if (beyond >= 0)
+        mesh.tet[beyond / 4].neighbour[beyond % 4] = -1;
+    }
+    cw_delaunay_free_tet(&mesh, t);
+  }
+  cw_delaunay_pack(&mesh);
+  assert_int_equal(mesh.tet_count, kept);
+  int joined = 0;
+  for (int32_t t = 0; t < kept; t++) {
+    const CwDelaunayTet *tet = &mesh.tet[t];
+    assert_memory_equal(tet->corner, corner[t], sizeof *corner);
+    for (int i = 0; i < 4; i++) {
+      if (tet->neighbour[i] < 0)
+        continue;
+      assert_true(tet->neighbour[i] / 4 < kept);
+      const CwDelaunayTet *other = &mesh.tet[tet->neighbour[i] / 4];
+      assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
+      for (int k = 0; k < 3; k++)
+        assert_true(holds(other->corner, 4, tet->corner[tet_face[i][k]]));
+      joined++;
+    }
+  }
+  assert_true(joined > kept);
+  int32_t next = -1;
+  assert_int_equal(cw_delaunay_new_tet(&mesh, &next), CW_OK);
+  assert_int_equal(next, kept);
+  cw_delaunay_free(&mesh);
+  free(corner);
+  free(x);
+}
+
 // Eight and more points on each sphere, faces and edges through points: all ties.
 static void grid(void **unused) {
   double(*x)[3] = malloc(7 * 8 * 9 * sizeof *x);
@@ -251,6 +300,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(few_points),
       cmocka_unit_test(random_points),
+      cmocka_unit_test(packed),
       cmocka_unit_test(grid),
       cmocka_unit_test(body_centred_grid),
       cmocka_unit_test(on_one_shape),
