@@ -19,7 +19,7 @@ help:
 	@sed -n '/^#   make/s/^#  //p; /^# CELLS/s/^# //p' Makefile
 
 OUT ?= runs/paper
-$(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(abspath $(OUT)),$(CELLS)))
+$(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))
 
 check check-long: everything
 check: LABEL := quick

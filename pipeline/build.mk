@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # How the programs come about: packages from Debian, then CMake. Included with ROOT, the top of the source, set.
-BUILD ?= $(ROOT)/build
+include $(ROOT)/pipeline/require.mk
+BUILD ?= build
+override BUILD := $(call cutwater_folder,BUILD,$(BUILD))
 BIN := $(BUILD)/bin
 JOBS ?= $(shell nproc)
+$(call cutwater_require,JOBS,$(JOBS),[1-9][0-9]*,a number of processes from 1 on)
 STAGES := geometry mesh export report
 PROGRAMS := $(STAGES:%=$(BIN)/cutwater-%)
 

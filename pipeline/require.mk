@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# What the variables of a call may be. Checked before anything is built or run. Included with ROOT set.
+
+# $(call cutwater_require,NAME,VALUE,PATTERN,ALLOWED): stops where the value is not of the pattern, an extended regular
+# expression.
+cutwater_require = $(if $(shell echo '$(subst ','\'',$(2))' | grep -Ex '$(3)' > /dev/null || echo no),$\
+  $(error $(1) is '$(2)'; allowed: $(4)))
+
+# $(call cutwater_require_cells,NAME,VALUE): empty, or as --cells takes it; whether it is in range the first stage tells.
+cutwater_require_cells = $(call cutwater_require,$(1),$(2),([0-9][0-9.]*[kKMG]?)?,a number of cells as 500000 or 500k or 2M)
+
+# $(call cutwater_folder,NAME,VALUE): an absolute path; others count from the top of the source.
+cutwater_folder = $(if $(filter 1,$(words $(2))),$(abspath $(if $(filter /%,$(2)),$(2),$(ROOT)/$(2))),$\
+  $(error $(1) is '$(2)'; allowed: one folder, without blanks))
+
+$(if $(filter 1,$(words $(CURDIR))),,$(error the source lies in '$(CURDIR)'; allowed: a path without blanks))
