@@ -9,7 +9,6 @@
 #include "export/patch_role.h"
 #include "export/template.h"
 
-typedef int (*Wanted)(const CwMeshPatch *patch);
 
 static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
@@ -173,33 +172,14 @@ done:
   return status;
 }
 
-// A CFX location list: the patches with faces that `wanted` picks, with commas between.
-static CwStatus set_locations(const CwAssembly *a, Wanted wanted, const char *key, CwValues *values) {
-  CwStatus status = CW_OK;
-  char *text = NULL;
-  size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
-  for (int p = 0, first = 1; p < a->mesh->patch_count; ++p)
-    if (wanted(&a->mesh->patches[p]) && a->patches[p].triangles + a->patches[p].quads > 0) {
-      fprintf(out, "%s%s", first ? "" : ",", a->mesh->patches[p].name);
-      first = 0;
-    }
-  fclose(out);
-  CW_TRY(cw_values_set(values, key, "%s", text));
-done:
-  free(text);
-  return status;
-}
-
 CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
   const CwOperatingPoint *point = &table->operating_point;
   const CwMesh *mesh = a->mesh;
-  CW_TRY(set_locations(a, cw_patch_rotates, "rotating_walls", &values));
-  CW_TRY(set_locations(a, is_fixed_rotor_wall, "rotor_fixed_walls", &values));
-  CW_TRY(set_locations(a, is_stator_wall, "stator_walls", &values));
+  CW_TRY(cw_patch_names_set(a, cw_patch_rotates, ",", "rotating_walls", &values));
+  CW_TRY(cw_patch_names_set(a, is_fixed_rotor_wall, ",", "rotor_fixed_walls", &values));
+  CW_TRY(cw_patch_names_set(a, is_stator_wall, ",", "stator_walls", &values));
   CW_TRY(cw_values_set(&values, "case", "%s", table->name));
   CW_TRY(cw_values_set(&values, "speed_rpm", "%.9g", point->speed * 30 / M_PI));
   CW_TRY(cw_values_set(&values, "mass_flow", "%.9g", point->flow_rate * table->fluid.density));

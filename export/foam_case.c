@@ -8,6 +8,7 @@
 
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/wall_group.h"
 
 CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length) {
   const double cmu = 0.09;
@@ -16,30 +17,6 @@ CwTurbulence cw_turbulence(double speed, double intensity, double mixing_length)
   t.epsilon = pow(cmu, 0.75) * pow(t.k, 1.5) / mixing_length;
   t.omega = t.epsilon / (cmu * t.k);
   return t;
-}
-
-static int patch_is_there(const CwAssembly *a, int p) {
-  return a->patches[p].triangles + a->patches[p].quads > 0;
-}
-
-// The names of the patches that `wanted` picks, with blanks between.
-static CwStatus list_patches(const CwAssembly *a, int (*wanted)(const CwMeshPatch *), CwValues *values,
-                             const char *key) {
-  CwStatus status = CW_OK;
-  char *text = NULL;
-  size_t size = 0;
-  FILE *out = open_memstream(&text, &size);
-  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
-  for (int p = 0, first = 1; p < a->mesh->patch_count; ++p)
-    if (patch_is_there(a, p) && wanted(&a->mesh->patches[p])) {
-      fprintf(out, "%s%s", first ? "" : " ", a->mesh->patches[p].name);
-      first = 0;
-    }
-  fclose(out);
-  CW_TRY(cw_values_set(values, key, "%s", text));
-done:
-  free(text);
-  return status;
 }
 
 static int is_rotor_and_fixed(const CwMeshPatch *patch) {
@@ -110,7 +87,7 @@ static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *star
   if (patch->kind != CW_KIND_WALL)
     fprintf(out, "        type            %s;\n",
             patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
-  else if (cw_patch_y_plus(patch, walls) < CW_Y_PLUS_LAMINAR)
+  else if (cw_wall_group(walls, patch->name)->y_plus < CW_Y_PLUS_LAMINAR)
     fprintf(out, "        type            nutUSpaldingWallFunction;\n");
   else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
     fprintf(out,
@@ -168,7 +145,7 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
   fprintf(out, ";\nboundaryField\n{\n");
   for (int p = 0; p < start->assembly->mesh->patch_count; ++p) {
     const CwMeshPatch *patch = &start->assembly->mesh->patches[p];
-    if (!patch_is_there(start->assembly, p))
+    if (!cw_patch_is_there(start->assembly, p))
       continue;
     fprintf(out, "    %s\n    {\n", patch->name);
     if (field == FIELD_U)
@@ -225,8 +202,8 @@ static CwStatus set_values(const CwCase *table, const CwAssembly *a, CwValues *v
   for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i)
     CW_TRY(cw_values_set(values, ends[i].key, "%s", mesh->patches[ends[i].patch].name));
   CW_TRY(set_interface_flows(mesh, values));
-  CW_TRY(list_patches(a, cw_patch_rotates, values, "rotating_walls"));
-  CW_TRY(list_patches(a, is_rotor_and_fixed, values, "rotor_fixed_patches"));
+  CW_TRY(cw_patch_names_set(a, cw_patch_rotates, " ", "rotating_walls", values));
+  CW_TRY(cw_patch_names_set(a, is_rotor_and_fixed, " ", "rotor_fixed_patches", values));
   CW_TRY(cw_values_set(values, "case", "%s", table->name));
   CW_TRY(cw_values_set(values, "speed", "%.9g", point->speed));
   CW_TRY(cw_values_set(values, "flow_rate", "%.9g", point->flow_rate));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/patch_role.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "pipeline/wall_group.h"
 
 int cw_patch_rotates(const CwMeshPatch *patch) {
   return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL &&
@@ -12,21 +16,33 @@ int cw_patch_is_shaft(const CwMeshPatch *patch) {
   return patch->domain > CW_MESH_STATOR && strcmp(patch->name, "hub_shaft_pipe") == 0;
 }
 
-double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls) {
-  if (strncmp(patch->name, "blade", 5) == 0)
-    return walls->blade.y_plus;
-  if (cw_patch_rotates(patch) || cw_patch_is_shaft(patch))
-    return walls->hub_shroud.y_plus;
-  if (patch->domain == CW_MESH_ROTOR || strcmp(patch->name, "discharge") == 0 ||
-      strcmp(patch->name, "inlet_pipe") == 0 || strcmp(patch->name, "outlet_pipe") == 0)
-    return walls->pipe.y_plus;
-  return walls->volute.y_plus;
-}
-
 int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls) {
   for (int p = 0; p < mesh->patch_count; ++p)
     if (mesh->patches[p].kind == CW_KIND_WALL &&
-        cw_patch_y_plus(&mesh->patches[p], walls) < CW_Y_PLUS_LAMINAR)
+        cw_wall_group(walls, mesh->patches[p].name)->y_plus < CW_Y_PLUS_LAMINAR)
       return 1;
   return 0;
+}
+
+int cw_patch_is_there(const CwAssembly *assembly, int patch) {
+  return assembly->patches[patch].triangles + assembly->patches[patch].quads > 0;
+}
+
+CwStatus cw_patch_names_set(const CwAssembly *assembly, CwPatchChoice wanted, const char *between, const char *key,
+                            CwValues *values) {
+  CwStatus status = CW_OK;
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
+  for (int p = 0, first = 1; p < assembly->mesh->patch_count; ++p)
+    if (cw_patch_is_there(assembly, p) && wanted(&assembly->mesh->patches[p])) {
+      fprintf(out, "%s%s", first ? "" : between, assembly->mesh->patches[p].name);
+      first = 0;
+    }
+  fclose(out);
+  CW_TRY(cw_values_set(values, key, "%s", text));
+done:
+  free(text);
+  return status;
 }

@@ -3,7 +3,8 @@
 #ifndef CUTWATER_EXPORT_PATCH_ROLE_H
 #define CUTWATER_EXPORT_PATCH_ROLE_H
 
-#include "pipeline/mesh/region_read.h"
+#include "export/assembly.h"
+#include "export/template.h"
 #include "pipeline/case.h"
 
 // y+ from which the first cell counts as in the log layer: where the laws of the viscous sublayer and the log
@@ -16,10 +17,16 @@ int cw_patch_rotates(const CwMeshPatch *patch);
 // A wall that turns in a zone that does not: the shaft in a suction pipe of its own.
 int cw_patch_is_shaft(const CwMeshPatch *patch);
 
-// The y+ target of the case for the patch, as the mesher applies it.
-double cw_patch_y_plus(const CwMeshPatch *patch, const CwWalls *walls);
-
 // Whether any wall is to be resolved down to the viscous sublayer.
 int cw_walls_resolved(const CwMesh *mesh, const CwWalls *walls);
+
+typedef int (*CwPatchChoice)(const CwMeshPatch *patch);
+
+// Whether any face of the mesh lies on the patch.
+int cw_patch_is_there(const CwAssembly *assembly, int patch);
+
+// Sets a value to the names of the patches that are there and `wanted`, with `between` between them.
+CwStatus cw_patch_names_set(const CwAssembly *assembly, CwPatchChoice wanted, const char *between, const char *key,
+                            CwValues *values);
 
 #endif

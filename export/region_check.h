@@ -18,6 +18,6 @@ CwStatus cw_region_check(const CwAssembly *assembly, int region, const CwRegionD
 
 // Gives all ranks the figures of all regions, each set on the rank that owns it, and sums them into the totals of the
 // domains. Collective.
-void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figuress, CwAssembly *assembly);
+void cw_region_figures_sum(const CwRanks *ranks, CwRegionFigures *figures, CwAssembly *assembly);
 
 #endif

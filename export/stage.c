@@ -14,6 +14,7 @@
 #include "export/foam_mesh.h"
 #include "export/folder.h"
 #include "export/interface.h"
+#include "export/patch_role.h"
 #include "export/region_check.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
@@ -189,7 +190,7 @@ static void warn(const CwAssembly *a, const CwInterface *interfaces) {
                   a->mesh->patches[patch[0]].name, 1e6 * side[1].area, a->mesh->patches[patch[1]].name);
   }
   for (int p = 0; p < a->mesh->patch_count; ++p)
-    if (a->patches[p].triangles + a->patches[p].quads == 0)
+    if (!cw_patch_is_there(a, p))
       cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
 }
 

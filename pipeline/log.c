@@ -67,6 +67,11 @@ static void make_one_line(char *text) {
     if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = ' ';
 }
 
+static void make_line(char text[LINE_SIZE], const char *format, va_list arguments) {
+  vsnprintf(text, LINE_SIZE, format, arguments);
+  make_one_line(text);
+}
+
 static void erase_progress_line(void) {
   if (progress.line_shown) fputs("\r\033[K", stderr);
   progress.line_shown = 0;
@@ -125,9 +130,8 @@ void cw_log(const char *format, ...) {
   char text[LINE_SIZE];
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
+  make_line(text, format, arguments);
   va_end(arguments);
-  make_one_line(text);
   write_line("", text);
 }
 
@@ -160,9 +164,8 @@ void cw_log_debug(const char *format, ...) {
   char text[LINE_SIZE];
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
+  make_line(text, format, arguments);
   va_end(arguments);
-  make_one_line(text);
   if (logger.speaks) {
     write_line("", text);
   } else {
@@ -183,9 +186,8 @@ void cw_log_warn(const char *format, ...) {
   char text[LINE_SIZE];
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
+  make_line(text, format, arguments);
   va_end(arguments);
-  make_one_line(text);
   keep_warning(text);
   if (logger.speaks) write_line("warning: ", text);
 }

@@ -6,6 +6,7 @@
 
 #include "mesher/heights/layer_heights.h"
 #include "pipeline/json_read.h"
+#include "pipeline/wall_group.h"
 
 CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
   CwStatus status = CW_OK;
@@ -61,15 +62,15 @@ void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *
   for (int p = 0; p < cw_cad_patch_count(cad); p++) {
     const char *name = cw_cad_patch_name(cad, p);
     CwPatchKind kind = cw_cad_patch_kind(cad, p);
-    const CwWallGroup *group = &table->walls.volute;
+    const CwWallGroup *group = cw_wall_group(&table->walls, name);
     double speed = scales->volute_speed, length = scales->volute_length;
     relative_size[p] = mesh->size_volute;
     if (starts_with(name, "blade")) {
       relative_size[p] = mesh->size_blade;
-      group = &table->walls.blade, speed = scales->relative_speed, length = scales->blade_length;
+      speed = scales->relative_speed, length = scales->blade_length;
     } else if (starts_with(name, "hub") || starts_with(name, "shroud")) {
       relative_size[p] = mesh->size_hub_shroud;
-      group = &table->walls.hub_shroud, speed = scales->relative_speed, length = scales->blade_length;
+      speed = scales->relative_speed, length = scales->blade_length;
     } else if (!strcmp(name, "rotor_to_suction") || !strcmp(name, "suction_to_rotor") ||
                !strcmp(name, "stator_to_discharge") || !strcmp(name, "discharge_to_stator")) {
       relative_size[p] = mesh->size_pipe;
@@ -77,13 +78,13 @@ void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *
       relative_size[p] = mesh->size_interface;
     } else if (!strcmp(name, "suction_pipe") || !strcmp(name, "inlet_pipe") || kind == CW_PATCH_INLET) {
       relative_size[p] = mesh->size_pipe;
-      group = &table->walls.pipe, speed = scales->suction_speed, length = scales->pipe_length;
+      speed = scales->suction_speed, length = scales->pipe_length;
     } else if (!strcmp(name, "diffuser")) {
       relative_size[p] = mesh->size_pipe;
-      group = &table->walls.pipe, speed = scales->diffuser_speed, length = scales->pipe_length;
+      speed = scales->diffuser_speed, length = scales->pipe_length;
     } else if (!strcmp(name, "discharge") || !strcmp(name, "outlet_pipe") || kind == CW_PATCH_OUTLET) {
       relative_size[p] = mesh->size_pipe;
-      group = &table->walls.pipe, speed = scales->discharge_speed, length = scales->pipe_length;
+      speed = scales->discharge_speed, length = scales->pipe_length;
     }
     layers[p] = kind == CW_PATCH_WALL ? cw_layer_target(table, group, speed, length) : (CwLayerTarget){0};
   }

@@ -180,11 +180,6 @@ static double judge(const Repair *repair, int32_t f) {
   return prism < KEPT ? prism : GOOD;
 }
 
-static CwStatus judge_prism(void *repair, int32_t f, void *out) {
-  *(double *)out = judge(repair, f);
-  return CW_OK;
-}
-
 static CwStatus judge_stale(void *context, int32_t i, void *out) {
   const Repair *repair = context;
   *(double *)out = judge(repair, repair->stale[i]);
@@ -478,7 +473,8 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   place_changed(&repair); // no height is 0: all of them
   memset(repair.moved, 0, (size_t)work->n);
   repair.moved_count = 0;
-  CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_prism, &repair, repair.quality));
+  for (int32_t f = 0; f < in->triangle_count; f++) repair.stale[f] = f;
+  CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_stale, &repair, repair.quality));
   for (int32_t f = 0; f < in->triangle_count; f++) {
     if (repair.quality[f] < GOOD) repair.bad[repair.bad_count++] = f;
   }

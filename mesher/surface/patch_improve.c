@@ -195,6 +195,22 @@ static void find_excess(const CwPatchWork *work, double *turn, int32_t *excess) 
     excess[p] -= (int32_t)fmax(1, round(turn[p] / (M_PI / 3)));
 }
 
+// An edge b c to be turned into a d: corner a of its triangle and d of the one across.
+typedef struct {
+  int32_t a, b, c, d;
+} Flip;
+
+static Flip flip_of(const CwPatchWork *work, int32_t t, int i) {
+  const int32_t *across = work->corner[work->neighbour[t][i]];
+  int32_t b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
+  return (Flip){work->corner[t][i], b, c, across[0] + across[1] + across[2] - b - c};
+}
+
+// The worse of the two triangles after the flip.
+static double flipped_quality(const CwPatchWork *work, const Flip *flip) {
+  return fmin(cw_patch_quality(work, flip->a, flip->b, flip->d), cw_patch_quality(work, flip->a, flip->d, flip->c));
+}
+
 // Flips that even out the number of triangles at the points: smoothing can make only such rings equilateral.
 static CwStatus even_out(CwPatchWork *work) {
   CwStatus status = CW_OK;
@@ -207,21 +223,18 @@ static CwStatus even_out(CwPatchWork *work) {
     if (work->corner[t][0] < 0)
       continue;
     for (int i = 0; i < 3; i++) {
-      int32_t n = work->neighbour[t][i];
       if (work->given[t] >> i & 1)
         continue;
-      int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
-      int32_t d = work->corner[n][0] + work->corner[n][1] + work->corner[n][2] - b - c;
+      Flip flip = flip_of(work, t, i);
       // Half the change of the sum of squares.
-      if (excess[a] + excess[d] - excess[b] - excess[c] + 2 >= 0)
+      if (excess[flip.a] + excess[flip.d] - excess[flip.b] - excess[flip.c] + 2 >= 0)
         continue;
-      double worst = fmin(cw_patch_quality(work, a, b, d), cw_patch_quality(work, a, d, c));
-      if (worst < 0.5 || !cw_patch_flip(work, t, i))
+      if (flipped_quality(work, &flip) < 0.5 || !cw_patch_flip(work, t, i))
         continue;
-      excess[a]++;
-      excess[d]++;
-      excess[b]--;
-      excess[c]--;
+      excess[flip.a]++;
+      excess[flip.d]++;
+      excess[flip.b]--;
+      excess[flip.c]--;
     }
   }
 done:
@@ -239,13 +252,11 @@ static int flip_best(CwPatchWork *work, int32_t t) {
   int best = -1;
   double gain = 1e-3, own = triangle_quality(work, t);
   for (int i = 0; i < 3; i++) {
-    int32_t n = work->neighbour[t][i];
     if (work->given[t] >> i & 1)
       continue;
-    int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
-    int32_t d = work->corner[n][0] + work->corner[n][1] + work->corner[n][2] - b - c;
-    double then = fmin(cw_patch_quality(work, a, b, d), cw_patch_quality(work, a, d, c));
-    double now = fmin(own, triangle_quality(work, n));
+    Flip flip = flip_of(work, t, i);
+    double then = flipped_quality(work, &flip);
+    double now = fmin(own, triangle_quality(work, work->neighbour[t][i]));
     if (then - now > gain) {
       gain = then - now;
       best = i;

@@ -2,9 +2,9 @@
 // The triangulation of a patch while it is being meshed: triangles with neighbours in the (u,v) plane, points
 // with their place on the surface and its derivatives, and the local changes that keep it valid:
 //
-//   insert      p goes in; triangles whose circle holds p go out (Bowyer-Watson in the metric of the surface
-//   at p) flip        the diagonal of two triangles is turned remove      a free point is drawn into one of
-//   its neighbours
+//   insert   a point goes in, triangles whose circle holds it go out (Bowyer-Watson in the metric of the surface there)
+//   flip     the diagonal of two triangles is turned
+//   remove   a free point is drawn into one of its neighbours
 //
 // Every change keeps all triangles counter-clockwise in (u,v), all given edges, and all given points.
 #ifndef CUTWATER_MESHER_SURFACE_PATCH_WORK_H

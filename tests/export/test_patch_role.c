@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Which walls turn, and with which y+ target they are meshed.
+// Which walls turn, and whether layers resolve the viscous sublayer.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,24 +28,21 @@ static void a_shaft_is_a_wall_of_a_pipe_zone(void **state) {
   assert_true(cw_patch_rotates(&within) && !cw_patch_is_shaft(&within));
 }
 
-static void y_plus_goes_by_the_role(void **state) {
+static void walls_are_resolved_where_one_group_is(void **state) {
   (void)state;
-  const CwWalls walls = {.blade.y_plus = 1, .hub_shroud.y_plus = 2, .volute.y_plus = 3, .pipe.y_plus = 4};
-  const struct {
-    CwMeshPatch patch;
-    double y_plus;
-  } rows[] = {{{"blade_pressure", CW_KIND_WALL, CW_MESH_ROTOR}, 1}, {{"shroud", CW_KIND_WALL, CW_MESH_ROTOR}, 2},
-              {{"hub_shaft_pipe", CW_KIND_WALL, SUCTION}, 2},       {{"volute", CW_KIND_WALL, CW_MESH_STATOR}, 3},
-              {{"suction_pipe", CW_KIND_WALL, CW_MESH_ROTOR}, 4},   {{"inlet_pipe", CW_KIND_WALL, SUCTION}, 4}};
-  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-    assert_true(cw_patch_y_plus(&rows[i].patch, &walls) == rows[i].y_plus);
+  CwMeshPatch patches[] = {{"inlet", CW_KIND_INLET, CW_MESH_ROTOR}, {"diffuser", CW_KIND_WALL, CW_MESH_STATOR}};
+  const CwMesh mesh = {.patches = patches, .patch_count = 2};
+  CwWalls walls = {.blade.y_plus = 1, .hub_shroud.y_plus = 1, .volute.y_plus = 1, .pipe.y_plus = 30};
+  assert_false(cw_walls_resolved(&mesh, &walls)); // no wall of the other groups is there
+  walls.pipe.y_plus = 1;
+  assert_true(cw_walls_resolved(&mesh, &walls));
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(walls_of_the_rotor_turn),
       cmocka_unit_test(a_shaft_is_a_wall_of_a_pipe_zone),
-      cmocka_unit_test(y_plus_goes_by_the_role),
+      cmocka_unit_test(walls_are_resolved_where_one_group_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
