@@ -72,7 +72,8 @@ static Judged judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double a
   CwPlane end = cw_fan_end(plan, plan->fan_first);
   CwPlanPlace place = cw_plan_place(fan->model, wheel, &plane, &end);
   double lines = cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY);
-  return (Judged){cw_plan_place_cost(place) + lines, place.worst};
+  double touch = cw_plan_touch_cost(cw_plan_touch(fan->model, wheel, &plane, &end));
+  return (Judged){cw_plan_place_cost(place) + touch + lines, place.worst};
 }
 
 // Finds which side of the domain has fluid on the axis; CW_RETRY where both or none have it.

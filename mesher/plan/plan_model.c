@@ -19,6 +19,7 @@ static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that i
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
 // want a cell between them; beside a smooth edge only the surface triangles do.
 static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
+static const double TOUCH_ROOM = 0.5;   // between a cut and an edge beside it, in wanted lengths
 static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
 static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
 
@@ -70,6 +71,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
   CW_NEW(model->edge_x, most);
   CW_NEW(model->edge_tangent, most);
   CW_NEW(model->edge_room, most);
+  CW_NEW(model->edge_touch, most);
   CW_NEW(model->edge_end, most);
   CW_NEW(model->edge_sharp, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
@@ -87,6 +89,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
                         model->edge_tangent[at]);
       cw_unit(model->edge_tangent[at]);
+      model->edge_touch[at] = TOUCH_ROOM * cw_size_at(model->size, model->edge_x[at]);
       model->edge_room[at] = room;
       model->edge_sharp[at] = (uint8_t)!smooth;
       model->edge_end[at] = i == 0 || i == points - 1;
@@ -444,6 +447,7 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->edge_x);
   free(model->edge_tangent);
   free(model->edge_room);
+  free(model->edge_touch);
   free(model->edge_end);
   free(model->edge_sharp);
   free(model->wall_x);

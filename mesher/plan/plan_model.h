@@ -25,6 +25,7 @@ typedef struct {
   int32_t edge_count;                  // points along CAD edges
   double (*edge_x)[3], (*edge_tangent)[3];
   double *edge_room;                   // m: how near a plane may come to each of them
+  double *edge_touch;                  // m: nearer than that a cut and the edge leave room for flat triangles alone
   uint8_t *edge_end, *edge_sharp;      // at a CAD vertex; of an edge that is a feature
   int32_t wall_count;                  // points all over the walls
   double (*wall_x)[3];
@@ -48,7 +49,7 @@ typedef struct {
 typedef struct {
   CwPieces pieces;
   int32_t sample_count, *sample;
-  int32_t edge_count, *edge; // points of CAD edges in the cell or within their room of it
+  int32_t edge_count, *edge; // points of CAD edges in the cell or so near that they count
   double work, volume;       // cells; m3
   double low[3], high[3];    // box of the samples
 } CwPlanPart;

@@ -109,7 +109,8 @@ CwStatus cw_plan_part_clip(const CwPlanModel *model, const CwPlanPart *whole, co
   CW_NEW_UNSET(part->edge, whole->edge_count);
   for (int32_t i = 0; i < whole->edge_count; i++) {
     int32_t e = whole->edge[i];
-    if (cw_plane_distance(&side, model->edge_x[e]) <= model->edge_room[e]) part->edge[part->edge_count++] = e;
+    double room = fmax(model->edge_room[e], model->edge_touch[e]);
+    if (cw_plane_distance(&side, model->edge_x[e]) <= room) part->edge[part->edge_count++] = e;
   }
   part_measure(model, part);
 done:

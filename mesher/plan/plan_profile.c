@@ -192,3 +192,15 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   }
   return place;
 }
+
+double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
+  double most = 0;
+  for (int32_t i = 0; i < part->edge_count; i++) {
+    int32_t e = part->edge[i];
+    double room = model->edge_touch[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
+    if (near <= most || (end && cw_plane_distance(end, model->edge_x[e]) < -room)) continue;
+    double along = 1 - fabs(cw_dot(plane->normal, model->edge_tangent[e])) / ALONG_EDGE;
+    most = fmax(most, near * along);
+  }
+  return most;
+}

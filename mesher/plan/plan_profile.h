@@ -36,6 +36,9 @@ typedef struct {
 
 // Of one plane, where it lies on the positive side of `end` (NULL: everywhere).
 CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
+// How near one plane, where it lies on the positive side of `end` (NULL: everywhere), comes to an edge that it runs along:
+// 0 where there is room for triangles between both, 1 where there is none.
+double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
 CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin);
 
 #endif

@@ -27,13 +27,14 @@ static const double WELL = 3;                        // score of a plane that wi
 static const double OFF_MOST = 0.1;                  // share of a region's work past which a plane is hardly wanted
 static const double OFF_LIMIT = 0.14;                // and past which it is not
 static const double CUT_LAYERS = 4;                  // what a plane through the layers along an edge costs
+static const double TOUCH = 4;                       // what a cut costs that leaves flat triangles beside an edge
 static const double BAD = 5;                         // score of a plane for which others are tried
 static const double WHOLE = 20;                      // what a part costs that has to stay whole
 static const double LIKE = 0.97;                     // cosine between planes that are tried in vain alike
 
 typedef struct {
-  double score, offset; // without its lines; m
-  double lines;         // what its lines cost at least
+  double score, offset; // without what follows; m
+  double further;       // what its lines and edges that it touches cost at least
   int32_t direction, below; // regions below
   int32_t judged;       // 1: they cost just so
 } Candidate;
@@ -50,12 +51,16 @@ double cw_plan_place_cost(CwPlanPlace place) {
   return cw_plan_sharpness(place.worst) + fmin(0.17 * place.grazed, 3) + 0.007 * place.grazed + CUT_LAYERS * place.cut;
 }
 
+double cw_plan_touch_cost(double touch) {
+  return TOUCH * touch;
+}
+
 double cw_plan_unevenness(double work, double wanted, int32_t regions) {
   double off = fabs(work / wanted - 1);
   return 6 * off + 60 * fmax(0, off - OFF_MOST / sqrt(sqrt(regions))) + 60 * fmax(0, off - OFF_LIMIT);
 }
 
-// All but the lines.
+// All but the lines and the edges that it touches, for which a bin of the profile is too wide.
 static double score_of(const CwPlanModel *model, const CwPlanPart *part, const CwPlanProfile *profile, int32_t regions,
                        int32_t below, double offset) {
   int bin = cw_profile_bin(profile, offset);
@@ -184,20 +189,22 @@ static int like_one_tried(const Choice *choice, const CwPlane *plane, int32_t be
 // Takes the best plane unlike those tried that is better than *best, if there is one.
 static void find_best(const Choice *choice, Best *best) {
   int32_t judged = 0;
-  // Lines only add to a score, so the rest cannot win once the next score alone is no less than the best.
+  // These only add to a score, so the rest cannot win once the next score alone is no less than the best.
   for (int32_t i = 0; i < choice->count && choice->candidate[i].score < best->score; i++) {
     Candidate *candidate = &choice->candidate[i];
     CwPlane plane = {{0}, candidate->offset};
     cw_direction(candidate->direction, plane.normal);
-    if (candidate->score + candidate->lines >= best->score || like_one_tried(choice, &plane, candidate->below))
+    if (candidate->score + candidate->further >= best->score || like_one_tried(choice, &plane, candidate->below))
       continue;
     if (!candidate->judged) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
-      candidate->lines = cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most);
-      candidate->judged = candidate->lines < most || candidate->lines == INFINITY;
+      double touch = cw_plan_touch_cost(cw_plan_touch(choice->model, choice->part, &plane, NULL));
+      candidate->further =
+          touch + cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch);
+      candidate->judged = candidate->further < most || candidate->further == INFINITY;
     }
-    double score = candidate->score + candidate->lines;
+    double score = candidate->score + candidate->further;
     if (score < best->score) *best = (Best){plane, candidate->direction, candidate->below, score};
   }
 }

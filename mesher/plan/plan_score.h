@@ -9,6 +9,9 @@
 // What a plane costs by the sharpest wall that it meets and the edges there.
 double cw_plan_place_cost(CwPlanPlace place);
 
+// What a plane costs that comes so near to an edge that it runs along (cw_plan_touch).
+double cw_plan_touch_cost(double touch);
+
 // What work that is off the wanted one costs in a part that is to become so many regions: the more of them, the less it
 // may be off, for the planes that divide it will not be even either.
 double cw_plan_unevenness(double work, double wanted, int32_t regions);

@@ -305,9 +305,25 @@ static int runs_along(const CwDomain *of, const CwPlan *plan, int32_t node, int 
   return 0;
 }
 
+// True where the cut of the plane runs along a CAD edge, sharp or smooth, so near that only flat triangles fit between.
+static int touches(const CwDomain *of, const CwPlan *plan, int32_t node, int edge) {
+  double range[2], x[3], tangent[3];
+  cw_cad_edge_range(of->cad, edge, range);
+  for (int i = 0; i <= 400; i++) {
+    cw_cad_edge_point(of->cad, edge, range[0] + (range[1] - range[0]) * i / 400, x, tangent);
+    cw_unit(tangent);
+    if (fabs(cw_plane_distance(&plan->node[node].plane, x)) < 0.15 * cw_size_at(of->size, x) &&
+        fabs(cw_dot(plan->node[node].plane.normal, tangent)) < 0.1 && cw_plan_in_cell(plan, node, x, 0, NULL, 0)) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
 typedef struct {
-  int filled; // pieces of lines that the layers at their ends fill
-  int along;  // planes and edges; one for all turned copies of a plane
+  int filled;   // pieces of lines that the layers at their ends fill
+  int along;    // planes and edges; one for all turned copies of a plane
+  int touching; // likewise, of those that come much nearer
 } Room;
 
 // By the network that follows from the plan, not by what the planner thought of it. CW_RETRY where a plane grazes an edge:
@@ -327,6 +343,7 @@ static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
   }
   cw_network_free(&network);
   for (int e = 0; e < cw_cad_edge_count(of->cad); e++) {
+    for (int32_t n = 0; n < plan->node_count; n++) room.touching += !is_copy(plan, n) && touches(of, plan, n, e);
     if (cw_plan_edge_is_smooth(of->cad, e)) continue;
     for (int32_t n = 0; n < plan->node_count; n++) room.along += !is_copy(plan, n) && runs_along(of, plan, n, e);
   }
@@ -335,7 +352,8 @@ static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
 }
 
 // All ways of dividing the pump: regions are even, planes and lines keep clear of layers, but for `filled` lines, and no
-// plane stands slantwise on walls, but for `few` of the rotor's; `along` may run along edges.
+// plane stands slantwise on walls, but for `few` of the rotor's; `along` may run along edges, and as many as lines are
+// filled touch some.
 static void judge_room(int32_t regions, double each, int few, int filled, int along) {
   for (int way = 0; way < 3; way++) {
     CwDomain *of = &domain[way == 2];
@@ -354,12 +372,13 @@ static void judge_room(int32_t regions, double each, int few, int filled, int al
     Figures figures = figures_of(&plan);
     print_message(
         "%s%s: %d of %d regions, work %.3f to %.3f of the mean, %d more than 15 %% off, walls at %.0f degrees, "
-        "%d planes under 40, %d lines filled, %d planes along edges\n",
+        "%d planes under 40, %d lines filled, %d planes along edges, %d touching\n",
         of->name, way == 1 ? ", periodic" : "", plan.region_count, regions, figures.least, figures.greatest,
-        figures.off, figures.angle, figures.sharp, room.filled, room.along);
+        figures.off, figures.angle, figures.sharp, room.filled, room.along, room.touching);
     assert_int_equal(plan.fan_count > 0, way == 1);
     assert_int_equal(figures.off, 0);
     assert_true(figures.sharp <= (way == 2 ? 0 : few) && room.filled <= filled && room.along <= along);
+    assert_true(room.touching <= filled);
     cw_plan_free(&plan);
   }
 }

@@ -1,65 +1,22 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Lines in which a new plane meets the plane above it, in a box with layers on its walls.
-#include <vector>
-
 #include <BRepPrimAPI_MakeBox.hxx>
 
 extern "C" {
 #include "mesher/plan/plan_lines.h"
 }
 
-#include "solids.h"
-
-static void check(CwStatus status) {
-  if (status != CW_OK) fail_msg("%s", cw_fail_message());
-}
+#include "planned_solid.h"
 
 // A box of 40 x 30 x 20 mm with layers of 1 mm, divided by the plane x = 21 mm.
-struct Box {
-  CwCad *cad = open_solid(BRepPrimAPI_MakeBox(40, 30, 20).Shape());
-  CwBackground background;
-  CwInside *inside = nullptr;
-  CwSize *size = nullptr;
-  CwPlanModel model;
-  CwPlanPart whole;
+struct Box : PlannedSolid {
   CwPlanNode node[2] = {};
   double none[3] = {0, 0, 0};
   CwPlan plan = {1, 2, node, none, none, 0, 0, 0, 0};
 
-  Box() {
-    CwMeshTable table = {};
-    const double relative = 1, thickness = 1e-3;
-    int64_t bytes;
-    void *block = nullptr;
-    table.gradation = 0.2;
-    table.curvature_angle = 0.3;
-    table.cells_across_gap = 1;
-    check(cw_background_make(cad, 1e-4, 0.2, &background));
-    check(
-        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
-    CwSizeSeeds *seeds = nullptr;
-    std::vector<void *> seed(cw_size_seed_parts(cad));
-    check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
-    for (size_t i = 0; i < seed.size(); i++) check(cw_size_seeds_part(seeds, (int)i, &seed[i], &bytes));
-    cw_size_seeds_free(&seeds);
-    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block,
-                       &bytes));
-    check(cw_size_unpack(&block, &size));
-    for (void *one : seed) free(one);
-    CwPlanOptions options = {3, &thickness, nullptr, 0, 11, 12};
-    check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
-    check(cw_plan_part_whole(&model, &whole));
-    model.mean_work = whole.work / 3;
+  Box() : PlannedSolid(BRepPrimAPI_MakeBox(40, 30, 20).Shape()) {
     node[0] = {{{1, 0, 0}, 0.021}, -1, {-1, 1}};
     node[1].parent = 0;
-  }
-  ~Box() {
-    cw_plan_part_free(&whole);
-    cw_plan_model_free(&model);
-    cw_size_free(&size);
-    cw_inside_free(&inside);
-    cw_background_free(&background);
-    cw_cad_close(&cad);
   }
   // Of the plane with this normal through a point, in mm.
   double cost(double nx, double ny, double nz, double x, double y, double z) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Planes beside an edge in which one face passes smoothly into another.
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <gp_Ax1.hxx>
+
+extern "C" {
+#include "mesher/plan/plan_profile.h"
+}
+
+#include "planned_solid.h"
+
+// Half a ring from 5 to 20 mm radius; its outer face is upright up to z = 10 mm, then bends inward with 10 mm radius.
+static TopoDS_Shape half_ring() {
+  const gp_Pnt at[] = {{5, 0, 0}, {20, 0, 0}, {20, 0, 10}, {10, 0, 20}, {5, 0, 20}};
+  const gp_Pnt on_bend(10 + 10 * std::sqrt(0.5), 0, 10 + 10 * std::sqrt(0.5));
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(BRepBuilderAPI_MakeEdge(at[0], at[1]));
+  wire.Add(BRepBuilderAPI_MakeEdge(at[1], at[2]));
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(at[2], on_bend, at[3]).Value()));
+  wire.Add(BRepBuilderAPI_MakeEdge(at[3], at[4]));
+  wire.Add(BRepBuilderAPI_MakeEdge(at[4], at[0]));
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OZ(), M_PI).Shape();
+}
+
+struct Ring : PlannedSolid {
+  Ring() : PlannedSolid(half_ring()) {}
+  double touch(const CwPlane &plane, const CwPlane *end = nullptr) const {
+    return cw_plan_touch(&model, &whole, &plane, end);
+  }
+};
+
+// Lengths from the circle z = 10 mm of 20 mm radius.
+static void planes_beside_a_smooth_edge_touch_it(void **) {
+  Ring ring;
+  const double x[] = {0, 0.02, 0.01}, h = cw_size_at(ring.size, x);
+  CwPlane across = {{0, 0, 1}, 0.01 + 0.1 * h};
+  assert_near(ring.touch(across), 1, 1e-6);
+  across.offset = 0.01 - 0.375 * h;
+  assert_near(ring.touch(across), 0.5, 0.1); // h is not the same all along
+  across.offset = 0.01 + 0.7 * h;
+  assert_near(ring.touch(across), 0, 1e-9);
+}
+
+// A plane parallel to the axis touches the circle in one place; half-planes that end before that place do not.
+static void planes_that_pass_an_edge_closely_touch_it(void **) {
+  Ring ring;
+  const CwPlane end = {{1, 0, 0}, 0.012};
+  assert_true(ring.touch({{0, 1, 0}, 0.02 - 2e-5}) > 0.9);
+  assert_true(ring.touch({{0, 1, 0}, 0.02 + 2e-5}) > 0.9);
+  const CwPlane passing = {{0, 1, 0}, 0.02 - 2e-5};
+  assert_near(ring.touch(passing, &end), 0, 1e-9);
+}
+
+static void planes_that_cross_edges_do_not_touch_them(void **) {
+  Ring ring;
+  assert_near(ring.touch({{1, 0, 0}, 0.001}), 0, 1e-9);
+  assert_near(ring.touch({{0, 1, 0}, 0.012}), 0, 1e-9);
+}
+
+// Both sides of a plane know the edge beside it.
+static void parts_keep_the_edges_beside_them(void **) {
+  Ring ring;
+  const double x[] = {0, 0.02, 0.01}, h = cw_size_at(ring.size, x);
+  const CwPlane above = {{0, 0, 1}, 0.01 - 0.1 * h}, below = {{0, 0, 1}, 0.01 - 0.2 * h};
+  CwPlanPart half;
+  Ring::check(cw_plan_part_clip(&ring.model, &ring.whole, &above, 0, &half));
+  assert_near(cw_plan_touch(&ring.model, &half, &below, nullptr), 1, 1e-6);
+  cw_plan_part_free(&half);
+}
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(planes_beside_a_smooth_edge_touch_it),
+                              cmocka_unit_test(planes_that_pass_an_edge_closely_touch_it),
+                              cmocka_unit_test(planes_that_cross_edges_do_not_touch_them),
+                              cmocka_unit_test(parts_keep_the_edges_beside_them)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// A small solid as the planner sees it: three regions to be, edges of about 2 mm and layers of 1 mm on all its faces.
+#ifndef CUTWATER_TESTS_MESHER_PLANNED_SOLID_H
+#define CUTWATER_TESTS_MESHER_PLANNED_SOLID_H
+
+#include <vector>
+
+extern "C" {
+#include "mesher/plan/plan_model.h"
+}
+
+#include "solids.h"
+
+struct PlannedSolid {
+  CwCad *cad;
+  CwBackground background;
+  CwInside *inside = nullptr;
+  CwSize *size = nullptr;
+  CwPlanModel model;
+  CwPlanPart whole;
+
+  static void check(CwStatus status) {
+    if (status != CW_OK) fail_msg("%s", cw_fail_message());
+  }
+  explicit PlannedSolid(const TopoDS_Shape &shape) : cad(open_solid(shape)) {
+    CwMeshTable table = {};
+    const double relative = 1, thickness = 1e-3;
+    int64_t bytes;
+    void *block = nullptr;
+    table.gradation = 0.2;
+    table.curvature_angle = 0.3;
+    table.cells_across_gap = 1;
+    check(cw_background_make(cad, 1e-4, 0.2, &background));
+    check(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside));
+    CwSizeSeeds *seeds = nullptr;
+    std::vector<void *> seed(cw_size_seed_parts(cad));
+    check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
+    for (size_t i = 0; i < seed.size(); i++) check(cw_size_seeds_part(seeds, (int)i, &seed[i], &bytes));
+    cw_size_seeds_free(&seeds);
+    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block,
+                       &bytes));
+    check(cw_size_unpack(&block, &size));
+    for (void *one : seed) free(one);
+    CwPlanOptions options = {3, &thickness, nullptr, 0, 11, 12};
+    check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
+    check(cw_plan_part_whole(&model, &whole));
+    model.mean_work = whole.work / 3;
+  }
+  ~PlannedSolid() {
+    cw_plan_part_free(&whole);
+    cw_plan_model_free(&model);
+    cw_size_free(&size);
+    cw_inside_free(&inside);
+    cw_background_free(&background);
+    cw_cad_close(&cad);
+  }
+};
+
+#endif
