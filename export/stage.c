@@ -17,7 +17,6 @@
 #include "export/patch_role.h"
 #include "export/region_check.h"
 #include "pipeline/atomic_file.h"
-#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
@@ -253,7 +252,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
     CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
     CW_TRY(cw_record_step(record, "check and write the mesh", written - planned, cells, "cells"));
     CW_TRY(record_results(&assembly, interfaces, record));
-    CW_TRY(cw_record_json(record, "case", cw_case_origin(table)));
+    CW_TRY(cw_record_case(record, table));
     CW_TRY(cw_record_integer(record, "ranks", ranks->size));
     cw_record_set_peak_memory(record, memory);
     CW_TRY(finish_files(&paths));

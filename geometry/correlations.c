@@ -6,7 +6,7 @@
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
 
-// Gulich, table 3.9, single-stage radial pumps: 1 - a Q^-m - b (c - lg(nq / d))^2 Q^-e with Q in m3/s.
+// Guelich, table 3.9, single-stage radial pumps: 1 - a Q^-m - b (c - lg(nq / d))^2 Q^-e with Q in m3/s.
 static double guelich_efficiency(const CwDesign *d, double a, double b, double c, double reference, double e,
                                  double exponent) {
   const double nq = d->specific_speed_nq, inverse = 1 / d->flow_rate, large = d->flow_rate > 1 ? 0.5 : 1;
@@ -20,7 +20,7 @@ static double guan_size(const CwDesign *d) {
   return cbrt(d->flow_rate / (d->angular_speed * 30 / M_PI));
 }
 
-// d = (16 M / (pi tau))^(1/3): with M = P / omega this is Gulich's 3.65 (P / (n tau))^(1/3).
+// d = (16 M / (pi tau))^(1/3): with M = P / omega this is Guelich's 3.65 (P / (n tau))^(1/3).
 static double torsion_diameter(const CwDesign *d, double stress) {
   return cbrt(16 * d->shaft_power / d->angular_speed / (M_PI * stress));
 }
@@ -29,40 +29,40 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
   const double nq = d->specific_speed_nq, d2 = d->outlet_diameter, share = d->hub_diameter / d2;
   switch (quantity) {
   case CW_CORRELATED_EFFICIENCY:
-    *source = "Gulich, table 3.9";
+    *source = "Guelich, table 3.9";
     return guelich_efficiency(d, 0.095, 0.3, 0.35, 23, 0.05, 0.1);
   case CW_CORRELATED_HYDRAULIC_EFFICIENCY:
-    *source = "Gulich, table 3.9";
+    *source = "Guelich, table 3.9";
     return guelich_efficiency(d, 0.055, 0.2, 0.26, 25, 0.1, 0.08);
   case CW_CORRELATED_SHAFT_DIAMETER:
-    *source = "Gulich: 3.65 (1.2 P / (n tau))^(1/3), tau = 20 MPa";
+    *source = "Guelich: 3.65 (1.2 P / (n tau))^(1/3), tau = 20 MPa";
     return cbrt(1.2) * torsion_diameter(d, 20e6);
   case CW_CORRELATED_OUTLET_DIAMETER:
-    *source = "Gulich: psi = 1.21 exp(-0.77 nq/100)";
+    *source = "Guelich: psi = 1.21 exp(-0.77 nq/100)";
     return 2 / d->angular_speed * sqrt(2 * gravity * d->head / (1.21 * exp(-0.77 * nq / 100)));
   case CW_CORRELATED_HUB_DIAMETER:
     *source = 1.35 * d->shaft_diameter > 0.12 * d2 ? "1.35 shaft diameters" : "stiffness: 0.12 D2";
     return fmax(0.12 * d2, 1.35 * d->shaft_diameter);
   case CW_CORRELATED_OUTLET_WIDTH:
-    *source = "Gulich: b2/D2 = 0.017 + 0.262 x - 0.08 x^2 + 0.0093 x^3, x = nq/100";
+    *source = "Guelich: b2/D2 = 0.017 + 0.262 x - 0.08 x^2 + 0.0093 x^3, x = nq/100";
     return d2 * (0.017 + nq / 100 * (0.262 + nq / 100 * (-0.08 + nq / 100 * 0.0093)));
   case CW_CORRELATED_INLET_DIAMETER:
-    *source = "Gulich: D1/D2 = 1.16 ((dn/D2)^2 + 1.5e-3 psi nq^1.33)^0.5";
+    *source = "Guelich: D1/D2 = 1.16 ((dn/D2)^2 + 1.5e-3 psi nq^1.33)^0.5";
     return d2 * 1.16 * sqrt(share * share + 1.5e-3 * d->head_coefficient * pow(nq, 1.33));
   case CW_CORRELATED_BLADE_COUNT:
-    *source = "Gulich: 5 to 7; 7 under nq 18, 6 under 45";
+    *source = "Guelich: 5 to 7; 7 under nq 18, 6 under 45";
     return nq < 18 ? 7 : nq < 45 ? 6 : 5;
   case CW_CORRELATED_BLADE_THICKNESS:
-    *source = "Gulich: 0.016 to 0.022 D2";
+    *source = "Guelich: 0.016 to 0.022 D2";
     return 0.020 * d2;
   case CW_CORRELATED_INCIDENCE:
-    *source = "Gulich: 0 to 4 deg";
+    *source = "Guelich: 0 to 4 deg";
     return 4 * degree;
   case CW_CORRELATED_BASE_DIAMETER:
-    *source = "1.04 D2, within Gulich's distance of the tongue";
+    *source = "1.04 D2, within Guelich's distance of the tongue";
     return 1.04 * d2;
   case CW_CORRELATED_INLET_WIDTH:
-    *source = "Gulich: b3/b2 from 2 at low to 1.05 at high nq: 1.6 - 0.75 nq/100";
+    *source = "Guelich: b3/b2 from 2 at low to 1.05 at high nq: 1.6 - 0.75 nq/100";
     return d->outlet_width + fmax(1.2e-3, d->outlet_width * fmax(0.15, 0.6 - 0.75 * nq / 100));
   default:
     *source = "";

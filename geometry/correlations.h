@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The correlations from which the hydraulic design works out what a table leaves open, in two families: those
-// of Gulich's and of Guan's books. Formulas and sources are on the page docs/geometry.md.
+// of Guelich's and of Guan's books. Formulas and sources are on the page docs/geometry.md.
 #ifndef CUTWATER_GEOMETRY_CORRELATIONS_H
 #define CUTWATER_GEOMETRY_CORRELATIONS_H
 

@@ -35,7 +35,7 @@ static void against_correlations(const CwDesign *d, CwDesignRemarks *remarks) {
     const int outside =
         value.shown < (1 - d->warn_share) * fmin(a, b) || value.shown > (1 + d->warn_share) * fmax(a, b);
     remark(remarks, outside && !strcmp(d->source[cw_correlated_quantity(checked[i])], "case"),
-           "%s is %.4g mm; Gulich's correlation gives %.4g, Guan's %.4g mm (more than %.0f %% apart)",
+           "%s is %.4g mm; Guelich's correlation gives %.4g, Guan's %.4g mm (more than %.0f %% apart)",
            value.text, value.shown, a, b, 100 * d->warn_share);
   }
 }

@@ -82,7 +82,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2),
        value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
-  TAKE(axial_length, given->axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Gulich: (D2 - D1) (nq/74)^1.07");
+  TAKE(axial_length, given->axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Guelich: (D2 - D1) (nq/74)^1.07");
   // A shaft as thick as the hub leaves no nut.
   const double shaft = given->through_shaft_diameter;
   SET(through_shaft_diameter, fmin(shaft, design->hub_diameter), shaft > 0 ? "case" : "none");
@@ -362,7 +362,7 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
            : standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
        "standard bore under 4 m/s, wider than the throat");
   TAKE(discharge_pipe_length, given->discharge_pipe_length, 2 * design->discharge_diameter, "2 DN");
-  // Gulich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
+  // Guelich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
   const double gap = r2 * (1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->head / 1000) - r3;
   const CwVoluteInput input = {
       .flow_rate = design->flow_rate,
@@ -432,7 +432,7 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   SET(tongue_tip_radius, design->volute.tip_radius,
       cw_case_given(given->tongue_gap)
           ? "case: D3/2 + tongue gap"
-          : "well shaped, at least Gulich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
+          : "well shaped, at least Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
   SET(tongue_angle, design->volute.tip_angle,
       cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
   if (cw_case_given(given->diffuser_area_ratio))

@@ -12,7 +12,6 @@
 #include "geometry/pump.h"
 #include "geometry/step_file.h"
 #include "pipeline/atomic_file.h"
-#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 #include "pipeline/stage_args.h"
@@ -189,7 +188,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
     path = NULL;
   }
   CW_TRY(cw_record_step(record, "files", cw_seconds() - begin, FILES + pump.count, "files"));
-  CW_TRY(cw_record_json(record, "case", cw_case_origin(table)));
+  CW_TRY(cw_record_case(record, table));
   CW_TRY(cw_record_json(record, "measured", cw_measured_json(&measured)));
   CW_TRY(cw_record_number(record, "predicted_head_m", design.predicted_head));
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));

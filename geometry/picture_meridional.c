@@ -100,7 +100,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   label(&picture, &frame, CW_TEXT_LEFT, design->outlet_diameter / 2, half, 12, 4, "D2",
         design->outlet_diameter);
   label(&picture, &frame, CW_TEXT_MIDDLE, ri, 0, 0, -12, "b2", design->outlet_width);
-  label(&picture, &frame, CW_TEXT_LEFT, design->hub_diameter / 2, m.hub.pole[0][1], 14, 14, "hub",
+  label(&picture, &frame, CW_TEXT_LEFT, design->hub_diameter / 2, m.hub.pole[0][1], 14, 14, "hub diameter",
         design->hub_diameter);
   if (m.shaft_radius > 0)
     label(&picture, &frame, CW_TEXT_LEFT, m.shaft_radius, m.inlet_z, 6, 14, "shaft", 2 * m.shaft_radius);

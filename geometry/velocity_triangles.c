@@ -57,7 +57,7 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
       "1 / (1 - z e / (pi D2 sin beta2))");
   const double cm = design->outlet_meridional_speed, turned = cm * design->outlet_blockage / tan(beta);
   SET(slip_factor_wiesner, cw_slip_wiesner(blades, beta, ratio),
-      "0.98 (1 - sin(beta2)^0.5 / z^0.7) kw: Gulich's form");
+      "0.98 (1 - sin(beta2)^0.5 / z^0.7) kw: Guelich's form");
   const double p = cw_slip_pfleiderer(blades, beta, d2 / 2, cw_static_moment(meridian));
   SET(slip_factor_pfleiderer, ((u2 - turned) / (1 + p) + turned) / u2,
       "p = 0.65 (1 + beta2/60 deg) r2^2 / (z S), S = integral r dm");
@@ -154,12 +154,12 @@ CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure
       throat(&section, cw_blade_side(&section, CW_BLADE_SUCTION, section.end), CW_BLADE_PRESSURE, -pitch,
              &place),
       "least distance to the next blade, mid-span");
-  // Gulich, section 6.3.2: lambda_c = 1.1 with an axial inlet, lambda_w = 0.3 tan(beta1B)^0.57 at the shroud.
+  // Guelich, section 6.3.2: lambda_c = 1.1 with an axial inlet, lambda_w = 0.3 tan(beta1B)^0.57 at the shroud.
   const CwTriangle *tip = &design->inlet_triangle[CW_TRIANGLE_SPANS - 1];
   const double cm = design->inlet_meridional_speed, w = hypot(tip->u, cm);
   const double lambda = 0.3 * pow(tan(tip->blade_angle), 0.57), rpm = omega * 30 / M_PI;
   SET(npsh_required, (1.1 * cm * cm + lambda * w * w) / (2 * gravity),
-      "Gulich: 1.1 c_m1^2/2g + 0.3 tan(beta1)^0.57 w1^2/2g, shroud");
+      "Guelich: 1.1 c_m1^2/2g + 0.3 tan(beta1)^0.57 w1^2/2g, shroud");
   SET(npsh_available, fmax(0, inlet_pressure - 2339) / (design->density * gravity),
       "(inlet pressure - 2339 Pa) / (rho g)");
   SET(suction_specific_speed, rpm * sqrt(design->flow_rate) / pow(design->npsh_required, 0.75),

@@ -16,7 +16,7 @@ extern "C" {
 // Blockage 1 / (1 - z e / (2 pi r sin beta)) of `count` blades.
 double cw_blockage(double count, double thickness, double radius, double angle);
 
-// Slip factor gamma by Wiesner in Gulich's form, for `count` blades, beta2 and the ratio of mean inlet to
+// Slip factor gamma by Wiesner in Guelich's form, for `count` blades, beta2 and the ratio of mean inlet to
 // outlet diameter: 0.98 (1 - sin(beta2)^0.5 / z^0.7) kw.
 double cw_slip_wiesner(double count, double outlet_angle, double diameter_ratio);
 

@@ -6,7 +6,6 @@
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/run/mesh_run.h"
-#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
 
@@ -40,7 +39,7 @@ int main(int argc, char **argv) {
   if (run.rank == 0) {
     CW_TRY(cw_stage_path(&args, "mesh/record.json", &record_path));
     cw_record_set_peak_memory(run.record, all);
-    CW_TRY(cw_record_json(run.record, "case", cw_case_origin(&table)));
+    CW_TRY(cw_record_case(run.record, &table));
     CW_TRY(cw_record_write(run.record, record_path));
   }
 done:

@@ -55,16 +55,14 @@ static void show(const json_t *value, char shown[CW_NAME_SIZE]) {
 
 CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *stage) {
   CwStatus status = CW_OK;
-  char path[4096], where[sizeof path + 20], key_path[CW_KEY_PATH_SIZE], made[CW_NAME_SIZE], asked[CW_NAME_SIZE];
-  json_t *record = NULL, *results, *of, *origin = cw_case_origin(table);
+  char path[4096], key_path[CW_KEY_PATH_SIZE], made[CW_NAME_SIZE], asked[CW_NAME_SIZE];
+  json_t *record = NULL, *of, *origin = cw_case_origin(table);
   CW_REQUIRE(origin, CW_ERR_MEMORY, "out of memory: the origin of %s", stage);
   snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
   CW_REQUIRE(!access(path, F_OK), CW_ERR_IO, "%s: it is missing; cutwater-%s writes it when all of its files are there",
              path, stage);
   CW_TRY(cw_json_read(path, &record));
-  CW_TRY(cw_json_object(record, path, "results", &results));
-  snprintf(where, sizeof where, "%s: results", path);
-  CW_TRY(cw_json_object(results, where, "case", &of));
+  CW_TRY(cw_json_object(record, path, "case", &of));
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     cw_case_key_path(&cw_case_keys[i], key_path);
     const json_t *theirs = json_object_get(of, key_path), *ours = json_object_get(origin, key_path);

@@ -295,7 +295,7 @@ void cw_progress(int64_t done) {
     progress.line_shown = 1;
     progress.terminal_time = now;
   }
-  if (now - progress.plain_time >= plain_interval) {
+  if (now - progress.plain_time >= plain_interval && done != progress.total) { // the end tells that all are done
     format_progress(text, sizeof text, now, 0);
     if (logger.terminal)
       write_copy("", text);

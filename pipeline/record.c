@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "pipeline/atomic_file.h"
+#include "pipeline/case_origin.h"
 #include "pipeline/log.h"
 
 struct CwRecord {
@@ -14,6 +15,7 @@ struct CwRecord {
   double started;
   int64_t peak_memory_bytes; // 0: ask the system
   json_t *steps, *results;
+  json_t *origin; // NULL: of no case
 };
 
 CwStatus cw_record_start(const char *stage, CwRecord **record) {
@@ -37,6 +39,7 @@ void cw_record_free(CwRecord *record) {
   if (!record) return;
   json_decref(record->steps);
   json_decref(record->results);
+  json_decref(record->origin);
   free(record);
 }
 
@@ -69,6 +72,12 @@ done:
 
 void cw_record_set_peak_memory(CwRecord *record, int64_t bytes) {
   record->peak_memory_bytes = bytes;
+}
+
+CwStatus cw_record_case(CwRecord *record, const CwCase *table) {
+  json_decref(record->origin);
+  record->origin = cw_case_origin(table);
+  return record->origin ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory: the record of the case");
 }
 
 CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value) {
@@ -112,7 +121,8 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
   root = json_pack("{so so sI sO sO sO}", "stage", json_text(record->stage), "seconds",
                    cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak,
                    "steps", record->steps, "warnings", warnings, "results", record->results);
-  CW_REQUIRE(root, CW_ERR_MEMORY, "out of memory: the record");
+  CW_REQUIRE(root && (!record->origin || !json_object_set(root, "case", record->origin)), CW_ERR_MEMORY,
+             "out of memory: the record");
   CW_TRY(cw_json_write(root, path));
 done:
   json_decref(root);

@@ -7,6 +7,7 @@
 #include <jansson.h>
 #include <stdint.h>
 
+#include "pipeline/case.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -25,6 +26,9 @@ CwStatus cw_record_step(CwRecord *record, const char *name, double seconds, int6
 
 // Sets the peak memory to write, such as the sum over the ranks; without it that of this process is written.
 void cw_record_set_peak_memory(CwRecord *record, int64_t bytes);
+
+// Keeps of which case the stage's files are made (case_origin.h).
+CwStatus cw_record_case(CwRecord *record, const CwCase *table);
 
 // Set one result. A number that is not finite becomes null. Keys keep the order of their first setting.
 CwStatus cw_record_number(CwRecord *record, const char *key, double value);

@@ -11,7 +11,7 @@
 #include "pipeline/report/plot.h"
 #include "pipeline/report/quantity.h"
 
-// A plain value of the key in the unit that quantities of that name are shown in.
+// A plain value of the key, or a list of them, in the unit that quantities of that name are shown in.
 static void value_text(FILE *page, const char *key, json_t *value) {
   char text[CW_FORMAT_SIZE];
   if (json_is_integer(value))
@@ -22,6 +22,11 @@ static void value_text(FILE *page, const char *key, json_t *value) {
     cw_html_text(page, json_string_value(value));
   else if (json_is_boolean(value))
     fputs(json_is_true(value) ? "yes" : "no", page);
+  else if (json_is_array(value))
+    for (size_t k = 0; k < json_array_size(value); k++) {
+      fputs(k ? ", " : "", page);
+      value_text(page, key, json_array_get(value, k));
+    }
   else
     fputs("\342\200\223", page);
 }

@@ -477,7 +477,7 @@ static int write_record(const char *run, const char *stage) {
   CwCase table;
   if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK)
     return -1;
-  json_t *root = json_pack("{s:{s:o}}", "results", "case", cw_case_origin(&table));
+  json_t *root = json_pack("{s:o}", "case", cw_case_origin(&table));
   snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
   const int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);

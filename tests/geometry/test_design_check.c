@@ -44,7 +44,7 @@ static void far_off_values_are_remarked(void **state) {
   CwDesign design = paper();
   design.outlet_diameter = 0.25;
   assert_true(
-      remarked(&design, "impeller outlet D2 is 250 mm; Gulich's correlation gives 182.2, Guan's 178"));
+      remarked(&design, "impeller outlet D2 is 250 mm; Guelich's correlation gives 182.2, Guan's 178"));
   design.warn_share = 0.5;
   assert_false(remarked(&design, "impeller outlet D2 is"));
   design = paper();

@@ -105,7 +105,7 @@ static void head_priority_meets_the_head(void **state) {
   assert_true(design.wrap_residual > 20 * degree);
 }
 
-// Gulich: x = 0.21487, b2/D2 = 0.017 + 0.056296 - 0.003694 + 0.000092 = 0.069695, of 200 mm 13.939 mm.
+// Guelich: x = 0.21487, b2/D2 = 0.017 + 0.056296 - 0.003694 + 0.000092 = 0.069695, of 200 mm 13.939 mm.
 // Guan: b2 = 0.64 (0.7843)^(5/6) (6.9444e-3/1450)^(1/3) = 0.64 0.81674 0.016856 = 8.811 mm.
 static void open_width_by_both_families(void **state) {
   CwCase table = paper();
@@ -124,7 +124,7 @@ static CwCase duty_point(double cubic_metres_per_hour, double head, double rpm) 
   return table;
 }
 
-// From the duty point alone: Gulich psi = 1.21 exp(-0.77 0.21487) = 1.02545, D2 = 2/151.844
+// From the duty point alone: Guelich psi = 1.21 exp(-0.77 0.21487) = 1.02545, D2 = 2/151.844
 // (196.133/1.02545)^0.5 = 182.2 mm, where beta2 = 20 deg meets the head. ns = 78.4, Ns = 51.65 21.487 = 1110,
 // type number 21.487 / 52.92.
 static void duty_point_is_enough(void **state) {

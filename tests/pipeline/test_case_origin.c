@@ -28,7 +28,7 @@ static int make_run(void **state) {
   snprintf(path, sizeof path, "%s/record.json", folder);
   assert_int_equal(cw_make_directory(folder), CW_OK);
   assert_int_equal(cw_record_start("geometry", &record), CW_OK);
-  assert_int_equal(cw_record_json(record, "case", cw_case_origin(&paper)), CW_OK);
+  assert_int_equal(cw_record_case(record, &paper), CW_OK);
   assert_int_equal(cw_record_write(record, path), CW_OK);
   cw_record_free(record);
   return 0;
@@ -100,7 +100,7 @@ static void a_record_that_is_missing_or_broken_is_told(void **state) {
   fputs("{\"results\": {}}", file);
   fclose(file);
   assert_int_equal(cw_case_origin_check(&paper, run, "geometry"), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "geometry/record.json: results: 'case' must be there"));
+  assert_non_null(strstr(cw_fail_message(), "geometry/record.json: 'case' must be there"));
 }
 
 int main(void) {

@@ -40,7 +40,7 @@ static void write_record(const char *name, const char *text) {
   CwCase table;
   assert_int_equal(cw_case_read(CASE, &table), CW_OK);
   json_t *record = json_loads(text, 0, NULL);
-  assert_int_equal(json_object_set_new(json_object_get(record, "results"), "case", cw_case_origin(&table)), 0);
+  assert_int_equal(json_object_set_new(record, "case", cw_case_origin(&table)), 0);
   char *whole = json_dumps(record, 0);
   write_text(name, whole);
   free(whole);
@@ -265,12 +265,15 @@ static void export_figures_are_shown(void **state) {
   write_record("export/record.json",
              "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
              "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
+             "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
              "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
   if (report(said) != 0)
     fail_msg("%s", said);
   char *page = read_text("report/index.html");
   holds(page, "<tr><td>Volume</td><td class=\"n\">250</td><td>cm&sup3;</td></tr>");
   holds(page, "<h3>Patches</h3>");
+  holds(page, "<td>rotor, stator</td><td>7, 8</td>");
+  assert_null(strstr(page, "flow rate m3 per h")); // the record's case is not shown as a result
   holds(page, "12\342\200\257345");
   assert_null(strstr(page, "has not been exported"));
   free(page);
@@ -299,12 +302,12 @@ static void wrong_content_is_named(void **state) {
       {"geometry/design.json", "[]", "object"},
       {"geometry/design.json", "{}", "blade_count"},
       {"geometry/design.json", "{\"blade_count\":6}", "outlet_diameter_m"},
-      {"geometry/record.json", "{\"stage\":\"mesh\",\"results\":{}}", "'stage' is mesh"},
+      {"geometry/record.json", "{\"stage\":\"mesh\"}", "'stage' is mesh"},
       {"mesh/record.json",
        "{\"stage\":\"mesh\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],\"warnings\":[],"
        "\"results\":{}}",
        "'asked_cells'"},
-      {"mesh/record.json", "{\"results\":{\"case\":{}}}", "mesh: made with name: (left out), the case file has paper"},
+      {"mesh/record.json", "{\"case\":{}}", "mesh: made with name: (left out), the case file has paper"},
       {"geometry/velocity_triangles.svg", "<svg>", "not a whole SVG"},
   };
   char path[200], aside[200];
