@@ -5,6 +5,7 @@
 // Use: fill ring EDGE_LENGTH SURFACE       writes a ring-shaped surface with six blade-shaped voids
 //      fill region REGION.h5 SURFACE       writes the inner boundary of a region of the mesher
 //      fill kernel|tetgen SURFACE GROWTH   fills it; sizes are those of the surface and grow from it so
+//      fill sizes SURFACE GROWTH SCALE FIELD   writes these sizes, so much scaled, as a structured field of gmsh
 //      fill quality MESH                   of a mesh of somebody else
 //      fill shape FILE ...                 shapes of the tetrahedra of regions or meshes together, see print_shapes
 // Surfaces and meshes are MSH 2.2 files (text).
@@ -217,9 +218,7 @@ static double size_at(const void *context, const double x[3]) {
   return cw_size_grid_at(context, x);
 }
 
-// Sizes as the surface has them, growing by `growth` a length into the inside.
-static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
-  double low[3], high[3], mean = 0.0;
+static void find_box(const Mesh *mesh, double low[3], double high[3]) {
   for (int i = 0; i < 3; i++) {
     low[i] = high[i] = mesh->x[0][i];
     for (int32_t p = 0; p < mesh->point_count; p++) {
@@ -227,6 +226,12 @@ static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
       high[i] = fmax(high[i], mesh->x[p][i]);
     }
   }
+}
+
+// Sizes as the surface has them, growing by `growth` a length into the inside.
+static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
+  double low[3], high[3], mean = 0.0;
+  find_box(mesh, low, high);
   double *length = take((size_t)mesh->triangle_count, sizeof *length);
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     for (int k = 0; k < 3; k++)
@@ -242,6 +247,53 @@ static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
   }
   check(cw_size_grid_spread(grid, growth, NULL));
   free(length);
+}
+
+static double third(const void *context, const double x[3]) {
+  (void)context;
+  (void)x;
+  return 1.0 / 3.0;
+}
+
+// A small box: from then on the program's own pages are in memory, which are none of a fill's.
+static void fill_box(void) {
+  Surface box = {0};
+  CwFill fill;
+  surface_add_box(&box, (double[3]){0, 0, 0}, (double[3]){1, 1, 1}, (int[3]){3, 3, 3}, 1);
+  CwFillInput input = {.point_count = box.point_count,
+                       .x = (const double(*)[3])box.x,
+                       .triangle_count = box.triangle_count,
+                       .triangle = (const int32_t(*)[3])box.triangle,
+                       .row_count = box.triangle_count,
+                       .size = third,
+                       .name = "box"};
+  check(cw_kernel_fill(&input, &fill));
+  cw_fill_free(&fill);
+  surface_free(&box);
+}
+
+// On a regular grid over the surface: corner, spacing and number of nodes, then the sizes, the last axis first.
+static void write_sizes(const char *path, const Mesh *mesh, const CwSizeGrid *grid, double scale) {
+  enum { NODES = 96 }; // along the longest side
+  double low[3], high[3], step = 0.0;
+  int nodes[3];
+  find_box(mesh, low, high);
+  for (int i = 0; i < 3; i++)
+    step = fmax(step, (high[i] - low[i]) / (NODES - 1));
+  FILE *file = fopen(path, "w");
+  if (!file)
+    perror(path), exit(4);
+  for (int i = 0; i < 3; i++)
+    nodes[i] = 2 + (int)((high[i] - low[i]) / step);
+  fprintf(file, "%.17g %.17g %.17g\n%.17g %.17g %.17g\n%d %d %d\n", low[0], low[1], low[2], step, step, step,
+          nodes[0], nodes[1], nodes[2]);
+  for (int k = 0; k < nodes[0] * nodes[1] * nodes[2]; k++) {
+    const double x[3] = {low[0] + step * (k / (nodes[1] * nodes[2])), low[1] + step * (k / nodes[2] % nodes[1]),
+                         low[2] + step * (k % nodes[2])};
+    fprintf(file, "%.6g\n", scale * size_at(grid, x));
+  }
+  if (fclose(file))
+    perror(path), exit(4);
 }
 
 // Of this process and of those that ended, as TetGen's.
@@ -395,12 +447,19 @@ int main(int argc, char **argv) {
     read_mesh(argv[2], &mesh);
     printf("%d %d ", mesh.triangle_count, mesh.tetrahedron_count);
     print_quality(mesh.tetrahedron_count, (const int32_t(*)[4])mesh.tetrahedron, (const double(*)[3])mesh.x);
+  } else if (argc == 6 && !strcmp(argv[1], "sizes")) {
+    CwSizeGrid grid;
+    read_mesh(argv[2], &mesh);
+    make_size(&mesh, atof(argv[3]), &grid);
+    write_sizes(argv[5], &mesh, &grid, atof(argv[4]));
+    cw_size_grid_free(&grid);
   } else if (argc == 4 && (!strcmp(argv[1], "kernel") || !strcmp(argv[1], "tetgen"))) {
     CwSizeGrid grid;
     CwFill fill;
     check(cw_log_open("bench", NULL, 1, getenv("CUTWATER_VERBOSE") != NULL));
     read_mesh(argv[2], &mesh);
     make_size(&mesh, atof(argv[3]), &grid);
+    fill_box();
     CwFillInput input = {.point_count = mesh.point_count,
                          .x = (const double(*)[3])mesh.x,
                          .triangle_count = mesh.triangle_count,

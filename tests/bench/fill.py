@@ -5,14 +5,15 @@
 
 Use, from the top of the source:
   tests/bench/fill.py BUILD_DIR [--ring EDGE_LENGTH ...] [--run RUN_DIR ...] [--regions NAME ...]
-    [--growth G] [--repeat N] [--cores N ...] [--delaunay] [--equal]
+    [--growth G] [--repeat N] [--cores N ...] [--ways kernel|tetgen|hxt ...] [--delaunay] [--equal]
 Surfaces are a ring (0.26 m across) with six blade-shaped voids, for each edge length in m, and the inner
 boundaries of the regions that a run of the mesher left in RUN_DIR/mesh. Sizes grow from the surface by G a
 length, 0.15 by default; gmsh follows its own rule. Seconds are user time of one core, the
-least of N runs in turn; memory is the peak less what stood before. Each way runs alone (cores 1) and as two
-processes at once (cores 2, the mean of both), which share the memory. gmsh chooses its own number of
-tetrahedra; with --equal HXT fills rings a second time with a largest size that gives it as many as the
-kernel has. The last column is our rate over that of the way.
+least of N runs in turn; memory is the peak less what stood before, for the kernel after the fill of a small box.
+Each way runs alone (cores 1) and as two processes at once (cores 2, the mean of both), which share the memory. gmsh
+chooses its own number of tetrahedra; with --equal HXT fills each surface a second time ("hxt, ="), with the sizes that
+the kernel has, scaled so that it makes as many. The last column is our rate over that of the way; the last line tells
+the greatest memory and the least rate of the kernel on one core. A run of gmsh has 10 minutes.
 """
 import argparse
 import shutil
@@ -22,8 +23,11 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from programs import SOURCE, execute, gmsh_steps, size_for
+from programs import SOURCE, execute, gmsh_steps
 
+LIMIT = 600  # seconds
+NEAR = 0.05  # of as many tetrahedra
+TRIES = 6  # of a scale that gives them
 HEAD = (f"{'surface':18s} {'facets':>7s} {'way':8s} {'cores':>5s} {'tets':>8s} {'seconds':>8s} "
         f"{'tets/s':>8s} {'B/tet':>5s} {'aspect':>6s} {'max':>5s} {'least':>5s} {'ratio':>5s} {'ours/it':>7s}")
 
@@ -50,25 +54,28 @@ def run_ours(program, way, surface, growth):
     return [int(words[0]), int(words[1]), float(words[2]), float(words[4]), *map(float, words[5:9])]
 
 
-def run_gmsh(folder, surface, shells, *options):
-    """gmsh within a surface of so many closed parts: the run, and the file of its mesh, if it made one."""
+def run_gmsh(folder, surface, shells, sizes, *options):
+    """gmsh within a surface of so many closed parts, with a file of sizes, or None for its own rule: the run, and the
+    file of its mesh, if it made one."""
     mesh = folder / "gmsh.msh"
     script = folder / "gmsh.geo"
     loops = "".join(f"Surface Loop({k}) = {{{k}}};\n" for k in range(1, shells + 1))
     numbers = ", ".join(str(k) for k in range(1, shells + 1))
-    script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n')
+    field = (f'Mesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\nField[1] = Structured;\n'
+             f'Field[1].FileName = "{sizes}";\nField[1].TextFormat = 1;\nBackground Field = 1;\n') if sizes else ""
+    script.write_text(f'Merge "{surface}";\n{loops}Volume(1) = {{{numbers}}};\nMesh.SaveAll = 1;\n{field}')
     mesh.unlink(missing_ok=True)
-    return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False), mesh
+    return execute("gmsh", *options, "-nt", 1, "-format", "msh2", "-o", mesh, script, check=False, limit=LIMIT), mesh
 
 
-def fill_by_gmsh(program, surface, shells, algorithm, *more):
+def fill_by_gmsh(program, surface, shells, algorithm, sizes=None):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        before, _ = run_gmsh(folder, surface, shells, "-2")
-        run, mesh = run_gmsh(folder, surface, shells, "-3", "-algo", algorithm, *more)
+        before, _ = run_gmsh(folder, surface, shells, sizes, "-2")
+        run, mesh = run_gmsh(folder, surface, shells, sizes, "-3", "-algo", algorithm)
         steps = gmsh_steps(run.text)
         if "meshing 3D" not in steps or not mesh.exists():
-            return "failed"
+            return "failed" if run.wall < LIMIT else f"not done in {LIMIT} s"
         words = subprocess.run([str(program), "quality", str(mesh)], check=True, capture_output=True,
                                text=True).stdout.split()
     tets = int(words[1])
@@ -89,31 +96,35 @@ def at_once(way, cores):
     return [sum(column) / cores for column in zip(*rows)]
 
 
-def hxt_with(program, surface, shells, edge, tets):
-    """The row of HXT with a largest size that gives it so many tetrahedra, but for 5 %."""
-    rows = []
+def equal_sizes(program, surface, shells, growth, folder):
+    """A file of sizes with which HXT makes as many tetrahedra as the kernel, and None; or None and the reason."""
+    sizes = folder / "sizes.txt"
+    ours = run_ours(program, "kernel", surface, growth)
+    if isinstance(ours, str):
+        return None, ours
+    scale = 1.0
+    for _ in range(TRIES):
+        subprocess.run([str(program), "sizes", str(surface), str(growth), f"{scale:.6g}", str(sizes)], check=True)
+        row = fill_by_gmsh(program, surface, shells, "hxt", sizes)
+        if isinstance(row, str):
+            return None, f"{row}, sizes times {scale:.3g}"
+        if abs(row[1] / ours[1] - 1) <= NEAR:
+            return sizes, None
+        scale *= (row[1] / ours[1]) ** (1 / 3)
+    return None, f"no scale of the sizes gives {ours[1]} tetrahedra"
 
-    def make(size):
-        rows.append(fill_by_gmsh(program, surface, shells, "hxt", "-clmax", size))
-        if isinstance(rows[-1], str):
-            sys.exit(f"fill: HXT with sizes up to {size} m: {rows[-1]}")
-        return rows[-1][1]
 
-    size_for(tets, edge / 2, 3, 0.05, make)
-    return rows[-1]
-
-
-def compare(program, title, surface, shells, words, delaunay, edge=None):
-    """`edge`: that of the surface, m, where HXT is to make as many tetrahedra too."""
-    ways = [("kernel", lambda: run_ours(program, "kernel", surface, words.growth)),
-            ("tetgen", lambda: run_ours(program, "tetgen", surface, words.growth))]
-    if shutil.which("gmsh"):
+def compare(program, title, surface, shells, words, delaunay, folder):
+    """Prints the rows of a surface. Those of the kernel on one core."""
+    ways = [(name, lambda name=name: run_ours(program, name, surface, words.growth))
+            for name in ("kernel", "tetgen") if name in words.ways]
+    if shutil.which("gmsh") and "hxt" in words.ways:
         ways.append(("hxt", lambda: fill_by_gmsh(program, surface, shells, "hxt")))
-        if delaunay:
-            ways.append(("delaunay", lambda: fill_by_gmsh(program, surface, shells, "del3d")))
-    if edge:
-        tets = run_ours(program, "kernel", surface, words.growth)[1]
-        ways.append(("hxt, =", lambda: hxt_with(program, surface, shells, edge, tets)))
+    if shutil.which("gmsh") and delaunay:
+        ways.append(("delaunay", lambda: fill_by_gmsh(program, surface, shells, "del3d")))
+    if shutil.which("gmsh") and words.equal:
+        sizes, reason = equal_sizes(program, surface, shells, words.growth, folder)
+        ways.append(("hxt, =", lambda: reason or fill_by_gmsh(program, surface, shells, "hxt", sizes)))
     best = {}
     for _ in range(words.repeat):
         for cores in words.cores:
@@ -124,7 +135,7 @@ def compare(program, title, surface, shells, words, delaunay, edge=None):
                         (not isinstance(row, str) and row[2] < best[key][2]):
                     best[key] = row
     for cores in words.cores:
-        ours = best["kernel", cores]
+        ours = best.get(("kernel", cores), "not asked for")
         for name, _ in ways:
             row = best[name, cores]
             if isinstance(row, str):
@@ -135,6 +146,7 @@ def compare(program, title, surface, shells, words, delaunay, edge=None):
             print(f"{title:18s} {facets:7.0f} {name:8s} {cores:5d} {tets:8.0f} {seconds:8.3f} "
                   f"{tets / seconds:8.0f} {size:5.0f} {mean:6.3f} {most:5.2f} {least:5.2f} {ratio:5.3f} {times}",
                   flush=True)
+    return [best[key] for key in best if key == ("kernel", 1) and not isinstance(best[key], str)]
 
 
 def main():
@@ -147,6 +159,7 @@ def main():
     parser.add_argument("--growth", type=float, default=0.15)
     parser.add_argument("--repeat", type=int, default=1)
     parser.add_argument("--cores", type=int, nargs="*", default=[1, 2])
+    parser.add_argument("--ways", nargs="*", choices=["kernel", "tetgen", "hxt"], default=["kernel", "tetgen", "hxt"])
     parser.add_argument("--delaunay", action="store_true", help="gmsh's Delaunay mesher on the first surface")
     parser.add_argument("--equal", action="store_true", help="HXT with as many tetrahedra as the kernel, too")
     words = parser.parse_args()
@@ -155,18 +168,23 @@ def main():
         program = compile_program(words.build, folder)
         print(HEAD, flush=True)
         surface = folder / "surface.msh"
-        first = True
+        first, kernel = True, []
         for edge in words.ring:
             subprocess.run([str(program), "ring", str(edge), str(surface)], check=True)
-            compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first, edge if words.equal else None)
+            kernel += compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first, folder)
             first = False
         for run in words.run:
             for region in sorted((run / "mesh").glob("*.h5")):
                 if words.regions and region.stem not in words.regions:
                     continue
                 subprocess.run([str(program), "region", str(region), str(surface)], check=True)
-                compare(program, region.stem, surface, 1, words, words.delaunay and first)
+                kernel += compare(program, region.stem, surface, 1, words, words.delaunay and first, folder)
                 first = False
+        if kernel:
+            print(f"kernel, {len(kernel)} surfaces: at most {max(row[3] for row in kernel):.0f} bytes a tetrahedron, "
+                  f"at least {min(row[1] / row[2] for row in kernel):.0f} tetrahedra a second; aspect at most "
+                  f"{max(row[4] for row in kernel):.3f} in the mean, dihedral angles at least "
+                  f"{min(row[6] for row in kernel):.2f} degrees")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import threading
 import time
 from collections import namedtuple
 from pathlib import Path
@@ -20,13 +21,18 @@ Run = namedtuple("Run", "text wall processor peak")
 Gmsh = namedtuple("Gmsh", "wall processor steps peak triangles tetrahedra")
 
 
-def execute(*line, folder=None, check=True):
-    """Runs a program to its end; with `check` the benchmark ends where it fails."""
+def execute(*line, folder=None, check=True, limit=None):
+    """Runs a program to its end, or for `limit` seconds; with `check` the benchmark ends where it fails."""
     line = [str(word) for word in line]
     began = time.monotonic()
     child = subprocess.Popen(line, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, text=True)
+    timer = threading.Timer(limit, child.kill) if limit else None
+    if timer:
+        timer.start()
     text = child.stdout.read()
+    if timer:
+        timer.cancel()
     _, status, use = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
     if check and child.returncode:
