@@ -8,6 +8,8 @@
 extern "C" {
 #endif
 
+#define CW_DEGREE (3.14159265358979323846 / 180.0) // rad
+
 typedef struct {
   double volume;                            // m3, signed
   double edge_shortest, edge_longest;       // m

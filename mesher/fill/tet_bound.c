@@ -7,8 +7,6 @@
 #include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
 // The edge of the neighbour at each edge, as 3 * triangle + edge; -1 where there is not just one. Edges stand in lists
 // of their lower ends, which are short.
 static CwStatus find_neighbours(const CwFillInput *boundary, int32_t (*neighbour)[3]) {
@@ -61,7 +59,7 @@ static double inner_angle(const double from[3], const double to[3], const double
   cw_sub(to, from, along);
   cw_cross(m, n, turn);
   double sine = cw_dot(turn, along) / cw_norm(along); // above 0 where the boundary bends away from its normals
-  return sine > 0.0 ? 180.0 - atan2(sine, cosine) / degree : 90.0;
+  return sine > 0.0 ? 180.0 - atan2(sine, cosine) / CW_DEGREE : 90.0;
 }
 
 // Bound of the tetrahedron on a triangle; anything not below `least` where it is none of the worst.

@@ -14,6 +14,12 @@ typedef struct {
   int32_t tet[CAVITY], side[SIDES];
 } Cavity;
 
+// Of the faces that a cavity was grown over the best quality, and of those that it was not the least: for all
+// thresholds from the first up to below the second it grows the same way.
+typedef struct {
+  double crossed, kept;
+} Grown;
+
 static double side_quality(const CwTetWork *w, int32_t side, const double p[3]) {
   const int32_t *corner = w->mesh->tet[side / 4].corner;
   const int8_t *face = cw_tet_face[side % 4];
@@ -24,7 +30,7 @@ static double side_quality(const CwTetWork *w, int32_t side, const double p[3]) 
 // Grows the cavity from t over every face that would make a tetrahedron with p no better than `enough`
 // (B. Klingner and J. Shewchuk, Aggressive tetrahedral mesh improvement, 2007). 0 where it meets the boundary
 // or becomes too large.
-static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavity *cavity) {
+static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavity *cavity, Grown *grown) {
   CwDelaunay *mesh = w->mesh;
   int32_t open[4 * CAVITY];
   int opened = 0, kept = 0;
@@ -33,16 +39,20 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
   cavity->tet[0] = t;
   cavity->count = 1;
   cavity->side_count = 0;
+  *grown = (Grown){-INFINITY, INFINITY};
   for (int i = 0; i < 4; i++)
     open[opened++] = 4 * t + i;
   for (int head = 0; head < opened; head++) {
     int32_t side = open[head], other = mesh->tet[side / 4].neighbour[side % 4];
     if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp)
       continue;
-    if (side_quality(w, side, p) > enough) {
+    double quality = side_quality(w, side, p);
+    if (quality > enough) {
       open[kept++] = side; // never ahead of head
+      grown->kept = fmin(grown->kept, quality);
       continue;
     }
+    grown->crossed = fmax(grown->crossed, quality);
     if (other < 0 || cavity->count == CAVITY)
       return 0;
     mesh->tet[other / 4].centre[0] = w->stamp;
@@ -63,21 +73,17 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
   return 1;
 }
 
-static double six_volume(const double *a, const double *b, const double *c, const double *d) {
-  return cw_tet_measures(a, b, c, d).six;
-}
-
 // Whether the tetrahedra from p to the hull fill the cavity, once.
 static int is_filled(const CwTetWork *w, const Cavity *cavity, const double p[3]) {
   double old = 0.0, made = 0.0;
   for (int k = 0; k < cavity->count; k++) {
     const int32_t *c = w->mesh->tet[cavity->tet[k]].corner;
-    old += six_volume(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+    old += cw_tet_six(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
   }
   for (int k = 0; k < cavity->side_count; k++) {
     const int32_t *c = w->mesh->tet[cavity->side[k] / 4].corner;
     const int8_t *face = cw_tet_face[cavity->side[k] % 4];
-    made += six_volume(cw_tet_at(w, c[face[0]]), cw_tet_at(w, c[face[2]]), cw_tet_at(w, c[face[1]]), p);
+    made += cw_tet_six(cw_tet_at(w, c[face[0]]), cw_tet_at(w, c[face[2]]), cw_tet_at(w, c[face[1]]), p);
   }
   return fabs(made - old) <= 1e-9 * old;
 }
@@ -140,14 +146,16 @@ static void make_hollow(const CwTetWork *w, const Cavity *cavity, CwHollow *holl
 
 // Grows the cavity for a point at p and moves the point to its best place there, in turn, while this gains. Returns the
 // best quality, of the cavity and place in *chosen and p; `best`, and leaves these alone, where there is no better one.
+// *first tells of the cavity of the place itself.
 static double best_from(CwTetWork *w, int32_t t, const double place[3], double aim, double best, Cavity *chosen,
-                        double p[3]) {
+                        double p[3], Grown *first) {
   Cavity cavity;
+  Grown later;
   CwHollow hollow;
   double there[3];
   memcpy(there, place, sizeof there);
   for (int again = 0; again < AGAIN; again++) {
-    if (!grow(w, t, there, fmax(aim, best), &cavity) || !is_filled(w, &cavity, there))
+    if (!grow(w, t, there, fmax(aim, best), &cavity, again ? &later : first) || !is_filled(w, &cavity, there))
       break;
     make_hollow(w, &cavity, &hollow);
     double got = cw_hollow_best(&hollow, there, cw_hollow_quality(&hollow, there, -2.0));
@@ -180,8 +188,9 @@ done:
 
 CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least) {
   Cavity chosen = {0};
+  Grown grown;
   double p[3];
-  return best_from(w, t, place, aim, least, &chosen, p) > least ? fill_cavity(w, &chosen, p) : CW_OK;
+  return best_from(w, t, place, aim, least, &chosen, p, &grown) > least ? fill_cavity(w, &chosen, p) : CW_OK;
 }
 
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
@@ -190,10 +199,14 @@ CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   double place[PLACES][3], least = w->mesh->tet[t].square + worth, best = least, p[3];
   int tries = candidates(w, t, place);
   Cavity chosen = {0};
+  Grown grown[PLACES];
   *done_it = 0;
   for (int a = 0; a < 4; a++) {
-    for (int k = 0; k < tries; k++)
-      best = best_from(w, t, place[k], aim[a], best, &chosen, p);
+    for (int k = 0; k < tries; k++) {
+      double enough = fmax(aim[a], best);
+      if (a == 0 || enough < grown[k].crossed || enough >= grown[k].kept) // else it would end as before
+        best = best_from(w, t, place[k], aim[a], best, &chosen, p, &grown[k]);
+    }
   }
   if (best <= least)
     goto done;

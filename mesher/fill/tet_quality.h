@@ -38,6 +38,15 @@ cw_tet_measures(const double a[3], const double b[3], const double c[3], const d
   return s;
 }
 
+// Six times the volume, as among the measures.
+static inline __attribute__((always_inline)) double cw_tet_six(const double a[3], const double b[3],
+                                                               const double c[3], const double d[3]) {
+  double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
+  double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
+  double rx = d[0] - a[0], ry = d[1] - a[1], rz = d[2] - a[2];
+  return (py * qz - pz * qy) * rx + (pz * qx - px * qz) * ry + (px * qy - py * qx) * rz;
+}
+
 static inline double cw_tet_less(double a, double b) {
   return a < b ? a : b;
 }
@@ -68,10 +77,12 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 // (doubled) areas of its two faces. Where it is above `enough` only 1 is known, without division.
 static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3],
                                        const double d[3], double enough) {
-  CwTetMeasures s = cw_tet_measures(a, b, c, d);
   double shortest, longest, squared = enough * enough;
+  if (!(cw_tet_six(a, b, c, d) > 0.0))
+    return -1.0; // many are, and need nothing else
+  CwTetMeasures s = cw_tet_measures(a, b, c, d);
   cw_tet_edges(&s, &shortest, &longest);
-  if (!(s.six > 0.0 && s.six * s.six > CW_TET_FLAT * longest * longest * longest))
+  if (!(s.six * s.six > CW_TET_FLAT * longest * longest * longest))
     return -1.0;
   const double *l = s.edge, *n = s.area;
   double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "mesher/common/mix.h"
+#include "mesher/common/quality.h"
 #include "mesher/fill/tet_bound.h"
 #include "mesher/fill/tet_patch.h"
 #include "mesher/fill/tet_work.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
 // Sines of dihedral angles.
 static const double wanted = 0.2250;  // 13 degrees: a search begins where there is less
 static const double reached = 0.2419; // 14 degrees: it ends
@@ -227,7 +227,7 @@ static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   s->now.gain = best->deficit;
   for (int k = 0, idle = 0; best->least < reached && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
     s->tries--;
-    s->whole->count.patches_tried++;
+    s->whole->count.search_tries++;
     CW_TRY(try_disturbed(s, best->least, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
     CwDelaunay swap = s->now.patch.mesh;
@@ -303,7 +303,7 @@ static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
                           .triangle_count = count,
                           .triangle = (const int32_t(*)[3])triangle};
   CW_TRY(cw_tet_bound(&boundary, &allowed, &worst));
-  *sine = fmin(pressing, sin(worthwhile * allowed * degree));
+  *sine = fmin(pressing, sin(worthwhile * allowed * CW_DEGREE));
 done:
   free(triangle);
   free(x);

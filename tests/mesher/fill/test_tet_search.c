@@ -174,7 +174,7 @@ static void what_the_boundary_forces_is_not_pressed(void **state) {
   assert_true(least_angle(w.mesh, &volume) < 10.0);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 10.0);
-  assert_in_range(w.count.patches_tried, 1, 400);
+  assert_in_range(w.count.search_tries, 1, 400);
   finish(&w, &patch);
 }
 
@@ -188,7 +188,7 @@ static void tries_are_bounded(void **state) {
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 12.0);
-  assert_int_equal(w.count.patches_tried, 600);
+  assert_int_equal(w.count.search_tries, 600);
   finish(&w, &patch);
 }
 
