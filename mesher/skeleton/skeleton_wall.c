@@ -12,8 +12,10 @@
 #include "mesher/skeleton/skeleton_curves.h"
 #include "mesher/surface/patch_task.h"
 
-enum { SIZE_STEPS = 400 };
+enum { SIZE_STEPS = 400, MOST_FOR_BENDS = 12 };
 static const double ON_PLANE = 1e-8; // m
+// Of the length of an edge, how far its curve may lie beside it: a circle's edges turn by 62 degrees.
+static const double MOST_BESIDE = 0.14;
 
 int cw_face_is_wall(const CwCad *cad, int32_t face) {
   return cw_cad_patch_kind(cad, cw_cad_face_patch(cad, face)) == CW_PATCH_WALL;
@@ -143,7 +145,24 @@ typedef struct {
   int32_t count, *curve; // wall curves to divide: the first of each orbit
 } Curves;
 
-// Divides one curve: a task, whose result are its points.
+// Whether some edge between the points of a division cuts off a bend of the curve.
+static int cuts_bend(const CwCurve *curve, int32_t count, const double *place, const CurvePoint *point) {
+  int32_t i = 1;
+  for (int32_t k = 0; k + 1 < count; k++) {
+    double along[3], from[3], beside[3];
+    cw_sub(point[k + 1].x, point[k].x, along);
+    double length = cw_unit(along);
+    for (; i + 1 < curve->fine_count && curve->fine_length[i] < place[k + 1]; i++) {
+      cw_sub(curve->fine_x[i], point[k].x, from);
+      cw_cross(along, from, beside);
+      if (cw_norm(beside) > MOST_BESIDE * length) return 1;
+    }
+  }
+  return 0;
+}
+
+// Divides one curve: a task, whose result are its points. Where the wanted edges are wider than the nose of a blade, it
+// gets more of them: points inside the blade's face would else stand out beyond the edges along it.
 static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const Curves *curves = context;
@@ -151,15 +170,22 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
   const CwCurve *curve = &skeleton->network.curve[curves->curve[i]];
   double *place = NULL;
   CurvePoint *point = NULL;
-  int32_t count, closed = curve->corner[0] == curve->corner[1];
+  int32_t count, least = curve->corner[0] == curve->corner[1] ? 3 : 1;
   CW_TRY(divide_rim(skeleton, curve, &count, &place));
-  if (!place) {
-    CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], closed ? 3 : 1, &count,
-                           &place));
-  }
-  CW_NEW(point, count);
-  for (int32_t k = 0; k < count; k++) {
-    cw_curve_point(&skeleton->network, curve, place[k], point[k].x, point[k].parameter);
+  int given = place != NULL;
+  for (;;) {
+    if (!given)
+      CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], least, &count, &place));
+    CW_NEW(point, count);
+    for (int32_t k = 0; k < count; k++) {
+      cw_curve_point(&skeleton->network, curve, place[k], point[k].x, point[k].parameter);
+    }
+    if (given || count > MOST_FOR_BENDS || !cuts_bend(curve, count, place, point)) break;
+    least = count; // one edge more
+    free(place);
+    free(point);
+    place = NULL;
+    point = NULL;
   }
   *bytes = point;
   *size = count * (int64_t)sizeof *point;

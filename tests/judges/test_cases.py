@@ -24,6 +24,16 @@ class Cases(unittest.TestCase):
             met = sum(patch["first_height_met_faces"] for patch in domain["layer_coverage"])
             self.assertGreaterEqual(met, 0.99 * faces, domain["name"])
 
+    def test_coarse(self):
+        """Any pump of the library is meshed where edges are wider than the noses of its blades."""
+        for case in sorted((SOURCE / "cases").glob("*/case.yaml")):
+            with self.subTest(case.parent.name):
+                run = fresh("case-coarse")
+                done(self, "geometry", run, case=case)
+                done(self, "mesh", run, case=case, cells=300000, ranks=2)
+                for domain in record(run, "mesh")["results"]["domains"]:
+                    self.assertGreaterEqual(domain["least_dihedral_deg"], LEAST_DIHEDRAL, domain["name"])
+
     def test_no_check_fails(self):
         for name, cells in CASES:
             with self.subTest(name):

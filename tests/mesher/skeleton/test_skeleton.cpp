@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <gp_Ax2.hxx>
 #include <gp_Pnt.hxx>
 
 extern "C" {
@@ -42,11 +45,11 @@ struct Box {
   CwPlan plan;
   CwSkeleton skeleton;
 
-  explicit Box(int nodes, double across = 0.009)
-      : cad(open_solid(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), [](const TopoDS_Face &face) -> std::string {
+  explicit Box(int nodes, double across = 0.009, const TopoDS_Shape &solid = BRepPrimAPI_MakeBox(40, 30, 20).Shape())
+      : cad(open_solid(solid, [](const TopoDS_Face &face) -> std::string {
           BRepAdaptor_Surface surface(face);
           double x = surface.Value(0.5, 0.5).X(), y = surface.Value(0.6, 0.7).X();
-          if (std::fabs(x - y) > 1e-9) return "side,wall";
+          if (std::fabs(x - y) > 1e-9 || (x > 1e-9 && x < 40 - 1e-9)) return "side,wall";
           if (std::fabs(x) < 1e-9) return "in,inlet";
           return "out,outlet";
         })) {
@@ -217,6 +220,24 @@ static void layers_that_cross_a_line_are_found(void **) {
     assert_near(skeleton.tight[i][0], 0.021, 1e-9);
     assert_true(skeleton.tight[i][2] < 1.6e-3);
   }
+}
+
+// A post 2 mm wide, whose round nose is narrower than the edges wanted on it: along its foot and its head the nose gets
+// three edges all the same, and the layers grow around it.
+static void edges_follow_a_narrow_nose(void **) {
+  TopoDS_Shape solid = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(40, 30, 20).Shape(),
+                                       BRepPrimAPI_MakeBox(gp_Pnt(12, 14, 0), 5, 2, 20).Shape());
+  Box box(1, 0.009,
+          BRepAlgoAPI_Cut(solid, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(12, 15, 0), gp_Dir(0, 0, 1)), 1, 20).Shape()));
+  make_layers(box);
+  int noses = 0;
+  for (int i = 0; i < box.skeleton.network.curve_count; i++) {
+    const CwCurve &curve = box.skeleton.network.curve[i];
+    if (std::fabs(curve.fine_length[curve.fine_count - 1] - 1e-3 * M_PI) > 1e-5) continue;
+    noses++;
+    assert_int_equal(curve.point_count, 4);
+  }
+  assert_int_equal(noses, 2);
 }
 
 // All surfaces of the box, as far as the inner ones.
@@ -408,6 +429,7 @@ int main() {
       cmocka_unit_test(layers_that_cross_a_line_are_found),
       cmocka_unit_test(network_of_a_box),
       cmocka_unit_test(curves_lie_on_their_planes),
+      cmocka_unit_test(edges_follow_a_narrow_nose),
       cmocka_unit_test(regions_fill_the_box),
       cmocka_unit_test(regions_fill_the_box_by_the_rule),
       cmocka_unit_test(a_crossing_boundary_is_examined),
