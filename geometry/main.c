@@ -18,7 +18,7 @@
 
 static const CwStageUsage usage = {
     .stage = "geometry",
-    .summary = "Designs the pump of the case file and writes its solids, with named faces, to DIR/geometry:\n"
+    .summary = "Designs the pump of the case file and writes its solids, with named faces, to RUN/geometry:\n"
                "a .brep file a domain, faces.csv, interfaces.csv, pump.step, design.json, record.json and pictures.\n",
 };
 
@@ -214,6 +214,8 @@ int main(int argc, char **argv) {
   CW_TRY(make_geometry(&args, &table, record));
   CW_TRY(cw_record_write(record, record_path));
 done:;
+  if (status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY)
+    cw_fail_place(args.case_path); // what to change stands there
   const int code = cw_log_error(status);
   free(record_path);
   cw_record_free(record);

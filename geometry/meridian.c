@@ -69,7 +69,7 @@ static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, con
   CwStatus status = CW_OK;
   double low = 0, high = 1, x[2];
   CW_REQUIRE(radius > curve->pole[0][0] && radius < curve->pole[3][0], CW_ERR_DESIGN,
-             "%s at radius %.3f mm does not lie between %.3f and %.3f mm", what, radius * 1e3,
+             "the %s has the radius %.3f mm; allowed: between %.3f and %.3f mm", what, radius * 1e3,
              curve->pole[0][0] * 1e3, curve->pole[3][0] * 1e3);
   for (int i = 0; i < 60; i++) {
     const double middle = 0.5 * (low + high);
@@ -104,15 +104,16 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
                ri = design->interface_radius;
   const double rn = design->hub_diameter / 2;
   CW_REQUIRE(rn < r1 && r1 < r2 && r2 < ri, CW_ERR_DESIGN,
-             "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order",
+             "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order: change "
+             "hub_diameter_mm, inlet_diameter_mm, outlet_diameter_mm or base_diameter_mm",
              rn * 1e3, r1 * 1e3, r2 * 1e3, ri * 1e3);
   cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial,
                     &meridian->hub, &meridian->shroud);
   curve_measure(&meridian->hub);
   curve_measure(&meridian->shroud);
-  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub, "leading edge at the hub",
+  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub, "leading edge at the hub (leading_edge_radius_hub_mm)",
                          &meridian->hub_leading));
-  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud, "leading edge at the shroud",
+  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud, "leading edge at the shroud (leading_edge_radius_shroud_mm)",
                          &meridian->shroud_leading));
   CW_TRY(curve_at_radius(&meridian->hub, r2, "trailing edge at the hub", &meridian->hub_trailing));
   CW_TRY(curve_at_radius(&meridian->shroud, r2, "trailing edge at the shroud", &meridian->shroud_trailing));
@@ -121,8 +122,8 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   meridian->nut_end_z = meridian->hub.pole[0][1] - design->nut_length;
   meridian->inlet_z = meridian->shroud.pole[0][1] - design->suction_pipe_length;
   CW_REQUIRE(meridian->inlet_z < meridian->nut_end_z, CW_ERR_DESIGN,
-             "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: a longer suction pipe "
-             "is needed",
+             "the inlet at z = %.3f mm must lie before the nut's end at z = %.3f mm: raise "
+             "suction_pipe_length_mm",
              meridian->inlet_z * 1e3, meridian->nut_end_z * 1e3);
 done:
   return status;

@@ -337,8 +337,10 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
              unit_text(key));
     return;
   case CW_KEY_INT:
-  case CW_KEY_INT64:
     snprintf(allowed, size, "a whole number from %.0f to %.0f", key->least, key->most);
+    return;
+  case CW_KEY_INT64:
+    snprintf(allowed, size, "a whole number from %.0f to %.0f, as 500000, 500k or 2M", key->least, key->most);
     return;
   case CW_KEY_CHOICE:
     allowed[0] = '\0';

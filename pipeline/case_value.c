@@ -56,6 +56,20 @@ const char *cw_number_read(const char *text, double *number) {
   return isfinite(*number) ? NULL : "is not a finite number";
 }
 
+const char *cw_count_text_read(const char *text, double *count) {
+  static const char *const wrong = "is not a whole number";
+  char digits[40];
+  size_t length = strlen(text);
+  if (!isdigit((unsigned char)text[0]) || length >= sizeof digits) return wrong;
+  memcpy(digits, text, length + 1);
+  char last = text[length - 1];
+  double factor = last == 'k' || last == 'K' ? 1e3 : last == 'M' ? 1e6 : last == 'G' ? 1e9 : 1;
+  if (factor > 1) digits[length - 1] = '\0';
+  if (cw_number_read(digits, count)) return wrong;
+  *count = round(*count * factor * 1e3) / 1e3; // 1.1 M is 1100000 and not its neighbour
+  return *count == floor(*count) ? NULL : wrong;
+}
+
 static int is_name(const char *text, double most) {
   if (!isalpha((unsigned char)text[0]) || strlen(text) > (size_t)most) return 0;
   for (const char *c = text; *c; ++c)
@@ -86,9 +100,10 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
         number = i;
       }
   } else {
-    what = plain ? cw_number_read(text, &number) : "is text, not a number (it stands in quotes)";
-    int whole = key->type == CW_KEY_INT || key->type == CW_KEY_INT64;
-    if (!what && whole && strspn(text, "+-0123456789") < strlen(text)) what = "is not a whole number";
+    what = !plain                        ? "is text, not a number (it stands in quotes)"
+           : key->type == CW_KEY_INT64 ? cw_count_text_read(text, &number)
+                                       : cw_number_read(text, &number);
+    if (!what && key->type == CW_KEY_INT && strspn(text, "+-0123456789") < strlen(text)) what = "is not a whole number";
     double in_own = number;
     if (!what && own && unit != own) {
       in_own = number * unit->numerator / unit->denominator * own->denominator / own->numerator;

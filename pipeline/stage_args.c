@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/stage_args.h"
 
-#include <ctype.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,9 +21,9 @@ static const struct option shared[SHARED_COUNT] = {
 
 static void print_help(const CwStageUsage *usage, FILE *out) {
   fprintf(out, "usage: cutwater-%s --case FILE --run DIR [OPTIONS]\n%s\n", usage->stage, usage->summary);
-  fputs("  --case FILE     the case file, see docs/case-reference.md\n"
-        "  --run DIR       folder of the run; its files are read and written there\n"
-        "  --cells N       asked number of cells (500000, 500k, 2M), before that of the case file\n",
+  fputs("  --case FILE     the case file, in YAML; docs/case-reference.md lists its keys with units, ranges and defaults\n"
+        "  --run DIR       folder of the run; its files are read and written there, and RUN/log keeps what is said\n"
+        "  --cells N       asked number of cells, as 500000, 500k or 2M; left out: mesh.cells of the case file\n",
         out);
   for (int i = 0; i < usage->option_count; ++i) {
     const CwStageOption *option = &usage->options[i];
@@ -40,25 +39,12 @@ static void print_help(const CwStageUsage *usage, FILE *out) {
 
 CwStatus cw_count_read(const char *name, const char *text, int64_t least, int64_t most, int64_t *count) {
   CwStatus status = CW_OK;
-  char digits[40];
-  double number = NAN, factor = 1;
-  size_t length = strlen(text);
-  int readable = length > 0 && length < sizeof digits && (isdigit((unsigned char)text[0]));
-  if (readable) {
-    memcpy(digits, text, length + 1);
-    char last = text[length - 1];
-    factor = last == 'k' || last == 'K' ? 1e3 : last == 'M' ? 1e6 : last == 'G' ? 1e9 : 1;
-    if (factor > 1) digits[length - 1] = '\0';
-    readable = !cw_number_read(digits, &number);
-    number = round(number * factor * 1e3) / 1e3; // 1.1 M is 1100000 and not its neighbour
-  }
+  double number = NAN;
   char shown[CW_SHOWN_SIZE];
+  const char *wrong = cw_count_text_read(text, &number);
   cw_show(text, shown);
-  CW_REQUIRE(readable && number == floor(number), CW_ERR_USAGE,
-             "%s: %s is not a whole number; allowed: %lld to %lld, as 500000, 500k or 2M", name, shown,
-             (long long)least, (long long)most);
-  CW_REQUIRE(number >= (double)least && number <= (double)most, CW_ERR_USAGE,
-             "%s: %s is out of range; allowed: %lld to %lld, as 500000, 500k or 2M", name, shown,
+  if (!wrong && (number < (double)least || number > (double)most)) wrong = "is out of range";
+  CW_REQUIRE(!wrong, CW_ERR_USAGE, "%s: %s %s; allowed: %lld to %lld, as 500000, 500k or 2M", name, shown, wrong,
              (long long)least, (long long)most);
   *count = (int64_t)number;
 done:

@@ -47,6 +47,15 @@ void cw_fail_passed(const char *source_file, int line, const char *function) {
   snprintf(trace + used, sizeof trace - used, "%s%s:%d %s", used ? " < " : "", source_file, line, function);
 }
 
+void cw_fail_place(const char *place) {
+  char fresh[sizeof message];
+  snprintf(fresh, sizeof fresh, "%s: ", place);
+  size_t used = strlen(fresh);
+  memcpy(fresh + used, message, sizeof fresh - used);
+  fresh[sizeof fresh - 1] = '\0';
+  memcpy(message, fresh, sizeof message);
+}
+
 void cw_fail_clear(void) {
   message[0] = trace[0] = '\0';
 }

@@ -77,7 +77,7 @@ static void failure_leaves_no_record(void **state) {
   char path[64];
   snprintf(path, sizeof path, "%s/case.yaml", folder);
   assert_int_not_equal(run(path, "c"), 0);
-  assert_true(messages_have("error: a wrap of 21.00 deg"));
+  assert_true(messages_have("case.yaml: a wrap of 21.00 deg"));
   snprintf(command, sizeof command, "test ! -e %s/c/geometry/record.json", folder);
   assert_int_equal(system(command), 0);
 }

@@ -125,8 +125,9 @@ static const BadCase bad_cases[] = {
     {8, "  blade_count: six", "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 3 to 9"},
     {8, "  blade_count: 6.5",
      "8:16: impeller.blade_count: 6.5 is not a whole number; allowed: a whole number from 3 to 9"},
-    {20, "  cells: 1e6",
-     "20:10: mesh.cells: 1e6 is not a whole number; allowed: a whole number from 10000 to 2000000000"},
+    {20, "  cells: 2m",
+     "20:10: mesh.cells: 2m is not a whole number; allowed: a whole number from 10000 to 2000000000, as 500000, 500k or "
+     "2M"},
     {11, "  outlet_width_mm: \"8\"",
      "11:20: impeller.outlet_width_mm: 8 is text, not a number (it stands in quotes); allowed: 0.5 to 1000 "
      "mm"},
@@ -194,7 +195,8 @@ static const BadCase bad_cases[] = {
      "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 5000 mm"},
     {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2"},
     {17, "  layer_count: 0", "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
-    {20, "  cells: 9999", "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000"},
+    {20, "  cells: 9999", "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000, "
+     "as 500000, 500k or 2M"},
     // Missing.
     {1, "", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
     {5, "", "2:1: operating_point.speed_rpm: the key is missing; allowed: 10 to 100000 rpm"},
@@ -460,6 +462,14 @@ static void duty_point_alone(void **state) {
   assert_false(cw_case_given(table.impeller.outlet_diameter));
 }
 
+static void counts_of_cells_take_a_suffix(void **state) {
+  CwCase table;
+  write_changed(20, "  cells: 1.5M\n  cells_per_region: 200k");
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
+  assert_int_equal(table.mesh.cells, 1500000);
+  assert_int_equal(table.mesh.cells_per_region, 200000);
+}
+
 static void forms_that_yaml_allows(void **state) {
   static const BadCase fine[] = {
       {1, "%YAML 1.2\n---\nname: 'test'", NULL}, // directive, document start, quoted name
@@ -509,6 +519,7 @@ int main(void) {
       cmocka_unit_test(good_case_is_read_in_si),
       cmocka_unit_test(units_of_other_systems),
       cmocka_unit_test(duty_point_alone),
+      cmocka_unit_test(counts_of_cells_take_a_suffix),
       cmocka_unit_test(forms_that_yaml_allows),
       cmocka_unit_test(case_of_the_paper_is_valid),
   };

@@ -2,6 +2,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,6 +39,11 @@ static void message_may_be_built_from_the_old_one(void **state) {
   CW_FAIL(CW_ERR_IO, "cannot read");
   CW_FAIL(CW_ERR_IO, "rotor: %s", cw_fail_message());
   assert_string_equal(cw_fail_message(), "rotor: cannot read");
+  char trace[200];
+  snprintf(trace, sizeof trace, "%s", cw_fail_trace());
+  cw_fail_place("case.yaml");
+  assert_string_equal(cw_fail_message(), "case.yaml: rotor: cannot read");
+  assert_string_equal(cw_fail_trace(), trace);
 }
 
 static void every_code_has_a_text(void **state) {
