@@ -255,7 +255,7 @@ static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
   return 1;
 }
 
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor) {
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = fmax(ceil(cells / cells_per_region(table)), table->mesh.least_regions);
@@ -271,7 +271,6 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .thickness = thickness,
                            .least_thickness = least,
                            .tallest = CW_TALLEST_COLUMN,
-                           .tet_factor = tet_factor,
                            .prism_factor = prism_factor};
   status = domain->symmetry
                ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,

@@ -74,7 +74,7 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale);
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
 // the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan;
 // CW_RETRY where none can be had.
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, double tet_factor);
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor);
 
 // Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
 // cw_skeleton_wall_curves. CW_RETRY, on all ranks, where a plane grazes something (cw_network_make).

@@ -137,7 +137,7 @@ done:
 // CW_RETRY where it has a symmetry and the plan cannot have it. Collective.
 static CwStatus plan_domain(CwMeshRun *run, int d) {
   cw_ledger_part("planes weighed");
-  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, run->tet_factor);
+  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor);
 }
 
 // Plans a domain anew, at the scale and factors of the first plan: a run that goes on from a later pass plans alike.

@@ -42,7 +42,7 @@ struct PlannedSolid {
                        &bytes));
     check(cw_size_unpack(&block, &size));
     for (void *one : seed) free(one);
-    CwPlanOptions options = {3, &thickness, nullptr, 0, 11, 12};
+    CwPlanOptions options = {3, &thickness, nullptr, 0, 12};
     check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
     check(cw_plan_part_whole(&model, &whole));
     model.mean_work = whole.work / 3;

@@ -101,7 +101,7 @@ static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *pla
   while (cells_at(of, scale) < each * regions) scale *= 0.99;
   cw_size_set_scale(of->size, scale);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
-  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, TET_FACTOR));
+  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor));
   *plan = of->plan;
   of->plan = (CwPlan){0};
 }
