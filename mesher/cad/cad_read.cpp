@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -29,13 +30,15 @@ static bool is_binary(const char *path) {
 }
 
 static bool read_file(const char *path, TopoDS_Shape &shape) {
+  bool read = false;
+  std::streambuf *out = std::cout.rdbuf(nullptr); // the reader has words of its own for a damaged file
   try {
     BRep_Builder builder;
-    bool read = is_binary(path) ? BinTools::Read(shape, path) : BRepTools::Read(shape, path, builder);
-    return read && !shape.IsNull();
+    read = is_binary(path) ? BinTools::Read(shape, path) : BRepTools::Read(shape, path, builder);
   } catch (const Standard_Failure &) { // so the binary reader, of a file cut short
-    return false;
   }
+  std::cout.rdbuf(out);
+  return read && !shape.IsNull();
 }
 
 CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {

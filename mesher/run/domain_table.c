@@ -30,6 +30,7 @@ static int find(const CwDomainTable *table, const char *name) {
 
 typedef struct {
   char domain[CW_NAME_SIZE], patch[CW_NAME_SIZE];
+  int coupled; // in that line of interfaces.csv
 } Side;
 
 // Domains and interface patches from faces.csv, whose rows cw_face_table_read checks for each domain.
@@ -51,8 +52,10 @@ static CwStatus read_faces(const char *path, CwDomainTable *table, int *side_cou
     Side *grown = realloc(*sides, (size_t)(*side_count + 1) * sizeof **sides);
     CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d faces of interfaces", *side_count + 1);
     *sides = grown;
-    strcpy(grown[*side_count].domain, word[0]);
-    strcpy(grown[(*side_count)++].patch, word[2]);
+    Side *side = &grown[(*side_count)++];
+    side->coupled = 0;
+    strcpy(side->domain, word[0]);
+    strcpy(side->patch, word[2]);
   }
   CW_REQUIRE(table->count > 0, CW_ERR_INPUT, "%s: no domain", path);
 done:
@@ -60,7 +63,7 @@ done:
   return status;
 }
 
-static CwStatus read_interface(const char *path, int number, char *const *word, int side_count, const Side *sides,
+static CwStatus read_interface(const char *path, int number, char *const *word, int side_count, Side *sides,
                                CwDomainTable *table) {
   CwStatus status = CW_OK;
   CW_REQUIRE(table->interface_count < CW_DOMAINS_MOST, CW_ERR_INPUT, "%s:%d: more than %d interfaces", path, number,
@@ -68,10 +71,17 @@ static CwStatus read_interface(const char *path, int number, char *const *word, 
   CwDomainInterface *made = &table->interface[table->interface_count++];
   for (int side = 0; side < 2; side++) {
     const char *domain = word[2 * side], *patch = word[2 * side + 1];
-    int known = 0;
-    for (int i = 0; i < side_count; i++) known |= !strcmp(sides[i].domain, domain) && !strcmp(sides[i].patch, patch);
+    int known = 0, before = 0;
+    for (int i = 0; i < side_count; i++) {
+      if (strcmp(sides[i].domain, domain) || strcmp(sides[i].patch, patch)) continue;
+      known = 1;
+      before = sides[i].coupled;
+      sides[i].coupled = number;
+    }
     CW_REQUIRE(known, CW_ERR_INPUT, "%s:%d: domain '%s' has no patch '%s' of kind interface", path, number, domain,
                patch);
+    CW_REQUIRE(!before, CW_ERR_INPUT, "%s:%d: patch '%s' of domain '%s' is coupled in line %d already", path, number,
+               patch, domain, before);
     made->domain[side] = find(table, domain);
     strcpy(made->patch[side], patch);
   }
@@ -98,6 +108,10 @@ CwStatus cw_domain_table_read(const char *geometry_dir, CwDomainTable *table) {
     CW_REQUIRE(count == 4, CW_ERR_INPUT,
                "%s:%d: the row has %d columns; they are domain,patch,other_domain,other_patch", path, number, count);
     if (number > 1) CW_TRY(read_interface(path, number, word, side_count, sides, table));
+  }
+  for (int i = 0; i < side_count; i++) {
+    CW_REQUIRE(sides[i].coupled, CW_ERR_INPUT, "%s: patch '%s' of domain '%s' is of kind interface, but coupled to none",
+               path, sides[i].patch, sides[i].domain);
   }
 done:
   if (file) fclose(file);

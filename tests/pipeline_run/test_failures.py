@@ -82,6 +82,7 @@ class BadInput(unittest.TestCase):
 
     def test_a_broken_solid(self):
         for file, old, new in (("rotor.brep", None, ""), ("stator.brep", None, "DBRep_DrawableShape\n\n7\n"),
+                               ("stator.brep", "\nTShapes ", "\nTShape "), ("interfaces.csv", "\nrotor,", "\nrotor,no_"),
                                ("faces.csv", "rotor,1,", "rotor,999,"), ("faces.csv", ",wall,", ",wal,")):
             with self.subTest(f"{file} {new}"):
                 run = with_geometry("bad-solid")
@@ -90,6 +91,8 @@ class BadInput(unittest.TestCase):
                 result = stage("mesh", run, cells=CELLS, ranks=2)
                 self.assertNotEqual(result.returncode, 0)
                 self.assertEqual(len(error_lines(result.stdout, "mesh")), 1, result.stdout)
+                for line in result.stdout.splitlines():
+                    self.assertTrue(line.startswith("cutwater-mesh: "), "the words of a library: " + line)
                 self.assertFalse((run / "mesh/manifest.json").exists())
 
     def test_a_folder_of_another_pump(self):

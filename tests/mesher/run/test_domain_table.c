@@ -73,6 +73,10 @@ static void wrong_pairs_are_named(void **state) {
          "interfaces.csv:3: domain 'pipe' has no patch 'd' of kind interface");
   expect(THREE, PAIRS "rotor,a,rotor,c\n", "interfaces.csv:2: both sides lie in domain 'rotor'");
   expect(THREE, PAIRS "rotor,a,stator\n", "interfaces.csv:2: the row has 3 columns");
+  expect(THREE, PAIRS "rotor,a,stator,b\n",
+         "interfaces.csv: patch 'c' of domain 'rotor' is of kind interface, but coupled to none");
+  expect(THREE, PAIRS "rotor,a,stator,b\nsuction,d,rotor,a\n",
+         "interfaces.csv:3: patch 'a' of domain 'rotor' is coupled in line 2 already");
   expect(HEAD, PAIRS, "faces.csv: no domain");
 }
 
