@@ -189,7 +189,7 @@ const CwCaseKey cw_case_keys[] = {
     WALL_GROUP("blade", blade, "on the blades"),
     WALL_GROUP("hub_shroud", hub_shroud, "on hub and shroud"),
     WALL_GROUP("volute", volute, "in the volute, on the tongue and in the neck"),
-    WALL_GROUP("pipe", pipe, "in the suction and discharge pipes"),
+    WALL_GROUP("pipe", pipe, "in the suction and discharge pipes and in the diffuser"),
     {"walls", "layer_count", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 40, 5, NULL, AT(walls.layer_count),
      "number of prism layers, on all walls"},
     REAL_DEFAULT("walls", "growth_ratio", "", 1, 2, 1.2, walls.growth_ratio,
