@@ -60,7 +60,6 @@ static CwStatus begin_files(const CwCase *table, const CwDesign *design, const C
   CwStatus status = CW_OK;
   for (int i = 0; i < assembly->mesh->interface_count; ++i)
     CW_TRY(cw_interface_make(assembly, i, design->interface_radius, &interfaces[i]));
-  CW_TRY(cw_make_directory(paths->folder));
   CW_TRY(cw_folder_remove(paths->part));
   CW_TRY(cw_make_directory(paths->foam_mesh));
   CW_TRY(cw_make_directory(paths->cfx));

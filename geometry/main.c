@@ -11,7 +11,6 @@
 #include "geometry/picture.h"
 #include "geometry/pump.h"
 #include "geometry/step_file.h"
-#include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 #include "pipeline/stage_args.h"
@@ -164,14 +163,12 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CwPipeStubs stubs;
   CwMeasuredPump measured = {0};
   CwPump pump = {0};
-  char *folder = NULL, *path = NULL;
+  char *path = NULL;
   CW_TRY(cw_hydraulic_design(table, &design));
   CW_TRY(cw_pump_pipe_stubs(table, &design, &stubs));
   show_design(&design);
   CW_TRY(build(table, &design, &stubs, record, &pump, &measured));
   const double begin = cw_seconds();
-  CW_TRY(cw_stage_path(args, "geometry", &folder));
-  CW_TRY(cw_make_directory(folder));
   CW_TRY(remove_old_solids(args));
   for (int i = 0; i < pump.count; i++) {
     char name[40];
@@ -194,7 +191,6 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
   CW_TRY(cw_record_number(record, "specific_speed_ns", design.specific_speed_ns));
 done:
-  free(folder);
   free(path);
   cw_pump_free(&pump);
   return status;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/stage_args.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
@@ -127,10 +130,26 @@ done:
   return status;
 }
 
+// Makes RUN/STAGE, which must be writable, and removes the record of an earlier run.
+static CwStatus claim_folder(const CwStageArgs *args, const char *stage) {
+  CwStatus status = CW_OK;
+  char *folder = NULL, *record = NULL, name[64];
+  snprintf(name, sizeof name, "%s/record.json", stage);
+  CW_TRY(cw_stage_path(args, stage, &folder));
+  CW_TRY(cw_stage_path(args, name, &record));
+  CW_TRY(cw_make_directory(folder));
+  CW_REQUIRE(!access(folder, W_OK | X_OK), CW_ERR_IO, "%s: cannot be written: %s", folder, strerror(errno));
+  CW_REQUIRE(!remove(record) || errno == ENOENT, CW_ERR_IO, "%s: cannot be removed: %s", record, strerror(errno));
+done:
+  free(folder);
+  free(record);
+  return status;
+}
+
 CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args,
                         CwCase *table) {
   CwStatus status = CW_OK;
-  char *log_path = NULL, *record_path = NULL, name[64];
+  char *log_path = NULL, name[64];
   CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0));
   CW_TRY(cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args));
   if (args->finished) goto done;
@@ -141,11 +160,8 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
   if (args->cells) table->mesh.cells = args->cells;
   for (const char *const *stage = usage->reads; *stage; ++stage)
     CW_TRY(cw_case_origin_check(table, args->run_path, *stage));
-  snprintf(name, sizeof name, "%s/record.json", usage->stage);
-  CW_TRY(cw_stage_path(args, name, &record_path));
-  if (speaks) remove(record_path);
+  if (speaks) CW_TRY(claim_folder(args, usage->stage));
 done:
   free(log_path);
-  free(record_path);
   return status;
 }

@@ -21,16 +21,14 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *r
   CwReportData data = {0};
   CwPumpSizes sizes;
   CwAtomicFile file = {0};
-  char *folder = NULL, *path = NULL, *record_path = NULL;
+  char *path = NULL, *record_path = NULL;
   double started = cw_seconds(), drawn;
   CW_TRY(cw_report_data_read(args->run_path, table, &data));
   CW_TRY(cw_report_sizes(&data, &sizes));
   CW_TRY(cw_report_pictures_draw(&data.mesh, &sizes, &data.pictures));
   drawn = cw_seconds();
-  CW_TRY(cw_stage_path(args, "report", &folder));
   CW_TRY(cw_stage_path(args, "report/index.html", &path));
   CW_TRY(cw_stage_path(args, "report/record.json", &record_path));
-  CW_TRY(cw_make_directory(folder));
   CW_TRY(cw_atomic_file_open(path, &file));
   CW_TRY(cw_page_write(file.stream, &data));
   CW_TRY(cw_atomic_file_commit(&file));
@@ -41,7 +39,6 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *r
 done:
   cw_atomic_file_abandon(&file);
   cw_report_data_free(&data);
-  free(folder);
   free(path);
   free(record_path);
   return status;

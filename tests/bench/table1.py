@@ -86,7 +86,7 @@ def main():
             print_row("  beside dividing planes", found[domain][1]["beside"])
             print_row("  apart from them", found[domain][1]["apart"])
             execute(program, "region", one[0], folder / "surface.msh")
-            run, made = run_gmsh(folder, folder / "surface.msh", 1, "-3", "-algo", options.algorithm)
+            run, made = run_gmsh(folder, folder / "surface.msh", 1, None, "-3", "-algo", options.algorithm)
             if not made.exists():
                 sys.exit(f"table1: Gmsh failed on the {domain}:\n{run.text[-1000:]}")
             print_row(f"{domain}, Gmsh {options.algorithm}", shapes(program, [made])["all"])
