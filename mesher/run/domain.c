@@ -99,6 +99,12 @@ static CwStatus integrate(CwDomain *domain) {
   WallPiece *piece = NULL;
   double *along = NULL;
   int32_t lines = cw_size_line_count(domain->size);
+  free(domain->face_triangles);
+  free(domain->layer_sample);
+  domain->face_triangles = NULL;
+  domain->layer_sample = NULL;
+  domain->layer_sample_count = 0;
+  domain->prism_integral = domain->volume_integral = 0;
   CW_NEW(piece, domain->background.triangle_count);
   CW_NEW(along, lines);
   CW_TRY(cw_share("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
@@ -204,15 +210,17 @@ done:
   return status;
 }
 
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
-                             int64_t *byte_count) {
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, void *const *seeds,
+                             int part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
+  CwMeshTable mesh = table->mesh;
+  mesh.gradation = gradation;
   if (part >= SIZE_FIELDS) return measure_face(domain, part - SIZE_FIELDS, bytes, byte_count);
   double *rim_size = NULL;
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(rim_size, patches);
   for (int p = 0; p < patches; p++) rim_size[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:
   free(rim_size);
@@ -232,6 +240,17 @@ CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
   CW_TRY(integrate(domain));
 done:
   cw_size_free(&rims);
+  return status;
+}
+
+CwStatus cw_domain_take_field(CwDomain *domain, void **bytes) {
+  CwStatus status = CW_OK;
+  CwSize *field = NULL;
+  CW_TRY(cw_size_unpack(bytes, &field));
+  cw_size_join(field, &domain->size);
+  domain->size = field;
+  CW_TRY(integrate(domain));
+done:
   return status;
 }
 

@@ -64,9 +64,10 @@ void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
 int cw_domain_size_parts(const CwDomain *domain);
 void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, void *const *seeds, int part, void **bytes,
-                             int64_t *byte_count);
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, void *const *seeds,
+                             int part, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
+CwStatus cw_domain_take_field(CwDomain *domain, void **bytes); // the same for part CW_SIZE_SEEDS made once more
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);

@@ -263,6 +263,7 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_TRY(cw_record_integer(run->record, "passes", run->passes));
   CW_TRY(cw_record_integer(run->record, "retries", run->retries));
   CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
+  CW_TRY(cw_record_number(run->record, "size_gradation", run->scale * run->gradation));
   CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
   json_t *given = domains;
   domains = NULL;

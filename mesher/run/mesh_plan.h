@@ -7,7 +7,7 @@
 
 // All are collective.
 
-// Opens all domains: geometry, background, symmetry, size field.
+// Opens all domains: geometry, background, symmetry, size field and its first scale.
 CwStatus cw_mesh_open(CwMeshRun *run);
 
 // Regions for each domain by its share of the predicted cells, at the present scale and factors.

@@ -24,14 +24,14 @@ static const double COPY_COST = 0.07;       // of a turned copy of a region, by 
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
 // (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
 // A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise, and with the many
-// regions of small scales those on interfaces (measured from 0.3 to 20 million cells: 21.6 at scale 2.10, 15.7 at 1.21,
-// 12.9 at 0.75, 11.4 at 0.51, 10.5 at 0.36).
+// regions of small scales those on interfaces (measured from 3 to 20 million cells: 12.9 at scale 0.75, 11.4 at 0.51, 10.5
+// at 0.36; above 1 sizes grow no more steeply: 14.2 at 1.24, 13.1 at 2.26, and 11.8 to 17.4 in pumps of other sizes).
 static double prisms_per_layer(double scale) {
   return 2.33 + 0.1 * scale;
 }
 
 static double tets_per_volume(double scale) {
-  return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
+  return 8.2 + 6.25 * fmin(scale, 1) + 0.011 / (scale * scale);
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
@@ -56,9 +56,8 @@ void cw_mesh_set_scale(CwMeshRun *run, double scale) {
   for (int d = 0; d < run->domains.count; d++) cw_size_set_scale(run->domain[d].size, scale);
 }
 
-// Sets the scale of the size fields so that the predicted count is the asked one: by secants in the logarithms, the
-// first of a slope of -2.7, about which cells go with the scale.
-static void solve_scale(CwMeshRun *run) {
+// By secants in the logarithms, the first of a slope of -2.7, about which cells go with the scale.
+void cw_mesh_solve_scale(CwMeshRun *run) {
   double asked = (double)run->table->mesh.cells, slope = -2.7, before = 0, step = 0;
   run->scale = 1; // the same bits, whatever scale was before
   for (int i = 0; i < SCALE_STEPS; i++) {
@@ -146,7 +145,7 @@ static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
     cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
            run->scale, 100 * off);
     if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
-    solve_scale(run);
+    cw_mesh_solve_scale(run);
   }
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
@@ -384,9 +383,6 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   CW_TRY(cw_make_directory(path));
   CW_TRY(cw_mesh_open(run));
   double asked = (double)run->table->mesh.cells;
-  run->scale = 1;
-  run->prism_factor = run->tet_factor = 0;
-  solve_scale(run);
   run->prism_factor = prisms_per_layer(run->scale) * run->table->walls.layer_count;
   run->tet_factor = tets_per_volume(run->scale);
   CwPassState state = {.pass = 1};
@@ -397,7 +393,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   if (state.pass > 1) {
     run->prism_factor = state.prism_factor;
     run->tet_factor = state.tet_factor;
-    solve_scale(run);
+    cw_mesh_solve_scale(run);
     cw_log("going on with pass %d of an earlier run", state.pass);
     if (state.whole) CW_TRY(cw_mesh_plan_whole(run));
   }
@@ -419,7 +415,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     for (int d = 0; d < run->domains.count; d++) state.more_regions[d] = run->domain[d].more_regions;
     if (run->rank == 0) CW_TRY(cw_pass_state_write(run->run_path, fingerprint, &state));
     for (int d = 0; d < run->domains.count; d++) run->domain[d].layer_share = CW_LAYER_SHARE;
-    solve_scale(run);
+    cw_mesh_solve_scale(run);
   }
   cw_ledger_part("manifest");
   if (run->rank == 0) CW_TRY(cw_mesh_manifest(run));

@@ -38,6 +38,7 @@ typedef struct {
   void **seeds[CW_DOMAINS_MOST];   // of the size field, by part, while it is made
   double prism_factor, tet_factor; // cells per unit of the integrals
   double scale;                    // of the size field
+  double gradation;                // of the size field at scale 1
   double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
   // With which the domains were planned.
   double planned_prism_factor, planned_tet_factor, planned_scale;
@@ -54,8 +55,9 @@ void cw_mesh_run_free(CwMeshRun *run);
 // Cells of one domain as its integrals and the factors predict them at the present scale.
 double cw_predicted_cells(const CwMeshRun *run, int domain);
 
-// Sets the scale of the size fields of all domains.
+// Sets the scale of the size fields of all domains; or that with which the predicted count is the asked one.
 void cw_mesh_set_scale(CwMeshRun *run, double scale);
+void cw_mesh_solve_scale(CwMeshRun *run);
 
 // A task of one domain.
 typedef struct {

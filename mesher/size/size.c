@@ -272,9 +272,10 @@ done:
 }
 
 void cw_size_join(CwSize *size, CwSize **rims) {
+  void **block = (*rims)->rim_block ? &(*rims)->rim_block : &(*rims)->block;
   size->rim = (*rims)->rim;
-  size->rim_block = (*rims)->block;
-  (*rims)->block = NULL;
+  size->rim_block = *block;
+  *block = NULL;
   cw_size_free(rims);
 }
 

@@ -44,7 +44,8 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
                       CwSizePart part, void **bytes, int64_t *byte_count);
 // The field in its block, which it takes over (*bytes is NULL after).
 CwStatus cw_size_unpack(void **bytes, CwSize **size);
-void cw_size_join(CwSize *size, CwSize **rims); // frees what is left of the rims
+// Gives a field the rims of another one, of the rims alone or of both; frees what is left of that.
+void cw_size_join(CwSize *size, CwSize **rims);
 void cw_size_free(CwSize **size);
 
 // The factor in front of the whole field; 1 at first.
