@@ -209,7 +209,7 @@ const CwCaseKey cw_case_keys[] = {
     CHOICE("mesh", "periodic_impeller", truths, 1, mesh.periodic_impeller,
            "true: one of the equal passages of the impeller is meshed and turned for the others; false: all at once"),
     REAL_DEFAULT("mesh", "gradation", "", 0.05, 1, 0.25, mesh.gradation,
-                 "growth of the cell size with distance: change of size per distance"),
+                 "most growth of the cell size with distance: change of size per distance"),
     REAL_DEFAULT("mesh", "curvature_angle_deg", "deg", 2, 60, 20, mesh.curvature_angle,
                  "turn of the surface normal across one edge, at relative size 1"),
     REAL_DEFAULT("mesh", "cells_across_gap", "", 1, 20, 3, mesh.cells_across_gap,

@@ -21,6 +21,11 @@ class Audit(unittest.TestCase):
         self.assertEqual(self.mesh["asked_cells"], CELLS)
         self.assertAlmostEqual(self.mesh["cells"] / CELLS, 1, delta=0.02)
 
+    def test_sizes_grow_no_more_steeply_than_the_case_allows(self):
+        gradation = 0.25  # the default; finer meshes than the case's sizes have less
+        self.assertLess(self.mesh["size_gradation"], 1.1 * gradation)
+        self.assertGreater(self.mesh["size_gradation"], 0.9 * gradation * min(self.mesh["size_scale"], 1))
+
     def test_stages_agree_on_the_cells(self):
         regions = [region for domain in self.manifest["domains"] for region in domain["regions"]]
         cells = sum(region[kind] for region in regions for kind in ("tetrahedra", "pyramids", "prisms"))

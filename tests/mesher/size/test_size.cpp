@@ -61,6 +61,13 @@ struct Model {
       check(cw_size_unpack(&block, &rims));
       cw_size_join(size, &rims);
       assert_null(rims);
+      CwSize *again = nullptr; // made once more, as with another gradation, it takes the rims of the first
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(),
+                         CW_SIZE_SEEDS, &block, &bytes));
+      check(cw_size_unpack(&block, &again));
+      cw_size_join(again, &size);
+      assert_null(size);
+      size = again;
     }
     for (void *part : parts)
       free(part);
