@@ -16,6 +16,7 @@
 #include "mesher/fill/kernel_flat.h"
 #include "mesher/fill/kernel_recover.h"
 #include "mesher/fill/kernel_split.h"
+#include "mesher/fill/kernel_unsplit.h"
 #include "mesher/fill/tet_improve.h"
 #include "mesher/fill/tet_mesh.h"
 #include "pipeline/log.h"

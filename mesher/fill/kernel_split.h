@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The surest recovery of a boundary: where flips are stuck, a missing edge or triangle is divided at a place
-// where the mesh crosses it. Once what lies outside is gone, these points are taken off the boundary again,
-// in the opposite order: each moves a little into the inside, and the triangles it divided become whole, with
-// one new tetrahedron each between them and the point (P. L. George, H. Borouchaki, E. Saltel, Int. J. Numer.
-// Meth. Eng. 58, 2003). There is always room for that, since every face round the point sees it strictly.
+// where the mesh crosses it (P. L. George, H. Borouchaki, E. Saltel, Int. J. Numer. Meth. Eng. 58, 2003). Once
+// what lies outside is gone, kernel_unsplit takes these points off the boundary again.
 #ifndef CUTWATER_MESHER_FILL_KERNEL_SPLIT_H
 #define CUTWATER_MESHER_FILL_KERNEL_SPLIT_H
 
@@ -31,10 +29,6 @@ typedef struct {
 // stays missing: see cw_facets_locate afterwards. Adds to *recovered. Deterministic.
 CwStatus cw_kernel_split(CwDelaunay *mesh, CwFacets *facets, int32_t *source_count, CwSplits *splits,
                          CwRecovered *recovered);
-
-// Takes the points off the boundary of a mesh of which only the inside is left. *good is 0 where rounding
-// leaves no room for one of them: the mesh is then of no use.
-CwStatus cw_kernel_unsplit(CwDelaunay *mesh, const CwSplits *splits, int *good);
 
 void cw_splits_free(CwSplits *splits);
 
