@@ -83,12 +83,15 @@ void cw_delaunay_pack(CwDelaunay *mesh) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     if (mesh->tet[t].corner[0] < 0)
       continue;
-    CwDelaunayTet *tet = &mesh->tet[kept];
-    if (kept != t)
-      *tet = mesh->tet[t];
-    for (int i = 0; i < 4 && kept != t; i++) {
-      if (tet->neighbour[i] >= 0)
-        mesh->tet[tet->neighbour[i] >> 2].neighbour[tet->neighbour[i] & 3] = 4 * kept + i;
+    const CwDelaunayTet *from = &mesh->tet[t];
+    CwDelaunayTet *to = &mesh->tet[kept];
+    if (kept != t) {
+      memcpy(to->corner, from->corner, sizeof to->corner);
+      for (int i = 0; i < 4; i++) {
+        int32_t next = to->neighbour[i] = from->neighbour[i];
+        if (next >= 0)
+          mesh->tet[next >> 2].neighbour[next & 3] = 4 * kept + i;
+      }
     }
     kept++;
   }

@@ -51,7 +51,7 @@ void cw_delaunay_free(CwDelaunay *mesh);
 // A free place for a tetrahedron; the caller fills it.
 CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet);
 void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet);
-// Moves all tetrahedra to the front, in their order, and gives the memory behind them back.
+// Moves all tetrahedra to the front, in their order, without their spheres, and gives the memory behind them back.
 void cw_delaunay_pack(CwDelaunay *mesh);
 // A point that no tetrahedron has yet.
 CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point);
