@@ -62,7 +62,9 @@ CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *
   CW_REQUIRE(!access(path, F_OK), CW_ERR_IO, "%s: it is missing; cutwater-%s writes it when all of its files are there",
              path, stage);
   CW_TRY(cw_json_read(path, &record));
-  CW_TRY(cw_json_object(record, path, "case", &of));
+  of = json_object_get(record, "case");
+  CW_REQUIRE(json_is_object(of), CW_ERR_INPUT, "%s: does not say of which case; run cutwater-%s on this case file first",
+             path, stage);
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     cw_case_key_path(&cw_case_keys[i], key_path);
     const json_t *theirs = json_object_get(of, key_path), *ours = json_object_get(origin, key_path);

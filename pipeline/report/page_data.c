@@ -42,6 +42,26 @@ done:
   return status;
 }
 
+// An export that an earlier mesh of the same pump left behind.
+static CwStatus require_export_of_mesh(const CwReportData *data) {
+  CwStatus status = CW_OK;
+  char where[4096];
+  int64_t exported, meshed = 0;
+  json_t *results;
+  if (!data->record[2])
+    goto done;
+  snprintf(where, sizeof where, "%s/export/record.json", data->run);
+  CW_TRY(cw_json_object(data->record[2], where, "results", &results));
+  CW_TRY(cw_json_count(results, where, "cells", &exported));
+  for (int r = 0; r < data->mesh.region_count; r++)
+    meshed += data->mesh.regions[r].tetrahedra + data->mesh.regions[r].pyramids + data->mesh.regions[r].prisms;
+  CW_REQUIRE(exported == meshed, CW_ERR_INPUT,
+             "%s/export: has the %lld cells of another mesh, %s/mesh has %lld; run cutwater-export first", data->run,
+             (long long)exported, data->run, (long long)meshed);
+done:
+  return status;
+}
+
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data) {
   CwStatus status = CW_OK;
   char path[4096];
@@ -53,6 +73,7 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   for (int s = 0; s < CW_STAGES; s++)
     CW_TRY(read_record(run, table, s, &data->record[s]));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
+  CW_TRY(require_export_of_mesh(data));
 done:
   return status;
 }

@@ -100,7 +100,7 @@ static void a_record_that_is_missing_or_broken_is_told(void **state) {
   fputs("{\"results\": {}}", file);
   fclose(file);
   assert_int_equal(cw_case_origin_check(&paper, run, "geometry"), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "geometry/record.json: 'case' must be there"));
+  assert_non_null(strstr(cw_fail_message(), "geometry/record.json: does not say of which case; run cutwater-geometry"));
 }
 
 int main(void) {

@@ -274,6 +274,11 @@ static void export_figures_are_shown(void **state) {
   holds(page, "<h3>Patches</h3>");
   holds(page, "<td>rotor, stator</td><td>7, 8</td>");
   assert_null(strstr(page, "flow rate m3 per h")); // the record's case is not shown as a result
+  path_in_run("report/index.html", path);
+  assert_int_equal(remove(path), 0);
+  write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
+                                     "\"warnings\":[],\"results\":{\"cells\":5}}");
+  fails(CW_ERR_INPUT, "export: has the 5 cells of another mesh");
   holds(page, "12\342\200\257345");
   assert_null(strstr(page, "has not been exported"));
   free(page);
