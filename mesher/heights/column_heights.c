@@ -23,6 +23,7 @@ static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over it
 static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
 static const double LITTLE_GROWTH = 1.1;
 static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
+static const double LEAST_APART = 0.25; // of that on the wall: distance of columns that nearly meet (layers_gap)
 
 // How the wall lies about a vertex.
 typedef struct {
@@ -137,17 +138,31 @@ typedef struct {
   const int32_t (*corner)[3], (*place)[3];
   double slope;
   double *value;
+  int at_ends; // distances are also those of columns as tall as the lesser value
 } Grading;
+
+// Distance of the columns over two wall vertices, `edge` apart, at a height.
+static double ends_apart(const CwSkeleton *skeleton, int32_t v, int32_t w, const double edge[3], double height) {
+  double apart[3];
+  for (int k = 0; k < 3; k++) {
+    apart[k] = edge[k] + height * ((skeleton->front[w][k] - skeleton->wall_x[w][k]) / skeleton->height[w] -
+                                   (skeleton->front[v][k] - skeleton->wall_x[v][k]) / skeleton->height[v]);
+  }
+  return fmax(cw_norm(apart), LEAST_APART * cw_norm(edge));
+}
 
 // The most that the value at corner j of a triangle may be beside corner i, if that is less than it is; else 0.
 static double most_beside(const Grading *grading, int32_t t, int i, int j) {
   double least = grading->value[grading->corner[t][i]], value = grading->value[grading->corner[t][j]];
   double rise = value - least, slope = grading->slope, edge[3];
   if (rise <= 0) return 0;
-  cw_sub(grading->skeleton->wall_x[grading->place[t][i]], grading->skeleton->wall_x[grading->place[t][j]], edge);
+  int32_t v = grading->place[t][i], w = grading->place[t][j];
+  cw_sub(grading->skeleton->wall_x[w], grading->skeleton->wall_x[v], edge);
   double square = cw_dot(edge, edge);
-  if (rise * rise < 0.99 * slope * slope * square) return 0; // most edges, without a root
-  double most = least + slope * sqrt(square);
+  if (!grading->at_ends && rise * rise < 0.99 * slope * slope * square) return 0; // most edges, without a root
+  double apart = sqrt(square);
+  if (grading->at_ends) apart = fmin(apart, ends_apart(grading->skeleton, v, w, edge, least));
+  double most = least + slope * apart;
   return value > most ? most : 0;
 }
 
@@ -206,10 +221,10 @@ done:
 // The same for a value at each wall vertex.
 static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
   const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->wall_triangle;
-  return grade_values(&(Grading){skeleton, around, triangle, triangle, slope, value});
+  return grade_values(&(Grading){skeleton, around, triangle, triangle, slope, value, 0});
 }
 
-// The same on the triangles that are no turned copies, where the copies of a vertex have its value.
+// The same on the triangles that are no turned copies, where the copies of a vertex have its value, once columns stand.
 static CwStatus grade_firsts(const CwSkeleton *skeleton, double slope, double *value) {
   CwStatus status = CW_OK;
   CwIncident around = {0};
@@ -232,7 +247,7 @@ static CwStatus grade_firsts(const CwSkeleton *skeleton, double slope, double *v
     count++;
   }
   CW_TRY(cw_incident_make(skeleton->wall_count, count, (const int32_t(*)[3])corner, &around));
-  Grading grading = {skeleton, &around, (const int32_t(*)[3])corner, (const int32_t(*)[3])place, slope, value};
+  Grading grading = {skeleton, &around, (const int32_t(*)[3])corner, (const int32_t(*)[3])place, slope, value, 1};
   CW_TRY(grade_values(&grading));
   for (int32_t v = 0; v < skeleton->wall_count; v++) value[v] = value[first[v]];
 done:
@@ -382,6 +397,8 @@ CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleto
       cw_layer_fractions(heights->room[v], heights->first_height[v], layers, heights->growth[v], fraction);
       made->first = fmin(made->first, heights->first_height[v]);
       made->last += heights->room[v] * (1 - fraction[layers - 1]) / 3;
+      cw_layer_fractions(skeleton->height[v], heights->first_height[v], layers, heights->growth[v], fraction);
+      made->made += skeleton->height[v] * (1 - fraction[layers - 1]) / 3;
       made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
     }
   }

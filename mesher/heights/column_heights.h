@@ -29,6 +29,7 @@ typedef struct {
   double first; // target of the first height, m
   double last;  // of the tallest column that number and growth of the layers, gaps and the slope of heights allow: its
                 // last layer, m
+  double made;  // last layer of the column as it is, m
   int cramped;  // a gap or the repair leaves no room for the height asked
 } CwRatioWall;
 
@@ -49,7 +50,8 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
 CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
                                  const CwLayerTarget *layers, double *share);
 
-// Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them.
+// Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them, on the
+// wall and between the ends of the columns as they stand.
 // Collective.
 CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton);
 

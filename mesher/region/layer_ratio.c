@@ -84,7 +84,8 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall 
       cw_sub(mesh->x[top[2]], mesh->x[top[0]], v);
       cw_cross(u, v, normal);
       double height = 2 * tet / cw_norm(normal);
-      if (wall[found->wall].first > 1.5 * height || wall[found->wall].last < 0.5 * height) continue;
+      double most = over * wall[found->wall].last / wall[found->wall].made;
+      if (wall[found->wall].first > 1.5 * height || most < 0.5) continue;
       ratio[patch].within++;
       ratio[patch].fair_within += at >= 2 && at <= 5;
     }

@@ -19,7 +19,8 @@ extern const double cw_ratio_ends[CW_RATIO_BINS - 1];
 typedef struct {
   int64_t bin[CW_RATIO_BINS];
   // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half
-  // of the tetrahedron, and the last could reach half of it. And fair ones among them.
+  // of the tetrahedron, and the last, as much taller as its column could be, comes to half of it. And fair ones among
+  // them.
   int64_t within, fair_within;
 } CwLayerRatio;
 

@@ -19,7 +19,7 @@ enum { MOST = 16 };
 typedef struct {
   CwSkeleton skeleton;
   int32_t source[MOST], region_start[2], region_wall[MOST];
-  double height[MOST];
+  double height[MOST], front[MOST][3];
   uint8_t reason[MOST];
   double size;
   CwIncident around;
@@ -29,7 +29,7 @@ static double constant(const void *size, const double x[3]) {
   return *(const double *)size;
 }
 
-// All in one region, where edges are `size` long.
+// All in one region, where edges are `size` long; columns of 7 stand upright on a wall normal to z.
 static void make_wall(Wall *wall, double size, int points, double (*x)[3], int triangles, int32_t (*triangle)[3],
                       int32_t *face) {
   memset(wall, 0, sizeof *wall);
@@ -39,7 +39,13 @@ static void make_wall(Wall *wall, double size, int points, double (*x)[3], int t
   wall->skeleton = (CwSkeleton){.size_at = constant, .size = &wall->size, .wall_count = points, .wall_x = x,
                                 .wall_triangle_count = triangles, .wall_triangle = triangle, .wall_face = face,
                                 .wall_source = wall->source, .region_wall_start = wall->region_start,
-                                .region_wall = wall->region_wall, .height = wall->height, .reason = wall->reason};
+                                .region_wall = wall->region_wall, .front = wall->front, .height = wall->height,
+                                .reason = wall->reason};
+  for (int v = 0; v < points; v++) {
+    memcpy(wall->front[v], x[v], sizeof *x);
+    wall->front[v][2] -= 7;
+    wall->height[v] = 7;
+  }
   assert_int_equal(cw_incident_make(points, triangles, (const int32_t(*)[3])triangle, &wall->around), CW_OK);
 }
 
@@ -154,17 +160,27 @@ static void room_and_what_it_allows(void **state) {
   CwRatioWall *ratio = NULL;
   make_wall(&wall, 10, 4, square_x, 2, square, square_face);
   assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_OK);
-  wall.reason[1] = CW_LAYER_GAP, wall.height[1] = 6.8;
-  wall.reason[3] = CW_LAYER_GRADATION, wall.height[3] = 5;
+  wall.reason[1] = CW_LAYER_GAP, wall.height[1] = 6.8, wall.front[1][2] = -6.8;
+  wall.reason[3] = CW_LAYER_GRADATION, wall.height[3] = 5, wall.front[3][2] = -5;
   assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
   NEAR(heights.room[1], 6.8);
   for (int v = 0; v < 4; v++) NEAR(heights.room[v], v == 1 ? 6.8 : 7); // 0.3 more is above 7; gradation does not count
   wall.height[1] = 4.75;
+  wall.front[1][2] = -4.75;
   free(heights.room);
   assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
   NEAR(heights.room[0], 5.05);
   NEAR(heights.room[2], 5.05);
   NEAR(heights.room[3], 4.75 + 0.6);
+  for (int lean = 0; lean < 2; lean++) { // column 0 leans to column 1, where its end is half as far, or nearly meets it
+    wall.front[0][0] = square_x[0][0] + wall.height[0] * (lean ? 0.2 : 0.1);
+    free(heights.room);
+    assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
+    NEAR(heights.room[0], 4.75 + 0.3 * (lean ? 0.25 : 1 - 0.1 * 4.75));
+  }
+  wall.front[0][0] = square_x[0][0];
+  free(heights.room);
+  assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
   assert_int_equal(cw_column_heights_ratio(&heights, &wall.skeleton, 0, &ratio), CW_OK);
   assert_true(ratio[0].cramped);
   assert_false(ratio[1].cramped);
@@ -174,6 +190,7 @@ static void room_and_what_it_allows(void **state) {
   NEAR(ratio[0].last, (last[0] + last[1] + last[2]) / 3);
   NEAR(ratio[1].last, (last[0] + last[2] + last[3]) / 3);
   NEAR(ratio[1].first, 1);
+  NEAR(ratio[1].made, (4 + 4 + 5 - 1 - (sqrt(4 * 5 - 3) - 1) / 2) / 3); // columns of 7, 7 and 5
   free(ratio);
   free_wall(&wall, &heights);
 }

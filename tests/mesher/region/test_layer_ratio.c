@@ -20,7 +20,7 @@ static CwStatus count(double height, int with_tet, CwRatioWall wall, CwLayerRati
   return cw_layer_ratio(&mesh, 2, &wall, 2, ratio);
 }
 
-static const CwRatioWall WALL = {.first = 0.4, .last = 0.48};
+static const CwRatioWall WALL = {.first = 0.4, .last = 0.48, .made = 1};
 
 static void last_layer_over_the_tetrahedron(void **state) {
   CwLayerRatio ratio[2] = {0};
@@ -35,10 +35,11 @@ static void last_layer_over_the_tetrahedron(void **state) {
 
 static void layers_that_reach_the_tetrahedron(void **state) {
   CwLayerRatio ratio[2] = {0};
-  CwRatioWall cramped = WALL, thick = WALL, even = WALL;
+  CwRatioWall cramped = WALL, thick = WALL, even = WALL, narrow = WALL;
   cramped.cramped = 1;
   thick.first = 1.4;
   even.last = 0.4;
+  narrow.made = 1.1; // by its height; its volume over the face is 1
   assert_int_equal(count(0.9, 1, WALL, ratio), CW_OK); // half of it is 0.45, below 0.48
   assert_int_equal(ratio[1].within, 1);
   assert_int_equal(ratio[1].fair_within, 1);
@@ -48,6 +49,7 @@ static void layers_that_reach_the_tetrahedron(void **state) {
   assert_int_equal(ratio[1].within, 2);
   assert_int_equal(count(0.9, 1, thick, ratio), CW_OK); // 1.4 is more than 1.35
   assert_int_equal(count(0.9, 1, even, ratio), CW_OK);  // 0.4 never comes to 0.45
+  assert_int_equal(count(0.9, 1, narrow, ratio), CW_OK); // 0.48 / 1.1 neither
   assert_int_equal(count(0.9, 1, cramped, ratio), CW_OK);
   assert_int_equal(ratio[1].within, 2);
   assert_int_equal(ratio[1].fair_within, 1);
