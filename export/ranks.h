@@ -25,9 +25,8 @@ CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status);
 // Whether this rank is the first of those with a failure of their own: the one to print it. Collective.
 int cw_ranks_speaks_of(const CwRanks *ranks, CwStatus status);
 
-// Gathers the `count` items of `size` bytes of each rank on rank 0, in the order of the ranks, into a new
-// array
-// (*all, of *total items; on the other ranks NULL and 0). Fails on all ranks alike. Collective.
+// Gathers the `count` items of `size` bytes of each rank on rank 0, in the order of the ranks, into a new array (*all,
+// of *total items; on the other ranks NULL and 0). Fails on all ranks alike. Collective.
 CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count, size_t size, void **all,
                          int64_t *total);
 

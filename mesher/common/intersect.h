@@ -11,12 +11,10 @@
 extern "C" {
 #endif
 
-// All pairs of triangles that cross or touch beyond the vertices they share by index. A triangle without
-// area makes a
-// pair with itself, two triangles of the same three points make one too. Each pair has its smaller number
-// first; the list
-// is sorted, so it is the same each run; the caller frees *pair. x in any unit.
-// Fails with CW_ERR_INPUT on an index or a coordinate that is none.
+// All pairs of triangles that cross or touch beyond the vertices they share by index. A triangle without area makes a
+// pair with itself, two triangles of the same three points make one too. Each pair has its smaller number first; the
+// list is sorted, so it is the same each run; the caller frees *pair. x in any unit. Fails with CW_ERR_INPUT on an
+// index or a coordinate that is none.
 CwStatus cw_self_intersections(int32_t point_count, const double (*x)[3], int32_t triangle_count,
                                const int32_t (*triangle)[3], int32_t *pair_count, int32_t (**pair)[2]);
 

@@ -92,8 +92,7 @@ done:
 }
 
 // Skeletons with all wall curves, those along interfaces divided alike on both sides. CW_RETRY where the plan of a
-// domain,
-// *unfit, cuts no curves.
+// domain, *unfit, cuts no curves.
 static CwStatus start_walls(CwMeshRun *run, int *unfit) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->domains.count; d++) {

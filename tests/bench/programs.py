@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """How the benchmarks run programs and time them, and gmsh on the solids of a pump."""
+import argparse
 import json
 import os
 import re
@@ -19,6 +20,16 @@ MPIRUN = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n"]
 Run = namedtuple("Run", "text wall processor peak")
 # Also the processor seconds of gmsh's own steps by name, without reading and writing, and how much it made.
 Gmsh = namedtuple("Gmsh", "wall processor steps peak triangles tetrahedra")
+
+
+def options_of(text, cells):
+    """The parser of a benchmark that runs the programs, with the options that all of these have."""
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cells", default=cells)
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
+    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
+    return parser
 
 
 def execute(*line, folder=None, check=True, limit=None):

@@ -6,7 +6,6 @@ The surface mesh beside gmsh's frontal and Delaunay ones (`gmsh -2 -nt 1 -algo f
 at about the same number of triangles, on one core: triangles a second, and their least angles (least, 1 %, mean). The
 runs alternate. Cutwater's triangles follow a graded size field (curvature, gaps, patches), gmsh's here one size and
 curvature. Cutwater's rate is that of its step `surface`, passes that correct the count included."""
-import argparse
 import json
 import math
 import statistics
@@ -14,7 +13,7 @@ import struct
 import tempfile
 from pathlib import Path
 
-from programs import SOURCE, execute, gmsh, size_for
+from programs import execute, gmsh, options_of, size_for
 
 NEAR = 0.1  # of the number of triangles, between the two
 
@@ -78,12 +77,7 @@ def least_angle(x):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", default="2M")
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
-    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
-    options = parser.parse_args()
+    options = options_of(__doc__, "2M").parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run = folder / "run"

@@ -6,7 +6,6 @@ Speed of a whole run, from the case file to CGNS, OpenFOAM and CFX, in cells a s
 tetrahedra (`gmsh -3 -algo hxt -nt RANKS`) on the same solids, at the same number of cells, on the same cores. The runs
 alternate, so that both see the same machine. gmsh reads pump.step, meshes, and writes its own binary file; it makes no
 layers, no interface, no solver's case. Its mesh size is found beforehand by trial runs that do not count."""
-import argparse
 import json
 import os
 import shutil
@@ -14,7 +13,7 @@ import statistics
 import tempfile
 from pathlib import Path
 
-from programs import MPIRUN, SOURCE, execute, gmsh, gmsh_first_size, size_for
+from programs import MPIRUN, execute, gmsh, gmsh_first_size, options_of, size_for
 
 NEAR = 0.05  # of the number of cells, between the two
 
@@ -32,12 +31,8 @@ def cutwater(options, run):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", default="1M")
+    parser = options_of(__doc__, "1M")
     parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
-    parser.add_argument("--case", type=Path, default=SOURCE / "cases/paper/case.yaml")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

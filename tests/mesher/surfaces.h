@@ -85,8 +85,7 @@ static inline void surface_box(Surface *s, const double low[3], const double hig
   }
 }
 
-// Wall over a polygon of the (x,z) plane, extruded along y from 0 to `depth`; fluid to the left of the
-// polygon's edges
+// Wall over a polygon of the (x,z) plane, extruded along y from 0 to `depth`; fluid to the left of the polygon's edges
 // when looking along +y from... see `flip`: without it the outward normal is edge x y.
 static inline void surface_extrude(Surface *s, int count, const double (*p)[2], int closed, double depth, double h,
                                    int flip) {
