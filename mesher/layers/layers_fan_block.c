@@ -327,7 +327,7 @@ static int32_t widen(Part *part) {
     if (changed) {
       const double *wall[3], *front[3];
       for (int k = 0; k < 3; k++) wall[k] = in->x[v[k]], front[k] = part->front[local[k]];
-      part->quality[f] = cw_layers_corner_quality(wall, front);
+      part->quality[f] = cw_prism_quality(wall, front);
     }
     if (part->quality[f] >= POOR) continue;
     poor++;

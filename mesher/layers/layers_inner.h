@@ -10,6 +10,7 @@
 #include "mesher/common/box_tree.h"
 #include "mesher/common/vertex_heap.h"
 #include "mesher/layers/layers.h"
+#include "mesher/layers/prism_quality.h"
 #include "mesher/parallel/share.h"
 
 typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
@@ -132,14 +133,7 @@ void cw_layers_crossing_free(CwLayerCrossing *crossing);
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved);
 
 // layers_repair.c: makes prisms and front valid; fills `front`.
-// Quality of the prism over triangle f with column ends `front`: the least corner Jacobian at any layer
-// between wall and front,
-// scaled to 1 for a right prism over the same wall triangle.
-double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]);
-// Least over the corners of a front triangle of the sine there, seen along the wall's normal, over that on the wall: 1
-// where it is only moved or smaller, not above 0 where it is turned over. Where columns lean much, prisms may be sound
-// and their front all the same needles or folds, on which only flat tetrahedra fit.
-double cw_layers_front_quality(const double *const wall[3], const double *const front[3]);
+// Quality (prism_quality.h) of the prism over triangle f with column ends `front`.
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
 // How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
 // `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and then the one

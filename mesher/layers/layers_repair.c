@@ -16,63 +16,11 @@ static const double THIN = 0.8;          // what a thinned column keeps
 static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
 static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
 
-double cw_layers_corner_quality(const double *const wall[3], const double *const front[3]) {
-  double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
-  for (int i = 0; i < 3; i++) {
-    sub3(front[i], wall[i], d[i]);
-    height[i] = length3(d[i]);
-  }
-  for (int i = 0; i < 3; i++) {
-    sub3(wall[(i + 1) % 3], wall[i], e[i]); // edge from corner i to the next
-    sub3(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to front
-    length[i] = length3(e[i]);
-  }
-  for (int i = 0; i < 3; i++) {
-    double c[3];
-    int last = (i + 2) % 3;
-    cross3(e[last], e[i], c);
-    sine[i] = length3(c) / (length[i] * length[last]);
-  }
-  for (int level = 0; level <= 4; level++) {
-    double edge[3][3];
-    for (int i = 0; i < 3; i++) {
-      for (int k = 0; k < 3; k++) edge[i][k] = e[i][k] + 0.25 * level * de[i][k];
-      if (level > 0) length[i] = length3(edge[i]);
-    }
-    for (int i = 0; i < 3; i++) {
-      int last = (i + 2) % 3;
-      double c[3], scale = length[i] * length[last] * height[i] * sine[i];
-      cross3(edge[i], edge[last], c); // with the minus of edge[last]: into the fluid
-      double q = scale > 0 ? dot3(c, d[i]) / scale : -1;
-      if (q < least) least = q;
-    }
-  }
-  return least;
-}
-
-double cw_layers_front_quality(const double *const wall[3], const double *const front[3]) {
-  const double *const *const x[2] = {wall, front};
-  double least = INFINITY;
-  for (int i = 0; i < 3; i++) {
-    double c[2][3], scale[2];
-    for (int k = 0; k < 2; k++) {
-      double next[3], last[3];
-      sub3(x[k][(i + 1) % 3], x[k][i], next);
-      sub3(x[k][(i + 2) % 3], x[k][i], last);
-      cross3(next, last, c[k]);
-      scale[k] = length3(next) * length3(last);
-    }
-    double q = scale[1] > 0 ? dot3(c[0], c[1]) / dot3(c[0], c[0]) * scale[0] / scale[1] : -1;
-    if (q < least) least = q;
-  }
-  return least;
-}
-
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
   const int32_t *v = work->in->triangle[f];
   const double (*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
-  return cw_layers_corner_quality(wall, end);
+  return cw_prism_quality(wall, end);
 }
 
 // What the front of a prism counts beside it.
@@ -80,7 +28,7 @@ static double front_quality(const CwLayerWork *work, int32_t f, const double (*f
   const int32_t *v = work->in->triangle[f];
   const double (*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
-  return FRONT * cw_layers_front_quality(wall, end);
+  return FRONT * cw_prism_front_quality(wall, end);
 }
 
 double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {

@@ -270,7 +270,7 @@ static int32_t count_flatter(const Case *c, double quality) {
     const int32_t *v = c->wall.triangle[f];
     const double *const wall[3] = {c->wall.x[v[0]], c->wall.x[v[1]], c->wall.x[v[2]]};
     const double *const front[3] = {c->out.front[v[0]], c->out.front[v[1]], c->out.front[v[2]]};
-    count += cw_layers_corner_quality(wall, front) < quality;
+    count += cw_prism_quality(wall, front) < quality;
   }
   return count;
 }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/layers/prism_quality.h"
+
+#include "mesher/common/vec.h"
+
+double cw_prism_quality(const double *const wall[3], const double *const front[3]) {
+  double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
+  for (int i = 0; i < 3; i++) {
+    cw_sub(front[i], wall[i], d[i]);
+    height[i] = cw_norm(d[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    cw_sub(wall[(i + 1) % 3], wall[i], e[i]); // edge from corner i to the next
+    cw_sub(d[(i + 1) % 3], d[i], de[i]);      // how it changes from wall to front
+    length[i] = cw_norm(e[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    double c[3];
+    int last = (i + 2) % 3;
+    cw_cross(e[last], e[i], c);
+    sine[i] = cw_norm(c) / (length[i] * length[last]);
+  }
+  for (int level = 0; level <= 4; level++) {
+    double edge[3][3];
+    for (int i = 0; i < 3; i++) {
+      for (int k = 0; k < 3; k++) edge[i][k] = e[i][k] + 0.25 * level * de[i][k];
+      if (level > 0) length[i] = cw_norm(edge[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+      int last = (i + 2) % 3;
+      double c[3], scale = length[i] * length[last] * height[i] * sine[i];
+      cw_cross(edge[i], edge[last], c); // with the minus of edge[last]: into the fluid
+      double q = scale > 0 ? cw_dot(c, d[i]) / scale : -1;
+      if (q < least) least = q;
+    }
+  }
+  return least;
+}
+
+double cw_prism_front_quality(const double *const wall[3], const double *const front[3]) {
+  const double *const *const x[2] = {wall, front};
+  double least = INFINITY;
+  for (int i = 0; i < 3; i++) {
+    double c[2][3], scale[2];
+    for (int k = 0; k < 2; k++) {
+      double next[3], last[3];
+      cw_sub(x[k][(i + 1) % 3], x[k][i], next);
+      cw_sub(x[k][(i + 2) % 3], x[k][i], last);
+      cw_cross(next, last, c[k]);
+      scale[k] = cw_norm(next) * cw_norm(last);
+    }
+    double q = scale[1] > 0 ? cw_dot(c[0], c[1]) / cw_dot(c[0], c[0]) * scale[0] / scale[1] : -1;
+    if (q < least) least = q;
+  }
+  return least;
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How sound the thick prism between a wall triangle and the ends of its columns is, and how well shaped its front is.
+// Corners are those of the wall triangle, normal out of the domain, and the ends of their columns, in its order.
+#ifndef CUTWATER_MESHER_LAYERS_PRISM_QUALITY_H
+#define CUTWATER_MESHER_LAYERS_PRISM_QUALITY_H
+
+// The least corner Jacobian at any layer between wall and front, scaled to 1 for a right prism over the same wall
+// triangle.
+double cw_prism_quality(const double *const wall[3], const double *const front[3]);
+
+// Least over the corners of a front triangle of the sine there, seen along the wall's normal, over that on the wall: 1
+// where it is only moved or smaller, not above 0 where it is turned over. Where columns lean much, prisms may be sound
+// and their front all the same needles or folds, on which only flat tetrahedra fit.
+double cw_prism_front_quality(const double *const wall[3], const double *const front[3]);
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include "mesher/layers/prism_quality.h"
+
+// Right, half as wide at the end, drawn out by a column that leans by 45 degrees, closed to a point, turned inside out.
+static void prisms_by_hand(void **state) {
+  const double wall[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
+  const struct {
+    double x[3][3], quality;
+  } prism[] = {{{{0, 0, -2}, {1, 0, -2}, {0, 1, -2}}, 1},
+               {{{0.25, 0.25, -2}, {0.75, 0.25, -2}, {0.25, 0.75, -2}}, 2 / sqrt(4.125)},
+               {{{0, 0, -1}, {2, 0, -1}, {0, 1, -1}}, 1 / sqrt(5)},
+               {{{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, -1},
+               {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, -1}};
+  for (size_t i = 0; i < sizeof prism / sizeof *prism; i++) {
+    const double *const b[3] = {prism[i].x[0], prism[i].x[1], prism[i].x[2]};
+    assert_float_equal(cw_prism_quality(a, b), prism[i].quality, 1e-12);
+  }
+}
+
+// What is left of a triangle that is moved, shrunk, drawn out to twice its height, squashed to a quarter of it, turned
+// upright, turned over.
+static void front_by_hand(void **state) {
+  const double wall[3][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
+  const struct {
+    double x[3][3], quality;
+  } front[] = {{{{-1, 0, -2}, {1, 0, -2}, {0, 1, -2}}, 1},
+               {{{-0.5, 0, -2}, {0.5, 0, -2}, {0, 0.5, -2}}, 1},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, 2, -2}}, 0.8},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, 0.25, -2}}, sqrt(2 / 17.0)},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, 0, -1}}, 0},
+               {{{-1, 0, -2}, {1, 0, -2}, {0, -1, -2}}, -1}};
+  for (size_t i = 0; i < sizeof front / sizeof *front; i++) {
+    const double *const b[3] = {front[i].x[0], front[i].x[1], front[i].x[2]};
+    assert_float_equal(cw_prism_front_quality(a, b), front[i].quality, 1e-15);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(prisms_by_hand), cmocka_unit_test(front_by_hand)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
