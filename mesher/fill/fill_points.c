@@ -5,32 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/mix.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_columns.h"
 #include "mesher/fill/fill_reach.h"
 #include "mesher/fill/fill_row.h"
+#include "mesher/fill/lattice_places.h"
 
-// Lattice constant over edge length: 12 tetrahedra a cube, each of the volume of a regular one with edge 1.
-static const double lattice_constant = 1.122462048309373; // (12 / (6 sqrt 2))^(1/3) = 2^(1/6)
-static const double jitter = 1e-3;       // of the cell: breaks the lattice's cospherical points
-static const double coarse = 2.2;        // cells of lists, over wanted cells
-enum { DEPTH = 19, DIGIT = 11, ROUNDS = 9, SEEN = 13 };
+static const double coarse = 2.2; // cells of lists, over wanted cells
+enum { DEPTH = 19 };
 
-// A cell of the octree that is not cut for the sake of the boundary any more.
+// What reaches a cell of the octree that is not cut for the sake of the boundary any more.
 typedef struct {
-  int32_t at[3], level; // corner, in units of the finest cell; edge: 1 << level units
-  int32_t list_count;   // items that reach it, from list
+  int32_t count; // items, from list
   int64_t list;
-  int whole;  // no item reaches it: all of it is inside
-  int clear;  // no item is in it
-  int counts; // its centre is inside: its leaves count for the fit of the spacing
-} Cell;
-
-typedef struct {
-  uint64_t key; // as in CwLatticeSite
-  int32_t cell, level;
-} Place;
+  int whole; // none reaches it: all of it is inside
+  int clear; // none is in it
+} Reached;
 
 // Of the row, where it is chosen.
 typedef struct {
@@ -47,33 +37,18 @@ typedef struct {
   CwReachBox *box;   // of each item
   CwReachBall *ball; // of each triangle
   RowPoint *row;
-  double origin[3], unit; // finest cell, m
-  double fit;             // factor on the wanted spacing
-  double clearance;       // factor on the distances to the boundary
-  double wanted, found;   // cells that the size field asks for, and cells found
-  Cell *cell;
-  int32_t cell_count, cell_space;
+  CwLatticeFrame frame;
+  double clearance; // factor on the distances to the boundary
+  CwLatticeCell *cell;
+  Reached *reached; // of each cell
+  int32_t cell_count, cell_space, reached_space;
   int32_t *list;
   int64_t list_count, list_space;
   uint8_t *children; // of the cell that is divided, which each item of its list reaches into
-  Place *place;
-  int64_t place_count, place_space;
-  uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
 } Tree;
 
 static double size_at(const CwFillInput *input, const double x[3]) {
   return input->size(input->size_context, x);
-}
-
-// Fails where the field gives no length.
-static CwStatus wanted_size(const CwFillInput *input, const double x[3], double *size) {
-  CwStatus status = CW_OK;
-  *size = size_at(input, x);
-  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH,
-             "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm", input->name, *size, 1e3 * x[0],
-             1e3 * x[1], 1e3 * x[2]);
-done:
-  return status;
 }
 
 static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
@@ -84,7 +59,7 @@ static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
   double u[3], v[3], normal[3], mean[3], h;
   for (int i = 0; i < 3; i++)
     mean[i] = (a[i] + b[i] + c[i]) / 3.0;
-  CW_TRY(wanted_size(input, mean, &h));
+  CW_TRY(cw_lattice_size(input, mean, &h));
   cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, &tree->box[t], &tree->ball[t]);
   cw_sub(b, a, u);
   cw_sub(c, a, v);
@@ -103,12 +78,12 @@ static double distance_square(const double a[3], const double b[3]) {
 }
 
 // Whether an item of the cell keeps a point of the lattice, or of the row, away from x.
-static int is_forbidden(const Tree *tree, const Cell *cell, const double x[3], int of_row) {
+static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int of_row) {
   const CwFillInput *input = tree->input;
   double h = 0.0, apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
-  for (int32_t k = cell->list_count - 1; k >= 0; k--) { // the row first: it is soon asked
-    int32_t t = tree->list[cell->list + k], place = t - input->triangle_count;
+  for (int32_t k = reached->count - 1; k >= 0; k--) { // the row first: it is soon asked
+    int32_t t = tree->list[reached->list + k], place = t - input->triangle_count;
     if ((place >= 0 && !tree->row[place].chosen) || !cw_reach_holds(&tree->box[t], p))
       continue;
     if (place >= 0) {
@@ -144,7 +119,7 @@ done:
 
 static void centre_of(const Tree *tree, const int32_t at[3], int level, double x[3]) {
   for (int i = 0; i < 3; i++)
-    x[i] = tree->origin[i] + tree->unit * (at[i] + 0.5 * (double)(1 << level));
+    x[i] = tree->frame.origin[i] + tree->frame.unit * (at[i] + 0.5 * (double)(1 << level));
 }
 
 static void child_of(const int32_t at[3], int level, int child, int32_t corner[3]) {
@@ -158,8 +133,8 @@ static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t li
   const CwFillInput *input = tree->input;
   double low[3], high[3];
   for (int i = 0; i < 3; i++) {
-    low[i] = tree->origin[i] + tree->unit * at[i];
-    high[i] = tree->origin[i] + tree->unit * (at[i] + (1 << level));
+    low[i] = tree->frame.origin[i] + tree->frame.unit * at[i];
+    high[i] = tree->frame.origin[i] + tree->frame.unit * (at[i] + (1 << level));
   }
   for (int32_t k = 0; k < list_count; k++) {
     int32_t t = tree->list[list + k], of_row = t - input->triangle_count;
@@ -192,7 +167,7 @@ static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t 
   CwStatus status = CW_OK;
   float low[3], high[3];
   for (int i = 0; i < 3; i++) {
-    double middle = tree->origin[i] + tree->unit * (at[i] + (1 << (level - 1)));
+    double middle = tree->frame.origin[i] + tree->frame.unit * (at[i] + (1 << (level - 1)));
     low[i] = nextafterf((float)middle, -INFINITY);
     high[i] = nextafterf((float)middle, INFINITY);
   }
@@ -220,20 +195,21 @@ done:
 // Cuts down to coarse cells.
 static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
   CwStatus status = CW_OK;
-  double centre[3], size, edge = tree->unit * (double)(1 << level);
+  double centre[3], size, edge = tree->frame.unit * (double)(1 << level);
   int64_t child_list[8];
   int32_t child_count[8];
   int inside;
   centre_of(tree, at, level, centre);
-  CW_TRY(wanted_size(tree->input, centre, &size));
-  if (list_count == 0 || level == 0 || edge <= coarse * lattice_constant * size) {
+  CW_TRY(cw_lattice_size(tree->input, centre, &size));
+  if (list_count == 0 || level == 0 || edge <= coarse * CW_LATTICE_CONSTANT * size) {
     int clear = is_clear(tree, at, level, list, list_count);
     CW_TRY(test_inside(tree, centre, &inside));
     if (list_count == 0 && !inside)
       goto done;
     CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
-    tree->cell[tree->cell_count++] =
-        (Cell){{at[0], at[1], at[2]}, level, list_count, list, list_count == 0, clear, inside};
+    CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
+    tree->reached[tree->cell_count] = (Reached){list_count, list, list_count == 0, clear};
+    tree->cell[tree->cell_count++] = (CwLatticeCell){{at[0], at[1], at[2]}, level, inside};
     goto done;
   }
   CW_TRY(divide_list(tree, at, level, list, list_count, child_list, child_count));
@@ -246,127 +222,17 @@ done:
   return status;
 }
 
-// Cuts down to the wanted spacing; counts, or stores the corners and centres of the leaves.
-static CwStatus cut_fine(Tree *tree, int32_t cell, const int32_t at[3], int level, int store) {
-  CwStatus status = CW_OK;
-  double centre[3], asked, edge = tree->unit * (double)(1 << level);
-  centre_of(tree, at, level, centre);
-  CW_TRY(wanted_size(tree->input, centre, &asked));
-  asked *= lattice_constant;
-  if (level > 0 && edge > 1.4142135623730951 * tree->fit * asked) {
-    for (int child = 0; child < 8; child++) {
-      int32_t corner[3];
-      child_of(at, level, child, corner);
-      CW_TRY(cut_fine(tree, cell, corner, level - 1, store));
-    }
-    goto done;
-  }
-  if (!store) {
-    tree->found += 1.0;
-    tree->wanted += edge / asked * (edge / asked) * (edge / asked);
-    goto done;
-  }
-  CW_GROW(tree->place, tree->place_space, tree->place_count + 9);
-  for (int k = 0; k < 9; k++) {
-    int32_t there[3];
-    for (int i = 0; i < 3; i++)
-      there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
-    uint64_t key = cw_lattice_key(there), *seen = &tree->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
-    if (*seen != key) // of equal places the first one counts
-      tree->place[tree->place_count++] = (Place){key, cell, level};
-    *seen = key;
-  }
-done:
-  return status;
-}
-
-static CwStatus cut_cells(Tree *tree, int store) {
-  CwStatus status = CW_OK;
-  tree->wanted = tree->found = 0.0;
-  for (int32_t c = 0; c < tree->cell_count; c++) {
-    const Cell *cell = &tree->cell[c];
-    if (store || cell->counts)
-      CW_TRY(cut_fine(tree, c, cell->at, cell->level, store));
-  }
-done:
-  return status;
-}
-
-// Finds the factor on the wanted spacing with which there are as many cells as the size field asks for. The
-// count falls with the factor, but in steps where sizes are nearly uniform: the best of the tried ones is
-// taken.
-static CwStatus fit_spacing(Tree *tree) {
-  CwStatus status = CW_OK;
-  double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
-  for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
-    CW_TRY(cut_cells(tree, 0));
-    if (!(tree->wanted > 0.0))
-      break;
-    double ratio = tree->found / tree->wanted, error = fabs(log(ratio));
-    if (error < best_error) {
-      best = tree->fit;
-      best_error = error;
-    }
-    if (ratio > 1.0)
-      low = tree->fit;
-    else
-      high = tree->fit;
-    double next = tree->fit * cbrt(ratio);
-    tree->fit = next > low && next < high && round < 3 ? next : sqrt(low * high);
-  }
-  tree->fit = best;
-done:
-  return status;
-}
-
-// By key, stable. Bits that all keys have in common are left out.
-static CwStatus sort_places(Tree *tree) {
-  CwStatus status = CW_OK;
-  Place *other = NULL, *swap;
-  uint64_t any = 0, all = ~0ull, mask = (1 << DIGIT) - 1;
-  for (int64_t k = 0; k < tree->place_count; k++) {
-    any |= tree->place[k].key;
-    all &= tree->place[k].key;
-  }
-  CW_NEW(other, tree->place_count);
-  for (int shift = 0; shift < 63;) {
-    if (!((any ^ all) >> shift & 1)) {
-      shift++;
-      continue;
-    }
-    int64_t start[(1 << DIGIT) + 1] = {0};
-    for (int64_t k = 0; k < tree->place_count; k++)
-      start[(tree->place[k].key >> shift & mask) + 1]++;
-    for (int d = 0; d < 1 << DIGIT; d++)
-      start[d + 1] += start[d];
-    for (int64_t k = 0; k < tree->place_count; k++)
-      other[start[tree->place[k].key >> shift & mask]++] = tree->place[k];
-    swap = tree->place;
-    tree->place = other;
-    other = swap;
-    tree->place_space = tree->place_count;
-    shift += DIGIT;
-  }
-done:
-  free(other);
-  return status;
-}
-
-static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alone
-  uint64_t z = cw_mix(key + CW_MIX_STEP * (uint64_t)(axis + 1));
-  return (double)(z >> 11) * 0x1p-52 - 1.0;
-}
-
 // Which cell each place of the row lies in.
 static void find_cells(Tree *tree) {
   for (int32_t p = 0; p < tree->input->row_count; p++) {
     for (int i = 0; i < 3; i++)
-      tree->row[p].at[i] = (int32_t)floor((tree->row[p].place.x[i] - tree->origin[i]) / tree->unit);
+      tree->row[p].at[i] = (int32_t)floor((tree->row[p].place.x[i] - tree->frame.origin[i]) / tree->frame.unit);
   }
   for (int32_t c = 0; c < tree->cell_count; c++) {
-    const Cell *cell = &tree->cell[c];
-    for (int32_t k = cell->list_count - 1; k >= 0; k--) { // the row comes last
-      int32_t p = tree->list[cell->list + k] - tree->input->triangle_count;
+    const CwLatticeCell *cell = &tree->cell[c];
+    const Reached *reached = &tree->reached[c];
+    for (int32_t k = reached->count - 1; k >= 0; k--) { // the row comes last
+      int32_t p = tree->list[reached->list + k] - tree->input->triangle_count;
       if (p < 0)
         break;
       const int32_t *at = tree->row[p].at;
@@ -381,13 +247,13 @@ static void find_cells(Tree *tree) {
 static void shorten_lists(Tree *tree) {
   int32_t first = tree->input->triangle_count;
   for (int32_t c = 0; c < tree->cell_count; c++) {
-    Cell *cell = &tree->cell[c];
-    int32_t *list = tree->list + cell->list, count = 0;
-    for (int32_t k = 0; k < cell->list_count; k++) {
+    Reached *reached = &tree->reached[c];
+    int32_t *list = tree->list + reached->list, count = 0;
+    for (int32_t k = 0; k < reached->count; k++) {
       if (list[k] < first || tree->row[list[k] - first].chosen)
         list[count++] = list[k];
     }
-    cell->list_count = count;
+    reached->count = count;
   }
 }
 
@@ -399,7 +265,7 @@ static CwStatus choose_row(Tree *tree, int32_t *chosen) {
   find_cells(tree);
   for (int32_t p = 0; p < tree->input->row_count; p++) {
     RowPoint *point = &tree->row[p];
-    if (point->cell < 0 || is_forbidden(tree, &tree->cell[point->cell], point->place.x, 1))
+    if (point->cell < 0 || is_forbidden(tree, &tree->reached[point->cell], point->place.x, 1))
       continue;
     CW_TRY(test_inside(tree, point->place.x, &point->chosen));
     *chosen += point->chosen;
@@ -409,37 +275,28 @@ done:
   return status;
 }
 
-// Of all places, each once, those that are inside and not forbidden. A line along z is cut once for all its
+// Of the places of the lattice those that are inside and not forbidden. A line along z is cut once for all its
 // places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
-static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSite **site) {
+static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *places, int32_t *count, double (**x)[3],
+                        CwLatticeSite **site) {
   CwStatus status = CW_OK;
   double(*points)[3] = NULL;
   CwLatticeSite *sites = NULL;
   const double *z = NULL;
-  int64_t unique = 0;
   int32_t kept = 0, crossings = 0, chosen;
   uint64_t cut = ~0ull;
   CW_TRY(choose_row(tree, &chosen));
-  for (int64_t k = 0; k < tree->place_count; k++)
-    unique += k == 0 || tree->place[k].key != tree->place[k - 1].key;
-  CW_REQUIRE(unique < INT32_MAX / 16, CW_ERR_MESH,
+  CW_REQUIRE(place_count < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
-  CW_NEW(points, unique + chosen);
+  CW_NEW(points, place_count + chosen);
   if (site)
-    CW_NEW(sites, unique + chosen);
-  for (int64_t k = 0; k < tree->place_count; k++) {
-    const Place *place = &tree->place[k];
-    if (k && place->key == place[-1].key)
-      continue;
-    const Cell *cell = &tree->cell[place->cell];
-    int32_t half[3];
+    CW_NEW(sites, place_count + chosen);
+  for (int64_t k = 0; k < place_count; k++) {
+    const CwLatticePlace *place = &places[k];
+    const Reached *reached = &tree->reached[place->cell];
     double p[3], fixed[3];
-    cw_lattice_at(place->key, half);
-    for (int i = 0; i < 3; i++) {
-      fixed[i] = tree->origin[i] + tree->unit * 0.5 * half[i];
-      p[i] = fixed[i] + tree->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
-    }
-    if (!cell->whole) {
+    cw_lattice_point(&tree->frame, place, fixed, p);
+    if (!reached->whole) {
       if (place->key >> 21 != cut) {
         cut = place->key >> 21;
         CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));
@@ -447,11 +304,11 @@ static CwStatus collect(Tree *tree, int32_t *count, double (**x)[3], CwLatticeSi
       int inside = 0;
       for (int32_t c = 0; c < crossings; c++)
         inside ^= z[c] > fixed[2];
-      if (!inside || is_forbidden(tree, cell, p, 0))
+      if (!inside || is_forbidden(tree, reached, p, 0))
         continue;
     }
     if (site)
-      sites[kept] = (CwLatticeSite){place->key, place->level, cell->clear};
+      sites[kept] = (CwLatticeSite){place->key, place->level, reached->clear};
     memcpy(points[kept++], p, sizeof p);
   }
   for (int32_t p = 0; p < tree->input->row_count; p++) {
@@ -480,7 +337,9 @@ static int compare_row(const void *p, const void *q) {
 CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3],
                         CwLatticeSite **site) {
   CwStatus status = CW_OK;
-  Tree whole = {.input = input, .fit = 1.0, .clearance = clearance}, *tree = &whole;
+  Tree whole = {.input = input, .clearance = clearance}, *tree = &whole;
+  CwLatticePlace *place = NULL;
+  int64_t places;
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   double area = 0.0, weight = 0.0, extent = 0.0;
   int above = 0;
@@ -515,32 +374,28 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   for (int i = 0; i < 3; i++)
     extent = fmax(extent, high[i] - low[i]);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
-  double edge = lattice_constant * exp(weight / area);
+  double edge = CW_LATTICE_CONSTANT * exp(weight / area);
   while (edge * (double)(1 << above) < 1.001 * extent) {
     above++;
     CW_REQUIRE(above <= DEPTH, CW_ERR_MESH, "%s: the size field is below 1e-5 of the region", input->name);
   }
   int below = DEPTH - above < 8 ? DEPTH - above : 8;
-  tree->unit = edge / (double)(1 << below);
+  tree->frame.unit = edge / (double)(1 << below);
   for (int i = 0; i < 3; i++) {
-    tree->origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->unit * (double)(1 << (above + below));
+    tree->frame.origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->frame.unit * (double)(1 << (above + below));
   }
   CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items));
-  CW_TRY(fit_spacing(tree));
-  CW_NEW(tree->seen, 1 << SEEN);
-  memset(tree->seen, 0xff, sizeof *tree->seen << SEEN);
-  CW_TRY(cut_cells(tree, 1));
-  CW_TRY(sort_places(tree));
-  CW_TRY(collect(tree, count, x, site));
+  CW_TRY(cw_lattice_places(input, &tree->frame, tree->cell_count, tree->cell, &places, &place));
+  CW_TRY(collect(tree, places, place, count, x, site));
 done:
   free(tree->box);
   free(tree->ball);
   free(tree->row);
   free(tree->cell);
+  free(tree->reached);
   free(tree->list);
   free(tree->children);
-  free(tree->place);
-  free(tree->seen);
+  free(place);
   cw_columns_free(&tree->columns);
   return status;
 }

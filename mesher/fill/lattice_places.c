@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/lattice_places.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/mix.h"
+
+static const double jitter = 1e-3; // of the cell
+enum { DIGIT = 11, ROUNDS = 9, SEEN = 13 };
+
+typedef struct {
+  const CwFillInput *input;
+  const CwLatticeFrame *frame;
+  double fit;           // factor on the wanted spacing
+  double wanted, found; // cells that the size field asks for, and cells found
+  CwLatticePlace *place;
+  int64_t place_count, place_space;
+  uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
+} Lattice;
+
+CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size) {
+  CwStatus status = CW_OK;
+  *size = input->size(input->size_context, x);
+  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH,
+             "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm", input->name, *size, 1e3 * x[0],
+             1e3 * x[1], 1e3 * x[2]);
+done:
+  return status;
+}
+
+// Cuts down to the wanted spacing; counts, or stores the corners and centres of the leaves.
+static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int level, int store) {
+  CwStatus status = CW_OK;
+  double centre[3], asked, edge = lattice->frame->unit * (double)(1 << level);
+  for (int i = 0; i < 3; i++)
+    centre[i] = lattice->frame->origin[i] + lattice->frame->unit * (at[i] + 0.5 * (double)(1 << level));
+  CW_TRY(cw_lattice_size(lattice->input, centre, &asked));
+  asked *= CW_LATTICE_CONSTANT;
+  if (level > 0 && edge > 1.4142135623730951 * lattice->fit * asked) {
+    for (int child = 0; child < 8; child++) {
+      int32_t corner[3];
+      for (int i = 0; i < 3; i++)
+        corner[i] = at[i] + ((child >> i & 1) << (level - 1));
+      CW_TRY(cut(lattice, cell, corner, level - 1, store));
+    }
+    goto done;
+  }
+  if (!store) {
+    lattice->found += 1.0;
+    lattice->wanted += edge / asked * (edge / asked) * (edge / asked);
+    goto done;
+  }
+  CW_GROW(lattice->place, lattice->place_space, lattice->place_count + 9);
+  for (int k = 0; k < 9; k++) {
+    int32_t there[3];
+    for (int i = 0; i < 3; i++)
+      there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
+    uint64_t key = cw_lattice_key(there), *seen = &lattice->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
+    if (*seen != key) // of equal places the first one counts
+      lattice->place[lattice->place_count++] = (CwLatticePlace){key, cell, level};
+    *seen = key;
+  }
+done:
+  return status;
+}
+
+static CwStatus cut_all(Lattice *lattice, int32_t count, const CwLatticeCell *cell, int store) {
+  CwStatus status = CW_OK;
+  lattice->wanted = lattice->found = 0.0;
+  for (int32_t c = 0; c < count; c++) {
+    if (store || cell[c].counts)
+      CW_TRY(cut(lattice, c, cell[c].at, cell[c].level, store));
+  }
+done:
+  return status;
+}
+
+// Finds the factor on the wanted spacing with which there are as many cells as the size field asks for. The
+// count falls with the factor, but in steps where sizes are nearly uniform: the best of the tried ones is
+// taken.
+static CwStatus fit_spacing(Lattice *lattice, int32_t count, const CwLatticeCell *cell) {
+  CwStatus status = CW_OK;
+  double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
+  for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
+    CW_TRY(cut_all(lattice, count, cell, 0));
+    if (!(lattice->wanted > 0.0))
+      break;
+    double ratio = lattice->found / lattice->wanted, error = fabs(log(ratio));
+    if (error < best_error) {
+      best = lattice->fit;
+      best_error = error;
+    }
+    if (ratio > 1.0)
+      low = lattice->fit;
+    else
+      high = lattice->fit;
+    double next = lattice->fit * cbrt(ratio);
+    lattice->fit = next > low && next < high && round < 3 ? next : sqrt(low * high);
+  }
+  lattice->fit = best;
+done:
+  return status;
+}
+
+// By key, stable. Bits that all keys have in common are left out.
+static CwStatus sort_places(Lattice *lattice) {
+  CwStatus status = CW_OK;
+  CwLatticePlace *other = NULL, *swap;
+  uint64_t any = 0, all = ~0ull, mask = (1 << DIGIT) - 1;
+  int64_t count = lattice->place_count;
+  for (int64_t k = 0; k < count; k++) {
+    any |= lattice->place[k].key;
+    all &= lattice->place[k].key;
+  }
+  CW_NEW(other, count);
+  for (int shift = 0; shift < 63;) {
+    if (!((any ^ all) >> shift & 1)) {
+      shift++;
+      continue;
+    }
+    int64_t start[(1 << DIGIT) + 1] = {0};
+    for (int64_t k = 0; k < count; k++)
+      start[(lattice->place[k].key >> shift & mask) + 1]++;
+    for (int d = 0; d < 1 << DIGIT; d++)
+      start[d + 1] += start[d];
+    for (int64_t k = 0; k < count; k++)
+      other[start[lattice->place[k].key >> shift & mask]++] = lattice->place[k];
+    swap = lattice->place;
+    lattice->place = other;
+    other = swap;
+    shift += DIGIT;
+  }
+done:
+  free(other);
+  return status;
+}
+
+CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
+                           const CwLatticeCell *cell, int64_t *count, CwLatticePlace **place) {
+  CwStatus status = CW_OK;
+  Lattice lattice = {.input = input, .frame = frame, .fit = 1.0};
+  *count = 0;
+  *place = NULL;
+  CW_TRY(fit_spacing(&lattice, cell_count, cell));
+  CW_NEW(lattice.seen, 1 << SEEN);
+  memset(lattice.seen, 0xff, sizeof *lattice.seen << SEEN);
+  CW_TRY(cut_all(&lattice, cell_count, cell, 1));
+  CW_TRY(sort_places(&lattice));
+  for (int64_t k = 0; k < lattice.place_count; k++) {
+    if (k == 0 || lattice.place[k].key != lattice.place[*count - 1].key)
+      lattice.place[(*count)++] = lattice.place[k];
+  }
+  *place = lattice.place;
+  lattice.place = NULL;
+done:
+  free(lattice.place);
+  free(lattice.seen);
+  return status;
+}
+
+static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alone
+  uint64_t z = cw_mix(key + CW_MIX_STEP * (uint64_t)(axis + 1));
+  return (double)(z >> 11) * 0x1p-52 - 1.0;
+}
+
+void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double fixed[3], double x[3]) {
+  int32_t half[3];
+  cw_lattice_at(place->key, half);
+  for (int i = 0; i < 3; i++) {
+    fixed[i] = frame->origin[i] + frame->unit * 0.5 * half[i];
+    x[i] = fixed[i] + frame->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
+  }
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The places of a body-centred cubic lattice on an octree that follows a size field: corners and centres of its cells.
+// Its tetrahedra have edges in the ratio 1.155 and dihedral angles of 60 and 90 degrees.
+#ifndef CUTWATER_MESHER_FILL_LATTICE_PLACES_H
+#define CUTWATER_MESHER_FILL_LATTICE_PLACES_H
+
+#include <stdint.h>
+
+#include "pipeline/status.h"
+
+#include "mesher/fill/fill.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Edge of a cell over edge length: 12 tetrahedra a cell, each of the volume of a regular one with edge 1, so
+// (12 / (6 sqrt 2))^(1/3) = 2^(1/6).
+#define CW_LATTICE_CONSTANT 1.122462048309373
+
+typedef struct {
+  double origin[3], unit; // m: corner of the octree, edge of its finest cell
+} CwLatticeFrame;
+
+// A cell that is to be cut as fine as the field asks.
+typedef struct {
+  int32_t at[3], level; // corner, in units; edge: 1 << level units
+  int counts;           // 1: its leaves count for the fit of the spacing
+} CwLatticeCell;
+
+typedef struct {
+  uint64_t key; // as in CwLatticeSite
+  int32_t cell, level;
+} CwLatticePlace;
+
+// Length that the field of the input wants at x, m. Fails (CW_ERR_MESH) where it gives none.
+CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size);
+
+// Places in all cells, by ascending keys, each once, as of the first cell that has it. The spacing is fitted so that
+// the cells that count get as many leaves as the field asks for, whatever powers of two are near it. Caller frees
+// *place.
+CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
+                           const CwLatticeCell *cell, int64_t *count, CwLatticePlace **place);
+
+// Where a place is, and where its point: beside it by up to a thousandth of the cell, by its key alone, since points of
+// a lattice lie on common spheres.
+void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double fixed[3], double x[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
