@@ -21,12 +21,13 @@ static const double HOLLOW_WALL = 0.8;   // share of the layers that a line in t
 static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
 static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
 static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
-static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one without any besides
+static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one with hardly any besides
+static const double HARDLY = 0.8;                // shortage of room from which on a line has hardly any
 
 typedef struct {
   int impossible;
   double cramped; // sum over the lines: 0 where a line has room, 1 where it has none
-  int blocked;    // lines that have none
+  int blocked;    // lines that have hardly any
   double sharp;   // least sine of the angle between the planes along a line in the domain; 1 without lines
 } Lines;
 
@@ -213,7 +214,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   }
   if (beside > BESIDE_SHARE * run && beside > 2 * step) lines->impossible = 1;
   lines->cramped += cramped;
-  lines->blocked += cramped >= 1;
+  lines->blocked += cramped >= HARDLY;
 }
 
 static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,

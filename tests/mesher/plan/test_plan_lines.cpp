@@ -45,6 +45,14 @@ static void lines_tangent_to_a_wall_are_refused(void **) {
   }
 }
 
+// Columns along a line that leans much come out crooked: it costs nearly what one without any room does.
+static void lines_that_lean_much_cost_much(void **) {
+  Box box;
+  auto leaning = [&](double c) { return box.cost(0, -c, std::sqrt(1 - c * c), 30, 2, 0); };
+  assert_true(leaning(0.29) > leaning(0.35) + 2);
+  assert_true(leaning(0.35) < 2);
+}
+
 static void lines_in_the_layers_are_refused(void **) {
   Box box;
   assert_true(std::isinf(box.cost(0, 0, 1, 30, 14, 0.9)));
@@ -66,6 +74,7 @@ static void sharp_lines_cost_much(void **) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(lines_with_room_cost_nothing), cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
+      cmocka_unit_test(lines_that_lean_much_cost_much),
       cmocka_unit_test(lines_in_the_layers_are_refused), cmocka_unit_test(sharp_lines_cost_much)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
