@@ -11,7 +11,7 @@
 
 enum { ROUNDS = 20, SWEEPS = 2 }; // of thinning; over the seams, to choose their columns
 static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
-static const double VALID = 0.02;    // least prism quality
+static const double FAIR = 0.05, VALID = 0.02; // least prism quality, and where half the rounds did not bring it
 static const double THIN = 0.8;      // what a column keeps where the copies do not fit one another
 static const double SLOPE = 0.3;     // heights change by no more per distance, as where they are graded (layers_gap)
 static const double SAME = 1e-9;     // m: fronts that differ less are the same
@@ -301,6 +301,7 @@ typedef struct {
   double (*front)[3];
   double *off;    // of each point: how far from where it was made, m
   uint8_t *moved; // more than rounding
+  double least;   // prism quality asked for
 } Spread;
 
 // Of a triangle with a first point, how far its columns are off; whether it is no sound prism any more.
@@ -319,17 +320,17 @@ static CwStatus check_triangle(void *context, int32_t f, void *out) {
     changed |= spread->moved[corner[k]];
   }
   for (int k = 0; k < 3 && beside; k++) made->off = fmax(made->off, spread->off[corner[k]]);
-  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, (const double(*)[3])spread->front) >= VALID);
+  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, (const double(*)[3])spread->front) >= spread->least);
   return CW_OK;
 }
 
 // Checks what the columns as they were spread have changed in the part; marks the points whose columns do not fit. What
 // has not moved was checked as it was made. Collective.
-static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, uint8_t *bad,
+static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, double least, uint8_t *bad,
                       int32_t *bad_count) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = &part->in;
-  Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}};
+  Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}, .least = least};
   CwLayerCrossing crossing = {0};
   Checked *checked = NULL;
   double most = 0;
@@ -440,7 +441,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   layers->thinned_count = made.thinned_count;
   int32_t bad_count = 1;
   for (int round = 0; round < ROUNDS && bad_count; round++) {
-    CW_TRY(check(&part, &made, layers, bad, &bad_count));
+    CW_TRY(check(&part, &made, layers, round < ROUNDS / 2 ? FAIR : VALID, bad, &bad_count));
     if (!bad_count) break;
     int32_t first = 0;
     while (!bad[first]) first++;
