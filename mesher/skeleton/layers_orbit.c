@@ -320,7 +320,8 @@ static CwStatus check_triangle(void *context, int32_t f, void *out) {
     changed |= spread->moved[corner[k]];
   }
   for (int k = 0; k < 3 && beside; k++) made->off = fmax(made->off, spread->off[corner[k]]);
-  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, (const double(*)[3])spread->front) >= spread->least);
+  const double(*front)[3] = (const double(*)[3])spread->front;
+  made->bad = changed && !(cw_layers_prism_quality(&spread->work, f, front) >= spread->least);
   return CW_OK;
 }
 
