@@ -29,7 +29,7 @@ typedef struct {
   int64_t interface_count[CW_DOMAINS_MOST][2], interface_room[CW_DOMAINS_MOST][2];
   double *least[CW_DOMAINS_MOST],
       *most[CW_DOMAINS_MOST]; // coordinates of each shared point over the regions
-  int64_t *open_counts; // by region
+  int64_t *open_counts;       // by region
 } Collected;
 
 static void collected_free(Collected *c) {
@@ -104,23 +104,21 @@ static void add_patch_face(CwPatchPart *part, const CwRegionData *data, const in
   double vector[3];
   cw_face_area((const double(*)[3])data->points, nodes, count, vector);
   ++*(count == 3 ? &part->triangles : &part->quads);
-  for (int k = 0; k < 3; ++k)
-    part->vector[k] += vector[k];
+  for (int k = 0; k < 3; ++k) part->vector[k] += vector[k];
   part->area += sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
 }
 
-static void add_interface_face(CwInterfaceFace *face, int64_t place, const CwRegionData *data,
-                               const int32_t *nodes, int count) {
+static void add_interface_face(CwInterfaceFace *face, int64_t place, const CwRegionData *data, const int32_t *nodes,
+                               int count) {
   face->place = place;
   face->count = count;
-  for (int i = 0; i < count; ++i)
-    memcpy(face->nodes[i], data->points[nodes[i]], sizeof face->nodes[i]);
+  for (int i = 0; i < count; ++i) memcpy(face->nodes[i], data->points[nodes[i]], sizeof face->nodes[i]);
 }
 
 // `place` of the interface faces counts within the region here; settle_interface() makes it the one in the
 // patch. The region goes into its upper half, so that nothing else need be kept.
-static CwStatus collect_interface(const CwMesh *mesh, int region, const CwRegionData *data, const CwAssembly *a,
-                                  int i, int side, Collected *c) {
+static CwStatus collect_interface(const CwMesh *mesh, int region, const CwRegionData *data, const CwAssembly *a, int i,
+                                  int side, Collected *c) {
   CwStatus status = CW_OK;
   int patch = mesh->interfaces[i].patch[side], local = patch - mesh->domains[data->domain].first_patch;
   const CwPatchPart *part = &a->parts[(size_t)region * (size_t)mesh->patch_count + (size_t)patch];
@@ -137,8 +135,7 @@ done:
   return status;
 }
 
-static CwStatus collect_patches(const CwMesh *mesh, int region, const CwRegionData *data, CwAssembly *a,
-                                Collected *c) {
+static CwStatus collect_patches(const CwMesh *mesh, int region, const CwRegionData *data, CwAssembly *a, Collected *c) {
   CwStatus status = CW_OK;
   const CwMeshDomain *domain = &mesh->domains[data->domain];
   CwPatchPart *parts = a->parts + (size_t)region * (size_t)mesh->patch_count;
@@ -159,13 +156,11 @@ static OpenFace open_face(int region, const CwRegionData *data, int32_t slot, in
   int32_t nodes[4];
   int64_t wide[4];
   int order[4], count = cw_cell_face(data, face.cell, ref % CW_CELL_FACES, nodes);
-  for (int k = 0; k < count; ++k)
-    wide[k] = data->shared_id[nodes[k]];
+  for (int k = 0; k < count; ++k) wide[k] = data->shared_id[nodes[k]];
   const double *x[6];
   cw_cell_centroid(cw_cell_points(data, face.cell, x), x, face.centroid);
   face.reversed = cw_face_loop(wide, count, order);
-  for (int k = 0; k < count; ++k)
-    face.loop[k] = wide[order[k]];
+  for (int k = 0; k < count; ++k) face.loop[k] = wide[order[k]];
   return face;
 }
 
@@ -218,8 +213,7 @@ static void spread(const CwRanks *ranks, CwAssembly *a, Collected *c) {
       sum->triangles += part->triangles;
       sum->quads += part->quads;
       sum->area += part->area;
-      for (int k = 0; k < 3; ++k)
-        sum->vector[k] += part->vector[k];
+      for (int k = 0; k < 3; ++k) sum->vector[k] += part->vector[k];
     }
   }
 }
@@ -233,8 +227,7 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
     MPI_Allreduce(MPI_IN_PLACE, c->most[d], count, MPI_DOUBLE, MPI_MAX, ranks->comm);
     for (int64_t i = 0; i < count; ++i) {
       const double *x = c->least[d] + i / 3 * 3;
-      CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT,
-                 "domain %s: shared point %lld is in no region", domain->name,
+      CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT, "domain %s: shared point %lld is in no region", domain->name,
                  (long long)(i / 3));
       // Regions that are copies of one another, turned, differ by rounding: the least coordinates are taken.
       CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING, CW_ERR_INPUT,
@@ -252,8 +245,7 @@ done:
 static int compare_open_faces(const void *left, const void *right) {
   const OpenFace *x = left, *y = right;
   for (int i = 0; i < 4; ++i)
-    if (x->loop[i] != y->loop[i])
-      return x->loop[i] < y->loop[i] ? -1 : 1;
+    if (x->loop[i] != y->loop[i]) return x->loop[i] < y->loop[i] ? -1 : 1;
   return x->region != y->region ? (x->region > y->region) - (x->region < y->region)
                                 : (x->slot > y->slot) - (x->slot < y->slot);
 }
@@ -263,18 +255,16 @@ static CwStatus fail_at_open_face(const CwAssembly *a, const OpenFace *face, con
   int count = face->loop[3] < 0 ? 3 : 4;
   const CwMeshRegion *line = &a->mesh->regions[face->region];
   for (int i = 0; i < count; ++i)
-    for (int k = 0; k < 3; ++k)
-      x[k] += 1e3 * a->shared[line->domain][face->loop[i]][k] / count;
-  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a dividing plane %s", line->path, x[0],
-                 x[1], x[2], what);
+    for (int k = 0; k < 3; ++k) x[k] += 1e3 * a->shared[line->domain][face->loop[i]][k] / count;
+  return CW_FAIL(CW_ERR_INPUT, "%s: face at (%.6g, %.6g, %.6g) mm on a dividing plane %s", line->path, x[0], x[1], x[2],
+                 what);
 }
 
 // The face between the cells of x and y, of which x sees it in the order of its loop.
 static void measure_open_face(CwAssembly *a, const OpenFace *x, const OpenFace *y) {
   int domain = a->mesh->regions[x->region].domain, count = x->loop[3] < 0 ? 3 : 4;
   double points[4][3], area[3];
-  for (int i = 0; i < count; ++i)
-    memcpy(points[i], a->shared[domain][x->loop[i]], sizeof points[i]);
+  for (int i = 0; i < count; ++i) memcpy(points[i], a->shared[domain][x->loop[i]], sizeof points[i]);
   cw_face_area((const double(*)[3])points, (const int32_t[4]){0, 1, 2, 3}, count, area);
   cw_orthogonality_face(area, x->centroid, y->centroid, &a->totals[domain].orthogonality);
 }
@@ -289,8 +279,7 @@ static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
       CW_TRY(fail_at_open_face(a, x, "has no partner in another region"));
     if (i + 2 < count && memcmp(x->loop, open[i + 2].loop, sizeof x->loop) == 0)
       CW_TRY(fail_at_open_face(a, x, "is shared by more than two cells"));
-    if (x->reversed == y->reversed)
-      CW_TRY(fail_at_open_face(a, x, "has both of its cells on the same side"));
+    if (x->reversed == y->reversed) CW_TRY(fail_at_open_face(a, x, "has both of its cells on the same side"));
     measure_open_face(a, x->reversed ? y : x, x->reversed ? x : y);
     const OpenFace *sides[2] = {x, y};
     for (int s = 0; s < 2; ++s) {
@@ -298,8 +287,7 @@ static CwStatus pair_open_faces(CwAssembly *a, OpenFace *open, int64_t count) {
       CwRegionPlace *place = &a->places[here->region];
       int64_t mine = place->cell + here->cell, other = a->places[there->region].cell + there->cell;
       a->across[place->open + here->slot] = other;
-      if (mine < other)
-        ++*(here->loop[3] < 0 ? &place->outer_triangles : &place->outer_quads);
+      if (mine < other) ++*(here->loop[3] < 0 ? &place->outer_triangles : &place->outer_quads);
     }
   }
 done:
@@ -315,13 +303,11 @@ static CwStatus settle_open_faces(const CwRanks *ranks, CwAssembly *a, Collected
   // A stable split by domain, as each numbers its shared points from 0.
   if (ranks->rank == 0) {
     OpenFace *split = calloc(total ? (size_t)total : 1, sizeof *split);
-    if (!split)
-      status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on dividing planes", (long long)total);
+    if (!split) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld faces on dividing planes", (long long)total);
     for (int d = 0; d < a->mesh->domain_count && status == CW_OK; ++d) {
       int64_t count = 0;
       for (int64_t i = 0; i < total; ++i)
-        if (a->mesh->regions[all[i].region].domain == d)
-          split[count++] = all[i];
+        if (a->mesh->regions[all[i].region].domain == d) split[count++] = all[i];
       status = pair_open_faces(a, split, count);
     }
     free(split);
@@ -367,13 +353,12 @@ static CwStatus check_surface(const CwAssembly *a) {
       CW_REQUIRE(sum->triangles + sum->quads > 0 || mesh->patches[p].kind == CW_KIND_WALL, CW_ERR_INPUT,
                  "domain %s: patch '%s' has no face", domain->name, mesh->patches[p].name);
       area += sum->area;
-      for (int k = 0; k < 3; ++k)
-        vector[k] += sum->vector[k];
+      for (int k = 0; k < 3; ++k) vector[k] += sum->vector[k];
     }
     double open = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
     CW_REQUIRE(open <= 1e-9 * area, CW_ERR_INPUT,
-               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name,
-               area, open);
+               "domain %s: its surface is not closed: area vectors of %.6g m2 sum to %.3g m2", domain->name, area,
+               open);
   }
 done:
   return status;
@@ -404,8 +389,7 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CW_TRY(cw_ranks_agree(ranks, prepare(mesh, a, &c)));
   cw_progress_start("number the mesh", mesh->region_count, "regions");
   for (int r = 0; r < mesh->region_count && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r))
-      status = collect_region(mesh, r, a, &c);
+    if (cw_ranks_own(ranks, r)) status = collect_region(mesh, r, a, &c);
     cw_progress(r + 1);
   }
   cw_progress_end();
@@ -415,8 +399,7 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
   CW_TRY(settle_open_faces(ranks, a, &c));
   CW_TRY(check_surface(a));
   for (int i = 0; i < mesh->interface_count; ++i)
-    for (int side = 0; side < 2; ++side)
-      CW_TRY(settle_interface(ranks, i, side, a, &c));
+    for (int side = 0; side < 2; ++side) CW_TRY(settle_interface(ranks, i, side, a, &c));
 done:
   collected_free(&c);
   return status;

@@ -61,10 +61,8 @@ CwStatus cw_assembly_make(const CwMesh *mesh, const CwRanks *ranks, CwAssembly *
 void cw_assembly_free(CwAssembly *assembly);
 
 // Number of a point of a region in its domain, 0-based.
-static inline int64_t cw_point_number(const CwAssembly *assembly, int region, const CwRegionData *data,
-                                      int32_t point) {
-  if (point < data->shared_count)
-    return data->shared_id[point];
+static inline int64_t cw_point_number(const CwAssembly *assembly, int region, const CwRegionData *data, int32_t point) {
+  if (point < data->shared_count) return data->shared_id[point];
   return assembly->places[region].own_point + point - data->shared_count;
 }
 

@@ -9,7 +9,6 @@
 #include "export/patch_role.h"
 #include "export/template.h"
 
-
 static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
 }
@@ -52,12 +51,10 @@ done:
 // Sets `key` to the blocks and frees them.
 static CwStatus blocks_close(Blocks *blocks, const char *key, CwValues *values) {
   CwStatus status = CW_OK;
-  if (!blocks->out)
-    return status;
+  if (!blocks->out) return status;
   int failed = fclose(blocks->out) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "out of memory");
-  if (key)
-    CW_TRY(cw_values_set(values, key, "%s", blocks->text));
+  if (key) CW_TRY(cw_values_set(values, key, "%s", blocks->text));
 done:
   free(blocks->text);
   *blocks = (Blocks){0};
@@ -75,8 +72,7 @@ static int turns(const CwMesh *mesh, int interface) {
 static CwStatus set_interface(const CwMesh *mesh, int interface, CwValues *values) {
   CwStatus status = CW_OK;
   const CwMeshPatch *side[2];
-  for (int s = 0; s < 2; ++s)
-    side[s] = &mesh->patches[mesh->interfaces[interface].patch[s]];
+  for (int s = 0; s < 2; ++s) side[s] = &mesh->patches[mesh->interfaces[interface].patch[s]];
   CW_TRY(cw_values_set(values, "zone_a", "%s", mesh->domains[side[0]->domain].zone));
   CW_TRY(cw_values_set(values, "zone_b", "%s", mesh->domains[side[1]->domain].zone));
   CW_TRY(cw_values_set(values, "between", "%s %s", mesh->domains[side[0]->domain].zone,
@@ -102,8 +98,7 @@ static CwStatus set_boundaries(const CwMesh *mesh, int domain, const char *ends_
   for (int i = 0; i < mesh->interface_count; ++i)
     for (int side = 0; side < 2; ++side) {
       const CwMeshPatch *patch = &mesh->patches[mesh->interfaces[i].patch[side]];
-      if (patch->domain != domain)
-        continue;
+      if (patch->domain != domain) continue;
       CW_TRY(set_interface(mesh, i, values));
       CW_TRY(cw_values_set(values, "side", "%d", side + 1));
       CW_TRY(cw_values_set(values, "side_patch", "%s", patch->name));
@@ -161,8 +156,7 @@ static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
   for (int i = 0; i < mesh->interface_count; ++i) {
     CW_TRY(set_interface(mesh, i, values));
     CW_TRY(blocks_add(&steady, turns(mesh, i) ? "interface_turning.ccl" : "interface_fixed.ccl", values));
-    if (turns(mesh, i))
-      CW_TRY(blocks_add(&transient, "transient_interface_turning.ccl", values));
+    if (turns(mesh, i)) CW_TRY(blocks_add(&transient, "transient_interface_turning.ccl", values));
   }
   CW_TRY(blocks_close(&steady, "interfaces", values));
   CW_TRY(blocks_close(&transient, "transient_interfaces", values));
@@ -195,8 +189,7 @@ CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAsse
     CW_TRY(cw_values_set(&values, "wall_roughness", "Option = Smooth Wall"));
   CW_TRY(cw_values_set(&values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
   CW_TRY(cw_values_set(&values, "density", "%.9g", table->fluid.density));
-  CW_TRY(cw_values_set(&values, "dynamic_viscosity", "%.9g",
-                       table->fluid.density * table->fluid.kinematic_viscosity));
+  CW_TRY(cw_values_set(&values, "dynamic_viscosity", "%.9g", table->fluid.density * table->fluid.kinematic_viscosity));
   CW_TRY(cw_values_set(&values, "time_step", "%.9g", point->time_step_angle / point->speed));
   CW_TRY(cw_values_set(&values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
   CW_TRY(cw_values_set(&values, "physical_timescale", "%.9g", 1 / point->speed));

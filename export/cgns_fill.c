@@ -11,8 +11,7 @@ CwStatus cw_cgns_open(const char *path, const CwRanks *ranks, hid_t *file) {
   CwStatus status = CW_OK;
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-  if (ranks->size > 1)
-    H5Pset_fapl_mpio(access, ranks->comm, MPI_INFO_NULL);
+  if (ranks->size > 1) H5Pset_fapl_mpio(access, ranks->comm, MPI_INFO_NULL);
   *file = H5Fopen(path, H5F_ACC_RDWR, access);
   CW_REQUIRE(*file >= 0, CW_ERR_IO, "%s: cannot be opened for parallel writing", path);
 done:
@@ -31,23 +30,18 @@ static CwStatus write_stretch(hid_t file, const char *path, hid_t type, int64_t 
                               const void *values) {
   CwStatus status = CW_OK;
   hid_t set = -1, there = -1, here = -1;
-  if (count == 0)
-    goto done;
+  if (count == 0) goto done;
   set = H5Dopen2(file, path, H5P_DEFAULT);
   CW_REQUIRE(set >= 0, CW_ERR_LIBRARY, "the CGNS file has no '%s'", path);
   there = H5Dget_space(set);
   here = H5Screate_simple(1, (hsize_t[]){(hsize_t)count}, NULL);
-  H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count},
-                      NULL);
+  H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count}, NULL);
   CW_REQUIRE(H5Dwrite(set, type, here, there, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
              "%lld values cannot be written to '%s' of the CGNS file (is the disk full?)", (long long)count, path);
 done:
-  if (here >= 0)
-    H5Sclose(here);
-  if (there >= 0)
-    H5Sclose(there);
-  if (set >= 0)
-    H5Dclose(set);
+  if (here >= 0) H5Sclose(here);
+  if (there >= 0) H5Sclose(there);
+  if (set >= 0) H5Dclose(set);
   return status;
 }
 
@@ -58,10 +52,8 @@ static CwStatus write_points(hid_t file, const CwMesh *mesh, int domain, int64_t
   CW_NEW_UNSET(one, count);
   for (int k = 0; k < 3; ++k) {
     char path[100];
-    snprintf(path, sizeof path, "/pump/%s/GridCoordinates/Coordinate%c/ data", mesh->domains[domain].zone,
-             "XYZ"[k]);
-    for (int64_t i = 0; i < count; ++i)
-      one[i] = points[i][k];
+    snprintf(path, sizeof path, "/pump/%s/GridCoordinates/Coordinate%c/ data", mesh->domains[domain].zone, "XYZ"[k]);
+    for (int64_t i = 0; i < count; ++i) one[i] = points[i][k];
     CW_TRY(write_stretch(file, path, H5T_NATIVE_DOUBLE, first, count, one));
   }
 done:
@@ -72,8 +64,7 @@ done:
 CwStatus cw_cgns_write_shared(hid_t file, const CwAssembly *a) {
   CwStatus status = CW_OK;
   for (int d = 0; d < a->mesh->domain_count; ++d)
-    CW_TRY(write_points(file, a->mesh, d, 0, a->mesh->domains[d].shared_points,
-                        (const double(*)[3])a->shared[d]));
+    CW_TRY(write_points(file, a->mesh, d, 0, a->mesh->domains[d].shared_points, (const double(*)[3])a->shared[d]));
 done:
   return status;
 }
@@ -81,8 +72,8 @@ done:
 // Writes the elements of `nodes` nodes whose patch is `patch` (patch_of NULL: all), `first` elements into a
 // section.
 static CwStatus write_elements(hid_t file, const CwAssembly *a, int region, const CwRegionData *data,
-                               const CwSection *section, int64_t first, const int32_t *elements,
-                               int64_t count, const int32_t *patch_of) {
+                               const CwSection *section, int64_t first, const int32_t *elements, int64_t count,
+                               const int32_t *patch_of) {
   CwStatus status = CW_OK;
   int32_t *out = NULL;
   int64_t used = 0;
@@ -111,9 +102,8 @@ CwStatus cw_cgns_write_region(hid_t file, const CwAssembly *a, int region, const
   CW_TRY(cw_cgns_sections(a, data->domain, &sections, &count));
   for (int s = 0; s < count; ++s) {
     const CwPatchPart *part =
-        sections[s].patch < 0
-            ? NULL
-            : &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)sections[s].patch];
+        sections[s].patch < 0 ? NULL
+                              : &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)sections[s].patch];
     const int32_t *elements = NULL, *patch_of = NULL;
     int64_t first = 0, elements_count = 0;
     switch (sections[s].type) {

@@ -15,8 +15,7 @@ static CwStatus put_text_attribute(hid_t node, const char *name, const char *tex
   CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, padded) >= 0, CW_ERR_LIBRARY,
              "HDF5 cannot write the attribute '%s' = '%s'", name, text);
 done:
-  if (attribute >= 0)
-    H5Aclose(attribute);
+  if (attribute >= 0) H5Aclose(attribute);
   H5Sclose(space);
   H5Tclose(type);
   return status;
@@ -44,8 +43,7 @@ static CwStatus put_data(hid_t node, const char *name, hid_t type, int dimension
     CW_REQUIRE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, CW_ERR_IO,
                "HDF5 cannot write the dataset '%s'", name);
 done:
-  if (set >= 0)
-    H5Dclose(set);
+  if (set >= 0) H5Dclose(set);
   H5Sclose(space);
   H5Pclose(plan);
   return status;
@@ -96,10 +94,8 @@ CwStatus cw_cgns_node(hid_t parent, const char *name, const char *label, const c
     CW_TRY(put_data(group, " data", of, dimensions, size, data));
   }
 done:
-  if (attribute >= 0)
-    H5Aclose(attribute);
-  if (space >= 0)
-    H5Sclose(space);
+  if (attribute >= 0) H5Aclose(attribute);
+  if (space >= 0) H5Sclose(space);
   if (group >= 0 && (!node || status != CW_OK))
     H5Gclose(group);
   else if (node)

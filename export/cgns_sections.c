@@ -12,10 +12,9 @@ int64_t cw_cgns_patch_first(const CwAssembly *a, int patch) {
   return first;
 }
 
-static void add(CwSection *sections, int *count, const char *prefix, const char *name, int type, int nodes,
-                int patch, int64_t *next, int64_t elements) {
-  if (elements == 0)
-    return;
+static void add(CwSection *sections, int *count, const char *prefix, const char *name, int type, int nodes, int patch,
+                int64_t *next, int64_t elements) {
+  if (elements == 0) return;
   CwSection *section = &sections[(*count)++];
   snprintf(section->name, sizeof section->name, "%.22s%.10s", prefix, name);
   section->type = type;

@@ -6,13 +6,7 @@
 #include "export/assembly.h"
 
 // Codes of ElementType_t of the CGNS standard.
-enum {
-  CW_CGNS_TRI_3 = 5,
-  CW_CGNS_QUAD_4 = 7,
-  CW_CGNS_TETRA_4 = 10,
-  CW_CGNS_PYRA_5 = 12,
-  CW_CGNS_PENTA_6 = 14
-};
+enum { CW_CGNS_TRI_3 = 5, CW_CGNS_QUAD_4 = 7, CW_CGNS_TETRA_4 = 10, CW_CGNS_PYRA_5 = 12, CW_CGNS_PENTA_6 = 14 };
 
 typedef struct {
   char name[CW_MESH_NAME_SIZE];

@@ -30,10 +30,8 @@ static CwStatus put_reference_state(hid_t base, const CwCase *table) {
     array = -1;
   }
 done:
-  if (array >= 0)
-    H5Gclose(array);
-  if (state >= 0)
-    H5Gclose(state);
+  if (array >= 0) H5Gclose(array);
+  if (state >= 0) H5Gclose(state);
   return status;
 }
 
@@ -46,8 +44,7 @@ static CwStatus put_equations(hid_t base) {
   CW_TRY(cw_cgns_text(set, "GoverningEquations", "GoverningEquations_t", "NSTurbulent", NULL));
   CW_TRY(cw_cgns_text(set, "TurbulenceModel", "TurbulenceModel_t", "TwoEquation_JonesLaunder", NULL));
 done:
-  if (set >= 0)
-    H5Gclose(set);
+  if (set >= 0) H5Gclose(set);
   return status;
 }
 
@@ -67,8 +64,7 @@ static CwStatus put_families(hid_t base, const CwMesh *mesh) {
     CW_TRY(cw_cgns_node(base, name, "Family_t", "MT", 0, NULL, NULL, NULL));
   }
 done:
-  if (family >= 0)
-    H5Gclose(family);
+  if (family >= 0) H5Gclose(family);
   return status;
 }
 
@@ -84,10 +80,8 @@ static CwStatus put_coordinates(hid_t zone, int64_t points) {
     array = -1;
   }
 done:
-  if (array >= 0)
-    H5Gclose(array);
-  if (grid >= 0)
-    H5Gclose(grid);
+  if (array >= 0) H5Gclose(array);
+  if (grid >= 0) H5Gclose(grid);
   return status;
 }
 
@@ -98,11 +92,10 @@ static CwStatus put_section(hid_t zone, const CwSection *section) {
   const int range[] = {(int)section->first, (int)(section->first + section->count - 1)};
   CW_TRY(cw_cgns_list(zone, section->name, "Elements_t", "I4", 2, code, &elements));
   CW_TRY(cw_cgns_list(elements, "ElementRange", "IndexRange_t", "I4", 2, range, NULL));
-  CW_TRY(cw_cgns_list(elements, "ElementConnectivity", "DataArray_t", "I4",
-                      (hsize_t)(section->count * section->nodes), NULL, NULL));
+  CW_TRY(cw_cgns_list(elements, "ElementConnectivity", "DataArray_t", "I4", (hsize_t)(section->count * section->nodes),
+                      NULL, NULL));
 done:
-  if (elements >= 0)
-    H5Gclose(elements);
+  if (elements >= 0) H5Gclose(elements);
   return status;
 }
 
@@ -118,8 +111,7 @@ static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
   CW_TRY(cw_cgns_node(zone, "ZoneBC", "ZoneBC_t", "MT", 0, NULL, NULL, &all));
   for (int p = 0; p < mesh->patch_count; ++p) {
     const CwPatchPart *sum = &a->patches[p];
-    if (mesh->patches[p].domain != domain || sum->triangles + sum->quads == 0)
-      continue;
+    if (mesh->patches[p].domain != domain || sum->triangles + sum->quads == 0) continue;
     int first = (int)cw_cgns_patch_first(a, p);
     CW_TRY(cw_cgns_text(all, mesh->patches[p].name, "BC_t", "FamilySpecified", &one));
     CW_TRY(put_point_range(one, (int[]){first, first + (int)(sum->triangles + sum->quads) - 1}));
@@ -129,10 +121,8 @@ static CwStatus put_conditions(hid_t zone, const CwAssembly *a, int domain) {
     one = -1;
   }
 done:
-  if (one >= 0)
-    H5Gclose(one);
-  if (all >= 0)
-    H5Gclose(all);
+  if (one >= 0) H5Gclose(one);
+  if (all >= 0) H5Gclose(all);
   return status;
 }
 
@@ -149,21 +139,18 @@ static CwStatus put_connection(hid_t all, const CwAssembly *a, int number, const
   int first = (int)cw_cgns_patch_first(a, patch[side]);
   char name[CW_MESH_NAME_SIZE];
   CW_NEW(donors, count);
-  for (int64_t i = 0; i < count; ++i)
-    donors[i] = (int32_t)(donor_first + interface->donor[side][i]);
+  for (int64_t i = 0; i < count; ++i) donors[i] = (int32_t)(donor_first + interface->donor[side][i]);
   snprintf(name, sizeof name, "%.14s_to_%.14s", here->name, there->name);
   CW_TRY(cw_cgns_text(all, name, "GridConnectivity_t", there->zone, &one));
   CW_TRY(cw_cgns_text(one, "GridConnectivityType", "GridConnectivityType_t", "Abutting", NULL));
   CW_TRY(cw_cgns_text(one, "GridLocation", "GridLocation_t", "FaceCenter", NULL));
   CW_TRY(put_point_range(one, (int[]){first, first + (int)count - 1}));
-  CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors,
-                      NULL));
+  CW_TRY(cw_cgns_node(one, "CellListDonor", "IndexArray_t", "I4", 2, (hsize_t[]){(hsize_t)count, 1}, donors, NULL));
   CW_TRY(cw_cgns_node(one, "InterpolantsDonor", "DataArray_t", "R8", 2, (hsize_t[]){(hsize_t)count, 2},
                       interface->place[side], NULL));
 done:
   free(donors);
-  if (one >= 0)
-    H5Gclose(one);
+  if (one >= 0) H5Gclose(one);
   return status;
 }
 
@@ -176,8 +163,7 @@ static CwStatus put_connections(hid_t zone, const CwAssembly *a, const CwInterfa
       if (a->mesh->patches[a->mesh->interfaces[i].patch[side]].domain == domain)
         CW_TRY(put_connection(all, a, i, &interfaces[i], side));
 done:
-  if (all >= 0)
-    H5Gclose(all);
+  if (all >= 0) H5Gclose(all);
   return status;
 }
 
@@ -189,14 +175,11 @@ static CwStatus put_rotation(hid_t zone, double speed) {
   CW_TRY(cw_cgns_exponents(array, (float[]){0, 1, 0, 0, 0}));
   H5Gclose(array);
   array = -1;
-  CW_TRY(cw_cgns_list(rotating, "RotationRateVector", "DataArray_t", "R4", 3, (float[]){0, 0, (float)speed},
-                      &array));
+  CW_TRY(cw_cgns_list(rotating, "RotationRateVector", "DataArray_t", "R4", 3, (float[]){0, 0, (float)speed}, &array));
   CW_TRY(cw_cgns_exponents(array, (float[]){0, 0, -1, 0, 1}));
 done:
-  if (array >= 0)
-    H5Gclose(array);
-  if (rotating >= 0)
-    H5Gclose(rotating);
+  if (array >= 0) H5Gclose(array);
+  if (rotating >= 0) H5Gclose(rotating);
   return status;
 }
 
@@ -210,8 +193,7 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
   char family[CW_MESH_NAME_SIZE];
   int64_t elements = total->cells;
   for (int p = 0; p < a->mesh->patch_count; ++p)
-    if (a->mesh->patches[p].domain == domain)
-      elements += a->patches[p].triangles + a->patches[p].quads;
+    if (a->mesh->patches[p].domain == domain) elements += a->patches[p].triangles + a->patches[p].quads;
   CW_REQUIRE(total->points <= INT32_MAX && elements <= INT32_MAX, CW_ERR_EXPORT,
              "domain %s: %lld points and %lld elements; CGNS with 32-bit numbers allows %d",
              a->mesh->domains[domain].name, (long long)total->points, (long long)elements, INT32_MAX);
@@ -222,21 +204,17 @@ static CwStatus put_zone(hid_t base, const CwAssembly *a, const CwInterface *int
   snprintf(family, sizeof family, "%.20s_domain", a->mesh->domains[domain].name);
   CW_TRY(cw_cgns_text(zone, "FamilyName", "FamilyName_t", family, NULL));
   CW_TRY(put_coordinates(zone, total->points));
-  for (int s = 0; s < section_count; ++s)
-    CW_TRY(put_section(zone, &sections[s]));
+  for (int s = 0; s < section_count; ++s) CW_TRY(put_section(zone, &sections[s]));
   CW_TRY(put_conditions(zone, a, domain));
   CW_TRY(put_connections(zone, a, interfaces, domain));
-  if (domain == CW_MESH_ROTOR)
-    CW_TRY(put_rotation(zone, table->operating_point.speed));
+  if (domain == CW_MESH_ROTOR) CW_TRY(put_rotation(zone, table->operating_point.speed));
 done:
   free(sections);
-  if (zone >= 0)
-    H5Gclose(zone);
+  if (zone >= 0) H5Gclose(zone);
   return status;
 }
 
-CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interfaces,
-                            const CwCase *table) {
+CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInterface *interfaces, const CwCase *table) {
   CwStatus status = CW_OK;
   hid_t file = -1, base = -1;
   const int dimensions[] = {3, 3};
@@ -244,23 +222,18 @@ CwStatus cw_cgns_tree_write(const char *path, const CwAssembly *a, const CwInter
                                     "Second                          ", "Kelvin                          ",
                                     "Radian                          "};
   char packed[5 * 32];
-  for (int i = 0; i < 5; ++i)
-    memcpy(packed + 32 * i, units[i], 32);
+  for (int i = 0; i < 5; ++i) memcpy(packed + 32 * i, units[i], 32);
   CW_TRY(cw_cgns_create(path, &file));
   CW_TRY(cw_cgns_list(file, "pump", "CGNSBase_t", "I4", 2, dimensions, &base));
   CW_TRY(cw_cgns_text(base, "SimulationType", "SimulationType_t", "NonTimeAccurate", NULL));
   CW_TRY(cw_cgns_text(base, "DataClass", "DataClass_t", "Dimensional", NULL));
-  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed,
-                      NULL));
+  CW_TRY(cw_cgns_node(base, "DimensionalUnits", "DimensionalUnits_t", "C1", 2, (hsize_t[]){5, 32}, packed, NULL));
   CW_TRY(put_equations(base));
   CW_TRY(put_reference_state(base, table));
   CW_TRY(put_families(base, a->mesh));
-  for (int d = 0; d < a->mesh->domain_count; ++d)
-    CW_TRY(put_zone(base, a, interfaces, table, d));
+  for (int d = 0; d < a->mesh->domain_count; ++d) CW_TRY(put_zone(base, a, interfaces, table, d));
 done:
-  if (base >= 0)
-    H5Gclose(base);
-  if (file >= 0 && H5Fclose(file) < 0 && status == CW_OK)
-    status = CW_FAIL(CW_ERR_IO, "%s: cannot be written", path);
+  if (base >= 0) H5Gclose(base);
+  if (file >= 0 && H5Fclose(file) < 0 && status == CW_OK) status = CW_FAIL(CW_ERR_IO, "%s: cannot be written", path);
   return status;
 }

@@ -9,19 +9,18 @@ CwStatus cw_design_read(const char *path, CwDesign *design, CwCase *table) {
   const struct {
     const char *key;
     double *value;
-  } always[] = {
-      {"interface_radius_m", &design->interface_radius},
-      {"impeller_tip_speed_m_per_s", &design->tip_speed},
-      {"relative_speed_m_per_s", &design->relative_speed},
-      {"volute_speed_m_per_s", &design->volute_speed},
-      {"suction_speed_m_per_s", &design->suction_speed},
-      {"discharge_speed_m_per_s", &design->discharge_speed},
-      {"predicted_head_m", &design->predicted_head},
-  }, where_open[] = {
-      {"inlet_diameter_m", &table->impeller.inlet_diameter},
-      {"outlet_diameter_m", &table->impeller.outlet_diameter},
-      {"outlet_width_m", &table->impeller.outlet_width},
-  };
+  } always[] =
+      {
+          {"interface_radius_m", &design->interface_radius},   {"impeller_tip_speed_m_per_s", &design->tip_speed},
+          {"relative_speed_m_per_s", &design->relative_speed}, {"volute_speed_m_per_s", &design->volute_speed},
+          {"suction_speed_m_per_s", &design->suction_speed},   {"discharge_speed_m_per_s", &design->discharge_speed},
+          {"predicted_head_m", &design->predicted_head},
+      },
+    where_open[] = {
+        {"inlet_diameter_m", &table->impeller.inlet_diameter},
+        {"outlet_diameter_m", &table->impeller.outlet_diameter},
+        {"outlet_width_m", &table->impeller.outlet_width},
+    };
   CW_TRY(cw_json_read(path, &root));
   for (size_t i = 0; i < sizeof always / sizeof *always; ++i)
     CW_TRY(cw_json_positive(root, path, always[i].key, always[i].value));

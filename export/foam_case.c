@@ -66,9 +66,7 @@ static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start
     put_wall_velocity(out, patch, start);
     break;
   case CW_KIND_INLET:
-    fprintf(
-        out,
-        "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n");
+    fprintf(out, "        type            pressureInletOutletVelocity;\n        value           uniform (0 0 0);\n");
     break;
   case CW_KIND_OUTLET:
     fprintf(out,
@@ -85,8 +83,7 @@ static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start
 static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *start) {
   const CwWalls *walls = &start->table->walls;
   if (patch->kind != CW_KIND_WALL)
-    fprintf(out, "        type            %s;\n",
-            patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
+    fprintf(out, "        type            %s;\n", patch->kind == CW_KIND_INTERFACE ? "cyclicAMI" : "calculated");
   else if (cw_wall_group(walls, patch->name)->y_plus < CW_Y_PLUS_LAMINAR)
     fprintf(out, "        type            nutUSpaldingWallFunction;\n");
   else if (walls->treatment == CW_WALL_FUNCTION_ROUGH)
@@ -102,21 +99,16 @@ static void put_viscosity(FILE *out, const CwMeshPatch *patch, const Start *star
 static void put_scalar(FILE *out, Field field, const CwMeshPatch *patch, double inlet, double inside) {
   const char *type = "cyclicAMI";
   double value = inside;
-  if (patch->kind == CW_KIND_WALL)
-    type = fields[field].wall;
+  if (patch->kind == CW_KIND_WALL) type = fields[field].wall;
   if (patch->kind == CW_KIND_INLET || patch->kind == CW_KIND_OUTLET) {
     type = "inletOutlet";
     value = inlet;
-    if (field == FIELD_P)
-      type = patch->kind == CW_KIND_INLET ? "totalPressure" : "zeroGradient";
+    if (field == FIELD_P) type = patch->kind == CW_KIND_INLET ? "totalPressure" : "zeroGradient";
   }
   fprintf(out, "        type            %s;\n", type);
-  if (strcmp(type, "inletOutlet") == 0)
-    fprintf(out, "        inletValue      uniform %.9g;\n", value);
-  if (strcmp(type, "totalPressure") == 0)
-    fprintf(out, "        p0              uniform 0;\n");
-  if (strcmp(type, "zeroGradient") != 0)
-    fprintf(out, "        value           uniform %.9g;\n", value);
+  if (strcmp(type, "inletOutlet") == 0) fprintf(out, "        inletValue      uniform %.9g;\n", value);
+  if (strcmp(type, "totalPressure") == 0) fprintf(out, "        p0              uniform 0;\n");
+  if (strcmp(type, "zeroGradient") != 0) fprintf(out, "        value           uniform %.9g;\n", value);
 }
 
 // Literal values throughout: readers of such files do not expand macros.
@@ -127,12 +119,9 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
   FILE *out = open_memstream(&text, &size);
   double inlet = 0, inside = 0;
   CW_REQUIRE(out, CW_ERR_MEMORY, "out of memory");
-  if (field == FIELD_K)
-    inlet = start->inlet.k, inside = start->inside.k;
-  if (field == FIELD_EPSILON)
-    inlet = start->inlet.epsilon, inside = start->inside.epsilon;
-  if (field == FIELD_OMEGA)
-    inlet = start->inlet.omega, inside = start->inside.omega;
+  if (field == FIELD_K) inlet = start->inlet.k, inside = start->inside.k;
+  if (field == FIELD_EPSILON) inlet = start->inlet.epsilon, inside = start->inside.epsilon;
+  if (field == FIELD_OMEGA) inlet = start->inlet.omega, inside = start->inside.omega;
   fprintf(out,
           "// SPDX-License-Identifier: AGPL-3.0-or-later\nFoamFile\n{\n    version     2.0;\n    format      "
           "ascii;\n"
@@ -145,8 +134,7 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
   fprintf(out, ";\nboundaryField\n{\n");
   for (int p = 0; p < start->assembly->mesh->patch_count; ++p) {
     const CwMeshPatch *patch = &start->assembly->mesh->patches[p];
-    if (!cw_patch_is_there(start->assembly, p))
-      continue;
+    if (!cw_patch_is_there(start->assembly, p)) continue;
     fprintf(out, "    %s\n    {\n", patch->name);
     if (field == FIELD_U)
       put_velocity(out, patch, start);
@@ -161,8 +149,7 @@ static CwStatus write_field(const char *folder, Field field, const Start *start)
   CW_REQUIRE(asprintf(&path, "%s/%s", folder, fields[field].name) >= 0, CW_ERR_MEMORY, "out of memory");
   CW_TRY(cw_text_write(path, text, 0));
 done:
-  if (out)
-    fclose(out);
+  if (out) fclose(out);
   free(path);
   free(text);
   return status;
@@ -221,32 +208,28 @@ done:
   return status;
 }
 
-CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design,
-                            const CwAssembly *a) {
+CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
   char *start_folder = NULL;
   const double intensity = 0.05;
   // Mixing lengths: 7 % of the suction pipe's diameter, and of the width of the channels inside.
-  Start start = {
-      .table = table,
-      .assembly = a,
-      .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
-      .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
+  Start start = {.table = table,
+                 .assembly = a,
+                 .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
+                 .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
   const CwPatchPart *outlet = &a->patches[cw_mesh_end(a->mesh, CW_KIND_OUTLET)];
   for (int k = 0; k < 3; ++k)
-    start.outlet_velocity[k] =
-        table->operating_point.flow_rate * outlet->vector[k] / (outlet->area * outlet->area);
+    start.outlet_velocity[k] = table->operating_point.flow_rate * outlet->vector[k] / (outlet->area * outlet->area);
   CW_TRY(set_values(table, a, &values));
   CW_TRY(cw_templates_write("openfoam/", folder, &values));
   for (start.moving = 0; start.moving < 2; ++start.moving) {
     free(start_folder);
     start_folder = NULL;
-    CW_REQUIRE(asprintf(&start_folder, "%s%s/0", folder, start.moving ? "/transient" : "") >= 0,
-               CW_ERR_MEMORY, "out of memory");
+    CW_REQUIRE(asprintf(&start_folder, "%s%s/0", folder, start.moving ? "/transient" : "") >= 0, CW_ERR_MEMORY,
+               "out of memory");
     CW_TRY(cw_make_directory(start_folder));
-    for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f)
-      CW_TRY(write_field(start_folder, (Field)f, &start));
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) CW_TRY(write_field(start_folder, (Field)f, &start));
   }
 done:
   free(start_folder);

@@ -22,10 +22,8 @@ static int make_header(const CwFoamMesh *mesh, CwFoamFile f, char text[HEADER_SI
                                    mesh->assembly->mesh->domain_count};
   char note[200] = "";
   if (f == CW_FOAM_OWNER || f == CW_FOAM_NEIGHBOUR)
-    snprintf(note, sizeof note,
-             "    note        \"nPoints:%lld  nCells:%lld  nFaces:%lld  nInternalFaces:%lld\";\n",
-             (long long)mesh->points, (long long)mesh->cells, (long long)mesh->faces,
-             (long long)mesh->inner_faces);
+    snprintf(note, sizeof note, "    note        \"nPoints:%lld  nCells:%lld  nFaces:%lld  nInternalFaces:%lld\";\n",
+             (long long)mesh->points, (long long)mesh->cells, (long long)mesh->faces, (long long)mesh->inner_faces);
   return snprintf(text, HEADER_SIZE,
                   "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       %s;\n%s"
                   "    arch        \"LSB;label=32;scalar=64\";\n    location    \"constant/polyMesh\";\n"
@@ -76,8 +74,7 @@ CwStatus cw_foam_mesh_plan(const CwAssembly *a, const char *folder, CwFoamMesh *
   CW_REQUIRE(label <= INT32_MAX && mesh->points <= INT32_MAX, CW_ERR_EXPORT,
              "%lld face corners and %lld points; OpenFOAM with 32-bit labels allows %d", (long long)label,
              (long long)mesh->points, INT32_MAX);
-  for (int f = 0; f < CW_FOAM_FILES; ++f)
-    mesh->start[f] = make_header(mesh, (CwFoamFile)f, text);
+  for (int f = 0; f < CW_FOAM_FILES; ++f) mesh->start[f] = make_header(mesh, (CwFoamFile)f, text);
   int64_t zone = mesh->start[CW_FOAM_ZONES];
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     mesh->zone_start[d] = zone + make_zone_head(mesh, d, text);
@@ -95,10 +92,8 @@ static CwStatus put(const CwFoamMesh *mesh, CwFoamFile f, const void *bytes, int
   const char *from = bytes;
   while (count > 0) {
     ssize_t done_now = pwrite(mesh->file[f], from, (size_t)(count > 1 << 30 ? 1 << 30 : count), at);
-    if (done_now < 0 && errno == EINTR)
-      continue;
-    CW_REQUIRE(done_now > 0, CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f],
-               strerror(errno));
+    if (done_now < 0 && errno == EINTR) continue;
+    CW_REQUIRE(done_now > 0, CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f], strerror(errno));
     from += done_now;
     at += done_now;
     count -= done_now;
@@ -122,8 +117,7 @@ done:
 CwStatus cw_foam_mesh_open(CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
   for (int f = 0; f < CW_FOAM_FILES; ++f)
-    if (!mesh->file[f])
-      CW_TRY(open_file(mesh, f, 0));
+    if (!mesh->file[f]) CW_TRY(open_file(mesh, f, 0));
 done:
   return status;
 }
@@ -132,8 +126,7 @@ CwStatus cw_foam_mesh_close(CwFoamMesh *mesh) {
   CwStatus status = CW_OK;
   for (int f = 0; f < CW_FOAM_FILES; ++f)
     if (mesh->file[f] && close(mesh->file[f]) != 0 && status == CW_OK)
-      status =
-          CW_FAIL(CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f], strerror(errno));
+      status = CW_FAIL(CW_ERR_IO, "%s/%s: cannot be written: %s", mesh->folder, file_names[f], strerror(errno));
   free(mesh->folder);
   free(mesh->first_face);
   free(mesh->first_label);
@@ -161,8 +154,7 @@ static CwStatus write_boundary(const CwFoamMesh *mesh) {
   for (int p = 0; p < input->patch_count; ++p) {
     const CwMeshPatch *patch = &input->patches[p];
     int64_t count = mesh->assembly->patches[p].triangles + mesh->assembly->patches[p].quads;
-    if (count == 0)
-      continue;
+    if (count == 0) continue;
     fprintf(out, "    %s\n    {\n", patch->name);
     int side = 0, between = cw_mesh_interface_of(input, p, &side);
     if (patch->kind == CW_KIND_INTERFACE)
@@ -253,8 +245,8 @@ static void stretch_free(Stretch *s) {
   memset(s, 0, sizeof *s);
 }
 
-static inline void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data,
-                               int32_t cell, int face, int64_t neighbour) {
+static inline void stretch_add(Stretch *s, const CwFoamMesh *mesh, int region, const CwRegionData *data, int32_t cell,
+                               int face, int64_t neighbour) {
   const CwAssembly *a = mesh->assembly;
   int64_t points_before = a->totals[data->domain].first_point;
   int count;
@@ -273,8 +265,7 @@ static CwStatus stretch_write(const Stretch *s, const CwFoamMesh *mesh, int64_t 
   CW_TRY(put(mesh, CW_FOAM_FACES, s->labels, 4 * s->labels_used, mesh->label_start + 4 * s->first_label));
   CW_TRY(put(mesh, CW_FOAM_OWNER, s->owners, 4 * s->faces, mesh->start[CW_FOAM_OWNER] + 4 * first_face));
   if (is_inner)
-    CW_TRY(put(mesh, CW_FOAM_NEIGHBOUR, s->neighbours, 4 * s->faces,
-               mesh->start[CW_FOAM_NEIGHBOUR] + 4 * first_face));
+    CW_TRY(put(mesh, CW_FOAM_NEIGHBOUR, s->neighbours, 4 * s->faces, mesh->start[CW_FOAM_NEIGHBOUR] + 4 * first_face));
 done:
   return status;
 }
@@ -294,10 +285,8 @@ static CwStatus write_inner_faces(const CwFoamMesh *mesh, int region, const CwRe
     for (int f = 0; f < CW_CELL_FACES; ++f) {
       int32_t across = faces->across[CW_CELL_FACES * cell + f];
       int64_t number = across >= 0 ? place->cell + across : -1;
-      if (across == CW_ACROSS_OPEN)
-        number = mesh->assembly->across[open++];
-      if (number <= place->cell + cell)
-        continue;
+      if (across == CW_ACROSS_OPEN) number = mesh->assembly->across[open++];
+      if (number <= place->cell + cell) continue;
       int at = count++;
       for (; at > 0 && other[at - 1] > number; --at) {
         other[at] = other[at - 1];
@@ -306,8 +295,7 @@ static CwStatus write_inner_faces(const CwFoamMesh *mesh, int region, const CwRe
       other[at] = number;
       face[at] = f;
     }
-    for (int i = 0; i < count; ++i)
-      stretch_add(&s, mesh, region, data, cell, face[i], other[i]);
+    for (int i = 0; i < count; ++i) stretch_add(&s, mesh, region, data, cell, face[i], other[i]);
   }
   CW_TRY(stretch_write(&s, mesh, mesh->first_face[region], 1));
 done:
@@ -322,18 +310,15 @@ static CwStatus write_patch_faces(const CwFoamMesh *mesh, int region, const CwRe
   const CwAssembly *a = mesh->assembly;
   const CwPatchPart *part = &a->parts[(size_t)region * (size_t)a->mesh->patch_count + (size_t)patch];
   int local = patch - a->mesh->domains[data->domain].first_patch;
-  if (part->triangles + part->quads == 0)
-    goto done;
-  CW_TRY(stretch_new(part->triangles, part->quads,
-                     mesh->patch_label[patch] + 3 * part->triangle + 4 * part->quad, &s));
+  if (part->triangles + part->quads == 0) goto done;
+  CW_TRY(stretch_new(part->triangles, part->quads, mesh->patch_label[patch] + 3 * part->triangle + 4 * part->quad, &s));
   for (int32_t i = 0; i < data->triangle_count; ++i)
     if (data->triangle_patch[i] == local)
       stretch_add(&s, mesh, region, data, faces->triangle_face[i] / CW_CELL_FACES,
                   faces->triangle_face[i] % CW_CELL_FACES, -1);
   for (int32_t i = 0; i < data->quad_count; ++i)
     if (data->quad_patch[i] == local)
-      stretch_add(&s, mesh, region, data, faces->quad_face[i] / CW_CELL_FACES,
-                  faces->quad_face[i] % CW_CELL_FACES, -1);
+      stretch_add(&s, mesh, region, data, faces->quad_face[i] / CW_CELL_FACES, faces->quad_face[i] % CW_CELL_FACES, -1);
   CW_TRY(stretch_write(&s, mesh, mesh->patch_face[patch] + part->triangle + part->quad, 0));
 done:
   stretch_free(&s);
@@ -345,11 +330,9 @@ static CwStatus write_zone(const CwFoamMesh *mesh, int region, const CwRegionDat
   int32_t *cells = NULL, count = cw_region_cell_count(data);
   int64_t first = mesh->assembly->places[region].cell;
   int64_t before = 0; // cells of other domains
-  for (int d = 0; d < data->domain; ++d)
-    before += mesh->assembly->totals[d].cells;
+  for (int d = 0; d < data->domain; ++d) before += mesh->assembly->totals[d].cells;
   CW_NEW_UNSET(cells, count);
-  for (int32_t i = 0; i < count; ++i)
-    cells[i] = (int32_t)(first + i);
+  for (int32_t i = 0; i < count; ++i) cells[i] = (int32_t)(first + i);
   CW_TRY(put(mesh, CW_FOAM_ZONES, cells, 4 * (int64_t)count, mesh->zone_start[data->domain] + 4 * (first - before)));
 done:
   free(cells);
@@ -363,8 +346,7 @@ CwStatus cw_foam_mesh_write_region(const CwFoamMesh *mesh, int region, const CwR
   const CwMeshDomain *domain = &a->mesh->domains[data->domain];
   int64_t first_point = a->totals[data->domain].first_point + a->places[region].own_point;
   CW_TRY(put(mesh, CW_FOAM_POINTS, data->points + data->shared_count,
-             24 * (int64_t)(data->point_count - data->shared_count),
-             mesh->start[CW_FOAM_POINTS] + 24 * first_point));
+             24 * (int64_t)(data->point_count - data->shared_count), mesh->start[CW_FOAM_POINTS] + 24 * first_point));
   CW_TRY(write_zone(mesh, region, data));
   CW_TRY(write_inner_faces(mesh, region, data, faces));
   for (int p = domain->first_patch; p < domain->first_patch + domain->patch_count; ++p)

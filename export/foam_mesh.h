@@ -22,10 +22,10 @@ typedef struct {
   char *folder;
   int file[CW_FOAM_FILES];                           // descriptors, 0 if not open
   int64_t points, cells, faces, inner_faces, labels; // labels: entries of all faces
-  int64_t *first_face, *first_label; // by region: its first inner face, and label in the list of all faces
-  int64_t *patch_face, *patch_label; // by patch
-  int64_t start[CW_FOAM_FILES];      // byte at which the first value stands
-  int64_t label_start;               // that of the labels in `faces`, whose first values are offsets
+  int64_t *first_face, *first_label;   // by region: its first inner face, and label in the list of all faces
+  int64_t *patch_face, *patch_label;   // by patch
+  int64_t start[CW_FOAM_FILES];        // byte at which the first value stands
+  int64_t label_start;                 // that of the labels in `faces`, whose first values are offsets
   int64_t zone_start[CW_DOMAINS_MOST]; // that of the cells of each domain in `cellZones`
 } CwFoamMesh;
 

@@ -27,8 +27,7 @@ CwStatus cw_folder_replace(const char *from, const char *to) {
   char *old = NULL;
   CW_REQUIRE(asprintf(&old, "%s.old", to) >= 0, CW_ERR_MEMORY, "out of memory");
   CW_TRY(cw_folder_remove(old));
-  CW_REQUIRE(rename(to, old) == 0 || errno == ENOENT, CW_ERR_IO, "%s: cannot be moved aside: %s", to,
-             strerror(errno));
+  CW_REQUIRE(rename(to, old) == 0 || errno == ENOENT, CW_ERR_IO, "%s: cannot be moved aside: %s", to, strerror(errno));
   CW_REQUIRE(rename(from, to) == 0, CW_ERR_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));
   CW_TRY(cw_folder_remove(old));
 done:

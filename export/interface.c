@@ -76,8 +76,7 @@ static void bin_face(const CwInterface *in, const Bins *bins, const CwInterfaceF
       high[k] = within(high[k], bins->number[k]);
     }
   }
-  if (high[0] >= low[0] + bins->number[0])
-    high[0] = low[0] + bins->number[0] - 1;
+  if (high[0] >= low[0] + bins->number[0]) high[0] = low[0] + bins->number[0] - 1;
   for (int a = low[0]; a <= high[0]; ++a)
     for (int h = low[1]; h <= high[1]; ++h) {
       int bin = around(bins, a) * bins->number[1] + h;
@@ -104,13 +103,10 @@ static CwStatus make_bins(const CwInterface *in, const CwInterfaceFace *faces, i
   bins->step[1] = height / bins->number[1] * (1 + 1e-12);
   int bin_count = bins->number[0] * bins->number[1];
   CW_NEW(bins->start, bin_count + 1);
-  for (int64_t i = 0; i < count; ++i)
-    bin_face(in, bins, &faces[i], i, bins->start, NULL);
-  for (int b = 0; b < bin_count; ++b)
-    bins->start[b + 1] += bins->start[b];
+  for (int64_t i = 0; i < count; ++i) bin_face(in, bins, &faces[i], i, bins->start, NULL);
+  for (int b = 0; b < bin_count; ++b) bins->start[b + 1] += bins->start[b];
   CW_NEW(bins->faces, bins->start[bin_count]);
-  for (int64_t i = 0; i < count; ++i)
-    bin_face(in, bins, &faces[i], i, bins->start, bins->faces);
+  for (int64_t i = 0; i < count; ++i) bin_face(in, bins, &faces[i], i, bins->start, bins->faces);
   // Each start has moved to the end of its bin: shift back.
   memmove(bins->start + 1, bins->start, (size_t)bin_count * sizeof *bins->start);
   bins->start[0] = 0;
@@ -136,14 +132,12 @@ static double locate(const CwInterface *in, const CwInterfaceFace *face, const d
       residual[k] = x[k] - f[0][k] - r * (f[1][k] - f[0][k]) - s * along_s - r * s * bend;
     }
     double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    if (determinant == 0)
-      return -INFINITY;
+    if (determinant == 0) return -INFINITY;
     double dr = (residual[0] * m[1][1] - residual[1] * m[0][1]) / determinant;
     double ds = (m[0][0] * residual[1] - m[1][0] * residual[0]) / determinant;
     r += dr;
     s += ds;
-    if (fabs(dr) + fabs(ds) < 1e-13)
-      break;
+    if (fabs(dr) + fabs(ds) < 1e-13) break;
   }
   rs[0] = r;
   rs[1] = s;
@@ -153,11 +147,10 @@ static double locate(const CwInterface *in, const CwInterfaceFace *face, const d
 
 // The donor that holds the point, or where rounding leaves it just outside all of them, the nearest in its
 // own parameters. Looks into wider rings of bins until one has been found.
-static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInterfaceFace *donors,
-                          const double point[2], double rs[2]) {
+static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInterfaceFace *donors, const double point[2],
+                          double rs[2]) {
   int a0 = bin_at(bins, 0, point[0]), h0 = within(bin_at(bins, 1, point[1]), bins->number[1]);
-  if (!bins->round)
-    a0 = within(a0, bins->number[0]);
+  if (!bins->round) a0 = within(a0, bins->number[0]);
   int64_t best = -1;
   double best_inside = -INFINITY;
   int widest = bins->number[0] > bins->number[1] ? bins->number[0] : bins->number[1];
@@ -166,8 +159,7 @@ static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInter
       for (int h = h0 - ring; h <= h0 + ring; ++h) {
         int rim = abs(a - a0) == ring || abs(h - h0) == ring;
         int off = !bins->round && (a < 0 || a >= bins->number[0]);
-        if (!rim || off || h < 0 || h >= bins->number[1])
-          continue;
+        if (!rim || off || h < 0 || h >= bins->number[1]) continue;
         int bin = around(bins, a) * bins->number[1] + h;
         for (int64_t i = bins->start[bin]; i < bins->start[bin + 1]; ++i) {
           double here[2] = {0};
@@ -179,11 +171,9 @@ static int64_t find_donor(const CwInterface *in, const Bins *bins, const CwInter
           }
         }
       }
-    if (best_inside > -1e-6 || (best >= 0 && ring > 0))
-      break;
+    if (best_inside > -1e-6 || (best >= 0 && ring > 0)) break;
   }
-  for (int k = 0; k < 2; ++k)
-    rs[k] = fmin(1, fmax(0, rs[k]));
+  for (int k = 0; k < 2; ++k) rs[k] = fmin(1, fmax(0, rs[k]));
   return best;
 }
 
@@ -194,8 +184,7 @@ static void make_plane(const CwAssembly *a, int number, CwInterface *in) {
   int least = 0;
   for (int64_t i = 0; i < in->count[0]; ++i)
     for (int n = 0; n < a->interface[number][0][i].count; ++n, ++nodes)
-      for (int k = 0; k < 3; ++k)
-        in->centre[k] += a->interface[number][0][i].nodes[n][k];
+      for (int k = 0; k < 3; ++k) in->centre[k] += a->interface[number][0][i].nodes[n][k];
   for (int k = 0; k < 3; ++k) {
     in->centre[k] /= nodes;
     length += part->vector[k] * part->vector[k];
@@ -203,23 +192,18 @@ static void make_plane(const CwAssembly *a, int number, CwInterface *in) {
   double *n = in->axis[2], *u = in->axis[0], *v = in->axis[1];
   for (int k = 0; k < 3; ++k) {
     n[k] = part->vector[k] / sqrt(length);
-    if (fabs(n[k]) < fabs(n[least]))
-      least = k;
+    if (fabs(n[k]) < fabs(n[least])) least = k;
   }
   double across = sqrt(1 - n[least] * n[least]);
-  for (int k = 0; k < 3; ++k)
-    u[k] = ((k == least) - n[least] * n[k]) / across;
-  for (int k = 0; k < 3; ++k)
-    v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+  for (int k = 0; k < 3; ++k) u[k] = ((k == least) - n[least] * n[k]) / across;
+  for (int k = 0; k < 3; ++k) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
 }
 
 // How far a node is off the surface, m.
 static double off_surface(const CwInterface *in, const double x[3]) {
-  if (!in->is_flat)
-    return fabs(hypot(x[0], x[1]) - in->radius);
+  if (!in->is_flat) return fabs(hypot(x[0], x[1]) - in->radius);
   double off = 0;
-  for (int k = 0; k < 3; ++k)
-    off += in->axis[2][k] * (x[k] - in->centre[k]);
+  for (int k = 0; k < 3; ++k) off += in->axis[2][k] * (x[k] - in->centre[k]);
   return fabs(off);
 }
 
@@ -277,10 +261,8 @@ static CwStatus find_donors(const CwAssembly *a, int number, int side, CwInterfa
     double flat[4][2], centre[2] = {0};
     unroll(in, &mine[i], flat);
     for (int n = 0; n < mine[i].count; ++n)
-      for (int k = 0; k < 2; ++k)
-        centre[k] += flat[n][k] / mine[i].count;
-    if (!in->is_flat)
-      centre[0] = remainder(centre[0], 2 * M_PI);
+      for (int k = 0; k < 2; ++k) centre[k] += flat[n][k] / mine[i].count;
+    if (!in->is_flat) centre[0] = remainder(centre[0], 2 * M_PI);
     in->donor[side][i] = find_donor(in, &bins, others, centre, in->place[side][i]);
     CW_REQUIRE(in->donor[side][i] >= 0, CW_ERR_INPUT, "interface face %lld has no face on the other side",
                (long long)i);
@@ -299,15 +281,12 @@ CwStatus cw_interface_make(const CwAssembly *a, int number, double radius, CwInt
     const CwPatchPart *sum = &a->patches[a->mesh->interfaces[number].patch[s]];
     in->count[s] = sum->triangles + sum->quads;
   }
-  if (in->is_flat)
-    make_plane(a, number, in);
+  if (in->is_flat) make_plane(a, number, in);
   double size = in->is_flat ? sqrt(a->patches[a->mesh->interfaces[number].patch[0]].area / M_PI) : radius;
-  for (int s = 0; s < 2; ++s)
-    CW_TRY(measure_side(a, number, s, RELATIVE_TOLERANCE * size, in));
+  for (int s = 0; s < 2; ++s) CW_TRY(measure_side(a, number, s, RELATIVE_TOLERANCE * size, in));
   // The ends of a disc are corners of a polygon: those that its rim shares with the other side's.
   CW_TRY(check_ends(a, number, (in->is_flat ? 100 : 1) * RELATIVE_TOLERANCE * size, in));
-  for (int s = 0; s < 2; ++s)
-    CW_TRY(find_donors(a, number, s, in));
+  for (int s = 0; s < 2; ++s) CW_TRY(find_donors(a, number, s, in));
 done:
   return status;
 }

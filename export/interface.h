@@ -7,7 +7,7 @@
 #include "export/assembly.h"
 
 typedef struct {
-  double area;            // m2
+  double area;              // m2
   double least[2], most[2]; // of the nodes in the surface's own coordinates, see CwInterface
 } CwInterfaceSide;
 
@@ -15,8 +15,8 @@ typedef struct {
 // two axes of a flat one.
 typedef struct {
   int is_flat;
-  double radius;                  // of the cylinder, m
-  double centre[3], axis[3][3];   // of the flat surface: two axes in it, and its normal
+  double radius;                // of the cylinder, m
+  double centre[3], axis[3][3]; // of the flat surface: two axes in it, and its normal
   CwInterfaceSide sides[2];
   // By side and face of that side (place in its patch): the face of the other side, and where in it the
   // centre lies (r, s of the CGNS triangle or bilinear quadrilateral, each in 0 to 1).

@@ -12,9 +12,8 @@ int main(int argc, char **argv) {
   CwStatus status = CW_OK;
   static const CwStageUsage usage = {
       .stage = "export",
-      .summary =
-          "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
-          "Runs under mpirun with any number of ranks; what it writes is the same for all.\n",
+      .summary = "Writes RUN/export: pump.cgns, an OpenFOAM case and a CFX set-up from the mesh in RUN/mesh.\n"
+                 "Runs under mpirun with any number of ranks; what it writes is the same for all.\n",
       .reads = {"geometry", "mesh"}};
   CwStageArgs args = {0};
   CwCase table;
@@ -26,8 +25,7 @@ int main(int argc, char **argv) {
   MPI_Comm_rank(ranks.comm, &ranks.rank);
   MPI_Comm_size(ranks.comm, &ranks.size);
   CW_TRY(cw_ranks_agree(&ranks, cw_stage_begin(argc, argv, &usage, ranks.rank == 0, &args, &table)));
-  if (!args.finished)
-    CW_TRY(cw_export_run(&table, args.run_path, &ranks));
+  if (!args.finished) CW_TRY(cw_export_run(&table, args.run_path, &ranks));
 done:;
   int speaks = cw_ranks_speaks_of(&ranks, status);
   int code = status == CW_OK ? 0 : speaks ? cw_log_error(status) : (int)status;

@@ -13,8 +13,8 @@ void cw_orthogonality_start(CwOrthogonality *o) {
 void cw_orthogonality_face(const double area[3], const double from[3], const double to[3], CwOrthogonality *o) {
   const double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
   double along = d[0] * area[0] + d[1] * area[1] + d[2] * area[2];
-  double squares = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) *
-                   (area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+  double squares =
+      (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
   double cosine = squares > 0 ? along / sqrt(squares) : 0;
   o->least = cosine < o->least ? cosine : o->least;
   o->sum += cosine;

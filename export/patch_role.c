@@ -8,8 +8,7 @@
 #include "pipeline/wall_group.h"
 
 int cw_patch_rotates(const CwMeshPatch *patch) {
-  return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL &&
-         strcmp(patch->name, "suction_pipe") != 0;
+  return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && strcmp(patch->name, "suction_pipe") != 0;
 }
 
 int cw_patch_is_shaft(const CwMeshPatch *patch) {

@@ -7,8 +7,7 @@
 CwStatus cw_ranks_agree(const CwRanks *ranks, CwStatus status) {
   int mine = status != CW_OK, any = 0;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, ranks->comm);
-  if (mine)
-    return status;
+  if (mine) return status;
   return any ? CW_FAIL(CW_ERR_RANK, "another rank failed") : CW_OK;
 }
 
@@ -30,8 +29,8 @@ CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count,
   MPI_Type_contiguous((int)size, MPI_BYTE, &type);
   MPI_Type_commit(&type);
   MPI_Allreduce(&count, &sum, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
-  CW_REQUIRE(sum <= INT_MAX, CW_ERR_EXPORT,
-             "%lld faces on dividing planes or interfaces; at most %d are allowed", (long long)sum, INT_MAX);
+  CW_REQUIRE(sum <= INT_MAX, CW_ERR_EXPORT, "%lld faces on dividing planes or interfaces; at most %d are allowed",
+             (long long)sum, INT_MAX);
   if (ranks->rank == 0) {
     *all = calloc(sum ? (size_t)sum : 1, size);
     counts = calloc((size_t)ranks->size, sizeof *counts);
@@ -42,11 +41,9 @@ CwStatus cw_ranks_gather(const CwRanks *ranks, const void *items, int64_t count,
   CW_TRY(cw_ranks_agree(ranks, status));
   MPI_Gather(&mine, 1, MPI_INT, counts, 1, MPI_INT, 0, ranks->comm);
   if (ranks->rank == 0)
-    for (int r = 1; r < ranks->size; ++r)
-      offsets[r] = offsets[r - 1] + counts[r - 1];
+    for (int r = 1; r < ranks->size; ++r) offsets[r] = offsets[r - 1] + counts[r - 1];
   MPI_Gatherv(items, mine, type, *all, counts, offsets, type, 0, ranks->comm);
-  if (ranks->rank == 0)
-    *total = sum;
+  if (ranks->rank == 0) *total = sum;
 done:
   if (status != CW_OK) {
     free(*all);

@@ -34,8 +34,7 @@ static CwStatus check_points(const char *path, const CwRegionData *data) {
   for (int32_t cell = 0, cells = cw_region_cell_count(data); cell < cells; ++cell) {
     int count;
     const int32_t *nodes = cw_cell_nodes(data, cell, &count);
-    for (int i = 0; i < count; ++i)
-      used[nodes[i]] = 1;
+    for (int i = 0; i < count; ++i) used[nodes[i]] = 1;
   }
   for (int32_t p = 0; p < data->point_count; ++p) {
     const double *x = data->points[p];

@@ -6,7 +6,7 @@
 #include "export/assembly.h"
 
 typedef struct {
-  double volume, least_volume; // m3, of its cells
+  double volume, least_volume;   // m3, of its cells
   CwOrthogonality orthogonality; // of the faces between its cells
 } CwRegionFigures;
 

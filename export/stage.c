@@ -92,19 +92,15 @@ static CwStatus write_regions(CwAssembly *assembly, const CwRanks *ranks, const 
   CwStatus status = CW_OK, closed;
   hid_t cgns = -1;
   CwRegionFigures *figures = calloc((size_t)assembly->mesh->region_count, sizeof *figures);
-  if (!figures)
-    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
+  if (!figures) status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %d regions", assembly->mesh->region_count);
   CW_TRY(cw_ranks_agree(ranks, status));
   status = cw_cgns_open(paths->cgns, ranks, &cgns);
-  if (status == CW_OK)
-    status = cw_foam_mesh_open(foam);
+  if (status == CW_OK) status = cw_foam_mesh_open(foam);
   CW_TRY(cw_ranks_agree(ranks, status));
-  if (ranks->rank == 0)
-    status = cw_cgns_write_shared(cgns, assembly);
+  if (ranks->rank == 0) status = cw_cgns_write_shared(cgns, assembly);
   cw_progress_start("check and write the mesh", assembly->mesh->region_count, "regions");
   for (int r = 0; r < assembly->mesh->region_count && status == CW_OK; ++r) {
-    if (cw_ranks_own(ranks, r))
-      status = write_region(assembly, r, cgns, foam, &figures[r]);
+    if (cw_ranks_own(ranks, r)) status = write_region(assembly, r, cgns, foam, &figures[r]);
     cw_progress(r + 1);
   }
   cw_progress_end();
@@ -115,8 +111,7 @@ done:
   }
   closed = cw_foam_mesh_close(foam);
   status = cw_ranks_agree(ranks, status == CW_OK ? closed : status);
-  if (status == CW_OK)
-    cw_region_figures_sum(ranks, figures, assembly);
+  if (status == CW_OK) cw_region_figures_sum(ranks, figures, assembly);
   free(figures);
   return status;
 }
@@ -125,10 +120,10 @@ static CwStatus record_patches(const CwAssembly *a, CwRecord *record) {
   json_t *patches = json_array();
   for (int p = 0; p < a->mesh->patch_count; ++p) {
     const CwPatchPart *sum = &a->patches[p];
-    json_array_append_new(patches, json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name,
-                                             "domain", a->mesh->domains[a->mesh->patches[p].domain].name,
-                                             "triangles", (json_int_t)sum->triangles, "quads",
-                                             (json_int_t)sum->quads, "area_m2", sum->area));
+    json_array_append_new(patches,
+                          json_pack("{s:s, s:s, s:I, s:I, s:f}", "name", a->mesh->patches[p].name, "domain",
+                                    a->mesh->domains[a->mesh->patches[p].domain].name, "triangles",
+                                    (json_int_t)sum->triangles, "quads", (json_int_t)sum->quads, "area_m2", sum->area));
   }
   return cw_record_json(record, "patches", patches);
 }
@@ -137,13 +132,12 @@ static CwStatus record_interfaces(const CwAssembly *a, const CwInterface *interf
   json_t *list = json_array();
   for (int i = 0; i < a->mesh->interface_count; ++i) {
     const int *patch = a->mesh->interfaces[i].patch;
-    json_array_append_new(
-        list, json_pack("{s:[s,s], s:[s,s], s:[f,f], s:[I,I]}", "domains",
-                        a->mesh->domains[a->mesh->patches[patch[0]].domain].name,
-                        a->mesh->domains[a->mesh->patches[patch[1]].domain].name, "patches",
-                        a->mesh->patches[patch[0]].name, a->mesh->patches[patch[1]].name, "areas_m2",
-                        interfaces[i].sides[0].area, interfaces[i].sides[1].area, "faces",
-                        (json_int_t)interfaces[i].count[0], (json_int_t)interfaces[i].count[1]));
+    json_array_append_new(list, json_pack("{s:[s,s], s:[s,s], s:[f,f], s:[I,I]}", "domains",
+                                          a->mesh->domains[a->mesh->patches[patch[0]].domain].name,
+                                          a->mesh->domains[a->mesh->patches[patch[1]].domain].name, "patches",
+                                          a->mesh->patches[patch[0]].name, a->mesh->patches[patch[1]].name, "areas_m2",
+                                          interfaces[i].sides[0].area, interfaces[i].sides[1].area, "faces",
+                                          (json_int_t)interfaces[i].count[0], (json_int_t)interfaces[i].count[1]));
   }
   return cw_record_json(record, "interfaces", list);
 }
@@ -154,14 +148,13 @@ static CwStatus record_results(const CwAssembly *a, const CwInterface *interface
   for (int d = 0; d < a->mesh->domain_count; ++d) {
     const CwDomainTotal *t = &a->totals[d];
     cells += t->cells;
-    CW_TRY(
-        cw_record_json(record, a->mesh->domains[d].name,
-                       json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "points", (json_int_t)t->points,
-                                 "tetrahedra", (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids,
-                                 "prisms", (json_int_t)t->prisms, "volume_m3", t->volume, "solid_volume_m3",
-                                 a->mesh->domains[d].solid_volume, "least_cell_volume_m3", t->least_volume,
-                                 "greatest_non_orthogonality_deg", cw_non_orthogonality_greatest(&t->orthogonality),
-                                 "mean_non_orthogonality_deg", cw_non_orthogonality_mean(&t->orthogonality))));
+    CW_TRY(cw_record_json(record, a->mesh->domains[d].name,
+                          json_pack("{s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "points", (json_int_t)t->points,
+                                    "tetrahedra", (json_int_t)t->tetrahedra, "pyramids", (json_int_t)t->pyramids,
+                                    "prisms", (json_int_t)t->prisms, "volume_m3", t->volume, "solid_volume_m3",
+                                    a->mesh->domains[d].solid_volume, "least_cell_volume_m3", t->least_volume,
+                                    "greatest_non_orthogonality_deg", cw_non_orthogonality_greatest(&t->orthogonality),
+                                    "mean_non_orthogonality_deg", cw_non_orthogonality_mean(&t->orthogonality))));
   }
   CW_TRY(cw_record_integer(record, "cells", cells));
   CW_TRY(cw_record_integer(record, "faces_on_dividing_planes", a->open_count / 2));
@@ -189,8 +182,7 @@ static void warn(const CwAssembly *a, const CwInterface *interfaces) {
                   a->mesh->patches[patch[0]].name, 1e6 * side[1].area, a->mesh->patches[patch[1]].name);
   }
   for (int p = 0; p < a->mesh->patch_count; ++p)
-    if (!cw_patch_is_there(a, p))
-      cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
+    if (!cw_patch_is_there(a, p)) cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
 }
 
 static CwStatus finish_files(const Paths *paths) {
@@ -228,23 +220,19 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   CW_TRY(cw_record_start("export", &record));
   CW_TRY(join(run, "geometry/design.json", &path));
   status = cw_design_read(path, &design, &whole);
-  if (status == CW_OK)
-    status = cw_mesh_manifest_read(run, &mesh);
+  if (status == CW_OK) status = cw_mesh_manifest_read(run, &mesh);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
   checked = cw_seconds();
   status = cw_foam_mesh_plan(&assembly, paths.foam_mesh, &foam);
-  if (status == CW_OK && ranks->rank == 0)
-    status = begin_files(&whole, &design, &assembly, interfaces, &paths, &foam);
+  if (status == CW_OK && ranks->rank == 0) status = begin_files(&whole, &design, &assembly, interfaces, &paths, &foam);
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &paths, &foam));
   written = cw_seconds();
   int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
-  for (int d = 0; d < mesh.domain_count; ++d)
-    cells += assembly.totals[d].cells;
-  for (int i = 0; i < mesh.interface_count; ++i)
-    faces += interfaces[i].count[0] + interfaces[i].count[1];
+  for (int d = 0; d < mesh.domain_count; ++d) cells += assembly.totals[d].cells;
+  for (int i = 0; i < mesh.interface_count; ++i) faces += interfaces[i].count[0] + interfaces[i].count[1];
   MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_INT64_T, MPI_SUM, ranks->comm);
   if (ranks->rank == 0) {
     warn(&assembly, interfaces);
@@ -269,8 +257,7 @@ done:
     rmdir(paths.folder); // only if nothing is in it
   }
   cw_foam_mesh_close(&foam);
-  for (int i = 0; i < CW_DOMAINS_MOST; ++i)
-    cw_interface_free(&interfaces[i]);
+  for (int i = 0; i < CW_DOMAINS_MOST; ++i) cw_interface_free(&interfaces[i]);
   cw_assembly_free(&assembly);
   cw_mesh_free(&mesh);
   cw_record_free(record);

@@ -22,8 +22,7 @@ CwStatus cw_values_set(CwValues *values, const char *key, const char *format, ..
   va_start(arguments, format);
   int length = vasprintf(&grown[values->count].value, format, arguments);
   va_end(arguments);
-  if (length < 0)
-    free(grown[values->count].key);
+  if (length < 0) free(grown[values->count].key);
   CW_REQUIRE(length >= 0, CW_ERR_MEMORY, "out of memory");
   ++values->count;
 done:
@@ -54,8 +53,7 @@ CwStatus cw_template_fill(const char *name, const char *text, const CwValues *va
   while (*text) {
     size_t length = 0;
     if (*text == '@')
-      while (islower((unsigned char)text[1 + length]) || text[1 + length] == '_')
-        ++length;
+      while (islower((unsigned char)text[1 + length]) || text[1 + length] == '_') ++length;
     if (length == 0 || text[1 + length] != '@') {
       fputc(*text++, out);
       continue;
@@ -66,8 +64,7 @@ CwStatus cw_template_fill(const char *name, const char *text, const CwValues *va
     text += length + 2;
   }
 done:
-  if (out && fclose(out) != 0 && status == CW_OK)
-    status = CW_FAIL(CW_ERR_MEMORY, "out of memory");
+  if (out && fclose(out) != 0 && status == CW_OK) status = CW_FAIL(CW_ERR_MEMORY, "out of memory");
   if (status != CW_OK && out) {
     free(*filled);
     *filled = NULL;
@@ -93,10 +90,8 @@ CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValu
   char *path = NULL, *text = NULL;
   for (int i = 0; i < cw_template_count; ++i) {
     const CwTemplate *t = &cw_templates[i];
-    if (strncmp(t->path, prefix, strlen(prefix)) != 0)
-      continue;
-    CW_REQUIRE(asprintf(&path, "%s/%s", folder, t->path + strlen(prefix)) >= 0, CW_ERR_MEMORY,
-               "out of memory");
+    if (strncmp(t->path, prefix, strlen(prefix)) != 0) continue;
+    CW_REQUIRE(asprintf(&path, "%s/%s", folder, t->path + strlen(prefix)) >= 0, CW_ERR_MEMORY, "out of memory");
     char *slash = strrchr(path, '/');
     *slash = '\0';
     CW_TRY(cw_make_directory(path));

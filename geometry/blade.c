@@ -80,8 +80,7 @@ static double master_place(const CwBladeSection *section, double r) {
     const int middle = (low + high) / 2;
     *(section->radius[middle] <= r ? &low : &high) = middle;
   }
-  double q =
-      (low + (r - section->radius[low]) / (section->radius[high] - section->radius[low])) / CW_BLADE_STEPS;
+  double q = (low + (r - section->radius[low]) / (section->radius[high] - section->radius[low])) / CW_BLADE_STEPS;
   for (int i = 0; i < 3; i++) {
     double x[2], dx[2];
     cw_meridian_blade_point(section->meridian, 0.5, q, x, dx);
@@ -100,37 +99,33 @@ static double plan_tangent(const CwBladeSection *section, double q) {
 static double mean_theta(const CwBladeSection *section, double q) {
   int i = (int)(q * CW_BLADE_STEPS);
   i = i < 0 ? 0 : i >= CW_BLADE_STEPS ? CW_BLADE_STEPS - 1 : i;
-  const double begin = (double)i / CW_BLADE_STEPS,
-               span = section->form == CW_BLADE_CYLINDRICAL ? 0.5 : section->span;
+  const double begin = (double)i / CW_BLADE_STEPS, span = section->form == CW_BLADE_CYLINDRICAL ? 0.5 : section->span;
   return section->theta[i] - (q > begin ? wrap_step(section->meridian, span, section->beta, begin, q) : 0);
 }
 
 double cw_blade_beta(const CwBladeSection *section, double p) {
   const double q = section->start + (1 - section->start) * p;
-  if (section->form != CW_BLADE_CYLINDRICAL)
-    return law(section->beta, q);
+  if (section->form != CW_BLADE_CYLINDRICAL) return law(section->beta, q);
   double x[2], dx[2];
   cw_meridian_blade_point(section->meridian, section->span, q, x, dx);
-  return atan(plan_tangent(section, x[0] > section->radius[0] ? master_place(section, x[0]) : 0) *
-              hypot(dx[0], dx[1]) / dx[0]);
+  return atan(plan_tangent(section, x[0] > section->radius[0] ? master_place(section, x[0]) : 0) * hypot(dx[0], dx[1]) /
+              dx[0]);
 }
 
 double cw_blade_theta(const CwBladeSection *section, double p) {
   const double q = section->start + (1 - section->start) * p;
-  if (section->form != CW_BLADE_CYLINDRICAL)
-    return mean_theta(section, q) + section->shift;
+  if (section->form != CW_BLADE_CYLINDRICAL) return mean_theta(section, q) + section->shift;
   double x[2];
   cw_meridian_blade_point(section->meridian, section->span, q, x, NULL);
-  if (x[0] > section->radius[0])
-    return mean_theta(section, master_place(section, x[0])) + section->shift;
+  if (x[0] > section->radius[0]) return mean_theta(section, master_place(section, x[0])) + section->shift;
   // Before the leading edge of mid-span the blade goes on as a logarithmic spiral.
   return section->theta[0] + log(section->radius[0] / x[0]) / plan_tangent(section, 0) + section->shift;
 }
 
 // The blade angles at both ends and the free ordinate that closes the wrap. Returns whether beta stays in
 // range.
-static int close_law(const CwDesign *design, const CwMeridian *meridian, double span, double wrap,
-                     double beta[3], double range[2]) {
+static int close_law(const CwDesign *design, const CwMeridian *meridian, double span, double wrap, double beta[3],
+                     double range[2]) {
   double x[2], middle[2];
   cw_meridian_blade_point(meridian, 0.5, 0, middle, NULL);
   cw_meridian_blade_point(meridian, span, 0, x, NULL);
@@ -156,8 +151,7 @@ static int close_law(const CwDesign *design, const CwMeridian *meridian, double 
   return range[0] >= least_beta && range[1] <= largest_beta && fabs(beta[1] - 45 * degree) < 43.9 * degree;
 }
 
-CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span,
-                          CwBladeSection *section) {
+CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span, CwBladeSection *section) {
   CwStatus status = CW_OK;
   double x[2], dx[2], beta[3], range[2];
   const double place = design->blade_form == CW_BLADE_CYLINDRICAL ? 0.5 : span;
@@ -169,26 +163,24 @@ CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, do
              wrap / degree, beta[0] / degree, beta[2] / degree, range[0] / degree, range[1] / degree, place,
              range[1] > largest_beta ? "raise" : "lower");
   *section = (CwBladeSection){.meridian = meridian, .span = span, .form = design->blade_form};
-  for (int i = 0; i < 3; i++)
-    section->beta[i] = beta[i];
+  for (int i = 0; i < 3; i++) section->beta[i] = beta[i];
   section->theta[CW_BLADE_STEPS] = 0;
   for (int i = CW_BLADE_STEPS; i-- > 0;)
-    section->theta[i] = section->theta[i + 1] + wrap_step(meridian, place, beta, (double)i / CW_BLADE_STEPS,
-                                                          (double)(i + 1) / CW_BLADE_STEPS);
+    section->theta[i] = section->theta[i + 1] +
+                        wrap_step(meridian, place, beta, (double)i / CW_BLADE_STEPS, (double)(i + 1) / CW_BLADE_STEPS);
   for (int i = 0; design->blade_form == CW_BLADE_CYLINDRICAL && i <= CW_BLADE_STEPS; i++) {
     cw_meridian_blade_point(meridian, 0.5, (double)i / CW_BLADE_STEPS, x, NULL);
     section->radius[i] = x[0];
   }
-  section->shift =
-      (span - 0.5) * design->outlet_width * tan(design->lean_angle) / (design->outlet_diameter / 2);
+  section->shift = (span - 0.5) * design->outlet_width * tan(design->lean_angle) / (design->outlet_diameter / 2);
   section->half_leading = design->leading_edge_thickness / 2;
   section->half_largest = design->blade_thickness / 2;
   section->half_trailing = design->trailing_edge_thickness / 2;
   section->thickest_at = design->thickest_at;
   section->end = 1;
   at(section, 0, x, dx);
-  section->nose = design->leading_edge_ratio * section->half_leading * sin(cw_blade_beta(section, 0)) /
-                  hypot(dx[0], dx[1]);
+  section->nose =
+      design->leading_edge_ratio * section->half_leading * sin(cw_blade_beta(section, 0)) / hypot(dx[0], dx[1]);
   if (design->trailing_edge == CW_EDGE_ROUNDED) {
     // A half circle whose foremost point lies on D2.
     const double end_angle = cw_blade_beta(section, 1);
@@ -207,8 +199,8 @@ CwBladeSection cw_blade_splitter(const CwDesign *design, const CwBladeSection *b
   section.start = design->splitter_start;
   section.shift += design->splitter_position * 2 * M_PI / design->blade_count;
   at(&section, 0, x, dx);
-  section.nose = design->leading_edge_ratio * section.half_leading * sin(cw_blade_beta(&section, 0)) /
-                 hypot(dx[0], dx[1]);
+  section.nose =
+      design->leading_edge_ratio * section.half_leading * sin(cw_blade_beta(&section, 0)) / hypot(dx[0], dx[1]);
   section.end = 1 - (1 - blade->end) / (1 - section.start);
   section.trailing_nose = blade->trailing_nose / (1 - section.start);
   return section;
@@ -254,11 +246,9 @@ static double clearance(const CwBladeSection *from, const CwBladeSection *next, 
     b[i] = cw_blade_side(next, CW_BLADE_SUCTION, next->nose + f * (next->end - next->nose));
   }
   for (int i = 0, j = 0; i <= POINTS; i++) {
-    while (j < POINTS - 1 && b[j + 1].q < a[i].q)
-      j++;
+    while (j < POINTS - 1 && b[j + 1].q < a[i].q) j++;
     const double share = (a[i].q - b[j].q) / (b[j + 1].q - b[j].q);
-    if (share < 0 || share > 1)
-      continue;
+    if (share < 0 || share > 1) continue;
     const double theta = b[j].theta + share * (b[j + 1].theta - b[j].theta) + turn;
     const double p = (a[i].q - from->start) / (1 - from->start), beta = cw_blade_beta(from, fmin(1, fmax(0, p)));
     double x[2];
@@ -290,8 +280,8 @@ done:
 double cw_blade_half_thickness(const CwBladeSection *section, double p) {
   const double top = section->thickest_at;
   if (p < top)
-    return section->half_leading + (section->half_largest - section->half_leading) *
-                                       smooth_step((p - section->nose) / (top - section->nose));
+    return section->half_leading +
+           (section->half_largest - section->half_leading) * smooth_step((p - section->nose) / (top - section->nose));
   return section->half_largest +
          (section->half_trailing - section->half_largest) * smooth_step((p - top) / (section->end - top));
 }
@@ -301,8 +291,7 @@ double cw_blade_half_thickness(const CwBladeSection *section, double p) {
 // edge on D2. A rounded trailing edge has the normal offset again.
 static CwBladePoint offset(const CwBladeSection *section, double p, double y) {
   double lambda = 1 - smooth_step(p / offset_fades_at);
-  if (section->end < 1)
-    lambda += smooth_step((p - 1 + offset_fades_at) / (section->end - 1 + offset_fades_at));
+  if (section->end < 1) lambda += smooth_step((p - 1 + offset_fades_at) / (section->end - 1 + offset_fades_at));
   const double beta = cw_blade_beta(section, p), c = cos(beta), s = sin(beta);
   double x[2], dx[2];
   at(section, p, x, dx);
@@ -332,8 +321,7 @@ static double cut_length(double thickness, double angle) {
 
 double cw_blade_usual_bevel(CwTrailingEdge edge, double thickness, double angle) {
   const double cut = cut_length(thickness, angle);
-  if (edge == CW_EDGE_SHARP)
-    return cut * sqrt(5 - 4 * cos(angle));
+  if (edge == CW_EDGE_SHARP) return cut * sqrt(5 - 4 * cos(angle));
   // With legs l the facet is 2 l sin(beta/2) and the rest of the cut e / sin beta - l.
   const double chord = 2 * sin(angle / 2);
   return cut * chord / (1 + chord);

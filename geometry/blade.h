@@ -48,8 +48,7 @@ double cw_blade_wrap(const CwMeridian *meridian, double span, const double beta[
 // Solves the free ordinate of the law for the wrap of the section: the design's, with its spread from hub to
 // shroud. Fails with CW_ERR_DESIGN where beta would leave 12 to 60 degrees, with the angles asked and what to
 // change.
-CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span,
-                          CwBladeSection *section);
+CwStatus cw_blade_section(const CwDesign *design, const CwMeridian *meridian, double span, CwBladeSection *section);
 
 // The least angle between the blades' mean surface and hub or shroud, rad. Fails as cw_blade_section().
 CwStatus cw_blade_wall_angle(const CwDesign *design, const CwMeridian *meridian, double *least);

@@ -40,8 +40,8 @@ private:
   void fill(CwBladePatch &patch);
   CwBladePoint between(const CwBladePatch &patch, size_t i, double s) const;
   Handle(Geom_BSplineSurface)
-      surface(const CwBladePatch &patch, const std::vector<double> &v,
-              const std::vector<std::vector<double>> &span, const std::vector<CwBladePoint> &points) const;
+      surface(const CwBladePatch &patch, const std::vector<double> &v, const std::vector<std::vector<double>> &span,
+              const std::vector<CwBladePoint> &points) const;
   Handle(Geom_BSplineSurface) fillet(const CwBladePatch &patch, int wall) const;
   void guide_line(int wall);
 };
@@ -55,8 +55,7 @@ CwBladePoint Maker::between(const CwBladePatch &patch, size_t i, double s) const
   for (int j = first; j < first + near; j++) {
     double weight = 1;
     for (int k = first; k < first + near; k++)
-      if (k != j)
-        weight *= (s * n - k) / (j - k);
+      if (k != j) weight *= (s * n - k) / (j - k);
     sum.q += weight * patch.points[i * CW_SPAN_POINTS + j].q;
     sum.theta += weight * patch.points[i * CW_SPAN_POINTS + j].theta;
   }
@@ -64,10 +63,9 @@ CwBladePoint Maker::between(const CwBladePatch &patch, size_t i, double s) const
 }
 
 // Surface through points at span[i][j] of (u[i], v[j]).
-Handle(Geom_BSplineSurface)
-    Maker::surface(const CwBladePatch &patch, const std::vector<double> &v,
-                   const std::vector<std::vector<double>> &span,
-                   const std::vector<CwBladePoint> &points) const {
+Handle(Geom_BSplineSurface) Maker::surface(const CwBladePatch &patch, const std::vector<double> &v,
+                                           const std::vector<std::vector<double>> &span,
+                                           const std::vector<CwBladePoint> &points) const {
   std::vector<gp_Pnt> in_space;
   for (size_t i = 0; i < patch.u.size(); i++)
     for (size_t j = 0; j < v.size(); j++) {
@@ -85,8 +83,7 @@ Handle(Geom_BSplineSurface) Maker::fillet(const CwBladePatch &patch, int wall) c
   std::vector<double> v;
   std::vector<std::vector<double>> span;
   std::vector<CwBladePoint> points;
-  for (int j = 0; j < fillet_points; j++)
-    v.push_back((double)j / (fillet_points - 1));
+  for (int j = 0; j < fillet_points; j++) v.push_back((double)j / (fillet_points - 1));
   for (size_t i = 0; i < patch.u.size(); i++) {
     const double inner = 1 - patch.handle[wall][i];
     const auto out = [&](double t) { return (1 - t) * (1 - t) * (1 - t + 3 * t * inner); };
@@ -111,19 +108,16 @@ void Maker::fill(CwBladePatch &patch) {
   std::vector<double> v;
   std::vector<std::vector<double>> span(count);
   std::vector<CwBladePoint> points;
-  for (int j = 0; j < CW_SPAN_POINTS; j++)
-    v.push_back((double)j / (CW_SPAN_POINTS - 1));
+  for (int j = 0; j < CW_SPAN_POINTS; j++) v.push_back((double)j / (CW_SPAN_POINTS - 1));
   for (size_t i = 0; i < count; i++)
     for (int j = 0; j < CW_SPAN_POINTS; j++) {
       const double low = fillets ? patch.reach[CW_HUB][i] : 0, high = fillets ? 1 - patch.reach[CW_SHROUD][i] : 1;
       span[i].push_back(low + v[j] * (high - low));
       points.push_back(fillets ? between(patch, i, span[i][j]) : patch.points[i * CW_SPAN_POINTS + j]);
     }
-  if (fillets)
-    patch.band.push_back(fillet(patch, CW_HUB));
+  if (fillets) patch.band.push_back(fillet(patch, CW_HUB));
   patch.band.push_back(surface(patch, v, span, points));
-  if (fillets)
-    patch.band.push_back(fillet(patch, CW_SHROUD));
+  if (fillets) patch.band.push_back(fillet(patch, CW_SHROUD));
   for (int wall : {CW_HUB, CW_SHROUD}) {
     const CwBladeOnWall on = cw_blade_on_wall(&meridian, wall);
     std::vector<gp_Pnt2d> on_wall;
@@ -134,8 +128,7 @@ void Maker::fill(CwBladePatch &patch) {
         point.theta += patch.foot[wall][i].theta;
       }
       patch.outline[wall].push_back(point);
-      on_wall.push_back(
-          gp_Pnt2d(point.theta, cw_meridian_parameter(on.curve, on.begin + point.q * on.length)));
+      on_wall.push_back(gp_Pnt2d(point.theta, cw_meridian_parameter(on.curve, on.begin + point.q * on.length)));
     }
     patch.on_wall[wall] = cw_bspline_curve_2d(patch.u, on_wall);
   }
@@ -155,8 +148,8 @@ void Maker::trailing_points(double p_bevel) {
       const CwBladeSection &s = shape.section[j];
       // The corner's angle is the same at every span but for lean, unless the angles differ.
       const bool alike = design->blade_form == CW_BLADE_TWISTED && !round;
-      const double corner = cw_blade_side(alike ? &middle : &s, CW_BLADE_PRESSURE, s.end).theta +
-                            (alike ? s.shift - middle.shift : 0);
+      const double corner =
+          cw_blade_side(alike ? &middle : &s, CW_BLADE_PRESSURE, s.end).theta + (alike ? s.shift - middle.shift : 0);
       const CwBladePoint begin = cw_blade_side(&s, CW_BLADE_SUCTION, p_bevel);
       const double to = shape.has_trailing ? theta_bevel - middle.shift + s.shift : corner;
       const double from = shape.has_bevel ? to : begin.theta;
@@ -199,28 +192,23 @@ void Maker::points() {
   const double nose = middle.nose;
   const double u_bevel = shape.u_bevel = shape.has_bevel ? (p_bevel - nose) / (1 - nose) : 1;
   for (double u : shape.pressure.u)
-    if (!shape.has_bevel || u < u_bevel * 0.995)
-      shape.suction.u.push_back(u);
-  if (shape.has_bevel)
-    shape.suction.u.push_back(u_bevel);
+    if (!shape.has_bevel || u < u_bevel * 0.995) shape.suction.u.push_back(u);
+  if (shape.has_bevel) shape.suction.u.push_back(u_bevel);
   for (CwBladePatch *side : {&shape.pressure, &shape.suction})
     for (double u : side->u)
       for (int j = 0; j < CW_SPAN_POINTS; j++) {
         const CwBladeSection &s = shape.section[j];
         const bool bevelled = shape.has_bevel && side == &shape.suction;
         const double p = bevelled ? s.nose + (p_bevel - s.nose) * u / u_bevel : s.nose + (s.end - s.nose) * u;
-        side->points.push_back(
-            cw_blade_side(&s, side == &shape.pressure ? CW_BLADE_PRESSURE : CW_BLADE_SUCTION, p));
+        side->points.push_back(cw_blade_side(&s, side == &shape.pressure ? CW_BLADE_PRESSURE : CW_BLADE_SUCTION, p));
       }
   trailing_points(p_bevel);
 }
 
 void Maker::make() {
   points();
-  if (design->root_fillet_radius > 0)
-    cw_root_fillets(design, &meridian, &shape);
-  for (CwBladePatch *patch : shape.patches())
-    fill(*patch);
+  if (design->root_fillet_radius > 0) cw_root_fillets(design, &meridian, &shape);
+  for (CwBladePatch *patch : shape.patches()) fill(*patch);
   for (int w : {CW_HUB, CW_SHROUD}) {
     const CwBladeOnWall on = cw_blade_on_wall(&meridian, w);
     const CwBladePoint &tip = shape.leading.outline[w][shape.leading.u.size() / 2];
@@ -229,12 +217,10 @@ void Maker::make() {
     shape.theta_corner[w] = corner.theta;
     shape.t_tip[w] = cw_meridian_parameter(on.curve, on.begin + tip.q * on.length);
     shape.t_corner[w] = cw_meridian_parameter(on.curve, on.begin + corner.q * on.length);
-    if (shape.section[0].start > 0)
-      guide_line(w);
+    if (shape.section[0].start > 0) guide_line(w);
   }
   for (double *theta : {shape.theta_corner, shape.theta_up})
-    if (std::fabs(theta[CW_HUB] - theta[CW_SHROUD]) < level)
-      theta[CW_HUB] = theta[CW_SHROUD];
+    if (std::fabs(theta[CW_HUB] - theta[CW_SHROUD]) < level) theta[CW_HUB] = theta[CW_SHROUD];
 }
 
 // From the nose upstream along the mean line of the blades to their leading edge, then turning smoothly into
@@ -255,8 +241,7 @@ void Maker::guide_line(int wall) {
   const double off = tip.theta - in_passage(tip.q);
   const auto theta_at = [&](double at_length) {
     const double beside = off * smooth_step((at_length / end - 0.8) / 0.2);
-    if (at_length >= begin)
-      return in_passage((at_length - begin) / length) + beside;
+    if (at_length >= begin) return in_passage((at_length - begin) / length) + beside;
     const double f = std::min(1.0, (begin - at_length) / turning), f4 = f * f * f * f;
     return in_passage(0) + slope * turning * (f - f4 * (2.5 - 3 * f + f * f)) + beside;
   };
@@ -279,8 +264,7 @@ void Maker::guide_line(int wall) {
   }
   for (int i = 0, j = 0; i < points; i++) {
     const double wanted = travelled.back() * i / (points - 1);
-    while (j < fine - 1 && travelled[j + 1] < wanted)
-      j++;
+    while (j < fine - 1 && travelled[j + 1] < wanted) j++;
     const double share = (wanted - travelled[j]) / (travelled[j + 1] - travelled[j]);
     const double at_length = i == points - 1 ? end : end * (j + share) / fine;
     u.push_back((double)i / (points - 1));
@@ -292,21 +276,17 @@ void Maker::guide_line(int wall) {
   shape.theta_up[wall] = on_wall.front().X();
 }
 
-
 } // namespace
 
 std::vector<CwBladePatch *> CwBladeShape::patches() {
   std::vector<CwBladePatch *> all = {&pressure, &suction, &leading};
-  if (has_bevel)
-    all.push_back(&bevel);
-  if (has_trailing)
-    all.push_back(&trailing);
+  if (has_bevel) all.push_back(&bevel);
+  if (has_trailing) all.push_back(&trailing);
   return all;
 }
 
 CwBladeOnWall cw_blade_on_wall(const CwMeridian *meridian, int wall) {
-  if (wall == CW_HUB)
-    return {&meridian->hub, meridian->hub_leading, meridian->hub_trailing - meridian->hub_leading};
+  if (wall == CW_HUB) return {&meridian->hub, meridian->hub_leading, meridian->hub_trailing - meridian->hub_leading};
   return {&meridian->shroud, meridian->shroud_leading, meridian->shroud_trailing - meridian->shroud_leading};
 }
 

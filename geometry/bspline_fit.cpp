@@ -21,16 +21,14 @@ std::vector<double> averaged_knots(const std::vector<double> &parameters) {
     knots[i] = parameters.front();
     knots[n + i] = parameters.back();
   }
-  for (int i = 1; i < n - degree; i++)
-    knots[i + degree] = (parameters[i] + parameters[i + 1] + parameters[i + 2]) / 3;
+  for (int i = 1; i < n - degree; i++) knots[i + degree] = (parameters[i] + parameters[i + 1] + parameters[i + 2]) / 3;
   return knots;
 }
 
 // The basis functions that do not vanish at t, by Cox and de Boor; returns the index of the first.
 int basis(const std::vector<double> &knots, int n, double t, double value[degree + 1]) {
   int span = degree;
-  while (span < n - 1 && t >= knots[span + 1])
-    span++;
+  while (span < n - 1 && t >= knots[span + 1]) span++;
   double left[degree + 1], right[degree + 1];
   value[0] = 1;
   for (int j = 1; j <= degree; j++) {
@@ -56,42 +54,33 @@ void solve_poles(const std::vector<double> &parameters, int width, std::vector<d
   for (int i = 0; i < n; i++) {
     double value[degree + 1];
     const int first = basis(knots, n, parameters[i], value);
-    for (int j = 0; j <= degree; j++)
-      matrix[(size_t)i * n + first + j] = value[j];
+    for (int j = 0; j <= degree; j++) matrix[(size_t)i * n + first + j] = value[j];
   }
   for (int c = 0; c < n; c++) {
     int pivot = c;
     for (int i = c + 1; i < n; i++)
-      if (std::fabs(matrix[(size_t)i * n + c]) > std::fabs(matrix[(size_t)pivot * n + c]))
-        pivot = i;
+      if (std::fabs(matrix[(size_t)i * n + c]) > std::fabs(matrix[(size_t)pivot * n + c])) pivot = i;
     if (pivot != c) {
-      for (int j = 0; j < n; j++)
-        std::swap(matrix[(size_t)c * n + j], matrix[(size_t)pivot * n + j]);
-      for (int k = 0; k < width; k++)
-        std::swap(values[(size_t)c * width + k], values[(size_t)pivot * width + k]);
+      for (int j = 0; j < n; j++) std::swap(matrix[(size_t)c * n + j], matrix[(size_t)pivot * n + j]);
+      for (int k = 0; k < width; k++) std::swap(values[(size_t)c * width + k], values[(size_t)pivot * width + k]);
     }
     for (int i = c + 1; i < n; i++) {
       const double factor = matrix[(size_t)i * n + c] / matrix[(size_t)c * n + c];
-      if (factor == 0)
-        continue;
-      for (int j = c; j < n; j++)
-        matrix[(size_t)i * n + j] -= factor * matrix[(size_t)c * n + j];
-      for (int k = 0; k < width; k++)
-        values[(size_t)i * width + k] -= factor * values[(size_t)c * width + k];
+      if (factor == 0) continue;
+      for (int j = c; j < n; j++) matrix[(size_t)i * n + j] -= factor * matrix[(size_t)c * n + j];
+      for (int k = 0; k < width; k++) values[(size_t)i * width + k] -= factor * values[(size_t)c * width + k];
     }
   }
   for (int i = n; i-- > 0;)
     for (int k = 0; k < width; k++) {
       double sum = values[(size_t)i * width + k];
-      for (int j = i + 1; j < n; j++)
-        sum -= matrix[(size_t)i * n + j] * values[(size_t)j * width + k];
+      for (int j = i + 1; j < n; j++) sum -= matrix[(size_t)i * n + j] * values[(size_t)j * width + k];
       values[(size_t)i * width + k] = sum / matrix[(size_t)i * n + i];
     }
 }
 
 // Distinct knots and multiplicities as OpenCASCADE wants them.
-void open_cascade_knots(const std::vector<double> &parameters, std::vector<double> &knots,
-                        std::vector<int> &times) {
+void open_cascade_knots(const std::vector<double> &parameters, std::vector<double> &knots, std::vector<int> &times) {
   const std::vector<double> all = averaged_knots(parameters);
   knots = {all.front()};
   times = {degree + 1};
@@ -105,14 +94,12 @@ void open_cascade_knots(const std::vector<double> &parameters, std::vector<doubl
 
 template <class Array, class Value> Array to_array(const std::vector<Value> &values) {
   Array array(1, (int)values.size());
-  for (size_t i = 0; i < values.size(); i++)
-    array.SetValue((int)i + 1, values[i]);
+  for (size_t i = 0; i < values.size(); i++) array.SetValue((int)i + 1, values[i]);
   return array;
 }
 
 void check(const std::vector<double> &parameters) {
-  if (parameters.size() < degree + 1)
-    throw Standard_Failure("a cubic needs four points");
+  if (parameters.size() < degree + 1) throw Standard_Failure("a cubic needs four points");
 }
 
 } // namespace
@@ -129,11 +116,10 @@ Handle(Geom2d_BSplineCurve)
   }
   solve_poles(parameters, 2, values);
   TColgp_Array1OfPnt2d poles(1, n);
-  for (int i = 0; i < n; i++)
-    poles.SetValue(i + 1, gp_Pnt2d(values[2 * i], values[2 * i + 1]));
+  for (int i = 0; i < n; i++) poles.SetValue(i + 1, gp_Pnt2d(values[2 * i], values[2 * i + 1]));
   open_cascade_knots(parameters, knots, times);
-  return new Geom2d_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots),
-                                 to_array<TColStd_Array1OfInteger>(times), degree);
+  return new Geom2d_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots), to_array<TColStd_Array1OfInteger>(times),
+                                 degree);
 }
 
 Handle(Geom_BSplineCurve)
@@ -143,19 +129,17 @@ Handle(Geom_BSplineCurve)
   std::vector<double> values((size_t)n * 3), knots;
   std::vector<int> times;
   for (int i = 0; i < n; i++)
-    for (int k = 0; k < 3; k++)
-      values[3 * i + k] = points[i].Coord(k + 1);
+    for (int k = 0; k < 3; k++) values[3 * i + k] = points[i].Coord(k + 1);
   solve_poles(parameters, 3, values);
   TColgp_Array1OfPnt poles(1, n);
-  for (int i = 0; i < n; i++)
-    poles.SetValue(i + 1, gp_Pnt(values[3 * i], values[3 * i + 1], values[3 * i + 2]));
+  for (int i = 0; i < n; i++) poles.SetValue(i + 1, gp_Pnt(values[3 * i], values[3 * i + 1], values[3 * i + 2]));
   open_cascade_knots(parameters, knots, times);
-  return new Geom_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots),
-                               to_array<TColStd_Array1OfInteger>(times), degree);
+  return new Geom_BSplineCurve(poles, to_array<TColStd_Array1OfReal>(knots), to_array<TColStd_Array1OfInteger>(times),
+                               degree);
 }
 
-Handle(Geom_BSplineSurface) cw_bspline_surface(const std::vector<double> &u, const std::vector<double> &v,
-                                               const std::vector<gp_Pnt> &points) {
+Handle(Geom_BSplineSurface)
+    cw_bspline_surface(const std::vector<double> &u, const std::vector<double> &v, const std::vector<gp_Pnt> &points) {
   check(u);
   check(v);
   const int nu = (int)u.size(), nv = (int)v.size();
@@ -163,13 +147,11 @@ Handle(Geom_BSplineSurface) cw_bspline_surface(const std::vector<double> &u, con
   std::vector<double> by_v((size_t)nv * nu * 3), by_u((size_t)nu * nv * 3);
   for (int i = 0; i < nu; i++)
     for (int j = 0; j < nv; j++)
-      for (int k = 0; k < 3; k++)
-        by_v[((size_t)j * nu + i) * 3 + k] = points[(size_t)i * nv + j].Coord(k + 1);
+      for (int k = 0; k < 3; k++) by_v[((size_t)j * nu + i) * 3 + k] = points[(size_t)i * nv + j].Coord(k + 1);
   solve_poles(v, nu * 3, by_v);
   for (int i = 0; i < nu; i++)
     for (int j = 0; j < nv; j++)
-      for (int k = 0; k < 3; k++)
-        by_u[((size_t)i * nv + j) * 3 + k] = by_v[((size_t)j * nu + i) * 3 + k];
+      for (int k = 0; k < 3; k++) by_u[((size_t)i * nv + j) * 3 + k] = by_v[((size_t)j * nu + i) * 3 + k];
   solve_poles(u, nv * 3, by_u);
   TColgp_Array2OfPnt poles(1, nu, 1, nv);
   for (int i = 0; i < nu; i++)
@@ -181,7 +163,7 @@ Handle(Geom_BSplineSurface) cw_bspline_surface(const std::vector<double> &u, con
   std::vector<int> ut, vt;
   open_cascade_knots(u, uk, ut);
   open_cascade_knots(v, vk, vt);
-  return new Geom_BSplineSurface(poles, to_array<TColStd_Array1OfReal>(uk),
-                                 to_array<TColStd_Array1OfReal>(vk), to_array<TColStd_Array1OfInteger>(ut),
-                                 to_array<TColStd_Array1OfInteger>(vt), degree, degree);
+  return new Geom_BSplineSurface(poles, to_array<TColStd_Array1OfReal>(uk), to_array<TColStd_Array1OfReal>(vk),
+                                 to_array<TColStd_Array1OfInteger>(ut), to_array<TColStd_Array1OfInteger>(vt), degree,
+                                 degree);
 }

@@ -17,11 +17,10 @@ Handle(Geom2d_BSplineCurve)
     cw_bspline_curve_2d(const std::vector<double> &parameters, const std::vector<gp_Pnt2d> &points);
 
 // The same in space.
-Handle(Geom_BSplineCurve)
-    cw_bspline_curve_3d(const std::vector<double> &parameters, const std::vector<gp_Pnt> &points);
+Handle(Geom_BSplineCurve) cw_bspline_curve_3d(const std::vector<double> &parameters, const std::vector<gp_Pnt> &points);
 
 // Surface through points[i * v.size() + j] at (u[i], v[j]); u and v rising, at least four each.
-Handle(Geom_BSplineSurface) cw_bspline_surface(const std::vector<double> &u, const std::vector<double> &v,
-                                               const std::vector<gp_Pnt> &points);
+Handle(Geom_BSplineSurface)
+    cw_bspline_surface(const std::vector<double> &u, const std::vector<double> &v, const std::vector<gp_Pnt> &points);
 
 #endif

@@ -72,12 +72,10 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
 
 // Guan's coefficient of the blade thickness for cast iron, over ns; as commonly quoted, not held against the book.
 static double guan_thickness(double ns) {
-  static const double table[][2] = {{40, 3.2}, {60, 3.5}, {70, 3.8}, {80, 4},
-                                    {90, 4.5}, {130, 6},  {190, 7},  {280, 10}};
+  static const double table[][2] = {{40, 3.2}, {60, 3.5}, {70, 3.8}, {80, 4}, {90, 4.5}, {130, 6}, {190, 7}, {280, 10}};
   const int count = sizeof table / sizeof *table;
   int i = 1;
-  while (i < count - 1 && ns > table[i][0])
-    i++;
+  while (i < count - 1 && ns > table[i][0]) i++;
   const double f = fmin(1, fmax(0, (ns - table[i - 1][0]) / (table[i][0] - table[i - 1][0])));
   return table[i - 1][1] + f * (table[i][1] - table[i - 1][1]);
 }
@@ -132,11 +130,9 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
   }
 }
 
-double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesign *design,
-                      const char **source) {
+double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesign *design, const char **source) {
   const char *unused;
-  if (!source)
-    source = &unused;
+  if (!source) source = &unused;
   return family == CW_CORRELATIONS_GUAN ? guan(quantity, design, source) : guelich(quantity, design, source);
 }
 

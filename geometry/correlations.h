@@ -31,8 +31,7 @@ typedef enum {
 } CwCorrelated;
 
 // The value by one family; `*source` (NULL: not wanted) becomes a static text that names the formula.
-double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesign *design,
-                      const char **source);
+double cw_correlation(CwCorrelations family, CwCorrelated quantity, const CwDesign *design, const char **source);
 
 // The quantity of a design that is correlated, or -1 for the blade number.
 int cw_correlated_quantity(CwCorrelated quantity);

@@ -14,8 +14,7 @@ static const double degree = M_PI / 180;
 
 static json_t *solid_json(const CwMeasuredSolid *solid) {
   return json_pack("{s:b, s:b, s:i, s:f, s:f}", "valid", solid->valid, "closed", solid->closed, "faces",
-                   solid->face_count, "largest_tolerance_m", solid->largest_tolerance, "volume_m3",
-                   solid->volume);
+                   solid->face_count, "largest_tolerance_m", solid->largest_tolerance, "volume_m3", solid->volume);
 }
 
 static json_t *angle_json(const CwMeasuredAngle *angle) {
@@ -27,8 +26,8 @@ json_t *cw_measured_json(const CwMeasuredPump *measured) {
   const CwMeasuredRotor *rotor = &measured->rotor;
   const CwMeasuredStator *stator = &measured->stator;
   return json_pack("{s:o, s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o}", //
-                   "rotor", solid_json(&measured->solid[CW_PUMP_ROTOR]),                                         //
-                   "stator", solid_json(&measured->solid[CW_PUMP_STATOR]),                                       //
+                   "rotor", solid_json(&measured->solid[CW_PUMP_ROTOR]),                          //
+                   "stator", solid_json(&measured->solid[CW_PUMP_STATOR]),                        //
                    "wrap_angle_deg", rotor->wrap_angle / degree,                                  //
                    "inlet_diameter_m", rotor->inlet_diameter,                                     //
                    "outlet_diameter_m", rotor->outlet_diameter,                                   //
@@ -45,11 +44,10 @@ json_t *cw_measured_json(const CwMeasuredPump *measured) {
 }
 
 static json_t *triangle_json(const char *station, double span, const CwTriangle *t) {
-  return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "station", station, "span",
-                   span, "radius_m", t->radius, "u_m_per_s", t->u, "c_m_m_per_s", t->c_m, "c_u_m_per_s",
-                   t->c_u, "c_m_per_s", t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / degree,
-                   "blade_angle_deg", t->blade_angle / degree, "incidence_or_deviation_deg",
-                   (t->blade_angle - t->flow_angle) / degree);
+  return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "station", station, "span", span,
+                   "radius_m", t->radius, "u_m_per_s", t->u, "c_m_m_per_s", t->c_m, "c_u_m_per_s", t->c_u, "c_m_per_s",
+                   t->c, "w_m_per_s", t->w, "flow_angle_deg", t->flow_angle / degree, "blade_angle_deg",
+                   t->blade_angle / degree, "incidence_or_deviation_deg", (t->blade_angle - t->flow_angle) / degree);
 }
 
 static json_t *triangles_json(const CwDesign *design) {
@@ -85,9 +83,9 @@ static json_t *correlations_json(const CwDesign *design) {
     for (int family = 0; family < CW_CORRELATION_FAMILIES; family++) {
       const char *source;
       const double correlated = cw_correlation(family, i, design, &source);
-      failed |= json_object_set_new(row, cw_correlations_name(family),
-                                    json_pack("{s:o, s:s}", "value", cw_json_number(correlated * scale),
-                                              "source", source)) != 0;
+      failed |= json_object_set_new(
+                    row, cw_correlations_name(family),
+                    json_pack("{s:o, s:s}", "value", cw_json_number(correlated * scale), "source", source)) != 0;
     }
     failed |= json_object_set_new(all, key, row) != 0;
   }
@@ -102,8 +100,7 @@ static json_t *remarks_json(const CwDesign *design) {
   CwDesignRemarks remarks;
   json_t *list = json_array();
   cw_design_check(design, &remarks);
-  for (int i = 0; i < remarks.count; i++)
-    json_array_append_new(list, json_string(remarks.text[i]));
+  for (int i = 0; i < remarks.count; i++) json_array_append_new(list, json_string(remarks.text[i]));
   return list;
 }
 
@@ -112,9 +109,9 @@ static json_t *sections_json(const CwVolute *volute) {
   json_t *sections = json_array();
   for (int i = 1; sections && i <= 8; i++) {
     const CwVoluteSection s = cw_volute_section(volute, i * M_PI / 4);
-    json_array_append_new(sections, json_pack("{s:f, s:f, s:f, s:f, s:f}", "angle_deg", 45.0 * i, "area_m2",
-                                              s.area, "outer_radius_m", s.outer_radius, "side_wall_radius_m",
-                                              s.kink_radius, "side_wall_width_m", 2 * s.kink_height));
+    json_array_append_new(sections, json_pack("{s:f, s:f, s:f, s:f, s:f}", "angle_deg", 45.0 * i, "area_m2", s.area,
+                                              "outer_radius_m", s.outer_radius, "side_wall_radius_m", s.kink_radius,
+                                              "side_wall_width_m", 2 * s.kink_height));
   }
   return sections;
 }
@@ -134,18 +131,16 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
   failed |= json_object_set_new(root, "splitter_count",
                                 json_integer(design->splitter_start > 0 ? design->blade_count : 0)) != 0;
   failed |= json_object_set_new(root, "priority", json_string(priorities[design->priority])) != 0;
-  failed |= json_object_set_new(root, "correlation_family",
-                                json_string(cw_correlations_name(design->correlations))) != 0;
   failed |=
-      json_object_set_new(root, "slip_model",
-                          json_string(design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner")) != 0;
-  failed |=
-      json_object_set_new(
-          root, "rotation",
-          json_string(design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise")) != 0;
+      json_object_set_new(root, "correlation_family", json_string(cw_correlations_name(design->correlations))) != 0;
+  failed |= json_object_set_new(root, "slip_model",
+                                json_string(design->slip == CW_SLIP_PFLEIDERER ? "pfleiderer" : "wiesner")) != 0;
   failed |= json_object_set_new(
-                root, "blade_form",
-                json_string(design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted")) != 0;
+                root, "rotation",
+                json_string(design->rotation == CW_ROTATION_CLOCKWISE ? "clockwise" : "counter_clockwise")) != 0;
+  failed |=
+      json_object_set_new(root, "blade_form",
+                          json_string(design->blade_form == CW_BLADE_CYLINDRICAL ? "cylindrical" : "twisted")) != 0;
   failed |= json_object_set_new(root, "trailing_edge", json_string(edges[design->trailing_edge])) != 0;
   for (int i = 0; i < CW_DESIGN_COUNT; i++) {
     const CwDesignValue value = cw_hydraulic_design_value(design, i);

@@ -16,16 +16,16 @@ static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
 
 // Takes the case's value where it is given, else the computed one, and notes which.
-#define TAKE(member, given, computed, text)                                                                  \
-  do {                                                                                                       \
-    const double take_given = (given);                                                                       \
-    design->member = cw_case_given(take_given) ? take_given : (computed);                                    \
-    design->source[CW_DESIGN_##member] = cw_case_given(take_given) ? "case" : (text);                        \
+#define TAKE(member, given, computed, text)                                                                            \
+  do {                                                                                                                 \
+    const double take_given = (given);                                                                                 \
+    design->member = cw_case_given(take_given) ? take_given : (computed);                                              \
+    design->source[CW_DESIGN_##member] = cw_case_given(take_given) ? "case" : (text);                                  \
   } while (0)
-#define SET(member, value, text)                                                                             \
-  do {                                                                                                       \
-    design->member = (value);                                                                                \
-    design->source[CW_DESIGN_##member] = (text);                                                             \
+#define SET(member, value, text)                                                                                       \
+  do {                                                                                                                 \
+    design->member = (value);                                                                                          \
+    design->source[CW_DESIGN_##member] = (text);                                                                       \
   } while (0)
 
 // Smallest of the standard bores whose mean speed stays under 4 m/s and that is wider than `least`, m.
@@ -34,8 +34,7 @@ static double standard_bore(double flow_rate, double least) {
                                 0.150, 0.200, 0.250, 0.300, 0.350, 0.400, 0.500, 0.600, 0.800, 1.000};
   const size_t count = sizeof bore / sizeof *bore;
   for (size_t i = 0; i < count; i++)
-    if (flow_rate / (M_PI / 4 * bore[i] * bore[i]) < 4 && bore[i] > least)
-      return bore[i];
+    if (flow_rate / (M_PI / 4 * bore[i] * bore[i]) < 4 && bore[i] > least) return bore[i];
   return bore[count - 1];
 }
 
@@ -43,8 +42,7 @@ static double standard_bore(double flow_rate, double least) {
 #define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
 
 static void specific_speeds(const CwCase *table, CwDesign *design) {
-  const double q = design->flow_rate, h = design->head, omega = design->angular_speed,
-               rpm = omega * 30 / M_PI;
+  const double q = design->flow_rate, h = design->head, omega = design->angular_speed, rpm = omega * 30 / M_PI;
   const char *source;
   double value;
   SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75, rpm, m3/s, m");
@@ -79,8 +77,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
   SET(head_coefficient, 2 * gravity * design->head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
   value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
-  TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2),
-       value > 0.78 * d2 ? "at most 0.78 D2" : source);
+  TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
   TAKE(axial_length, given->axial_length, (d2 - d1) * pow(nq / 74, 1.07), "Guelich: (D2 - D1) (nq/74)^1.07");
   // A shaft as thick as the hub leaves no nut.
@@ -90,8 +87,8 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
     SET(nut_length, 0, "none: the shaft is as thick as the hub");
     SET(nut_disk_radius, design->hub_diameter / 2, "the shaft's");
   } else {
-    TAKE(nut_length, given->nut_length, 7.0 / 12 * (design->hub_diameter - shaft), shaft > 0
-         ? "7/12 of the hub's diameter over the shaft's" : "7/12 hub diameter");
+    TAKE(nut_length, given->nut_length, 7.0 / 12 * (design->hub_diameter - shaft),
+         shaft > 0 ? "7/12 of the hub's diameter over the shaft's" : "7/12 hub diameter");
     TAKE(nut_disk_radius, shaft > 0 ? shaft / 2 : given->nut_flat_diameter / 2, 0.145 * design->hub_diameter,
          "0.145 hub diameter");
   }
@@ -101,13 +98,11 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   design->blade_count_source = given->blade_count ? "case" : source;
   value = CORRELATED(CW_CORRELATED_BLADE_THICKNESS);
   TAKE(blade_thickness, given->blade_thickness, value, source);
-  TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness,
-       "0.70 of the largest");
-  TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness,
-       "0.50 of the largest");
+  TAKE(leading_edge_thickness, given->leading_edge_thickness, 0.70 * design->blade_thickness, "0.70 of the largest");
+  TAKE(trailing_edge_thickness, given->trailing_edge_thickness, 0.50 * design->blade_thickness, "0.50 of the largest");
   TAKE(suction_pipe_length, given->suction_pipe_length,
-       fmax(d1 / 3, 1.2 * design->nut_length - design->outlet_width +
-                        (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
+       fmax(d1 / 3,
+            1.2 * design->nut_length - design->outlet_width + (CW_MERIDIAN_HUB_START - 1) * design->axial_length),
        "D1 / 3, past the nut");
   value = CORRELATED(CW_CORRELATED_BASE_DIAMETER);
   TAKE(base_diameter, table->volute.base_diameter, value, source);
@@ -156,8 +151,7 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   double x[2];
   cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
   const double r = x[0], u = design->angular_speed * r, z = design->blade_count;
-  const double cm = design->flow_rate / cw_meridian_area(meridian, 0),
-               given = table->impeller.inlet_blade_angle;
+  const double cm = design->flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
   SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
   SET(inlet_meridional_speed, cm, "Q / area");
   // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
@@ -167,22 +161,17 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   const char *source, *incidence_source;
   const double usual = CORRELATED(CW_CORRELATED_INCIDENCE), asked = table->impeller.incidence;
   const double incidence = cw_case_given(asked) ? asked : usual;
-  incidence_source =
-      cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
+  incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
   source = incidence_source;
   double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
     tau = cw_blockage(z, design->leading_edge_thickness, r, beta);
     flow = atan2(cm * tau, u);
-    if (!cw_case_given(given))
-      beta = fmax(flow + incidence, 13 * degree);
-    if (!cw_case_given(given) && wrapped)
-      beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
+    if (!cw_case_given(given)) beta = fmax(flow + incidence, 13 * degree);
+    if (!cw_case_given(given) && wrapped) beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
   }
-  if (wrapped && beta == spiral - 4 * degree)
-    source = "4 deg under the logarithmic spiral of the wrap";
-  if (wrapped && beta == spiral + 2 * degree)
-    source = "2 deg over the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral - 4 * degree) source = "4 deg under the logarithmic spiral of the wrap";
+  if (wrapped && beta == spiral + 2 * degree) source = "2 deg over the logarithmic spiral of the wrap";
   TAKE(inlet_blade_angle, given, beta, source);
   SET(inlet_blockage, tau, "1 / (1 - z e / (pi D sin beta1))");
   SET(inlet_flow_angle, flow, "atan(tau1 c_m1 / u1), no pre-swirl");
@@ -200,16 +189,14 @@ static double straight_wrap(const CwMeridian *meridian, double beta1, double bet
 static const double usual_beta[2] = {18 * M_PI / 180, 32 * M_PI / 180};
 
 // Sets beta2 and the wrap by the priority. `fixed`: the outlet blade angle where D2 meets the head, or NAN.
-static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed,
-                             CwDesign *design) {
+static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, double fixed, CwDesign *design) {
   CwStatus status = CW_OK;
   const double given = table->impeller.outlet_blade_angle, beta1 = design->inlet_blade_angle;
   const double table_wrap = table->impeller.wrap_angle, least = 12 * degree, largest = 60 * degree;
   double low = least, high = largest;
   if (design->priority == CW_PRIORITY_BETA) {
     TAKE(outlet_blade_angle, given, 25 * degree, "25 deg: middle of the usual 18 to 32");
-    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle),
-        "straight law beta1 to beta2");
+    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else if (design->priority == CW_PRIORITY_HEAD) {
     for (int i = 0; i < 60; i++) {
       design->outlet_blade_angle = 0.5 * (low + high);
@@ -221,8 +208,7 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
     }
     SET(outlet_blade_angle, cw_case_given(fixed) ? fixed : 0.5 * (low + high),
         cw_case_given(fixed) ? "limit of the usual 18 to 32 deg; D2 meets the head" : "solved for the head");
-    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle),
-        "straight law beta1 to beta2");
+    SET(wrap_angle, straight_wrap(meridian, beta1, design->outlet_blade_angle), "straight law beta1 to beta2");
   } else {
     for (int i = 0; i < 60; i++) {
       const double middle = 0.5 * (low + high);
@@ -239,8 +225,7 @@ static CwStatus outlet_angle(const CwCase *table, const CwMeridian *meridian, do
                design->wrap_angle / degree, beta1 / degree);
   }
   SET(wrap_residual, cw_case_given(table_wrap) ? design->wrap_angle - table_wrap : 0, "wrap - table's wrap");
-  SET(outlet_angle_residual, cw_case_given(given) ? design->outlet_blade_angle - given : 0,
-      "beta2 - table's beta2");
+  SET(outlet_angle_residual, cw_case_given(given) ? design->outlet_blade_angle - given : 0, "beta2 - table's beta2");
   SET(overlap, design->blade_count * design->wrap_angle / (2 * M_PI), "z wrap / 360 deg");
   cw_outlet_triangle(meridian, design);
 done:
@@ -253,14 +238,12 @@ static CwStatus impeller(const CwCase *table, double outlet_diameter, double fix
                          CwDesign *design) {
   CwStatus status = CW_OK;
   main_dimensions(table, outlet_diameter, design);
-  CW_REQUIRE(design->blade_count * design->leading_edge_thickness <
-                 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
-             CW_ERR_DESIGN,
-             "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
-             design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
+  CW_REQUIRE(
+      design->blade_count * design->leading_edge_thickness < 0.7 * M_PI * design->inlet_diameter * sin(15 * degree) * 2,
+      CW_ERR_DESIGN, "%d blades of %.2f mm at the leading edge fill the inlet of %.1f mm: fewer or thinner blades",
+      design->blade_count, design->leading_edge_thickness * 1e3, design->inlet_diameter * 1e3);
   leading_edge_shroud(&table->impeller, design);
-  if (shape)
-    cw_meridian_shape(&table->impeller, design);
+  if (shape) cw_meridian_shape(&table->impeller, design);
   leading_edge_hub(&table->impeller, design);
   CW_TRY(cw_meridian_make(design, meridian));
   inlet_triangle(table, meridian, design);
@@ -296,8 +279,7 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
              "no outlet diameter from 0.7 to 1.5 times the correlation's meets the head of %.3f m with beta2 "
              "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
-             design->head, design->outlet_blade_angle / degree, design->predicted_head,
-             design->outlet_diameter * 1e3);
+             design->head, design->outlet_blade_angle / degree, design->predicted_head, design->outlet_diameter * 1e3);
 done:
   return status;
 }
@@ -310,22 +292,18 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
   const double step = 3 * degree, enough = 70 * degree;
   double best = -1, best_spread = 0;
   TAKE(wrap_spread, given->wrap_spread, 0, "none needed");
-  if (cw_case_given(given->wrap_spread) || design->blade_form != CW_BLADE_TWISTED)
-    return;
+  if (cw_case_given(given->wrap_spread) || design->blade_form != CW_BLADE_TWISTED) return;
   for (int i = 0; i <= 40; i++) {
     double angle = 0;
     design->wrap_spread = (i % 2 ? 1 : -1) * ((i + 1) / 2) * step;
     int fits = 1;
-    for (int j = 1; fits && j < 4; j++)
-      fits = cw_blade_section(design, meridian, 0.25 * j, &section) == CW_OK;
+    for (int j = 1; fits && j < 4; j++) fits = cw_blade_section(design, meridian, 0.25 * j, &section) == CW_OK;
     fits = fits && cw_blade_wall_angle(design, meridian, &angle) == CW_OK;
     cw_fail_clear();
-    if (!fits || angle <= best)
-      continue;
+    if (!fits || angle <= best) continue;
     best = angle;
     best_spread = design->wrap_spread;
-    if (angle > enough)
-      break;
+    if (angle > enough) break;
   }
   SET(wrap_spread, best_spread,
       best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
@@ -336,20 +314,18 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   const int rectangle = given->section == CW_SECTION_RECTANGLE;
-  if (rectangle)
-    SET(side_wall_angle, 0, "rectangle");
+  if (rectangle) SET(side_wall_angle, 0, "rectangle");
   // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40, as commonly quoted, not
   // held against the chart.
-  const double factor = cw_case_given(given->velocity_factor)
-                            ? given->velocity_factor
-                            : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
+  const double factor =
+      cw_case_given(given->velocity_factor) ? given->velocity_factor : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
   SET(section_speed, factor * sqrt(2 * gravity * design->head),
       cw_case_given(given->velocity_factor) ? "case: K3" : "Stepanoff: K3 = 0.42 (nq / 20)^-0.2");
   // A plain trapezoid is near enough to see how wide the throat will be.
   const int velocity = given->area_law == CW_AREA_LAW_VELOCITY;
   const double b3 = design->inlet_width, slope = tan(design->side_wall_angle);
-  const double spiral = cw_volute_trapezoid_height(r3, b3, design->side_wall_angle,
-                                                   design->flow_rate / design->swirl_constant);
+  const double spiral =
+      cw_volute_trapezoid_height(r3, b3, design->side_wall_angle, design->flow_rate / design->swirl_constant);
   const double area = velocity ? design->flow_rate / design->section_speed : spiral * (b3 + spiral * slope);
   const double height = 2 * area / (b3 + sqrt(b3 * b3 + 4 * slope * area));
   TAKE(corner_radius, given->corner_radius, rectangle ? fmin(b3, height) / 6 : 0,
@@ -357,9 +333,8 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   if (!cw_case_given(given->tongue_radius) && design->tongue_radius > height / 6)
     SET(tongue_radius, height / 6, "a sixth of the throat's height");
   TAKE(discharge_diameter, given->outlet_diameter,
-       cw_case_given(given->diffuser_area_ratio)
-           ? sqrt(given->diffuser_area_ratio * 4 * area / M_PI)
-           : standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
+       cw_case_given(given->diffuser_area_ratio) ? sqrt(given->diffuser_area_ratio * 4 * area / M_PI)
+                                                 : standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
        "standard bore under 4 m/s, wider than the throat");
   TAKE(discharge_pipe_length, given->discharge_pipe_length, 2 * design->discharge_diameter, "2 DN");
   // Guelich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
@@ -380,8 +355,7 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
       .tongue_radius = design->tongue_radius,
       .tongue_gap = given->tongue_gap,
       .tongue_angle = given->tongue_angle,
-      .least_tongue_gap =
-          cw_case_given(given->tongue_gap) || cw_case_given(given->tongue_angle) || gap < 0 ? NAN : gap,
+      .least_tongue_gap = cw_case_given(given->tongue_gap) || cw_case_given(given->tongue_angle) || gap < 0 ? NAN : gap,
       .diffuser_length = given->diffuser_length,
       .diffuser_angle = cw_case_given(given->diffuser_angle) ? given->diffuser_angle : 9 * degree,
       .outlet_diameter = cw_case_given(given->diffuser_area_ratio) ? NAN : design->discharge_diameter,
@@ -399,11 +373,9 @@ done:
 // large for its throat.
 static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
-  const int width_open = !cw_case_given(given->inlet_width),
-            side_open = !cw_case_given(given->side_wall_angle),
+  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
             tongue_open = !cw_case_given(given->tongue_radius);
-  const double width = design->inlet_width,
-               widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
+  const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
   const double tongue = 0.0075 * design->outlet_diameter;
   SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
   TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
@@ -416,13 +388,10 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   }
   for (int i = 1; status == CW_ERR_DESIGN && i <= 12 && (width_open || side_open); i++) {
     cw_fail_clear();
-    if (tongue_open)
-      SET(tongue_radius, tongue, "0.0075 D2: casting");
+    if (tongue_open) SET(tongue_radius, tongue, "0.0075 D2: casting");
     if (width_open)
-      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0),
-          "widened for a spiral that is not too tall");
-    if (side_open)
-      SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
+      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
+    if (side_open) SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
     status = volute_of(given, design);
   }
   CW_TRY(status);
@@ -430,9 +399,8 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
        given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
   SET(tongue_tip_radius, design->volute.tip_radius,
-      cw_case_given(given->tongue_gap)
-          ? "case: D3/2 + tongue gap"
-          : "well shaped, at least Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
+      cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
+                                       : "well shaped, at least Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
   SET(tongue_angle, design->volute.tip_angle,
       cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
   if (cw_case_given(given->diffuser_area_ratio))
@@ -447,8 +415,7 @@ done:
 }
 
 static CwPriority resolved_priority(const CwImpellerTable *given) {
-  if (given->priority != CW_PRIORITY_AUTO)
-    return given->priority;
+  if (given->priority != CW_PRIORITY_AUTO) return given->priority;
   return cw_case_given(given->wrap_angle)           ? CW_PRIORITY_WRAP
          : cw_case_given(given->outlet_blade_angle) ? CW_PRIORITY_BETA
                                                     : CW_PRIORITY_HEAD;
@@ -482,8 +449,7 @@ static CwStatus check_clearance(const CwMeridian *meridian, const CwDesign *desi
   double clear, angle;
   CW_TRY(cw_blade_clearance(design, meridian, &clear));
   CW_TRY(cw_blade_wall_angle(design, meridian, &angle));
-  const double least = 0.25 * design->blade_thickness,
-               fillets = fillet_width(design->root_fillet_radius, angle);
+  const double least = 0.25 * design->blade_thickness, fillets = fillet_width(design->root_fillet_radius, angle);
   const char *splitters = design->splitter_start > 0 ? " and as many splitters" : "";
   CW_REQUIRE(clear > least, CW_ERR_DESIGN,
              "%d blades%s are %.2f mm apart on hub or shroud; at least %.2f mm are allowed (a quarter of the blade's "
@@ -517,19 +483,16 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
     CW_TRY(impeller(table, NAN, NAN, 1, &meridian, design));
   else
     CW_TRY(solve_outlet_diameter(table, &meridian, design));
-  CW_REQUIRE(
-      design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head,
-      CW_ERR_DESIGN,
-      "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
-      "change outlet_diameter_mm, outlet_width_mm or the priority",
-      design->head, design->predicted_head);
+  CW_REQUIRE(design->priority != CW_PRIORITY_HEAD || fabs(design->head_residual) < 1e-3 * design->head, CW_ERR_DESIGN,
+             "a head of %.3f m asks for an outlet blade angle outside 12 to 60 deg (head %.3f m at the nearest): "
+             "change outlet_diameter_mm, outlet_width_mm or the priority",
+             design->head, design->predicted_head);
   choose_wrap_spread(&table->impeller, &meridian, design);
   CW_TRY(check_clearance(&meridian, design));
   passage(&meridian, design);
   CW_TRY(cw_velocity_triangles(&meridian, table->operating_point.inlet_pressure, design));
   TAKE(trailing_edge_bevel, table->impeller.trailing_edge_bevel,
-       cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness,
-                            design->outlet_blade_angle),
+       cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness, design->outlet_blade_angle),
        design->trailing_edge == CW_EDGE_SHARP ? "leg along the blade twice the cut"
                                               : "as long as the rest of the trailing edge");
   CW_TRY(volute(&table->volute, design));
@@ -538,8 +501,7 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(volute_speed, 0.5 * (design->outlet_swirl_speed * r2 / r3 + design->throat_speed),
       "mean of K / r3 and the throat's speed");
   SET(suction_speed, design->flow_rate / (M_PI / 4 * pow(design->inlet_diameter, 2)), "Q / (pi D1^2 / 4)");
-  SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)),
-      "Q / (pi DN^2 / 4)");
+  SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)), "Q / (pi DN^2 / 4)");
 done:
   return status;
 }

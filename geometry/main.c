@@ -32,8 +32,7 @@ static void show_design(const CwDesign *design) {
   }
   CwDesignRemarks remarks;
   cw_design_check(design, &remarks);
-  for (int i = 0; i < remarks.count; i++)
-    cw_log_warn("%s", remarks.text[i]);
+  for (int i = 0; i < remarks.count; i++) cw_log_warn("%s", remarks.text[i]);
 }
 
 static void show_solid(const CwSolid *solid, const CwMeasuredSolid *measured) {
@@ -56,29 +55,25 @@ static void show_rotor(const CwDesign *design, const CwMeasuredRotor *rotor) {
            rotor->shroud_crease.angle / degree);
   cw_log("measured: sharpest wedge of the trailing edge %.1f deg", 360 - rotor->trailing_edge.angle / degree);
   if (least < 66)
-    cw_log_warn(
-        "blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
-        "leading edge outward",
-        least);
+    cw_log_warn("blades meet hub or shroud at %.1f deg; under 66 deg the prism layers there are skewed: move the "
+                "leading edge outward",
+                least);
   if (360 - rotor->trailing_edge.angle / degree < 75)
-    cw_log_warn(
-        "the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: lengthen "
-        "the bevel",
-        360 - rotor->trailing_edge.angle / degree);
+    cw_log_warn("the trailing edge has a wedge of %.1f deg; under 75 deg the prism layers there are skewed: lengthen "
+                "the bevel",
+                360 - rotor->trailing_edge.angle / degree);
 }
 
 static void show_measured(const CwDesign *design, const CwPump *pump, const CwMeasuredPump *measured) {
   const CwMeasuredRotor *rotor = &measured->rotor;
   const CwMeasuredStator *stator = &measured->stator;
-  for (int i = 0; i < pump->count; i++)
-    show_solid(pump->solid[i], &measured->solid[i]);
+  for (int i = 0; i < pump->count; i++) show_solid(pump->solid[i], &measured->solid[i]);
   cw_log("measured: rotor's volume %+.4f %% off that of its sections, largest kink between smooth faces %.3f deg",
          100 * (measured->solid[CW_PUMP_ROTOR].volume / measured->rotor_volume_of_sections - 1),
          rotor->kink.angle / degree);
   show_rotor(design, rotor);
-  cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides",
-         stator->base_diameter * 1e3, stator->inlet_width * 1e3, rotor->interface_radius * 1e3,
-         rotor->interface_area * 1e6);
+  cw_log("measured: D3 %.4f, b3 %.4f, interface r %.4f mm, %.2f mm2 on both sides", stator->base_diameter * 1e3,
+         stator->inlet_width * 1e3, rotor->interface_radius * 1e3, rotor->interface_area * 1e6);
 }
 
 static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeStubs *stubs, CwRecord *record,
@@ -88,8 +83,7 @@ static CwStatus build(const CwCase *table, const CwDesign *design, const CwPipeS
   int64_t faces = 0;
   char key[40];
   CW_TRY(cw_pump_build(table, design, stubs, pump));
-  for (int i = 0; i < pump->count; i++)
-    faces += cw_solid_face_count(pump->solid[i]);
+  for (int i = 0; i < pump->count; i++) faces += cw_solid_face_count(pump->solid[i]);
   CW_TRY(cw_record_step(record, "solids", cw_seconds() - begin, faces, "faces"));
   begin = cw_seconds();
   CW_TRY(cw_pump_measure(design, pump, measured));
@@ -105,8 +99,8 @@ done:
 
 // Files of the stage besides those of each solid. Each appears whole; record.json, written last by main(), says
 // that all are there.
-static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwMeasuredPump *measured,
-                           const char *path, int file) {
+static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwMeasuredPump *measured, const char *path,
+                           int file) {
   const CwSolid *const *solids = (const CwSolid *const *)pump->solid;
   switch (file) {
   case 0:
@@ -153,9 +147,15 @@ done:
 }
 
 static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
-  static const char *const names[] = {"faces.csv",           "interfaces.csv",         "pump.step",
-                                      "design.json",         "meridional_section.svg", "blade_to_blade.svg",
-                                      "velocity_triangles.svg", "blade_angle.svg",     "volute_sections.svg",
+  static const char *const names[] = {"faces.csv",
+                                      "interfaces.csv",
+                                      "pump.step",
+                                      "design.json",
+                                      "meridional_section.svg",
+                                      "blade_to_blade.svg",
+                                      "velocity_triangles.svg",
+                                      "blade_angle.svg",
+                                      "volute_sections.svg",
                                       "volute_plan.svg"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
@@ -203,8 +203,7 @@ int main(int argc, char **argv) {
   CwRecord *record = NULL;
   char *record_path = NULL;
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
-  if (args.finished)
-    goto done;
+  if (args.finished) goto done;
   CW_TRY(in_folder(&args, "record.json", &record_path));
   CW_TRY(cw_record_start("geometry", &record));
   CW_TRY(make_geometry(&args, &table, record));

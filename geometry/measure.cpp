@@ -33,8 +33,7 @@ CwStatus guarded(const CwSolid *solid, const std::function<void()> &work) {
     work();
     return CW_OK;
   } catch (const Standard_Failure &failure) {
-    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(),
-                   failure.GetMessageString());
+    return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.GetMessageString());
   } catch (const std::exception &failure) {
     return CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be measured: %s", solid->domain.c_str(), failure.what());
   }
@@ -42,8 +41,7 @@ CwStatus guarded(const CwSolid *solid, const std::function<void()> &work) {
 
 const CwSolidFace &face_named(const CwSolid *solid, const std::string &name) {
   for (const CwSolidFace &face : solid->faces)
-    if (face.name == name)
-      return face;
+    if (face.name == name) return face;
   throw Standard_Failure(("no face named " + name).c_str());
 }
 
@@ -54,8 +52,7 @@ bool has_patch(const CwSolid *solid, const std::string &patch) {
 
 bool has_face(const CwSolid *solid, const std::string &name) {
   for (const CwSolidFace &face : solid->faces)
-    if (face.name == name)
-      return true;
+    if (face.name == name) return true;
   return false;
 }
 
@@ -78,10 +75,8 @@ Side side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) {
   side.normal = xu.Crossed(xv).Normalized();
   side.tangent = (xu * duv.X() + xv * duv.Y()).Normalized();
   // The edge's orientation in the explored face already includes that of the face.
-  if (face.Orientation() == TopAbs_REVERSED)
-    side.normal.Reverse();
-  if (edge.Orientation() == TopAbs_REVERSED)
-    side.tangent.Reverse();
+  if (face.Orientation() == TopAbs_REVERSED) side.normal.Reverse();
+  if (edge.Orientation() == TopAbs_REVERSED) side.tangent.Reverse();
   return side;
 }
 
@@ -102,8 +97,7 @@ bool should_be_smooth(const CwSolidFace &a, const CwSolidFace &b) {
   };
   const bool a_root = named(a, "_root"), b_root = named(b, "_root");
   const bool a_wall = a.patch == "hub" || a.patch == "shroud", b_wall = b.patch == "hub" || b.patch == "shroud";
-  if ((a_root && b_wall) || (b_root && a_wall))
-    return true;
+  if ((a_root && b_wall) || (b_root && a_wall)) return true;
   if (a.patch == "blade_trailing_edge" && b.patch == a.patch) // bevel and cut meet in an edge
     return a_root != b_root && named(a, "bevel") == named(b, "bevel");
   return a.patch == b.patch || pair("blade_leading_edge", "blade_pressure") ||
@@ -116,18 +110,15 @@ bool is_blade(const CwSolidFace &face) {
 }
 
 // Calls `use` for samples of all edges whose faces satisfy `wanted` (in either order).
-void each_angle(const CwSolid *solid,
-                const std::function<bool(const CwSolidFace &, const CwSolidFace &)> &wanted,
+void each_angle(const CwSolid *solid, const std::function<bool(const CwSolidFace &, const CwSolidFace &)> &wanted,
                 const std::function<void(const CwMeasuredAngle &)> &use) {
   const int samples = 40;
   for (size_t i = 0; i < solid->faces.size(); i++)
     for (size_t j = 0; j < solid->faces.size(); j++) {
-      if (i == j || !wanted(solid->faces[i], solid->faces[j]))
-        continue;
+      if (i == j || !wanted(solid->faces[i], solid->faces[j])) continue;
       for (TopExp_Explorer a(solid->faces[i].face, TopAbs_EDGE); a.More(); a.Next())
         for (TopExp_Explorer b(solid->faces[j].face, TopAbs_EDGE); b.More(); b.Next()) {
-          if (!a.Current().IsSame(b.Current()))
-            continue;
+          if (!a.Current().IsSame(b.Current())) continue;
           const TopoDS_Edge edge = TopoDS::Edge(a.Current()), other = TopoDS::Edge(b.Current());
           double first, last;
           const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
@@ -190,8 +181,7 @@ double polar(const gp_Pnt &point) {
 
 double angle_between(double from, double to) {
   double angle = to - from;
-  while (angle < 0)
-    angle += 2 * M_PI;
+  while (angle < 0) angle += 2 * M_PI;
   return angle;
 }
 
@@ -203,8 +193,7 @@ struct Extent {
 Extent extent(const CwSolid *solid, const std::string &patch) {
   Extent extent;
   for (const CwSolidFace &face : solid->faces) {
-    if (face.patch != patch)
-      continue;
+    if (face.patch != patch) continue;
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(face.face, properties);
     extent.area += properties.Mass() * metre * metre;
@@ -221,8 +210,7 @@ Extent extent(const CwSolid *solid, const std::string &patch) {
       }
     }
   }
-  if (extent.largest_r == 0)
-    throw Standard_Failure(("no patch " + patch).c_str());
+  if (extent.largest_r == 0) throw Standard_Failure(("no patch " + patch).c_str());
   return extent;
 }
 
@@ -231,16 +219,13 @@ bool is_closed(const CwSolid *solid) {
   TopExp::MapShapesAndAncestors(solid->solid, TopAbs_EDGE, TopAbs_FACE, faces_of);
   for (int i = 1; i <= faces_of.Extent(); i++) {
     const TopoDS_Edge edge = TopoDS::Edge(faces_of.FindKey(i));
-    if (BRep_Tool::Degenerated(edge) || faces_of(i).Extent() != 2 ||
-        faces_of(i).First().IsSame(faces_of(i).Last()))
+    if (BRep_Tool::Degenerated(edge) || faces_of(i).Extent() != 2 || faces_of(i).First().IsSame(faces_of(i).Last()))
       return false;
     int sense = 0;
     for (const TopoDS_Shape &face : faces_of(i))
       for (TopExp_Explorer explorer(face, TopAbs_EDGE); explorer.More(); explorer.Next())
-        if (explorer.Current().IsSame(edge))
-          sense += explorer.Current().Orientation() == TopAbs_FORWARD ? 1 : -1;
-    if (sense != 0)
-      return false;
+        if (explorer.Current().IsSame(edge)) sense += explorer.Current().Orientation() == TopAbs_FORWARD ? 1 : -1;
+    if (sense != 0) return false;
   }
   return true;
 }
@@ -272,8 +257,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     // The suction side's surface goes on to D2 under the bevel: the mean line ends half-way between both
     // corners.
     const gp_Pnt nose = mid_span(rotor, "blade_leading_edge_1", 0.5);
-    const gp_Pnt pressure = mid_span(rotor, "blade_pressure_1", 1),
-                 suction = mid_span(rotor, "blade_suction_1", 1);
+    const gp_Pnt pressure = mid_span(rotor, "blade_pressure_1", 1), suction = mid_span(rotor, "blade_suction_1", 1);
     double outlet = std::hypot(pressure.X(), pressure.Y());
     const double thickness = angle_between(polar(suction), polar(pressure));
     measured->wrap_angle = angle_between(polar(suction) + thickness / 2, polar(nose));
@@ -281,8 +265,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     for (int i = 1; i < 100 && has_face(rotor, "blade_trailing_edge_1"); i++) {
       const gp_Pnt tip = mid_span(rotor, "blade_trailing_edge_1", i / 100.0);
       const double r = std::hypot(tip.X(), tip.Y());
-      if (r > outlet * (1 + 1e-6))
-        measured->wrap_angle = angle_between(polar(tip), polar(nose));
+      if (r > outlet * (1 + 1e-6)) measured->wrap_angle = angle_between(polar(tip), polar(nose));
       outlet = std::max(outlet, r);
     }
     measured->outlet_diameter = 2 * outlet * metre;
@@ -290,8 +273,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
     each_angle(rotor, should_be_smooth, [&](const CwMeasuredAngle &found) {
       CwMeasuredAngle kink = found;
       kink.angle = std::fabs(found.angle - M_PI);
-      if (kink.angle > measured->kink.angle)
-        measured->kink = kink;
+      if (kink.angle > measured->kink.angle) measured->kink = kink;
     });
     measured->hub_crease.angle = measured->shroud_crease.angle = HUGE_VAL;
     measured->trailing_edge.angle = 0;
@@ -300,18 +282,14 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
       each_angle(
           rotor, [&](const CwSolidFace &a, const CwSolidFace &b) { return is_blade(a) && b.patch == wall; },
           [&](const CwMeasuredAngle &found) {
-            if (found.angle < least.angle)
-              least = found;
+            if (found.angle < least.angle) least = found;
           });
     }
     each_angle(
         rotor,
-        [&](const CwSolidFace &a, const CwSolidFace &b) {
-          return a.patch == "blade_trailing_edge" && is_blade(b);
-        },
+        [&](const CwSolidFace &a, const CwSolidFace &b) { return a.patch == "blade_trailing_edge" && is_blade(b); },
         [&](const CwMeasuredAngle &found) {
-          if (found.angle > measured->trailing_edge.angle)
-            measured->trailing_edge = found;
+          if (found.angle > measured->trailing_edge.angle) measured->trailing_edge = found;
         });
   });
 }

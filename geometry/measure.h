@@ -20,23 +20,23 @@ typedef struct {
   int valid;  // BRepCheck finds no fault, and the volume is positive: not inside out
   int closed; // each edge lies on two faces in opposite senses; no seam, no degenerate edge
   int face_count;
-  double largest_tolerance; // of any vertex, edge or face, m
-  double volume;            // m3
-  double shortest_edge;     // m
-  double narrowest_face;    // vector area over half the circumference: at most a narrow face's width, m
+  double largest_tolerance;   // of any vertex, edge or face, m
+  double volume;              // m3
+  double shortest_edge;       // m
+  double narrowest_face;      // vector area over half the circumference: at most a narrow face's width, m
   int shortest_of, narrowest; // a face of that edge, and that face
 } CwMeasuredSolid;
 
 typedef struct {
-  double wrap_angle;       // mean line at mid-span, leading edge to trailing edge, blade 1, rad
-  double inlet_diameter;   // of the inlet, or of the disc towards the suction zone, m
-  double inlet_area;       // of the same, m2
-  double outlet_diameter;  // of the blade's cut, m
-  double outlet_width;     // axial extent of the interface, m
-  double interface_radius; // m
-  double interface_area;   // m2
+  double wrap_angle;                         // mean line at mid-span, leading edge to trailing edge, blade 1, rad
+  double inlet_diameter;                     // of the inlet, or of the disc towards the suction zone, m
+  double inlet_area;                         // of the same, m2
+  double outlet_diameter;                    // of the blade's cut, m
+  double outlet_width;                       // axial extent of the interface, m
+  double interface_radius;                   // m
+  double interface_area;                     // m2
   CwMeasuredAngle hub_crease, shroud_crease; // least angle of blade to hub, blade to shroud
-  CwMeasuredAngle trailing_edge; // greatest angle round an edge of the trailing edge: the sharpest wedge
+  CwMeasuredAngle trailing_edge;             // greatest angle round an edge of the trailing edge: the sharpest wedge
   // Greatest angle between the normals of two faces that a caster expects to be one smooth surface: hub, shroud,
   // nut, shaft and pipe in themselves and to one another, leading edge to both sides of the blade, root fillets
   // to blade and wall.

@@ -6,17 +6,15 @@
 
 static const double gauss_x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
                                   0.9061798459386640};
-static const double gauss_w[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                  0.4786286704993665, 0.2369268850561891};
+static const double gauss_w[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
+                                  0.2369268850561891};
 
 void cw_meridian_point(const CwMeridianCurve *curve, double t, double x[2], double dx[2]) {
   const double u = 1 - t;
   for (int i = 0; i < 2; i++) {
-    const double p0 = curve->pole[0][i], p1 = curve->pole[1][i], p2 = curve->pole[2][i],
-                 p3 = curve->pole[3][i];
+    const double p0 = curve->pole[0][i], p1 = curve->pole[1][i], p2 = curve->pole[2][i], p3 = curve->pole[3][i];
     x[i] = u * u * u * p0 + 3 * u * u * t * p1 + 3 * u * t * t * p2 + t * t * t * p3;
-    if (dx)
-      dx[i] = 3 * (u * u * (p1 - p0) + 2 * u * t * (p2 - p1) + t * t * (p3 - p2));
+    if (dx) dx[i] = 3 * (u * u * (p1 - p0) + 2 * u * t * (p2 - p1) + t * t * (p3 - p2));
   }
 }
 
@@ -28,16 +26,15 @@ static double curve_speed(const CwMeridianCurve *curve, double t) {
 
 static double curve_piece(const CwMeridianCurve *curve, double a, double b) {
   double sum = 0;
-  for (int i = 0; i < 5; i++)
-    sum += gauss_w[i] * curve_speed(curve, 0.5 * (a + b) + 0.5 * (b - a) * gauss_x[i]);
+  for (int i = 0; i < 5; i++) sum += gauss_w[i] * curve_speed(curve, 0.5 * (a + b) + 0.5 * (b - a) * gauss_x[i]);
   return 0.5 * (b - a) * sum;
 }
 
 static void curve_measure(CwMeridianCurve *curve) {
   curve->length[0] = 0;
   for (int i = 0; i < CW_MERIDIAN_STEPS; i++)
-    curve->length[i + 1] = curve->length[i] + curve_piece(curve, (double)i / CW_MERIDIAN_STEPS,
-                                                          (double)(i + 1) / CW_MERIDIAN_STEPS);
+    curve->length[i + 1] =
+        curve->length[i] + curve_piece(curve, (double)i / CW_MERIDIAN_STEPS, (double)(i + 1) / CW_MERIDIAN_STEPS);
 }
 
 double cw_meridian_length(const CwMeridianCurve *curve, double t) {
@@ -55,17 +52,14 @@ double cw_meridian_parameter(const CwMeridianCurve *curve, double length) {
     else
       high = middle;
   }
-  double t =
-      (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
+  double t = (low + (length - curve->length[low]) / (curve->length[high] - curve->length[low])) / CW_MERIDIAN_STEPS;
   for (int i = 0; i < 4; i++)
-    t -= (curve->length[low] + curve_piece(curve, (double)low / CW_MERIDIAN_STEPS, t) - length) /
-         curve_speed(curve, t);
+    t -= (curve->length[low] + curve_piece(curve, (double)low / CW_MERIDIAN_STEPS, t) - length) / curve_speed(curve, t);
   return t;
 }
 
 // Arc length where the curve passes a radius, going downstream; the radius grows along the curve there.
-static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, const char *what,
-                                double *length) {
+static CwStatus curve_at_radius(const CwMeridianCurve *curve, double radius, const char *what, double *length) {
   CwStatus status = CW_OK;
   double low = 0, high = 1, x[2];
   CW_REQUIRE(radius > curve->pole[0][0] && radius < curve->pole[3][0], CW_ERR_DESIGN,
@@ -90,18 +84,14 @@ void cw_meridian_walls(const CwDesign *design, double hub_radial, double shroud_
   const double rn = design->hub_diameter / 2, half = design->outlet_width / 2, axial = design->axial_length;
   const double pole[2][4][2] = {
       {{rn, half - CW_MERIDIAN_HUB_START * axial}, {rn, half}, {rn + hub_radial * (r1 - rn), half}, {ri, half}},
-      {{r1, -half - axial},
-       {r1, -half - shroud_axial * axial},
-       {r1 + shroud_radial * (r2 - r1), -half},
-       {ri, -half}}};
+      {{r1, -half - axial}, {r1, -half - shroud_axial * axial}, {r1 + shroud_radial * (r2 - r1), -half}, {ri, -half}}};
   memcpy(hub->pole, pole[0], sizeof hub->pole);
   memcpy(shroud->pole, pole[1], sizeof shroud->pole);
 }
 
 CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
   CwStatus status = CW_OK;
-  const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2,
-               ri = design->interface_radius;
+  const double r1 = design->inlet_diameter / 2, r2 = design->outlet_diameter / 2, ri = design->interface_radius;
   const double rn = design->hub_diameter / 2;
   CW_REQUIRE(rn < r1 && r1 < r2 && r2 < ri, CW_ERR_DESIGN,
              "hub %.3f, inlet %.3f, outlet %.3f and interface %.3f mm (radii) must grow in this order: change "
@@ -111,10 +101,10 @@ CwStatus cw_meridian_make(const CwDesign *design, CwMeridian *meridian) {
                     &meridian->hub, &meridian->shroud);
   curve_measure(&meridian->hub);
   curve_measure(&meridian->shroud);
-  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub, "leading edge at the hub (leading_edge_radius_hub_mm)",
-                         &meridian->hub_leading));
-  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud, "leading edge at the shroud (leading_edge_radius_shroud_mm)",
-                         &meridian->shroud_leading));
+  CW_TRY(curve_at_radius(&meridian->hub, design->leading_edge_radius_hub,
+                         "leading edge at the hub (leading_edge_radius_hub_mm)", &meridian->hub_leading));
+  CW_TRY(curve_at_radius(&meridian->shroud, design->leading_edge_radius_shroud,
+                         "leading edge at the shroud (leading_edge_radius_shroud_mm)", &meridian->shroud_leading));
   CW_TRY(curve_at_radius(&meridian->hub, r2, "trailing edge at the hub", &meridian->hub_trailing));
   CW_TRY(curve_at_radius(&meridian->shroud, r2, "trailing edge at the shroud", &meridian->shroud_trailing));
   meridian->shaft_radius = design->through_shaft_diameter / 2;
@@ -133,16 +123,14 @@ void cw_meridian_blade_point(const CwMeridian *meridian, double s, double q, dou
   const double hub_length = meridian->hub_trailing - meridian->hub_leading;
   const double shroud_length = meridian->shroud_trailing - meridian->shroud_leading;
   double h[2], dh[2], c[2], dc[2];
-  cw_meridian_point(&meridian->hub,
-                    cw_meridian_parameter(&meridian->hub, meridian->hub_leading + q * hub_length), h, dh);
+  cw_meridian_point(&meridian->hub, cw_meridian_parameter(&meridian->hub, meridian->hub_leading + q * hub_length), h,
+                    dh);
   cw_meridian_point(&meridian->shroud,
-                    cw_meridian_parameter(&meridian->shroud, meridian->shroud_leading + q * shroud_length), c,
-                    dc);
+                    cw_meridian_parameter(&meridian->shroud, meridian->shroud_leading + q * shroud_length), c, dc);
   const double sh = hub_length / hypot(dh[0], dh[1]), ss = shroud_length / hypot(dc[0], dc[1]);
   for (int i = 0; i < 2; i++) {
     x[i] = (1 - s) * h[i] + s * c[i];
-    if (dx)
-      dx[i] = (1 - s) * dh[i] * sh + s * dc[i] * ss;
+    if (dx) dx[i] = (1 - s) * dh[i] * sh + s * dc[i] * ss;
   }
 }
 
@@ -188,8 +176,7 @@ double cw_meridian_volume(const CwMeridian *meridian) {
   const double d = meridian->nut_disk_radius, a = rn - d, l = meridian->hub.pole[0][1] - meridian->nut_end_z;
   // Quarter ellipse r = d + a sin x, z = -l cos x: pi (d^2 l + 2 d a l pi/4 + a^2 l 2/3).
   const double nut = M_PI * l * (d * d + d * a * M_PI / 2 + a * a * 2 / 3);
-  return M_PI * r1 * r1 * (meridian->shroud.pole[0][1] - meridian->inlet_z) +
-         curve_swept_volume(&meridian->shroud) +
+  return M_PI * r1 * r1 * (meridian->shroud.pole[0][1] - meridian->inlet_z) + curve_swept_volume(&meridian->shroud) +
          M_PI * ri * ri * (meridian->hub.pole[3][1] - meridian->shroud.pole[3][1]) -
          curve_swept_volume(&meridian->hub) - nut -
          M_PI * meridian->shaft_radius * meridian->shaft_radius * (meridian->nut_end_z - meridian->inlet_z);

@@ -25,19 +25,16 @@ static double hub_parameter(const CwMeridianCurve *hub, double least, const doub
   for (int i = 0, side = 0; i < 60; i++) {
     t = (a * fb - b * fa) / (fb - fa);
     const double f = ahead(hub, t, shroud, along, point);
-    if (fabs(f) < 1e-13 || b - a < 1e-14)
-      break;
+    if (fabs(f) < 1e-13 || b - a < 1e-14) break;
     if (f > 0) {
       a = t;
       fa = f;
-      if (side > 0)
-        fb /= 2;
+      if (side > 0) fb /= 2;
       side = 1;
     } else {
       b = t;
       fb = f;
-      if (side < 0)
-        fa /= 2;
+      if (side < 0) fa /= 2;
       side = -1;
     }
   }
@@ -76,9 +73,8 @@ void cw_meridian_passage(const CwMeridianCurve *hub, const CwMeridianCurve *shro
     CwPassageStation *s = &station[i];
     t = line_from(hub, shroud, end * i / (count - 1), t, s);
     const CwPassageStation *before = i > 0 ? s - 1 : s;
-    s->length = before->length * (i > 0) +
-                0.5 * hypot(s->hub[0] + s->shroud[0] - before->hub[0] - before->shroud[0],
-                            s->hub[1] + s->shroud[1] - before->hub[1] - before->shroud[1]);
+    s->length = before->length * (i > 0) + 0.5 * hypot(s->hub[0] + s->shroud[0] - before->hub[0] - before->shroud[0],
+                                                       s->hub[1] + s->shroud[1] - before->hub[1] - before->shroud[1]);
   }
 }
 
@@ -93,8 +89,7 @@ double cw_passage_reversal(const CwPassageStation *station, int count) {
   double reached = station[0].area, reversal = 0;
   for (int i = 1; i < count; i++) {
     const double area = station[i].area;
-    if (trend * (area - reached) > 0)
-      reached = area;
+    if (trend * (area - reached) > 0) reached = area;
     reversal = fmax(reversal, trend * (reached - area) / reached);
   }
   return reversal;

@@ -65,8 +65,7 @@ static double descend(const Problem *problem, double best[SHARES]) {
   double corner[SHARES + 1][SHARES], value[SHARES + 1];
   for (int i = 0; i <= SHARES; i++) {
     memcpy(corner[i], best, sizeof corner[i]);
-    if (i > 0)
-      corner[i][i - 1] += step[i - 1];
+    if (i > 0) corner[i][i - 1] += step[i - 1];
     value[i] = cost(problem, corner[i]);
   }
   for (int round = 0; round < ROUNDS; round++) {
@@ -84,19 +83,16 @@ static double descend(const Problem *problem, double best[SHARES]) {
         centre[k] += corner[i][k] / SHARES;
         size = fmax(size, fabs(corner[i + 1][k] - corner[0][k]));
       }
-    if (size < 2e-4)
-      break;
+    if (size < 2e-4) break;
     double *worst = corner[SHARES];
-    for (int k = 0; k < SHARES; k++)
-      mirrored[k] = 2 * centre[k] - worst[k];
+    for (int k = 0; k < SHARES; k++) mirrored[k] = 2 * centre[k] - worst[k];
     const double mirrored_value = cost(problem, mirrored);
     // Further out where the mirrored corner is the best, else back towards the centre where it is no better than
     // others.
     const double reach = mirrored_value < value[0] ? 2 : mirrored_value < value[SHARES] ? 0.5 : -0.5;
     double further_value = HUGE_VAL;
     if (mirrored_value < value[0] || mirrored_value >= value[SHARES - 1]) {
-      for (int k = 0; k < SHARES; k++)
-        further[k] = centre[k] + reach * (centre[k] - worst[k]);
+      for (int k = 0; k < SHARES; k++) further[k] = centre[k] + reach * (centre[k] - worst[k]);
       further_value = cost(problem, further);
     }
     if (further_value < fmin(mirrored_value, value[SHARES])) {
@@ -107,16 +103,14 @@ static double descend(const Problem *problem, double best[SHARES]) {
       value[SHARES] = mirrored_value;
     } else {
       for (int i = 1; i <= SHARES; i++) {
-        for (int k = 0; k < SHARES; k++)
-          corner[i][k] = 0.5 * (corner[i][k] + corner[0][k]);
+        for (int k = 0; k < SHARES; k++) corner[i][k] = 0.5 * (corner[i][k] + corner[0][k]);
         value[i] = cost(problem, corner[i]);
       }
     }
   }
   int least = 0;
   for (int i = 1; i <= SHARES; i++)
-    if (value[i] < value[least])
-      least = i;
+    if (value[i] < value[least]) least = i;
   memcpy(best, corner[least], sizeof corner[least]);
   return value[least];
 }
@@ -129,12 +123,10 @@ void cw_meridian_shape(const CwImpellerTable *table, CwDesign *design) {
   double best[SHARES] = {0}, least = HUGE_VAL;
   for (int i = 0; i < 3; i++) {
     double found[SHARES];
-    for (int k = 0; k < SHARES; k++)
-      found[k] = cw_case_given(given[k]) ? given[k] : start[i][k];
+    for (int k = 0; k < SHARES; k++) found[k] = cw_case_given(given[k]) ? given[k] : start[i][k];
     descend(&problem, found);
     const double value = descend(&problem, found); // a simplex that has become flat begins anew
-    if (value < least)
-      memcpy(best, found, sizeof best);
+    if (value < least) memcpy(best, found, sizeof best);
     least = fmin(least, value);
   }
   static const int quantity[SHARES] = {CW_DESIGN_hub_pole_radial, CW_DESIGN_shroud_pole_axial,

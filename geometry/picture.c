@@ -21,12 +21,11 @@ static const char *const stroke_colour[] = {
 CwStatus cw_picture_begin(CwPicture *picture, const char *path, double width, double height) {
   CwStatus status = CW_OK;
   CW_TRY(cw_atomic_file_open(path, &picture->file));
-  fprintf(
-      picture->file.stream,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" stroke-linejoin=\"round\">\n"
-      "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-      width, height, width, height);
+  fprintf(picture->file.stream,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
+          "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" stroke-linejoin=\"round\">\n"
+          "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
+          width, height, width, height);
 done:
   return status;
 }
@@ -42,10 +41,9 @@ void cw_picture_abandon(CwPicture *picture) {
 
 void cw_picture_line(CwPicture *picture, CwStroke stroke, const double (*x)[2], int count, int closed) {
   FILE *stream = picture->file.stream;
-  fprintf(stream, "<%s fill=\"%s\" %s points=\"", closed ? "polygon" : "polyline",
-          closed ? "#d6e8f2" : "none", stroke_style[stroke]);
-  for (int i = 0; i < count; i++)
-    fprintf(stream, "%s%.2f,%.2f", i ? " " : "", x[i][0], x[i][1]);
+  fprintf(stream, "<%s fill=\"%s\" %s points=\"", closed ? "polygon" : "polyline", closed ? "#d6e8f2" : "none",
+          stroke_style[stroke]);
+  for (int i = 0; i < count; i++) fprintf(stream, "%s%.2f,%.2f", i ? " " : "", x[i][0], x[i][1]);
   fprintf(stream, "\"/>\n");
 }
 
@@ -59,18 +57,17 @@ void cw_picture_arrow(CwPicture *picture, CwStroke stroke, double x0, double y0,
   const double head = fmin(10, 0.5 * length), half = 0.35 * head;
   cw_picture_segment(picture, stroke, x0, y0, x1 - 0.8 * head * c, y1 - 0.8 * head * s);
   fprintf(picture->file.stream, "<polygon fill=\"%s\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\"/>\n",
-          stroke_colour[stroke], x1, y1, x1 - head * c + half * s, y1 - head * s - half * c,
-          x1 - head * c - half * s, y1 - head * s + half * c);
+          stroke_colour[stroke], x1, y1, x1 - head * c + half * s, y1 - head * s - half * c, x1 - head * c - half * s,
+          y1 - head * s + half * c);
 }
 
 void cw_picture_circle(CwPicture *picture, CwStroke stroke, double x, double y, double radius) {
-  fprintf(picture->file.stream, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"none\" %s/>\n", x, y,
-          radius, stroke_style[stroke]);
+  fprintf(picture->file.stream, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"none\" %s/>\n", x, y, radius,
+          stroke_style[stroke]);
 }
 
 void cw_picture_text(CwPicture *picture, CwTextAlign align, double x, double y, const char *format, ...) {
-  static const char *const anchor[] = {
-      [CW_TEXT_LEFT] = "start", [CW_TEXT_MIDDLE] = "middle", [CW_TEXT_RIGHT] = "end"};
+  static const char *const anchor[] = {[CW_TEXT_LEFT] = "start", [CW_TEXT_MIDDLE] = "middle", [CW_TEXT_RIGHT] = "end"};
   char text[200];
   va_list arguments;
   va_start(arguments, format);
@@ -96,8 +93,7 @@ void cw_picture_scale(CwPicture *picture, double x, double y, double pixels_per_
   double best = 1e-3;
   for (int k = 0; k < 24; k++) {
     const double length = pow(10, -3 + k / 3) * step[k % 3];
-    if (length * pixels_per_mm <= 170)
-      best = length;
+    if (length * pixels_per_mm <= 170) best = length;
   }
   const double end = x + best * pixels_per_mm;
   cw_picture_segment(picture, CW_STROKE_WALL, x, y, end, y);

@@ -13,8 +13,7 @@ static double round_step(double largest) {
   const double power = pow(10, floor(log10(largest / 4)));
   static const double steps[] = {1, 1.5, 2, 2.5, 3, 5, 10};
   for (int i = 0; i < 7; i++)
-    if (steps[i] * power * 5 >= largest)
-      return steps[i] * power;
+    if (steps[i] * power * 5 >= largest) return steps[i] * power;
   return 10 * power;
 }
 
@@ -30,8 +29,8 @@ static void axes(CwPicture *picture, double bottom, double step, const char *tit
 }
 
 // A curve, with its name at the right end.
-static void curve(CwPicture *picture, CwStroke stroke, const double *y, double bottom, double top,
-                  const char *name, double name_shift) {
+static void curve(CwPicture *picture, CwStroke stroke, const double *y, double bottom, double top, const char *name,
+                  double name_shift) {
   double line[POINTS + 1][2];
   for (int i = 0; i <= POINTS; i++) {
     line[i][0] = left + width * i / POINTS;
@@ -57,12 +56,10 @@ CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path) {
       const double p = (double)i / POINTS;
       beta[j][i] = cw_blade_beta(&section, p) * 180 / M_PI;
       most_beta = fmax(most_beta, beta[j][i]);
-      if (j != 1)
-        continue;
+      if (j != 1) continue;
       double x[2];
       cw_meridian_blade_point(&m, 0.5, p, x, NULL);
-      const int blades =
-          design->blade_count * (design->splitter_start > 0 && p >= design->splitter_start ? 2 : 1);
+      const int blades = design->blade_count * (design->splitter_start > 0 && p >= design->splitter_start ? 2 : 1);
       const double thickness = p < section.nose ? 0 : 2 * cw_blade_half_thickness(&section, p);
       open[i] = cw_meridian_area(&m, p) * 1e6;
       blocked[i] = open[i] * (1 - blades * thickness / (2 * M_PI * x[0] * sin(cw_blade_beta(&section, p))));
@@ -70,8 +67,7 @@ CwStatus cw_picture_blade_angle(const CwDesign *design, const char *path) {
     }
   }
   CW_TRY(cw_picture_begin(&picture, path, left + width + 120, second + 60));
-  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
-                  "Along the blade, from the leading (0) to the trailing edge (1)");
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28, "Along the blade, from the leading (0) to the trailing edge (1)");
   const double beta_step = round_step(1.1 * most_beta), area_step = round_step(1.05 * most_area);
   axes(&picture, first, beta_step, "Blade angle beta from the tangential direction, deg");
   for (int j = 0; j < 3; j++) {

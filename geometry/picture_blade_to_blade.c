@@ -12,8 +12,7 @@ enum { SIDE = 120, NOSE = 24, OUTLINE = 2 * SIDE + 2 * NOSE + 4 };
 static void outline(const CwDesign *design, const CwBladeSection *section, double (*x)[2]) {
   const CwTrailingEdge edge = design->trailing_edge;
   const int faceted = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
-  const double begin =
-      faceted ? cw_blade_bevel_begin(section, edge, design->trailing_edge_bevel) : section->end;
+  const double begin = faceted ? cw_blade_bevel_begin(section, edge, design->trailing_edge_bevel) : section->end;
   for (int i = 0; i < OUTLINE; i++) {
     CwBladePoint point;
     if (i <= SIDE)
@@ -73,8 +72,8 @@ CwStatus cw_picture_blade_to_blade(const CwDesign *design, const char *path) {
     arc[i][1] = centre + 20 - r0 * sin(theta);
   }
   cw_picture_line(&picture, CW_STROKE_THIN, (const double(*)[2])arc, 41, 0);
-  cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20,
-                     centre + scale * design->outlet_diameter / 2, centre + 20);
+  cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20, centre + scale * design->outlet_diameter / 2,
+                     centre + 20);
   cw_picture_segment(&picture, CW_STROKE_THIN, centre, centre + 20,
                      centre + scale * m.hub.pole[3][0] * 0.5 * cos(section.theta[0]),
                      centre + 20 - scale * m.hub.pole[3][0] * 0.5 * sin(section.theta[0]));

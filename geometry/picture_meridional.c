@@ -25,8 +25,8 @@ static void draw_curve(CwPicture *picture, const Frame *frame, const CwMeridianC
   cw_picture_line(picture, CW_STROKE_WALL, (const double(*)[2])line, POINTS + 1, 0);
 }
 
-static void draw_segment(CwPicture *picture, const Frame *frame, CwStroke stroke, double r0, double z0,
-                         double r1, double z1) {
+static void draw_segment(CwPicture *picture, const Frame *frame, CwStroke stroke, double r0, double z0, double r1,
+                         double z1) {
   const double a[2] = {r0, z0}, b[2] = {r1, z1};
   double p[2], q[2];
   to_pixels(frame, a, p);
@@ -40,8 +40,7 @@ static void draw_nut(CwPicture *picture, const Frame *frame, const CwMeridian *m
   const double axis[2] = {m->shaft_radius, m->shaft_radius > 0 ? m->inlet_z : ze};
   to_pixels(frame, axis, line[0]);
   for (int i = 0; i <= POINTS; i++) {
-    const double turn = M_PI / 2 * i / POINTS,
-                 x[2] = {rd + (rn - rd) * sin(turn), z0 + (ze - z0) * cos(turn)};
+    const double turn = M_PI / 2 * i / POINTS, x[2] = {rd + (rn - rd) * sin(turn), z0 + (ze - z0) * cos(turn)};
     to_pixels(frame, x, line[i + 1]);
   }
   cw_picture_line(picture, CW_STROKE_WALL, (const double(*)[2])line, POINTS + 2, 0);
@@ -59,8 +58,8 @@ static void draw_blade(CwPicture *picture, const Frame *frame, const CwMeridian 
   cw_picture_line(picture, CW_STROKE_BLADE, (const double(*)[2])line, 2 * POINTS + 2, 1);
 }
 
-static void label(CwPicture *picture, const Frame *frame, CwTextAlign align, double r, double z, double dx,
-                  double dy, const char *name, double mm) {
+static void label(CwPicture *picture, const Frame *frame, CwTextAlign align, double r, double z, double dx, double dy,
+                  const char *name, double mm) {
   const double x[2] = {r, z};
   double p[2];
   to_pixels(frame, x, p);
@@ -97,8 +96,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   draw_segment(&picture, &frame, CW_STROKE_THIN, ri, -half, ri, half);
   draw_segment(&picture, &frame, CW_STROKE_AXIS, 0, m.inlet_z - 0.05 * ri, 0, half + 0.1 * ri);
   label(&picture, &frame, CW_TEXT_LEFT, r1, m.inlet_z, 6, -8, "D1", design->inlet_diameter);
-  label(&picture, &frame, CW_TEXT_LEFT, design->outlet_diameter / 2, half, 12, 4, "D2",
-        design->outlet_diameter);
+  label(&picture, &frame, CW_TEXT_LEFT, design->outlet_diameter / 2, half, 12, 4, "D2", design->outlet_diameter);
   label(&picture, &frame, CW_TEXT_MIDDLE, ri, 0, 0, -12, "b2", design->outlet_width);
   label(&picture, &frame, CW_TEXT_LEFT, design->hub_diameter / 2, m.hub.pole[0][1], 14, 14, "hub diameter",
         design->hub_diameter);
@@ -112,8 +110,7 @@ CwStatus cw_picture_meridional(const CwDesign *design, const char *path) {
   double x[2], p[2];
   cw_meridian_blade_point(&m, 1, 0, x, NULL);
   to_pixels(&frame, x, p);
-  cw_picture_text(&picture, CW_TEXT_RIGHT, p[0] - 8, p[1] - 4, "leading edge: shroud r = %.1f mm",
-                  x[0] * 1e3);
+  cw_picture_text(&picture, CW_TEXT_RIGHT, p[0] - 8, p[1] - 4, "leading edge: shroud r = %.1f mm", x[0] * 1e3);
   const double flow[2][2] = {{0.6 * r1, m.inlet_z}, {0.6 * r1, m.inlet_z + 0.12 * ri}};
   double a[2], b[2];
   to_pixels(&frame, flow[0], a);

@@ -12,8 +12,7 @@ static void triangle(CwPicture *picture, double left, double base, double scale,
   cw_picture_arrow(picture, CW_STROKE_WALL, left, base, x1, base);
   cw_picture_arrow(picture, CW_STROKE_FLOW, left, base, xa, ya);
   cw_picture_arrow(picture, CW_STROKE_BLADE, x1, base, xa, ya);
-  if (xa > left + 1)
-    cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
+  if (xa > left + 1) cw_picture_segment(picture, CW_STROKE_THIN, xa, ya, xa, base);
   cw_picture_text(picture, CW_TEXT_MIDDLE, 0.5 * (left + x1), base + 20, "u = %.2f", t->u);
   cw_picture_text(picture, CW_TEXT_RIGHT, 0.5 * (left + xa) - 8, 0.5 * (base + ya) - 4, "c = %.2f", t->c);
   // Above w, or where the line without slip runs there, below u.
@@ -52,22 +51,19 @@ static void row(CwPicture *picture, double y, const char *where, const CwTriangl
 CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path) {
   CwStatus status = CW_OK;
   CwPicture picture = {0};
-  static const char *const heads[] = {"r, mm", "u",         "c_m",        "c_u",       "c",
-                                      "w",     "flow, deg", "blade, deg", "difference"};
+  static const char *const heads[] = {"r, mm", "u", "c_m", "c_u", "c", "w", "flow, deg", "blade, deg", "difference"};
   static const char *const inlets[] = {"inlet, hub", "inlet, mid-span", "inlet, shroud"};
   static const char *const outlets[] = {"outlet, hub", "outlet, mid-span", "outlet, shroud"};
   const CwTriangle *in = design->inlet_triangle, *out = design->outlet_triangle;
   // One scale for all: the outlet's triangle is 560 px wide, less where the three of the inlet want the room.
   const double scale = fmin(560 / out[1].u, (860 - 70 - 2 * 85) / (in[0].u + in[1].u + in[2].u));
   double highest = 0;
-  for (int j = 0; j < CW_TRIANGLE_SPANS; j++)
-    highest = fmax(highest, in[j].c_m);
+  for (int j = 0; j < CW_TRIANGLE_SPANS; j++) highest = fmax(highest, in[j].c_m);
   const double first = 100 + scale * highest, second = first + 100 + scale * out[1].c_m, table = second + 70;
   CW_TRY(cw_picture_begin(&picture, path, 940, table + 22 * 7 + 50));
-  cw_picture_text(
-      &picture, CW_TEXT_LEFT, 20, 28,
-      "Velocity triangles, m/s, all to one scale; inlet with blockage and without swirl, outlet behind the "
-      "blades with slip");
+  cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
+                  "Velocity triangles, m/s, all to one scale; inlet with blockage and without swirl, outlet behind the "
+                  "blades with slip");
   double left = 70;
   for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
     triangle(&picture, left, first, scale, inlets[j], &in[j]);
@@ -75,18 +71,16 @@ CwStatus cw_picture_velocity_triangles(const CwDesign *design, const char *path)
   }
   triangle(&picture, 70, second, scale, "outlet, mid-span; chain line: along the blade, without slip", &out[1]);
   without_slip(&picture, 70, second, scale, &out[1]);
-  for (int i = 0; i < 9; i++)
-    cw_picture_text(&picture, CW_TEXT_RIGHT, 250 + 75 * i, table, "%s", heads[i]);
+  for (int i = 0; i < 9; i++) cw_picture_text(&picture, CW_TEXT_RIGHT, 250 + 75 * i, table, "%s", heads[i]);
   cw_picture_segment(&picture, CW_STROKE_THIN, 40, table + 8, 860, table + 8);
   for (int j = 0; j < CW_TRIANGLE_SPANS; j++) {
     row(&picture, table + 28 + 22 * j, inlets[j], &in[j]);
     row(&picture, table + 28 + 22 * (j + 3), outlets[j], &out[j]);
   }
-  cw_picture_text(
-      &picture, CW_TEXT_LEFT, 40, table + 22 * 7 + 20,
-      "slip factor %.3f (Wiesner %.3f, Pfleiderer %.3f), w2/w1 %.2f, predicted head %.2f m, asked %.2f m",
-      design->slip_factor, design->slip_factor_wiesner, design->slip_factor_pfleiderer,
-      design->diffusion_ratio, design->predicted_head, design->head);
+  cw_picture_text(&picture, CW_TEXT_LEFT, 40, table + 22 * 7 + 20,
+                  "slip factor %.3f (Wiesner %.3f, Pfleiderer %.3f), w2/w1 %.2f, predicted head %.2f m, asked %.2f m",
+                  design->slip_factor, design->slip_factor_wiesner, design->slip_factor_pfleiderer,
+                  design->diffusion_ratio, design->predicted_head, design->head);
   CW_TRY(cw_picture_end(&picture));
 done:
   cw_picture_abandon(&picture);

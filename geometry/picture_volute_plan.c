@@ -39,8 +39,7 @@ static void to_pixels(const Frame *frame, const double x[2], double out[2]) {
 
 static void draw(CwPicture *picture, const Frame *frame, CwStroke stroke, double (*x)[2], int count) {
   double p[LINE_MOST][2];
-  for (int i = 0; i < count; i++)
-    to_pixels(frame, x[i], p[i]);
+  for (int i = 0; i < count; i++) to_pixels(frame, x[i], p[i]);
   cw_picture_line(picture, stroke, (const double(*)[2])p, count, 0);
 }
 
@@ -63,8 +62,7 @@ static int diffuser_wall(const CwVolute *volute, const double from[2], const dou
       x[i][k] = u * u * u * from[k] + 3 * u * u * t * a + 3 * u * t * t * b + t * t * t * end[k];
     }
   }
-  for (int k = 0; k < 2; k++)
-    x[WALL_POINTS][k] = end[k] + down[k] * volute->input.discharge_pipe_length;
+  for (int k = 0; k < 2; k++) x[WALL_POINTS][k] = end[k] + down[k] * volute->input.discharge_pipe_length;
   return WALL_POINTS + 1;
 }
 
@@ -88,8 +86,7 @@ static void make_walls(const CwVolute *volute, Walls *walls) {
   cw_volute_contact_circle(volute, volute->tip_angle, 0, centre, normal);
   // Round the nose, from where it touches the spiral to the flank at x = x_i.
   double from = atan2(-normal[1], -normal[0]);
-  if (from > 0)
-    from -= 2 * M_PI;
+  if (from > 0) from -= 2 * M_PI;
   for (int i = 0; i < NOSE_POINTS; i++) {
     const double angle = from * (NOSE_POINTS - 1 - i) / (NOSE_POINTS - 1);
     walls->inner[i][0] = centre[0] + volute->input.tongue_radius * cos(angle);
@@ -123,10 +120,8 @@ CwStatus cw_picture_volute_plan(const CwDesign *design, const char *path) {
   Walls walls;
   Frame frame = {volute->discharge_lean, 1, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 60, 70};
   make_walls(volute, &walls);
-  for (int i = 0; i < walls.outer_count; i++)
-    reach(&frame, walls.outer[i]);
-  for (int i = 0; i < walls.inner_count; i++)
-    reach(&frame, walls.inner[i]);
+  for (int i = 0; i < walls.outer_count; i++) reach(&frame, walls.outer[i]);
+  for (int i = 0; i < walls.inner_count; i++) reach(&frame, walls.inner[i]);
   const double wide = frame.high[0] - frame.low[0], high = frame.high[1] - frame.low[1];
   frame.scale = largest / fmax(wide, high);
   const double bottom = frame.top + frame.scale * high;

@@ -38,8 +38,7 @@ static void area_chart(CwPicture *picture, const CwVolute *volute, double bottom
       line[i][0] = left + width * phi / (2 * M_PI);
       line[i][1] = bottom - chart * cw_volute_section(volute, phi).area * 1e6 / top;
     }
-    cw_picture_line(picture, part ? CW_STROKE_BLADE : CW_STROKE_AXIS, (const double(*)[2])line, POINTS + 1,
-                    0);
+    cw_picture_line(picture, part ? CW_STROKE_BLADE : CW_STROKE_AXIS, (const double(*)[2])line, POINTS + 1, 0);
   }
   const double x = left + width * tip / (2 * M_PI);
   cw_picture_segment(picture, CW_STROKE_FLOW, x, bottom, x, bottom - 0.55 * chart);
@@ -52,8 +51,7 @@ static int outline(const CwVolute *volute, double phi, double x[SIDE_POINTS + 2]
   x[0][1] = volute->input.inlet_width / 2;
   for (int i = 0; i <= SIDE_POINTS; i++) {
     double p[3];
-    cw_volute_wall_point(volute, phi, volute->arc_half_angle * (SIDE_POINTS - i) / SIDE_POINTS, p, NULL,
-                         NULL);
+    cw_volute_wall_point(volute, phi, volute->arc_half_angle * (SIDE_POINTS - i) / SIDE_POINTS, p, NULL, NULL);
     x[i + 1][0] = hypot(p[0], p[1]);
     x[i + 1][1] = p[2];
   }
@@ -76,8 +74,8 @@ static void outlines(CwPicture *picture, const CwVolute *volute, double bottom, 
     const CwVoluteSection s = cw_volute_section(volute, i * STEP * degree);
     const double y = bottom - scale * (s.outer_radius - r3);
     cw_picture_segment(picture, CW_STROKE_THIN, middle, y, left + 0.80 * width, y);
-    cw_picture_text(picture, CW_TEXT_LEFT, left + 0.81 * width, y + 4, "%d deg: %.0f mm2, r = %.1f mm",
-                    i * STEP, s.area * 1e6, s.outer_radius * 1e3);
+    cw_picture_text(picture, CW_TEXT_LEFT, left + 0.81 * width, y + 4, "%d deg: %.0f mm2, r = %.1f mm", i * STEP,
+                    s.area * 1e6, s.outer_radius * 1e3);
   }
   const double b3 = scale * volute->input.inlet_width;
   cw_picture_segment(picture, CW_STROKE_AXIS, middle, bottom + 12, middle,
@@ -103,13 +101,11 @@ CwStatus cw_picture_volute_sections(const CwDesign *design, const char *path) {
   if (in->area_law == CW_AREA_LAW_VELOCITY)
     cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
                     "Volute: %s sections, constant velocity %.2f m/s, throat %.0f mm2, %s discharge",
-                    section[in->section], volute->law_constant, volute->throat_area * 1e6,
-                    discharge[in->discharge]);
+                    section[in->section], volute->law_constant, volute->throat_area * 1e6, discharge[in->discharge]);
   else
     cw_picture_text(&picture, CW_TEXT_LEFT, 20, 28,
                     "Volute: %s sections, constant angular momentum %.3f m2/s, throat %.0f mm2, %s discharge",
-                    section[in->section], volute->law_constant, volute->throat_area * 1e6,
-                    discharge[in->discharge]);
+                    section[in->section], volute->law_constant, volute->throat_area * 1e6, discharge[in->discharge]);
   area_chart(&picture, volute, first);
   outlines(&picture, volute, second, scale);
   CW_TRY(cw_picture_end(&picture));

@@ -22,8 +22,8 @@
 
 namespace {
 
-const int PLANE_CURVE = 49;   // points of a curve in a plane's or cylinder's parameters
-const double U_MARGIN = 0.1;  // rad: keeps the faces of cylinders off u = 0, where u jumps
+const int PLANE_CURVE = 49;     // points of a curve in a plane's or cylinder's parameters
+const double U_MARGIN = 0.1;    // rad: keeps the faces of cylinders off u = 0, where u jumps
 const double SAME_POINT = 1e-7; // mm
 
 struct Piece { // of an outline: an arc or, between the sectors of a ring, a line from rim to rim
@@ -34,10 +34,8 @@ struct Piece { // of an outline: an arc or, between the sectors of a ring, a lin
 std::vector<CwSolidFace *> faces_of(CwSolid &solid, const std::string &patch) {
   std::vector<CwSolidFace *> found;
   for (CwSolidFace &face : solid.faces)
-    if (face.patch == patch)
-      found.push_back(&face);
-  if (found.empty())
-    throw std::runtime_error("no patch " + patch);
+    if (face.patch == patch) found.push_back(&face);
+  if (found.empty()) throw std::runtime_error("no patch " + patch);
   return found;
 }
 
@@ -54,8 +52,7 @@ std::vector<Piece> outline_of(const CwSolidFace &face) {
 // The plane's normal, out of the solid.
 gp_Dir outward_of(const CwSolidFace &face) {
   const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(BRep_Tool::Surface(face.face));
-  if (plane.IsNull())
-    throw std::runtime_error("patch " + face.patch + " is not flat");
+  if (plane.IsNull()) throw std::runtime_error("patch " + face.patch + " is not flat");
   const gp_Ax3 at = plane->Position();
   const gp_Dir normal = at.Direct() ? at.Direction() : at.Direction().Reversed();
   return face.face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal;
@@ -69,8 +66,7 @@ public:
     along = gp_Vec(out) * length;
     for (const CwSolidFace *end : ends) {
       std::vector<int> loop;
-      for (const Piece &piece : outline_of(*end))
-        loop.push_back(rod(piece));
+      for (const Piece &piece : outline_of(*end)) loop.push_back(rod(piece));
       loops.push_back(loop);
     }
   }
@@ -79,12 +75,10 @@ public:
     const gp_Dir out(along);
     double largest = 0;
     for (const Rod &rod : rods)
-      if (!rod.circle.IsNull())
-        largest = std::max(largest, rod.circle->Radius());
+      if (!rod.circle.IsNull()) largest = std::max(largest, rod.circle->Radius());
     face(gp_Ax3(near_point(), out.Reversed()), 0, names.side, "interface");
     for (const Rod &rod : rods)
-      if (!rod.circle.IsNull())
-        wall(rod, rod.circle->Radius() < largest - SAME_POINT ? names.core : names.wall);
+      if (!rod.circle.IsNull()) wall(rod, rod.circle->Radius() < largest - SAME_POINT ? names.core : names.wall);
     face(gp_Ax3(near_point().Translated(along), out), 1, end.patch.c_str(), end.kind.c_str());
     return builder.build(names.domain, gp_Trsf(), true);
   }
@@ -102,13 +96,14 @@ private:
   std::vector<Rod> rods;
   std::vector<std::vector<int>> loops; // of rods
 
-  gp_Pnt near_point() const { return builder.point(vertex[0][0]); }
+  gp_Pnt near_point() const {
+    return builder.point(vertex[0][0]);
+  }
 
   // Place of a near point among the vertices, which is made where there is none.
   int place_of(const gp_Pnt &point) {
     for (size_t v = 0; v < vertex[0].size(); v++)
-      if (builder.point(vertex[0][v]).Distance(point) < SAME_POINT)
-        return int(v);
+      if (builder.point(vertex[0][v]).Distance(point) < SAME_POINT) return int(v);
     vertex[0].push_back(builder.vertex(point));
     vertex[1].push_back(builder.vertex(point.Translated(along)));
     line.push_back(-1);
@@ -116,7 +111,10 @@ private:
   }
 
   int rod(const Piece &piece) {
-    Rod made = {Handle(Geom_Circle)::DownCast(piece.curve), piece.first, {}, place_of(piece.curve->Value(piece.first)),
+    Rod made = {Handle(Geom_Circle)::DownCast(piece.curve),
+                piece.first,
+                {},
+                place_of(piece.curve->Value(piece.first)),
                 place_of(piece.curve->Value(piece.last))};
     for (size_t i = 0; i < rods.size(); i++) // a line between two sectors
       if (made.circle.IsNull() && rods[i].circle.IsNull() &&
@@ -134,16 +132,14 @@ private:
   void face(const gp_Ax3 &axes, int far, const char *patch, const char *kind) {
     for (const std::vector<int> &loop : loops) {
       std::vector<LoopEdge> edges;
-      for (int i : loop)
-        edges.push_back(rods[i].edge[far]);
+      for (int i : loop) edges.push_back(rods[i].edge[far]);
       builder.face(new Geom_Plane(axes), edges, patch, kind);
     }
   }
 
   void wall(const Rod &rod, const char *patch) {
     for (int place : {rod.start, rod.end})
-      if (line[place] < 0)
-        line[place] = builder.line(vertex[0][place], vertex[1][place]);
+      if (line[place] < 0) line[place] = builder.line(vertex[0][place], vertex[1][place]);
     // The cylinder's angles count from a little before the arc, in the arc's own sense.
     const gp_Pnt centre = rod.circle->Location();
     const gp_Dir from(gp_Vec(centre, rod.circle->Value(rod.first - U_MARGIN)));

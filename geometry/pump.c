@@ -11,9 +11,9 @@
 #include "geometry/stator.h"
 
 static const double degree = M_PI / 180;
-static const double STUB = 0.25;      // of the diameter
+static const double STUB = 0.25;       // of the diameter
 static const double LEAST_ZONE = 0.25; // of the diameter
-static const double OPEN_ZONE = 1;    // of the diameter, where the length is left open
+static const double OPEN_ZONE = 1;     // of the diameter, where the length is left open
 
 static CwStatus check_zone(const char *what, double given, double stub, double diameter, const char *keys) {
   CwStatus status = CW_OK;
@@ -52,13 +52,11 @@ done:
   return status;
 }
 
-static CwStatus add_pipe(CwPump *pump, int neighbour, const char *end, double length,
-                         const CwPipeZoneNames *names) {
+static CwStatus add_pipe(CwPump *pump, int neighbour, const char *end, double length, const CwPipeZoneNames *names) {
   CwStatus status = CW_OK;
   CW_TRY(cw_pipe_zone_make(pump->solid[neighbour], end, length, names, &pump->solid[pump->count]));
   pump->interface[pump->interface_count++] =
-      (CwPumpInterface){{cw_solid_domain(pump->solid[neighbour]), names->domain},
-                        {names->neighbour_side, names->side}};
+      (CwPumpInterface){{cw_solid_domain(pump->solid[neighbour]), names->domain}, {names->neighbour_side, names->side}};
   pump->count++;
 done:
   return status;
@@ -83,8 +81,7 @@ CwStatus cw_pump_build(const CwCase *table, const CwDesign *design, const CwPipe
   if (table->impeller.suction_pipe_zone == CW_PIPE_OWN_ZONE)
     CW_TRY(add_pipe(pump, CW_PUMP_ROTOR, "inlet", design->suction_pipe_length - stubs->suction, &suction));
   if (table->volute.discharge_pipe_zone == CW_PIPE_OWN_ZONE)
-    CW_TRY(add_pipe(pump, CW_PUMP_STATOR, "outlet", design->discharge_pipe_length - stubs->discharge,
-                    &discharge));
+    CW_TRY(add_pipe(pump, CW_PUMP_STATOR, "outlet", design->discharge_pipe_length - stubs->discharge, &discharge));
   for (int i = 0; i < pump->count && design->rotation == CW_ROTATION_CLOCKWISE; i++)
     CW_TRY(cw_solid_mirror(pump->solid[i]));
 done:
@@ -92,8 +89,7 @@ done:
 }
 
 void cw_pump_free(CwPump *pump) {
-  for (int i = 0; i < CW_PUMP_DOMAINS_MOST; i++)
-    cw_solid_free(&pump->solid[i]);
+  for (int i = 0; i < CW_PUMP_DOMAINS_MOST; i++) cw_solid_free(&pump->solid[i]);
   pump->count = pump->interface_count = 0;
 }
 
@@ -107,22 +103,19 @@ static const char *maker_of(const char *face) {
       {"tongue", "tongue_radius_mm"},
   };
   for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
-    if (strstr(face, makers[i][0]))
-      return makers[i][1];
+    if (strstr(face, makers[i][0])) return makers[i][1];
   return "the dimension that makes it";
 }
 
 static CwStatus check_solid(const CwDesign *design, const CwSolid *solid, const CwMeasuredSolid *measured) {
   CwStatus status = CW_OK;
-  const double edge = CW_PUMP_LEAST_EDGE * design->outlet_diameter,
-               face = CW_PUMP_LEAST_FACE * design->outlet_diameter;
-  CW_REQUIRE(measured->valid && measured->closed && measured->largest_tolerance < CW_PUMP_LARGEST_TOLERANCE,
-             CW_ERR_GEOMETRY,
-             "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
-             "%.3g mm: UNSOUND",
-             cw_solid_domain(solid), measured->valid ? "valid" : "not valid",
-             measured->closed ? "closed" : "not closed", measured->largest_tolerance * 1e3,
-             CW_PUMP_LARGEST_TOLERANCE * 1e3);
+  const double edge = CW_PUMP_LEAST_EDGE * design->outlet_diameter, face = CW_PUMP_LEAST_FACE * design->outlet_diameter;
+  CW_REQUIRE(
+      measured->valid && measured->closed && measured->largest_tolerance < CW_PUMP_LARGEST_TOLERANCE, CW_ERR_GEOMETRY,
+      "%s: the solid is %s and %s, its largest tolerance is %.3g mm; it must be valid, closed and under "
+      "%.3g mm: UNSOUND",
+      cw_solid_domain(solid), measured->valid ? "valid" : "not valid", measured->closed ? "closed" : "not closed",
+      measured->largest_tolerance * 1e3, CW_PUMP_LARGEST_TOLERANCE * 1e3);
   CW_REQUIRE(measured->shortest_edge > edge, CW_ERR_GEOMETRY,
              "%s: the shortest edge, of %s, is %.3g mm long; at least %.3g mm are allowed: raise %s",
              cw_solid_domain(solid), cw_solid_face_name(solid, measured->shortest_of), measured->shortest_edge * 1e3,
@@ -142,12 +135,10 @@ static CwStatus check_rotor(const CwDesign *design, const CwPump *pump, CwMeasur
   CwDesign cut = *design;
   cut.suction_pipe_length = pump->stubs.suction;
   CW_TRY(cw_rotor_volume(&cut, &measured->rotor_volume_of_sections));
-  CW_REQUIRE(fabs(volume / measured->rotor_volume_of_sections - 1) < CW_PUMP_VOLUME_TOLERANCE,
-             CW_ERR_GEOMETRY,
+  CW_REQUIRE(fabs(volume / measured->rotor_volume_of_sections - 1) < CW_PUMP_VOLUME_TOLERANCE, CW_ERR_GEOMETRY,
              "rotor: the solid has %.3f cm3, the sections of meridian and blades %.3f cm3; %.2g %% apart are "
              "allowed: UNSOUND",
-             volume * 1e6, measured->rotor_volume_of_sections * 1e6,
-             100 * CW_PUMP_VOLUME_TOLERANCE);
+             volume * 1e6, measured->rotor_volume_of_sections * 1e6, 100 * CW_PUMP_VOLUME_TOLERANCE);
   CW_REQUIRE(kink->angle < CW_PUMP_LARGEST_KINK, CW_ERR_GEOMETRY,
              "rotor: faces that should be smooth meet with a kink of %.2f deg at (%.2f, %.2f, %.2f) mm; %.0f deg "
              "are allowed: lower root_fillet_radius_mm or leading_edge_ratio",

@@ -12,9 +12,9 @@
 
 namespace {
 
-const double largest_mitre = 1.6;       // length of the mitre at a corner over L
-const double most_of_span = 0.85;       // that both fillets may take
-const double settles = 0.15;            // share of a patch over which it takes its own size from that of its end
+const double largest_mitre = 1.6; // length of the mitre at a corner over L
+const double most_of_span = 0.85; // that both fillets may take
+const double settles = 0.15;      // share of a patch over which it takes its own size from that of its end
 
 struct Vector {
   double m, t; // downstream along the wall and in the sense of theta, m
@@ -86,8 +86,7 @@ void Fillets::normals(const CwBladePatch &patch, bool left, bool round) {
     const Vector &from = normal[round ? 0 : i];
     angle.push_back(cw_root_fillet_angle(&place[i], from.m * std::cos(f) - from.t * std::sin(f),
                                          from.m * std::sin(f) + from.t * std::cos(f)));
-    length.push_back(
-        cw_root_fillet_length(design, &on, patch.points[i * CW_SPAN_POINTS + j].q, angle.back()));
+    length.push_back(cw_root_fillet_length(design, &on, patch.points[i * CW_SPAN_POINTS + j].q, angle.back()));
   }
 }
 
@@ -125,8 +124,7 @@ void Fillets::feet(CwBladePatch &patch, bool straight, const Fillets *before, bo
     const double wb = straight ? 1 - f : 1 - smooth_step(f / settles),
                  we = straight ? f : 1 - smooth_step((1 - f) / settles);
     const auto ends = [&](double own, double at_begin, double own_begin, double at_end, double own_end) {
-      return straight ? at_begin * wb + at_end * we
-                    : own + wb * (at_begin - own_begin) + we * (at_end - own_end);
+      return straight ? at_begin * wb + at_end * we : own + wb * (at_begin - own_begin) + we * (at_end - own_end);
     };
     const Vector shift = {
         ends(length[i] * normal[i].m, begin.m, length[0] * normal[0].m, end.m, length[last] * normal[last].m),
@@ -147,8 +145,7 @@ void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape
   for (const CwBladePatch *patch : shape->patches())
     for (size_t i = 0; i < patch->u.size(); i++) {
       const double taken = patch->reach[CW_HUB][i] + patch->reach[CW_SHROUD][i];
-      if (taken <= most_of_span)
-        continue;
+      if (taken <= most_of_span) continue;
       std::snprintf(text, sizeof text,
                     "root fillets of %.2f mm take %.0f %% of the %s's height, %.0f %% are allowed: lower "
                     "root_fillet_radius_mm to %.2f",
@@ -161,8 +158,7 @@ void check_room(const CwDesign *design, const CwMeridian *meridian, CwBladeShape
     const int j = wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1;
     for (size_t i = 0; i < shape->leading.u.size(); i++) {
       const double q = shape->leading.points[i * CW_SPAN_POINTS + j].q + shape->leading.foot[wall][i].q;
-      if (on.begin + q * on.length > 0.02 * on.begin)
-        continue;
+      if (on.begin + q * on.length > 0.02 * on.begin) continue;
       std::snprintf(text, sizeof text,
                     "root fillets of %.2f mm have no room before the %s's leading edge on the %s: lower "
                     "root_fillet_radius_mm, or raise leading_edge_radius_%s_mm",
@@ -185,18 +181,15 @@ void cw_root_fillets(const CwDesign *design, const CwMeridian *meridian, CwBlade
     leading.rest_at_ends(shape->leading);
     pressure.rest_at_ends(shape->pressure);
     suction.rest_at_ends(shape->suction);
-    if (shape->has_bevel)
-      bevel.normals(shape->bevel, false, false);
-    if (shape->has_trailing)
-      trailing.normals(shape->trailing, false, design->trailing_edge == CW_EDGE_ROUNDED);
+    if (shape->has_bevel) bevel.normals(shape->bevel, false, false);
+    if (shape->has_trailing) trailing.normals(shape->trailing, false, design->trailing_edge == CW_EDGE_ROUNDED);
     const Fillets *behind_suction = shape->has_bevel ? &bevel : &trailing;
     const Fillets *behind_pressure = shape->has_trailing ? &trailing : &bevel;
     leading.feet(shape->leading, false, &suction, false, &pressure, false);
     pressure.feet(shape->pressure, false, &leading, true, behind_pressure, true);
     suction.feet(shape->suction, false, &leading, false, behind_suction, false);
     if (shape->has_bevel)
-      bevel.feet(shape->bevel, true, &suction, true, shape->has_trailing ? &trailing : &pressure,
-                 !shape->has_trailing);
+      bevel.feet(shape->bevel, true, &suction, true, shape->has_trailing ? &trailing : &pressure, !shape->has_trailing);
     if (shape->has_trailing)
       trailing.feet(shape->trailing, design->trailing_edge != CW_EDGE_ROUNDED, shape->has_bevel ? &bevel : &suction,
                     true, &pressure, true);

@@ -65,7 +65,7 @@ public:
 private:
   const CwDesign *design;
   CwMeridian meridian;
-  const CwMeridianCurve *curve[2]; // hub and shroud
+  const CwMeridianCurve *curve[2];  // hub and shroud
   std::vector<CwBladeShape> shapes; // the blade and, with splitters, the splitter behind its pressure side
   std::vector<Blade> blade;         // splitters among the blades
   double pitch;
@@ -89,10 +89,11 @@ private:
   void wall_face(int i, int w);
   void pipe_faces(int i);
   void blade_faces(int i);
-  void disk(double height, double r, int w, bool outward, const char *patch, const char *kind,
-            const char *name);
+  void disk(double height, double r, int w, bool outward, const char *patch, const char *kind, const char *name);
   // Angle of the next blade's frame in that of blade i: 0, or the pitch where it is the first of its pitch.
-  double far_of(int i) const { return (i + 1) % (int)shapes.size() == 0 ? pitch : 0; }
+  double far_of(int i) const {
+    return (i + 1) % (int)shapes.size() == 0 ? pitch : 0;
+  }
 };
 
 Handle(Geom2d_Curve) line(double u, double v, double du, double dv) {
@@ -122,20 +123,17 @@ CwStatus Rotor::sections() {
     CwBladeSection section;
     CW_TRY(cw_blade_section(design, &meridian, (double)j / (CW_SPAN_POINTS - 1), &section));
     shapes[0].section.push_back(section);
-    if (shapes.size() > 1)
-      shapes[1].section.push_back(cw_blade_splitter(design, &section));
+    if (shapes.size() > 1) shapes[1].section.push_back(cw_blade_splitter(design, &section));
   }
   shapes[0].name = "blade";
-  if (shapes.size() > 1)
-    shapes[1].name = "splitter";
+  if (shapes.size() > 1) shapes[1].name = "splitter";
   for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
       const double last = cw_blade_theta(&s, 0);
-      CW_REQUIRE(
-          last + pitch < 2 * M_PI - 1.5 * margin, CW_ERR_GEOMETRY,
-          "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
-          "raise blade_count",
-          last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
+      CW_REQUIRE(last + pitch < 2 * M_PI - 1.5 * margin, CW_ERR_GEOMETRY,
+                 "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
+                 "raise blade_count",
+                 last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
       CW_REQUIRE(s.nose < 0.5 * s.end && s.nose < 0.8 * s.thickest_at, CW_ERR_GEOMETRY,
                  "the leading edge's ellipse takes %.0f %% of the %s at span %.2f: lower "
                  "leading_edge_thickness_mm or "
@@ -154,8 +152,7 @@ gp_Ax3 Rotor::frame(int k, double z) const {
 
 Handle(Geom_Curve) Rotor::meridian_curve(const CwMeridianCurve &curve, double theta) const {
   TColgp_Array1OfPnt poles(1, 4);
-  for (int i = 0; i < 4; i++)
-    poles.SetValue(i + 1, at(curve.pole[i][0], theta, curve.pole[i][1]));
+  for (int i = 0; i < 4; i++) poles.SetValue(i + 1, at(curve.pole[i][0], theta, curve.pole[i][1]));
   return new Geom_BezierCurve(poles);
 }
 
@@ -201,8 +198,7 @@ Handle(Geom2d_Curve) slanted_line_in_plane(double r, double theta, double to_r, 
     const double at_r = mm * (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
     return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
   };
-  if (theta == to_theta)
-    return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
+  if (theta == to_theta) return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
   std::vector<double> u;
   std::vector<gp_Pnt2d> x;
   for (int i = 0; i < slanted_points; i++) {
@@ -230,8 +226,7 @@ void Rotor::level_edges(Blade &b, int level) {
   b.corner[level] = shell.vertex(side_p->Value(1));
   b.bevel0[level] = b.bevel1[level] = shell.vertex(side_s->Value(s.u_bevel));
   if (s.has_bevel)
-    b.bevel1[level] =
-        s.has_trailing ? shell.vertex(turned(along(s.trailing, level), turn)->Value(0)) : b.corner[level];
+    b.bevel1[level] = s.has_trailing ? shell.vertex(turned(along(s.trailing, level), turn)->Value(0)) : b.corner[level];
   b.e_nose_s[level] = -1;
   if (level > 0 && level < bands) {
     b.e_nose_p[level] = shell.edge(nose, 0, 1, b.nose_s[level], b.nose_p[level]);
@@ -244,8 +239,7 @@ void Rotor::level_edges(Blade &b, int level) {
   b.e_p[level] = shell.edge(side_p, 0, 1, b.nose_p[level], b.corner[level]);
   b.e_s[level] = shell.edge(side_s, 0, s.u_bevel, b.nose_s[level], b.bevel0[level]);
   if (s.has_bevel)
-    b.e_bevel[level] =
-        shell.edge(turned(along(s.bevel, level), turn), 0, 1, b.bevel0[level], b.bevel1[level]);
+    b.e_bevel[level] = shell.edge(turned(along(s.bevel, level), turn), 0, 1, b.bevel0[level], b.bevel1[level]);
   if (s.has_trailing)
     b.e_te[level] = shell.edge(turned(along(s.trailing, level), turn), 0, 1, b.bevel1[level], b.corner[level]);
 }
@@ -272,8 +266,7 @@ void Rotor::wall_edges(Blade &b) {
     b.up[w] = shell.vertex(at(curve[w]->pole[0][0], turn + s.theta_up[w], curve[w]->pole[0][1]));
     b.out[w] = shell.vertex(down->Value(1));
     if (s.guide[w].IsNull())
-      b.e_up[w] =
-          shell.edge(meridian_curve(*curve[w], turn + s.theta_up[w]), 0, s.t_tip[w], b.up[w], b.tip[w]);
+      b.e_up[w] = shell.edge(meridian_curve(*curve[w], turn + s.theta_up[w]), 0, s.t_tip[w], b.up[w], b.tip[w]);
     else
       b.e_up[w] = shell.edge(turned(s.guide[w], turn), 0, 1, b.up[w], b.tip[w]);
     b.e_down[w] = shell.edge(down, s.t_corner[w], 1, b.corner[w == CW_HUB ? 0 : bands], b.out[w]);
@@ -291,8 +284,8 @@ void Rotor::wall_edges(Blade &b) {
     const double r = meridian.shaft_radius, from[3] = {r, at_hub, meridian.inlet_z},
                  to[3] = {r_pipe, at_shroud, meridian.inlet_z};
     b.shaft = shell.vertex(at(r, at_hub, meridian.inlet_z));
-    b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), mm * meridian.inlet_z,
-                           mm * meridian.nut_end_z, b.shaft, b.disk);
+    b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), mm * meridian.inlet_z, mm * meridian.nut_end_z,
+                           b.shaft, b.disk);
     b.e_inlet = slanted_line(from, to, b.shaft, b.inlet);
   }
   const double ri = design->interface_radius, half = design->outlet_width / 2;
@@ -307,23 +300,22 @@ void Rotor::arcs(int i) {
   const Blade &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
-    return shell.edge(new Geom_Circle(frame(b.turns, height).Ax2(), mm * r), from + margin,
-                      to + margin + far_of(i), begin, end);
+    return shell.edge(new Geom_Circle(frame(b.turns, height).Ax2(), mm * r), from + margin, to + margin + far_of(i),
+                      begin, end);
   };
   for (int w : {CW_HUB, CW_SHROUD}) {
-    b.a_out[w] = arc(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w],
-                     b.out[w], next.out[w]);
-    b.a_up[w] =
-        arc(curve[w]->pole[0][0], curve[w]->pole[0][1], s.theta_up[w], f.theta_up[w], b.up[w], next.up[w]);
+    b.a_out[w] = arc(design->interface_radius, curve[w]->pole[3][1], s.theta_corner[w], f.theta_corner[w], b.out[w],
+                     next.out[w]);
+    b.a_up[w] = arc(curve[w]->pole[0][0], curve[w]->pole[0][1], s.theta_up[w], f.theta_up[w], b.up[w], next.up[w]);
   }
-  b.a_end[CW_SHROUD] = arc(design->inlet_diameter / 2, meridian.inlet_z, s.theta_up[CW_SHROUD],
-                           f.theta_up[CW_SHROUD], b.inlet, next.inlet);
-  b.a_end[CW_HUB] = has_nut ? arc(meridian.nut_disk_radius, meridian.nut_end_z, s.theta_up[CW_HUB],
-                                  f.theta_up[CW_HUB], b.disk, next.disk)
+  b.a_end[CW_SHROUD] = arc(design->inlet_diameter / 2, meridian.inlet_z, s.theta_up[CW_SHROUD], f.theta_up[CW_SHROUD],
+                           b.inlet, next.inlet);
+  b.a_end[CW_HUB] = has_nut ? arc(meridian.nut_disk_radius, meridian.nut_end_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB],
+                                  b.disk, next.disk)
                             : b.a_up[CW_HUB];
   if (has_shaft)
-    b.a_shaft = arc(meridian.shaft_radius, meridian.inlet_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB], b.shaft,
-                    next.shaft);
+    b.a_shaft =
+        arc(meridian.shaft_radius, meridian.inlet_z, s.theta_up[CW_HUB], f.theta_up[CW_HUB], b.shaft, next.shaft);
 }
 
 Handle(Geom_Surface) revolved(const Handle(Geom_Curve) & basis) {
@@ -338,8 +330,7 @@ void Rotor::wall_face(int i, int w) {
   const int level = w == CW_HUB ? 0 : bands;
   const char *patch = w == CW_HUB ? "hub" : "shroud";
   const auto up_on_wall = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-    if (shape.guide[w].IsNull())
-      return along_v(shape.theta_up[w] + offset);
+    if (shape.guide[w].IsNull()) return along_v(shape.theta_up[w] + offset);
     return moved(shape.guide_on_wall[w], offset);
   };
   std::vector<CwEdgeUse> loop = {{b.e_up[w], true, up_on_wall(s, near)},
@@ -348,10 +339,8 @@ void Rotor::wall_face(int i, int w) {
                                  {b.e_down[w], true, along_v(s.theta_corner[w] + near)},
                                  {b.a_out[w], true, along_u(1)},
                                  {next.e_down[w], false, along_v(f.theta_corner[w] + far)}};
-  if (f.has_trailing)
-    loop.push_back({next.e_te[level], false, moved(f.trailing.on_wall[w], far)});
-  if (f.has_bevel)
-    loop.push_back({next.e_bevel[level], false, moved(f.bevel.on_wall[w], far)});
+  if (f.has_trailing) loop.push_back({next.e_te[level], false, moved(f.trailing.on_wall[w], far)});
+  if (f.has_bevel) loop.push_back({next.e_bevel[level], false, moved(f.bevel.on_wall[w], far)});
   loop.push_back({next.e_s[level], false, moved(f.suction.on_wall[w], far)});
   loop.push_back({next.e_nose_s[level], true, moved(f.leading.on_wall[w], far)});
   loop.push_back({next.e_up[w], false, up_on_wall(f, far)});
@@ -367,8 +356,8 @@ void Rotor::pipe_faces(int i) {
   const std::string number = "_" + std::to_string(i + 1);
   const double near = margin, far = margin + far_of(i), half = mm * design->outlet_width / 2;
   // A face of revolution between the lines of this blade and the next and the arcs below and above.
-  const auto tube = [&](const Handle(Geom_Surface) & surface, int w, int line, int next_line, int low,
-                        double v_low, int high, double v_high, bool outward, const char *patch) {
+  const auto tube = [&](const Handle(Geom_Surface) & surface, int w, int line, int next_line, int low, double v_low,
+                        int high, double v_high, bool outward, const char *patch) {
     shell.face(surface,
                {{line, true, along_v(s.theta_up[w] + near)},
                 {high, true, along_u(v_high)},
@@ -381,17 +370,17 @@ void Rotor::pipe_faces(int i) {
   };
   const double z_inlet = mm * meridian.inlet_z;
   if (has_nut)
-    tube(revolved(nut_curve(b.turns * pitch - margin)), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB],
-         b.a_end[CW_HUB], 0, b.a_up[CW_HUB], 1, false, "hub_nut");
-  tube(cylinder(design->inlet_diameter / 2), CW_SHROUD, b.e_end[CW_SHROUD], next.e_end[CW_SHROUD],
-       b.a_end[CW_SHROUD], z_inlet, b.a_up[CW_SHROUD], mm * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
+    tube(revolved(nut_curve(b.turns * pitch - margin)), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB], b.a_end[CW_HUB], 0,
+         b.a_up[CW_HUB], 1, false, "hub_nut");
+  tube(cylinder(design->inlet_diameter / 2), CW_SHROUD, b.e_end[CW_SHROUD], next.e_end[CW_SHROUD], b.a_end[CW_SHROUD],
+       z_inlet, b.a_up[CW_SHROUD], mm * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
   if (has_shaft) {
-    tube(cylinder(meridian.shaft_radius), CW_HUB, b.e_shaft, next.e_shaft, b.a_shaft, z_inlet,
-         b.a_end[CW_HUB], mm * meridian.nut_end_z, false, "hub_shaft");
+    tube(cylinder(meridian.shaft_radius), CW_HUB, b.e_shaft, next.e_shaft, b.a_shaft, z_inlet, b.a_end[CW_HUB],
+         mm * meridian.nut_end_z, false, "hub_shaft");
     // In the plane of the inlet, whose axes are those of the passage.
     const auto spoke = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-      return slanted_line_in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset,
-                                   design->inlet_diameter / 2, shape.theta_up[CW_SHROUD] + offset);
+      return slanted_line_in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset, design->inlet_diameter / 2,
+                                   shape.theta_up[CW_SHROUD] + offset);
     };
     const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
       return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), mm * r);
@@ -435,13 +424,11 @@ void Rotor::blade_faces(int i) {
       Handle(Geom_Surface) surface = Handle(Geom_Surface)::DownCast(patch.band[band]->Copy());
       surface->Rotate(gp::OZ(), b.turns * pitch);
       std::vector<CwEdgeUse> loop;
-      if (row_before && row_before[band] >= 0)
-        loop.push_back({row_before[band], true, along_u(0)});
+      if (row_before && row_before[band] >= 0) loop.push_back({row_before[band], true, along_u(0)});
       loop.push_back({row[band], true, along_u(0)});
       loop.push_back({end[band], true, along_v(patch.u.back())});
       loop.push_back({row[band + 1], false, along_u(1)});
-      if (row_before && row_before[band + 1] >= 0)
-        loop.push_back({row_before[band + 1], false, along_u(1)});
+      if (row_before && row_before[band + 1] >= 0) loop.push_back({row_before[band + 1], false, along_u(1)});
       loop.push_back({begin[band], false, along_v(patch.u.front())});
       shell.face(surface, loop, outward, patch_name, "wall", s.name + part + (fillet ? root : more) + number);
     };
@@ -452,29 +439,24 @@ void Rotor::blade_faces(int i) {
       face(s.bevel, b.e_bevel, nullptr, b.x_bevel0, s.has_trailing ? b.x_bevel1 : b.x_corner, true,
            fillet ? "_bevel" : "_trailing", "_bevel", "blade_trailing_edge");
     if (s.has_trailing)
-      face(s.trailing, b.e_te, nullptr, b.x_bevel1, b.x_corner, true, "_trailing", "_edge",
-           "blade_trailing_edge");
+      face(s.trailing, b.e_te, nullptr, b.x_bevel1, b.x_corner, true, "_trailing", "_edge", "blade_trailing_edge");
   }
 }
 
 // A flat end: one disk, bounded by the arcs of the passages. The plane's axes are those of passage 0, the
 // arcs' those of their own passage.
-void Rotor::disk(double height, double r, int w, bool outward, const char *patch, const char *kind,
-                 const char *name) {
+void Rotor::disk(double height, double r, int w, bool outward, const char *patch, const char *kind, const char *name) {
   std::vector<CwEdgeUse> loop;
   for (const Blade &b : blade) {
     const double angle = b.turns * pitch - margin;
-    loop.push_back(
-        {b.a_end[w], true,
-         new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
+    loop.push_back({b.a_end[w], true,
+                    new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
   }
-  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch, kind,
-             name);
+  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch, kind, name);
 }
 
 CwSolid *Rotor::build() {
-  for (CwBladeShape &shape : shapes)
-    cw_blade_patches(design, &meridian, &shape);
+  for (CwBladeShape &shape : shapes) cw_blade_patches(design, &meridian, &shape);
   const int kinds = (int)shapes.size(), n = design->blade_count * kinds;
   curve[CW_HUB] = &meridian.hub;
   curve[CW_SHROUD] = &meridian.shroud;
@@ -486,14 +468,11 @@ CwSolid *Rotor::build() {
     Blade &b = blade[i];
     b.turns = i / kinds;
     b.shape = &shapes[i % kinds];
-    for (int level = 0; level <= bands; level++)
-      level_edges(b, level);
-    for (int band = 0; band < bands; band++)
-      band_edges(b, band);
+    for (int level = 0; level <= bands; level++) level_edges(b, level);
+    for (int band = 0; band < bands; band++) band_edges(b, band);
     wall_edges(b);
   }
-  for (int i = 0; i < n; i++)
-    arcs(i);
+  for (int i = 0; i < n; i++) arcs(i);
   for (int i = 0; i < n; i++) {
     wall_face(i, CW_HUB);
     wall_face(i, CW_SHROUD);
@@ -510,11 +489,9 @@ CwSolid *Rotor::build() {
 // Name of the first face that OpenCASCADE finds fault with; "" if all is well.
 std::string faulty_face(const CwSolid *solid) {
   BRepCheck_Analyzer check(solid->solid);
-  if (check.IsValid())
-    return "";
+  if (check.IsValid()) return "";
   for (const CwSolidFace &face : solid->faces)
-    if (!check.IsValid(face.face))
-      return face.name;
+    if (!check.IsValid(face.face)) return face.name;
   return solid->faces.front().name;
 }
 
@@ -530,12 +507,12 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
     const std::string faulty = faulty_face(*rotor);
     if (!faulty.empty()) {
       cw_solid_free(rotor);
-      status = CW_FAIL(
-          CW_ERR_GEOMETRY,
-          "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
-          "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
-          faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
-          design->wrap_angle * 180 / M_PI);
+      status =
+          CW_FAIL(CW_ERR_GEOMETRY,
+                  "rotor: the edges of face %s cross with %d blades%s and a wrap of %.1f deg: lower blade_count or "
+                  "blade_thickness_mm, leave splitter_start out, or take blade_form twisted",
+                  faulty.c_str(), design->blade_count, design->splitter_start > 0 ? " and as many splitters" : "",
+                  design->wrap_angle * 180 / M_PI);
     }
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_GEOMETRY, "rotor: %s", failure.GetMessageString());

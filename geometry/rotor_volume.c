@@ -13,8 +13,7 @@ enum { SPANS = 8, POINTS = 160, OUTLINE = 4 * POINTS };
 enum { STEPS = 240 };
 static const double first_q = -0.1, last_q = 1.1;
 typedef struct {
-  double hub[2 * STEPS + 1][2], hub_by_q[2 * STEPS + 1][2], shroud[2 * STEPS + 1][2],
-      shroud_by_q[2 * STEPS + 1][2];
+  double hub[2 * STEPS + 1][2], hub_by_q[2 * STEPS + 1][2], shroud[2 * STEPS + 1][2], shroud_by_q[2 * STEPS + 1][2];
 } Walls;
 
 static void fill_walls(const CwMeridian *meridian, Walls *walls) {
@@ -47,8 +46,7 @@ static void fill_swept(const Walls *walls, double s, Swept *swept) {
   for (int i = 0; i <= STEPS; i++) {
     swept->rate[i] = rate[2 * i];
     if (i > 0)
-      swept->integral[i] =
-          swept->integral[i - 1] + step / 6 * (rate[2 * i - 2] + 4 * rate[2 * i - 1] + rate[2 * i]);
+      swept->integral[i] = swept->integral[i - 1] + step / 6 * (rate[2 * i - 2] + 4 * rate[2 * i - 1] + rate[2 * i]);
   }
 }
 
@@ -67,22 +65,20 @@ static void outline(const CwDesign *design, const CwBladeSection *section, const
                     CwBladePoint point[OUTLINE]) {
   const CwTrailingEdge edge = design->trailing_edge;
   const int bevelled = edge == CW_EDGE_BEVELLED || edge == CW_EDGE_SHARP;
-  const double begin =
-      bevelled ? cw_blade_bevel_begin(middle, edge, design->trailing_edge_bevel) : section->end;
+  const double begin = bevelled ? cw_blade_bevel_begin(middle, edge, design->trailing_edge_bevel) : section->end;
   for (int i = 0; i < POINTS; i++) {
     const double f = (double)i / POINTS, g = f * f;
     point[i] = cw_blade_side(section, CW_BLADE_SUCTION, begin + (section->nose - begin) * f);
     point[POINTS + i] = cw_blade_leading_edge(section, M_PI * (f - 0.5));
-    point[2 * POINTS + i] = cw_blade_side(section, CW_BLADE_PRESSURE,
-                                          section->nose + (section->end - section->nose) * (0.4 * f + 0.6 * g));
+    point[2 * POINTS + i] =
+        cw_blade_side(section, CW_BLADE_PRESSURE, section->nose + (section->end - section->nose) * (0.4 * f + 0.6 * g));
     if (edge == CW_EDGE_ROUNDED)
       point[3 * POINTS + i] = cw_blade_trailing_edge(section, M_PI * (0.5 - f));
     else
       point[3 * POINTS + i] = cw_blade_side(section, CW_BLADE_PRESSURE, section->end);
   }
   if (edge == CW_EDGE_BEVELLED) // the far end of the cut; the outline closes with the facet
-    point[OUTLINE - 1] =
-        (CwBladePoint){1, cw_blade_bevel_theta(middle, begin) - middle->shift + section->shift};
+    point[OUTLINE - 1] = (CwBladePoint){1, cw_blade_bevel_theta(middle, begin) - middle->shift + section->shift};
 }
 
 // Volume of a section per unit of span.
@@ -90,8 +86,7 @@ static double section_volume(const Walls *walls, double s, const CwBladePoint po
   double f[OUTLINE], sum = 0;
   Swept swept;
   fill_swept(walls, s, &swept);
-  for (int i = 0; i < OUTLINE; i++)
-    f[i] = swept_at(&swept, point[i].q);
+  for (int i = 0; i < OUTLINE; i++) f[i] = swept_at(&swept, point[i].q);
   for (int i = 0; i < OUTLINE; i++) {
     const int next = (i + 1) % OUTLINE;
     sum += 0.5 * (f[i] + f[next]) * (point[next].theta - point[i].theta);
@@ -109,8 +104,7 @@ static double fillet_volume(const CwDesign *design, const CwMeridian *meridian, 
     const double q = 0.5 * (a->q + b->q);
     const CwFilletPlace place = cw_root_fillet_place(meridian, on, off, q);
     const double m = (b->q - a->q) * place.speed, t = (b->theta - a->theta) * place.radius, length = hypot(m, t);
-    if (length == 0)
-      continue;
+    if (length == 0) continue;
     // The outline runs with the fluid on its left.
     const double alpha = cw_root_fillet_angle(&place, -t / length, m / length);
     const double tangent = cw_root_fillet_length(design, on, q, alpha), radius = tangent * tan(alpha / 2);
@@ -131,8 +125,7 @@ CwStatus cw_rotor_volume(const CwDesign *design, double *volume) {
   for (int kind = 0; kind < (design->splitter_start > 0 ? 2 : 1); kind++) {
     for (int j = 0; j <= SPANS; j++) {
       CW_TRY(cw_blade_section(design, &meridian, (double)j / SPANS, &section[j]));
-      if (kind == 1)
-        section[j] = cw_blade_splitter(design, &section[j]);
+      if (kind == 1) section[j] = cw_blade_splitter(design, &section[j]);
     }
     for (int j = 0; j <= SPANS; j++) {
       const int end = j == 0 || j == SPANS;

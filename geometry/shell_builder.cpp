@@ -36,8 +36,7 @@ int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double 
   builder.Add(edge.edge, vertices[begin].Oriented(TopAbs_FORWARD));
   builder.Add(edge.edge, vertices[end].Oriented(TopAbs_REVERSED));
   builder.Range(edge.edge, first, last);
-  edge.deviation =
-      std::max(curve->Value(first).Distance(points[begin]), curve->Value(last).Distance(points[end]));
+  edge.deviation = std::max(curve->Value(first).Distance(points[begin]), curve->Value(last).Distance(points[end]));
   edges.push_back(edge);
   return (int)edges.size() - 1;
 }
@@ -54,18 +53,15 @@ void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEd
     for (int i = 0; i <= samples; i++) {
       const double t = edge.first + (edge.last - edge.first) * i / samples;
       const gp_Pnt2d uv = use.curve->Value(t);
-      edge.deviation =
-          std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
-      if (i > 0)
-        twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
+      edge.deviation = std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
+      if (i > 0) twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
       last = uv;
     }
   }
   // A forward face has its fluid-side loop counter-clockwise in the parameter plane.
   if (twice_area < 0) {
     std::reverse(loop.begin(), loop.end());
-    for (CwEdgeUse &use : loop)
-      use.forward = !use.forward;
+    for (CwEdgeUse &use : loop) use.forward = !use.forward;
   }
   TopoDS_Wire wire;
   builder.MakeFace(made.face, surface, least_tolerance);
@@ -73,8 +69,7 @@ void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEd
   for (size_t i = 0; i < loop.size(); i++) {
     const CwEdgeUse &use = loop[i], &next = loop[(i + 1) % loop.size()];
     Edge &edge = edges[use.edge];
-    if ((use.forward ? edge.end : edge.begin) !=
-        (next.forward ? edges[next.edge].begin : edges[next.edge].end))
+    if ((use.forward ? edge.end : edge.begin) != (next.forward ? edges[next.edge].begin : edges[next.edge].end))
       throw Standard_Failure(("open loop on face " + name + " after edge " + std::to_string(i)).c_str());
     builder.UpdateEdge(edge.edge, use.curve, made.face, least_tolerance);
     builder.Add(wire, edge.edge.Oriented(use.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
@@ -94,19 +89,16 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
   for (size_t i = 0; i < edges.size(); i++) {
     Edge &edge = edges[i];
     if (edge.forward_uses != 1 || edge.reversed_uses != 1)
-      throw Standard_Failure(
-          ("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
+      throw Standard_Failure(("edge " + std::to_string(i) + " is not shared by two faces in opposite senses").c_str());
     const double tolerance = std::max(least_edge_tolerance, 2 * edge.deviation);
     builder.UpdateEdge(edge.edge, tolerance);
     builder.SameParameter(edge.edge, Standard_True);
     builder.SameRange(edge.edge, Standard_True);
-    for (int v : {edge.begin, edge.end})
-      builder.UpdateVertex(vertices[v], tolerance);
+    for (int v : {edge.begin, edge.end}) builder.UpdateVertex(vertices[v], tolerance);
   }
   TopoDS_Shell shell;
   builder.MakeShell(shell);
-  for (const CwSolidFace &face : faces)
-    builder.Add(shell, face.face);
+  for (const CwSolidFace &face : faces) builder.Add(shell, face.face);
   shell.Closed(Standard_True);
   CwSolid *result = new CwSolid;
   try {
@@ -116,8 +108,8 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
     TopTools_IndexedMapOfShape map;
     TopExp::MapShapes(result->solid, TopAbs_FACE, map);
     for (int i = 1; i <= map.Extent(); i++) {
-      const auto found = std::find_if(faces.begin(), faces.end(),
-                                      [&](const CwSolidFace &face) { return face.face.IsSame(map(i)); });
+      const auto found =
+          std::find_if(faces.begin(), faces.end(), [&](const CwSolidFace &face) { return face.face.IsSame(map(i)); });
       result->faces.push_back(*found);
       result->faces.back().face = TopoDS::Face(map(i));
     }

@@ -31,8 +31,8 @@ public:
   int edge(const Handle(Geom_Curve) & curve, double first, double last, int begin, int end);
   // A face with one loop, given in order, in any sense. `outward`: the surface's natural normal (du x dv)
   // points out of the solid. Each face needs a surface of its own.
-  void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward,
-            const char *patch, const char *kind, const std::string &name);
+  void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward, const char *patch,
+            const char *kind, const std::string &name);
   // Makes the solid, or throws Standard_Failure with the reason.
   CwSolid *finish(const char *domain);
 

@@ -49,8 +49,7 @@ CwStatus cw_solid_mirror(CwSolid *solid) {
     mirror.SetMirror(gp_Ax2(gp::Origin(), gp::DZ()));
     BRepBuilderAPI_Transform transform(solid->solid, mirror, Standard_True);
     std::vector<CwSolidFace> faces = solid->faces;
-    for (CwSolidFace &face : faces)
-      face.face = TopoDS::Face(transform.ModifiedShape(face.face));
+    for (CwSolidFace &face : faces) face.face = TopoDS::Face(transform.ModifiedShape(face.face));
     const TopoDS_Solid mirrored = TopoDS::Solid(transform.Shape());
     TopTools_IndexedMapOfShape map;
     TopExp::MapShapes(mirrored, TopAbs_FACE, map);
@@ -64,8 +63,7 @@ CwStatus cw_solid_mirror(CwSolid *solid) {
     solid->solid = mirrored;
     solid->faces = faces;
   } catch (const Standard_Failure &failure) {
-    status = CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be mirrored: %s", solid->domain.c_str(),
-                     failure.GetMessageString());
+    status = CW_FAIL(CW_ERR_GEOMETRY, "%s cannot be mirrored: %s", solid->domain.c_str(), failure.GetMessageString());
   }
 done:
   return status;

@@ -26,7 +26,7 @@
 namespace {
 
 const double PI = 3.14159265358979323846;
-const int SECTORS = 5; // round the axis; the last one holds the tongue and opens into the throat
+const int SECTORS = 5;                      // round the axis; the last one holds the tongue and opens into the throat
 const double SECTOR = CW_VOLUTE_SECTOR;     // angle of all but the last
 const int ALONG = 33, SIDE = 25;            // points of interpolation: along the flow, other
 const int ACROSS = 49, ACROSS_CORNERS = 97; // over the outer wall, whose curvature jumps where it has corners
@@ -49,8 +49,7 @@ public:
         b_(volute.end_half_angle > volute.arc_half_angle ? PLANE_CURVE_BENT : PLANE_CURVE) {}
 
   CwSolid *make() {
-    for (int j = 0; j <= SECTORS; j++)
-      angle_[j] = v_.start_angle + SECTOR * j;
+    for (int j = 0; j <= SECTORS; j++) angle_[j] = v_.start_angle + SECTOR * j;
     angle_[SECTORS] = v_.start_angle + 2 * PI;
     make_inner_rings();
     make_outer_wall();
@@ -92,8 +91,7 @@ private:
   // `height`.
   static gp_Ax3 frame(double from, double to, double height, int side) {
     double x = side == TOP ? from - U_MARGIN : to + U_MARGIN;
-    return gp_Ax3(gp_Pnt(0, 0, sign(side) * height), gp_Dir(0, 0, sign(side)),
-                  gp_Dir(std::cos(x), std::sin(x), 0));
+    return gp_Ax3(gp_Pnt(0, 0, sign(side) * height), gp_Dir(0, 0, sign(side)), gp_Dir(std::cos(x), std::sin(x), 0));
   }
 
   // Ring of vertices and arcs at one radius and level, one arc a sector.
@@ -102,27 +100,23 @@ private:
   };
   Ring ring(double r, double z) {
     Ring ring;
-    for (int j = 0; j < SECTORS; j++)
-      ring.vertex[j] = b_.vertex(polar(r, angle_[j], z));
+    for (int j = 0; j < SECTORS; j++) ring.vertex[j] = b_.vertex(polar(r, angle_[j], z));
     for (int j = 0; j < SECTORS; j++)
       ring.arc[j] = b_.arc(ring.vertex[j], ring.vertex[(j + 1) % SECTORS], angle_[j + 1] - angle_[j]);
     return ring;
   }
   std::array<int, SECTORS> joints(const Ring &a, const Ring &b) {
     std::array<int, SECTORS> lines;
-    for (int j = 0; j < SECTORS; j++)
-      lines[j] = b_.line(a.vertex[j], b.vertex[j]);
+    for (int j = 0; j < SECTORS; j++) lines[j] = b_.line(a.vertex[j], b.vertex[j]);
     return lines;
   }
-  static std::vector<LoopEdge> between(const Ring &a, const Ring &b, const std::array<int, SECTORS> &joint,
-                                       int j) {
+  static std::vector<LoopEdge> between(const Ring &a, const Ring &b, const std::array<int, SECTORS> &joint, int j) {
     return {a.arc[j], joint[(j + 1) % SECTORS], b.arc[j], joint[j]};
   }
 
   // Interface cylinder, neck, and the step from b2 to b3 at D3/2.
   void make_inner_rings() {
-    double r = 1e3 * v_.input.interface_radius, b2 = 500 * v_.input.neck_width,
-           b3 = 500 * v_.input.inlet_width;
+    double r = 1e3 * v_.input.interface_radius, b2 = 500 * v_.input.neck_width, b3 = 500 * v_.input.inlet_width;
     Ring interface[2], neck[2];
     std::array<int, SECTORS> neck_joint[2], step_joint[2];
     for (int side : {BOTTOM, TOP}) {
@@ -135,14 +129,13 @@ private:
     std::array<int, SECTORS> interface_joint = joints(interface[BOTTOM], interface[TOP]);
     for (int j = 0; j < SECTORS; j++) {
       gp_Ax3 upright = frame(angle_[j], angle_[j + 1], 0, TOP);
-      b_.face(new Geom_CylindricalSurface(upright, r),
-              between(interface[BOTTOM], interface[TOP], interface_joint, j), "stator_interface",
-              "interface");
+      b_.face(new Geom_CylindricalSurface(upright, r), between(interface[BOTTOM], interface[TOP], interface_joint, j),
+              "stator_interface", "interface");
       for (int side : {BOTTOM, TOP}) {
         b_.face(new Geom_Plane(frame(angle_[j], angle_[j + 1], b2, side)),
                 between(interface[side], neck[side], neck_joint[side], j), "neck");
-        b_.face(new Geom_CylindricalSurface(upright, r3()),
-                between(neck[side], step_[side], step_joint[side], j), "step");
+        b_.face(new Geom_CylindricalSurface(upright, r3()), between(neck[side], step_[side], step_joint[side], j),
+                "step");
       }
     }
   }
@@ -160,14 +153,12 @@ private:
     for (int j = 0; j <= SECTORS; j++) {
       Handle(Geom_BSplineSurface) at = surface[j < SECTORS ? j : SECTORS - 1];
       double u = j < SECTORS ? 0 : 1;
-      for (int side : {BOTTOM, TOP})
-        kink_vertex_[j][side] = b_.vertex(at->Value(u, side));
+      for (int side : {BOTTOM, TOP}) kink_vertex_[j][side] = b_.vertex(at->Value(u, side));
       section_[j] = b_.edge(at->UIso(u), 0, 1, kink_vertex_[j][BOTTOM], kink_vertex_[j][TOP]);
     }
     for (int j = 0; j < SECTORS; j++) {
       for (int side : {BOTTOM, TOP})
-        kink_[j][side] =
-            b_.edge(surface[j]->VIso(side), 0, 1, kink_vertex_[j][side], kink_vertex_[j + 1][side]);
+        kink_[j][side] = b_.edge(surface[j]->VIso(side), 0, 1, kink_vertex_[j][side], kink_vertex_[j + 1][side]);
       b_.face(surface[j],
               {LoopEdge(section_[j], 0, 0, 0, 1), LoopEdge(kink_[j][TOP], 0, 1, 1, 1),
                LoopEdge(section_[j + 1], 1, 0, 1, 1), LoopEdge(kink_[j][BOTTOM], 0, 0, 1, 0)},
@@ -186,8 +177,7 @@ private:
     double side_direction = direction(k);
     Handle(Geom_BSplineSurface) surface = spline_surface(SIDE, across_, [&](double u, double v) {
       double height = cw_volute_nose_height(&v_, side_direction * (1 - u));
-      if (std::isnan(height))
-        throw std::runtime_error("the nose of the tongue does not reach the side walls");
+      if (std::isnan(height)) throw std::runtime_error("the nose of the tongue does not reach the side walls");
       double contact[3];
       cw_volute_wall_point(&v_, cw_volute_contact_angle(&v_, psi(v)), psi(v), contact, nullptr, nullptr);
       double z = contact[2] * (1 + u_share(u) * (height / v_.side_level - 1));
@@ -223,12 +213,10 @@ private:
         double at = from + t * (y - from);
         return gp_Pnt2d(at, sign(side) * half_width(std::hypot(x, at)));
       });
-      flank_side_[side] =
-          b_.edge(GeomAPI::To3d(curve, plane), 0, 1, flank_vertex_[side], throat_vertex_[side]);
+      flank_side_[side] = b_.edge(GeomAPI::To3d(curve, plane), 0, 1, flank_vertex_[side], throat_vertex_[side]);
     }
     throat_inner_ = b_.line(throat_vertex_[BOTTOM], throat_vertex_[TOP]);
-    b_.face(new Geom_Plane(plane), {nose_flank_, flank_side_[TOP], throat_inner_, flank_side_[BOTTOM]},
-            "tongue");
+    b_.face(new Geom_Plane(plane), {nose_flank_, flank_side_[TOP], throat_inner_, flank_side_[BOTTOM]}, "tongue");
   }
 
   gp_Pnt throat_side(double t, int side) const {
@@ -241,10 +229,8 @@ private:
     double cone_angle = 0.5 * PI - v_.input.side_wall_angle, b3 = 500 * v_.input.inlet_width;
     for (int side : {BOTTOM, TOP}) {
       std::array<int, SECTORS> ray;
-      for (int j = 0; j < SECTORS; j++)
-        ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
-      gp_Pln throat(
-          gp_Ax3(gp_Pnt(0, 1e3 * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
+      for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
+      gp_Pln throat(gp_Ax3(gp_Pnt(0, 1e3 * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
       Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(
           SIDE, 0, 1, [&](double t) { return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z()); });
       throat_side_[side] =
@@ -254,11 +240,9 @@ private:
         if (j < SECTORS - 1)
           loop.push_back(ray[j + 1]);
         else
-          for (int edge : {throat_side_[side], flank_side_[side], nose_side_[side], ray[0]})
-            loop.push_back(edge);
+          for (int edge : {throat_side_[side], flank_side_[side], nose_side_[side], ray[0]}) loop.push_back(edge);
         double to = angle_[j + 1];
-        if (j == SECTORS - 1)
-          to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
+        if (j == SECTORS - 1) to = std::max(to, 2 * PI + std::atan2(v_.throat_y, v_.inner_wall_x));
         gp_Ax3 at = frame(angle_[j], to, b3, side);
         Handle(Geom_Surface) wall = v_.input.side_wall_angle > 0
                                         ? Handle(Geom_Surface)(new Geom_ConicalSurface(at, cone_angle, r3()))
@@ -286,15 +270,12 @@ private:
       return gp_Pnt(length * lean * t, length, sign(side) * length * dz);
     };
     auto inner_start = [&](double t) { return gp_Pnt(inner[0].XYZ() * (1 - t) + inner[1].XYZ() * t); };
-    auto inner_direction = [&](double t) {
-      return gp_Pnt(0, length, (2 * t - 1) * side_direction(0, TOP).Z());
-    };
+    auto inner_direction = [&](double t) { return gp_Pnt(0, length, (2 * t - 1) * side_direction(0, TOP).Z()); };
 
     // The contour's corners go to the circle by their share of its length.
     auto contour_length = [](const PointOfOne &f) {
       double sum = 0;
-      for (int i = 0; i < 64; i++)
-        sum += f(i / 64.0).Distance(f((i + 1) / 64.0));
+      for (int i = 0; i < 64; i++) sum += f(i / 64.0).Distance(f((i + 1) / 64.0));
       return sum;
     };
     double inner_length = contour_length(inner_start), outer_length = contour_length(outer_start);
@@ -306,16 +287,13 @@ private:
     double corner[5] = {-a, a, b, 2 * PI - b, 2 * PI - a};
 
     double radius = 500 * v_.input.outlet_diameter;
-    for (int i = 0; i < 5; i++)
-      corner_[i] = corner[i];
+    for (int i = 0; i < 5; i++) corner_[i] = corner[i];
     circle_end_ = make_circle(outlet_centre(0));
     auto on_circle = [&](double angle) {
       return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
     };
     auto straight = [&](double) { return gp_Pnt(length * downstream().XYZ()); };
-    auto turn = [&](double from, double to) {
-      return [=](double t) { return on_circle(from + t * (to - from)); };
-    };
+    auto turn = [&](double from, double to) { return [=](double t) { return on_circle(from + t * (to - from)); }; };
     Handle(Geom_BSplineSurface) outer =
         hermite_surface(across_, outer_start, outer_direction, turn(corner[0], corner[1]), straight);
     Handle(Geom_BSplineSurface) inner_surface =
@@ -323,8 +301,7 @@ private:
     std::array<Handle(Geom_BSplineSurface), 2> sides;
     for (int side : {BOTTOM, TOP})
       sides[side] = hermite_surface(
-          SIDE, [&](double t) { return throat_side(t, side); },
-          [&](double t) { return side_direction(t, side); },
+          SIDE, [&](double t) { return throat_side(t, side); }, [&](double t) { return side_direction(t, side); },
           side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]), straight);
 
     for (const Handle(Geom_BSplineSurface) & surface : {inner_surface, sides[BOTTOM], sides[TOP]})
@@ -333,18 +310,16 @@ private:
     const std::array<int, 4> &end = circle_end_.vertex, &arc = circle_end_.arc;
     int outer_edge[2], inner_edge[2];
     for (int side : {BOTTOM, TOP}) {
-      outer_edge[side] =
-          b_.edge(outer->UIso(side), 0, 1, kink_vertex_[SECTORS][side], end[side == TOP ? 1 : 0]);
-      inner_edge[side] =
-          b_.edge(inner_surface->UIso(side), 0, 1, throat_vertex_[side], end[side == TOP ? 2 : 3]);
+      outer_edge[side] = b_.edge(outer->UIso(side), 0, 1, kink_vertex_[SECTORS][side], end[side == TOP ? 1 : 0]);
+      inner_edge[side] = b_.edge(inner_surface->UIso(side), 0, 1, throat_vertex_[side], end[side == TOP ? 2 : 3]);
     }
     b_.face(outer,
             {LoopEdge(section_[SECTORS], 0, 0, 1, 0), LoopEdge(outer_edge[TOP], 1, 0, 1, 1),
              LoopEdge(arc[0], 0, 1, 1, 1), LoopEdge(outer_edge[BOTTOM], 0, 0, 0, 1)},
             "diffuser");
     b_.face(inner_surface,
-            {LoopEdge(throat_inner_, 0, 0, 1, 0), LoopEdge(inner_edge[TOP], 1, 0, 1, 1),
-             LoopEdge(arc[2], 1, 1, 0, 1), LoopEdge(inner_edge[BOTTOM], 0, 0, 0, 1)},
+            {LoopEdge(throat_inner_, 0, 0, 1, 0), LoopEdge(inner_edge[TOP], 1, 0, 1, 1), LoopEdge(arc[2], 1, 1, 0, 1),
+             LoopEdge(inner_edge[BOTTOM], 0, 0, 0, 1)},
             "diffuser");
     for (int side : {BOTTOM, TOP}) {
       LoopEdge circle = side == TOP ? LoopEdge(arc[1], 1, 1, 0, 1) : LoopEdge(arc[3], 0, 1, 1, 1);
@@ -363,8 +338,7 @@ private:
         CwVoluteSection s = cw_volute_section(&v_, std::atan2(p.Y(), p.X()));
         double z = std::min(std::fabs(p.Z()) * 1e-3, s.kink_height);
         double wall = 1e3 * cw_volute_wall_radius(&s, z);
-        if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL ||
-            std::hypot(p.X(), p.Y()) > wall + LEAST_WALL)
+        if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL || std::hypot(p.X(), p.Y()) > wall + LEAST_WALL)
           continue;
         char text[160];
         snprintf(text, sizeof text,
@@ -393,12 +367,10 @@ private:
   Circle make_circle(const gp_Pnt &centre) {
     Circle circle;
     double radius = 500 * v_.input.outlet_diameter;
+    for (int i = 0; i < 4; i++) circle.vertex[i] = b_.vertex(centre.XYZ() + radius * in_outlet_plane(corner_[i]).XYZ());
     for (int i = 0; i < 4; i++)
-      circle.vertex[i] = b_.vertex(centre.XYZ() + radius * in_outlet_plane(corner_[i]).XYZ());
-    for (int i = 0; i < 4; i++)
-      circle.arc[i] =
-          b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
-                  corner_[i + 1] - corner_[i], circle.vertex[i], circle.vertex[(i + 1) % 4]);
+      circle.arc[i] = b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
+                              corner_[i + 1] - corner_[i], circle.vertex[i], circle.vertex[(i + 1) % 4]);
     return circle;
   }
 
@@ -406,15 +378,14 @@ private:
     gp_Pnt centre = outlet_centre(1e3 * v_.input.discharge_pipe_length);
     Circle outlet = make_circle(centre);
     int line[4];
-    for (int i = 0; i < 4; i++)
-      line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
+    for (int i = 0; i < 4; i++) line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
     for (int i = 0; i < 4; i++) {
       gp_Ax3 at(outlet_centre(0), -downstream(), in_outlet_plane(corner_[i] - U_MARGIN));
       b_.face(new Geom_CylindricalSurface(at, 500 * v_.input.outlet_diameter),
               {circle_end_.arc[i], line[(i + 1) % 4], outlet.arc[i], line[i]}, "discharge");
     }
-    b_.face(new Geom_Plane(gp_Ax3(centre, downstream())),
-            {outlet.arc[0], outlet.arc[1], outlet.arc[2], outlet.arc[3]}, "outlet", "outlet");
+    b_.face(new Geom_Plane(gp_Ax3(centre, downstream())), {outlet.arc[0], outlet.arc[1], outlet.arc[2], outlet.arc[3]},
+            "outlet", "outlet");
   }
 
   const CwVolute &v_;
@@ -423,8 +394,7 @@ private:
   double angle_[SECTORS + 1];
   Ring step_[2];
   int kink_vertex_[SECTORS + 1][2], kink_[SECTORS][2], section_[SECTORS + 1];
-  int flank_vertex_[2], nose_side_[2], nose_flank_, throat_vertex_[2], flank_side_[2], throat_inner_,
-      throat_side_[2];
+  int flank_vertex_[2], nose_side_[2], nose_flank_, throat_vertex_[2], flank_side_[2], throat_inner_, throat_side_[2];
   double corner_[5];
   Circle circle_end_;
 };

@@ -59,8 +59,8 @@ int LoopBuilder::arc(int start, int end, double sweep) {
   return edge(new Geom_Circle(frame, std::hypot(p.X(), p.Y())), 0, sweep, start, end);
 }
 
-void LoopBuilder::face(const Handle(Geom_Surface) & surface, const std::vector<LoopEdge> &loop,
-                       const char *patch, const char *kind) {
+void LoopBuilder::face(const Handle(Geom_Surface) & surface, const std::vector<LoopEdge> &loop, const char *patch,
+                       const char *kind) {
   Face face = {surface, loop, std::vector<bool>(loop.size()), patch, kind};
   // The direction of each edge follows from the vertex that it shares with the next one.
   const Edge &first = edges_[loop[0].edge], &second = edges_[loop[1].edge];
@@ -99,32 +99,26 @@ std::vector<bool> LoopBuilder::turned_loops() const {
       const std::vector<Use> &pair = uses[use.edge];
       const Use &here = pair[0].face == f ? pair[0] : pair[1], &there = pair[0].face == f ? pair[1] : pair[0];
       bool turn = turned[f] != (here.forward == there.forward);
-      if (reached[there.face] && turned[there.face] != turn)
-        throw std::logic_error("the faces cannot be oriented");
-      if (reached[there.face])
-        continue;
+      if (reached[there.face] && turned[there.face] != turn) throw std::logic_error("the faces cannot be oriented");
+      if (reached[there.face]) continue;
       reached[there.face] = true;
       turned[there.face] = turn;
       stack.push_back(there.face);
     }
   }
-  if (std::count(reached.begin(), reached.end(), false))
-    throw std::logic_error("the faces do not hang together");
+  if (std::count(reached.begin(), reached.end(), false)) throw std::logic_error("the faces do not hang together");
   return turned;
 }
 
 CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool first_outward) const {
   CwShellBuilder shell;
-  for (const gp_Pnt &point : vertices_)
-    shell.vertex(point.Transformed(motion));
+  for (const gp_Pnt &point : vertices_) shell.vertex(point.Transformed(motion));
   for (const Edge &edge : edges_)
-    shell.edge(Handle(Geom_Curve)::DownCast(edge.curve->Transformed(motion)), edge.a, edge.b, edge.start,
-               edge.end);
+    shell.edge(Handle(Geom_Curve)::DownCast(edge.curve->Transformed(motion)), edge.a, edge.b, edge.start, edge.end);
 
   std::vector<bool> turned = turned_loops();
   std::map<std::string, int> faces_of_patch, named;
-  for (const Face &face : faces_)
-    faces_of_patch[face.patch]++;
+  for (const Face &face : faces_) faces_of_patch[face.patch]++;
   bool flip = false; // whether the loops run clockwise as seen from outside
   for (size_t f = 0; f < faces_.size(); f++) {
     const Face &face = faces_[f];
@@ -149,11 +143,9 @@ CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool firs
       loop.push_back({use.edge, bool(face.forward[i]), curve});
     }
     bool outward = (area > 0) != turned[f];
-    if (f == 0)
-      flip = outward != first_outward;
+    if (f == 0) flip = outward != first_outward;
     std::string name = face.patch;
-    if (faces_of_patch[face.patch] > 1)
-      name += "_" + std::to_string(++named[face.patch]);
+    if (faces_of_patch[face.patch] > 1) name += "_" + std::to_string(++named[face.patch]);
     // A motion leaves the curves in the parameter plane as they are.
     shell.face(Handle(Geom_Surface)::DownCast(face.surface->Transformed(motion)), loop, outward != flip,
                face.patch.c_str(), face.kind.c_str(), name);

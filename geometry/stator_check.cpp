@@ -41,13 +41,11 @@ void check_tolerances(const CwSolid &stator) {
   for (int i = 1; i <= vertices.Extent(); i++) {
     const TopoDS_Vertex &vertex = TopoDS::Vertex(vertices(i));
     double tolerance = BRep_Tool::Tolerance(vertex);
-    if (tolerance < LARGEST_TOLERANCE)
-      continue;
+    if (tolerance < LARGEST_TOLERANCE) continue;
     gp_Pnt p = BRep_Tool::Pnt(vertex);
     char text[200];
-    snprintf(text, sizeof text,
-             "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm", tolerance,
-             p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
+    snprintf(text, sizeof text, "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm",
+             tolerance, p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
     throw std::runtime_error(text);
   }
 }
@@ -70,13 +68,11 @@ void check_sizes(const CwSolid &stator) {
     const gp_Pnt at = properties.CentreOfMass();
     snprintf(text, sizeof text, "face %s at (%.1f, %.1f, %.1f) mm has an area of %.3g mm2; allowed: at least %g mm2",
              face.name.c_str(), at.X(), at.Y(), at.Z(), properties.Mass(), LEAST_FACE);
-    if (!(properties.Mass() >= LEAST_FACE))
-      throw std::runtime_error(text);
+    if (!(properties.Mass() >= LEAST_FACE)) throw std::runtime_error(text);
     for (TopExp_Explorer edges(face.face, TopAbs_EDGE); edges.More(); edges.Next()) {
       const TopoDS_Edge &edge = TopoDS::Edge(edges.Current());
       const double length = length_of(edge);
-      if (length >= LEAST_EDGE)
-        continue;
+      if (length >= LEAST_EDGE) continue;
       const gp_Pnt p = BRep_Tool::Pnt(TopExp::FirstVertex(edge));
       snprintf(text, sizeof text,
                "an edge of face %s at (%.1f, %.1f, %.1f) mm is %.3g mm long; allowed: at least %g mm",
@@ -102,18 +98,15 @@ Side side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) {
   BRep_Tool::Surface(face)->D1(uv.X(), uv.Y(), side.point, xu, xv);
   side.normal = xu.Crossed(xv);
   gp_Vec tangent = xu * duv.X() + xv * duv.Y();
-  if (face.Orientation() == TopAbs_REVERSED)
-    side.normal.Reverse();
-  if (edge.Orientation() == TopAbs_REVERSED)
-    tangent.Reverse();
+  if (face.Orientation() == TopAbs_REVERSED) side.normal.Reverse();
+  if (edge.Orientation() == TopAbs_REVERSED) tangent.Reverse();
   side.into = side.normal.Crossed(tangent);
   return side;
 }
 
 void check_angles(const CwSolid &stator) {
   std::map<const void *, const CwSolidFace *> by_shape;
-  for (const CwSolidFace &face : stator.faces)
-    by_shape[face.face.TShape().get()] = &face;
+  for (const CwSolidFace &face : stator.faces) by_shape[face.face.TShape().get()] = &face;
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   TopExp::MapShapesAndAncestors(stator.solid, TopAbs_EDGE, TopAbs_FACE, faces_of);
   for (int i = 1; i <= faces_of.Extent(); i++) {
@@ -122,25 +115,21 @@ void check_angles(const CwSolid &stator) {
     TopoDS_Edge edge[2];
     for (int k = 0; k < 2; k++)
       for (TopExp_Explorer at(face[k]->face, TopAbs_EDGE); at.More(); at.Next())
-        if (at.Current().IsSame(faces_of.FindKey(i)))
-          edge[k] = TopoDS::Edge(at.Current());
+        if (at.Current().IsSame(faces_of.FindKey(i))) edge[k] = TopoDS::Edge(at.Current());
     double first, last;
     BRep_Tool::Range(edge[0], first, last);
     for (int k = 0; k <= SAMPLES; k++) {
       double t = first + (last - first) * k / SAMPLES;
       Side a = side_at(edge[0], face[0]->face, t), b = side_at(edge[1], face[1]->face, t);
       double angle = a.into.Angle(b.into) * 180 / M_PI;
-      if (b.into.Dot(a.normal) >= 0)
-        angle = 360 - angle;
-      if (angle >= LEAST_FLUID_ANGLE && 360 - angle >= LEAST_SOLID_ANGLE)
-        continue;
+      if (b.into.Dot(a.normal) >= 0) angle = 360 - angle;
+      if (angle >= LEAST_FLUID_ANGLE && 360 - angle >= LEAST_SOLID_ANGLE) continue;
       bool fluid = angle < LEAST_FLUID_ANGLE;
       char text[240];
       snprintf(text, sizeof text,
                "%s and %s meet through the %s at %.1f deg at (%.1f, %.1f, %.1f) mm; allowed: at least %g deg",
-               face[0]->name.c_str(), face[1]->name.c_str(), fluid ? "fluid" : "solid",
-               fluid ? angle : 360 - angle, a.point.X(), a.point.Y(), a.point.Z(),
-               fluid ? LEAST_FLUID_ANGLE : LEAST_SOLID_ANGLE);
+               face[0]->name.c_str(), face[1]->name.c_str(), fluid ? "fluid" : "solid", fluid ? angle : 360 - angle,
+               a.point.X(), a.point.Y(), a.point.Z(), fluid ? LEAST_FLUID_ANGLE : LEAST_SOLID_ANGLE);
       throw std::runtime_error(text);
     }
   }
@@ -153,8 +142,7 @@ void cw_stator_check(const CwSolid &stator) {
   for (const CwSolidFace &face : stator.faces)
     if (!BRepCheck_Analyzer(face.face).IsValid())
       throw std::runtime_error("face " + face.name + " crosses itself or its edges do not fit");
-  if (!BRepCheck_Analyzer(stator.solid).IsValid())
-    throw std::runtime_error("the solid is not valid");
+  if (!BRepCheck_Analyzer(stator.solid).IsValid()) throw std::runtime_error("the solid is not valid");
   check_sizes(stator);
   check_angles(stator);
 }

@@ -11,16 +11,14 @@
 
 static std::vector<double> even_parameters(int count, double a, double b) {
   std::vector<double> t(count, b);
-  for (int i = 0; i < count - 1; i++)
-    t[i] = a + i * (b - a) / (count - 1);
+  for (int i = 0; i < count - 1; i++) t[i] = a + i * (b - a) / (count - 1);
   return t;
 }
 
 Handle(Geom2d_BSplineCurve) spline_plane_curve(int count, double a, double b, const PlanePointOfOne &f) {
   std::vector<double> parameters = even_parameters(count, a, b);
   std::vector<gp_Pnt2d> points;
-  for (double t : parameters)
-    points.push_back(f(t));
+  for (double t : parameters) points.push_back(f(t));
   return cw_bspline_curve_2d(parameters, points);
 }
 
@@ -40,14 +38,12 @@ Handle(Geom_BSplineSurface) spline_surface(int u_count, int v_count, const Point
   std::vector<double> u = even_parameters(u_count, 0, 1), v = even_parameters(v_count, 0, 1);
   std::vector<gp_Pnt> points;
   for (double at_u : u)
-    for (double at_v : v)
-      points.push_back(f(at_u, at_v));
+    for (double at_v : v) points.push_back(f(at_u, at_v));
   return cw_bspline_surface(u, v, points);
 }
 
-Handle(Geom_BSplineSurface)
-    hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
-                    const PointOfOne &end, const PointOfOne &end_derivative) {
+Handle(Geom_BSplineSurface) hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
+                                            const PointOfOne &end, const PointOfOne &end_derivative) {
   // Four points of a cubic give the cubic back.
   return spline_surface(u_count, 4, [&](double u, double v) {
     double w = 1 - v;

@@ -26,8 +26,7 @@ Handle(Geom_BSplineSurface) spline_surface(int u_count, int v_count, const Point
 
 // Surface over [0,1] x [0,1]: splines in u; in v the cubic from start(u) to end(u) with the given derivatives
 // there.
-Handle(Geom_BSplineSurface)
-    hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
-                    const PointOfOne &end, const PointOfOne &end_derivative);
+Handle(Geom_BSplineSurface) hermite_surface(int u_count, const PointOfOne &start, const PointOfOne &start_derivative,
+                                            const PointOfOne &end, const PointOfOne &end_derivative);
 
 #endif

@@ -61,8 +61,7 @@ public:
 
 std::string label_name(const TDF_Label &label) {
   Handle(TDataStd_Name) name;
-  if (!label.FindAttribute(TDataStd_Name::GetID(), name))
-    return "";
+  if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return "";
   const TCollection_AsciiString text(name->Get());
   return text.ToCString();
 }
@@ -79,8 +78,7 @@ CwStatus write(const CwSolid *const *solids, int count, const char *temporary_pa
     set_name(label, solids[i]->domain);
     for (const CwSolidFace &face : solids[i]->faces) {
       const TDF_Label part = shapes->AddSubShape(label, face.face);
-      if (part.IsNull())
-        throw Standard_Failure(("no label for face " + face.name).c_str());
+      if (part.IsNull()) throw Standard_Failure(("no label for face " + face.name).c_str());
       set_name(part, face.patch);
     }
   }
@@ -89,8 +87,7 @@ CwStatus write(const CwSolid *const *solids, int count, const char *temporary_pa
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   writer.SetNameMode(Standard_True);
-  if (!writer.Transfer(document.handle, STEPControl_AsIs))
-    throw Standard_Failure("the shapes cannot be translated");
+  if (!writer.Transfer(document.handle, STEPControl_AsIs)) throw Standard_Failure("the shapes cannot be translated");
   APIHeaderSection_MakeHeader header(writer.ChangeWriter().Model());
   header.SetName(new TCollection_HAsciiString("pump"));
   header.SetTimeStamp(new TCollection_HAsciiString("2000-01-01T00:00:00"));
@@ -113,11 +110,9 @@ CwSolid *read(const char *path, const char *domain, CwStatus *status) {
   TDF_LabelSequence labels;
   shapes->GetFreeShapes(labels);
   for (int i = 1; i <= labels.Length(); i++) {
-    if (label_name(labels(i)) != domain)
-      continue;
+    if (label_name(labels(i)) != domain) continue;
     TopExp_Explorer explorer(shapes->GetShape(labels(i)), TopAbs_SOLID);
-    if (!explorer.More())
-      continue;
+    if (!explorer.More()) continue;
     std::unique_ptr<CwSolid> solid(new CwSolid);
     solid->domain = domain;
     solid->solid = TopoDS::Solid(explorer.Current());
@@ -127,8 +122,7 @@ CwSolid *read(const char *path, const char *domain, CwStatus *status) {
       CwSolidFace face;
       face.face = TopoDS::Face(faces(j));
       TDF_Label part;
-      if (shapes->FindSubShape(labels(i), faces(j), part))
-        face.patch = label_name(part);
+      if (shapes->FindSubShape(labels(i), faces(j), part)) face.patch = label_name(part);
       solid->faces.push_back(face);
     }
     return solid.release();

@@ -8,10 +8,10 @@
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
 
-#define SET(member, value, text)                                                                             \
-  do {                                                                                                       \
-    design->member = (value);                                                                                \
-    design->source[CW_DESIGN_##member] = (text);                                                             \
+#define SET(member, value, text)                                                                                       \
+  do {                                                                                                                 \
+    design->member = (value);                                                                                          \
+    design->source[CW_DESIGN_##member] = (text);                                                                       \
   } while (0)
 
 double cw_blockage(double count, double thickness, double radius, double angle) {
@@ -48,8 +48,7 @@ static double slip_blades(const CwDesign *design) {
 }
 
 void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
-  const double beta = design->outlet_blade_angle, d2 = design->outlet_diameter,
-               u2 = design->impeller_tip_speed;
+  const double beta = design->outlet_blade_angle, d2 = design->outlet_diameter, u2 = design->impeller_tip_speed;
   const double ratio = (design->leading_edge_radius_hub + design->leading_edge_radius_shroud) / d2;
   const double blades = slip_blades(design);
   SET(outlet_meridional_speed, design->flow_rate / (M_PI * d2 * design->outlet_width), "Q / (pi D2 b2)");
@@ -100,8 +99,7 @@ static void to_space(const CwBladeSection *section, CwBladePoint point, double t
 
 // Least distance at mid-span from the edge `from` of a blade to a side of its neighbour turned by `turn`, and
 // the place q there.
-static double throat(const CwBladeSection *section, CwBladePoint from, CwBladeSide side, double turn,
-                     double *place) {
+static double throat(const CwBladeSection *section, CwBladePoint from, CwBladeSide side, double turn, double *place) {
   enum { POINTS = 400 };
   double a[3], b[3], least = HUGE_VAL;
   to_space(section, from, 0, a);
@@ -143,16 +141,13 @@ CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure
   }
   CW_TRY(cw_blade_section(design, meridian, 0.5, &section));
   double place = 0;
-  SET(inlet_throat_width,
-      throat(&section, cw_blade_leading_edge(&section, 0), CW_BLADE_SUCTION, pitch, &place),
+  SET(inlet_throat_width, throat(&section, cw_blade_leading_edge(&section, 0), CW_BLADE_SUCTION, pitch, &place),
       "least distance to the next blade, mid-span");
-  SET(inlet_throat_area, design->blade_count * design->inlet_throat_width * passage_width(meridian, place),
-      "z a1 b");
+  SET(inlet_throat_area, design->blade_count * design->inlet_throat_width * passage_width(meridian, place), "z a1 b");
   SET(inlet_throat_ratio, design->flow_rate / design->inlet_throat_area / design->inlet_relative_speed,
       "Q / (throat area w1)");
   SET(outlet_throat_width,
-      throat(&section, cw_blade_side(&section, CW_BLADE_SUCTION, section.end), CW_BLADE_PRESSURE, -pitch,
-             &place),
+      throat(&section, cw_blade_side(&section, CW_BLADE_SUCTION, section.end), CW_BLADE_PRESSURE, -pitch, &place),
       "least distance to the next blade, mid-span");
   // Guelich, section 6.3.2: lambda_c = 1.1 with an axial inlet, lambda_w = 0.3 tan(beta1B)^0.57 at the shroud.
   const CwTriangle *tip = &design->inlet_triangle[CW_TRIANGLE_SPANS - 1];

@@ -39,16 +39,14 @@ typedef struct {
   double psi, level, beta;
 } Context;
 
-void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, double centre[2],
-                              double normal[2]) {
+void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, double centre[2], double normal[2]) {
   double x[3], a[3], b[3];
   cw_volute_wall_point(volute, phi, psi, x, a, b);
   // a x b points out of the fluid: phi runs with the flow, psi upward.
   double nx = a[1] * b[2] - a[2] * b[1], ny = a[2] * b[0] - a[0] * b[2], length = hypot(nx, ny);
   normal[0] = nx / length;
   normal[1] = ny / length;
-  for (int i = 0; i < 2; i++)
-    centre[i] = x[i] + volute->input.tongue_radius * normal[i];
+  for (int i = 0; i < 2; i++) centre[i] = x[i] + volute->input.tongue_radius * normal[i];
 }
 
 static double contact_excess(double phi, const void *context) {
@@ -66,8 +64,7 @@ static double contact_at_level_excess(double phi, const void *context) {
 }
 
 double cw_volute_contact_angle(const CwVolute *volute, double psi) {
-  if (fabs(psi) >= volute->arc_half_angle)
-    return volute->start_angle;
+  if (fabs(psi) >= volute->arc_half_angle) return volute->start_angle;
   Context context = {.volute = volute, .psi = fabs(psi)};
   return cw_root_find(contact_excess, &context, volute->start_angle, 0.45 * PI);
 }
@@ -83,8 +80,7 @@ double cw_volute_nose_y(const CwVolute *volute, double w) {
   // A little past the tip's angle, where the root lies at w = 0.
   double phi = cw_root_find(contact_at_level_excess, &context, volute->start_angle, volute->tip_angle + 1e-9);
   if (isnan(phi)) // along a wall parallel to the axis all levels touch at the tip's angle, but for rounding
-    phi =
-        cw_root_find(contact_at_level_excess, &context, volute->start_angle - 1e-3, volute->tip_angle + 1e-3);
+    phi = cw_root_find(contact_at_level_excess, &context, volute->start_angle - 1e-3, volute->tip_angle + 1e-3);
   CwVoluteSection section = cw_volute_section(volute, phi);
   double centre[2], normal[2];
   cw_volute_contact_circle(volute, phi, cw_volute_section_parameter(volute, &section, w), centre, normal);
@@ -126,8 +122,7 @@ static double throat_area(const CwVolute *volute) {
     double weight = i == 0 || i == COUNT ? 1 : i % 2 ? 4 : 2;
     sum += weight * 2 * step / 3 * cw_volute_half_width(volute, hypot(volute->inner_wall_x + i * step, y));
   }
-  const int count =
-      cw_volute_has_corners(volute) ? 8 * COUNT : COUNT; // the contour's curvature jumps at its corners
+  const int count = cw_volute_has_corners(volute) ? 8 * COUNT : COUNT; // the contour's curvature jumps at its corners
   step = k / count;
   for (int i = 0; i <= count; i++) {
     double weight = i == 0 || i == count ? 1 : i % 2 ? 4 : 2;
@@ -177,8 +172,7 @@ static double close_spiral(CwVolute *volute, double end) {
   volute->law_end = end;
   Context context = {.volute = volute, .value = isnan(in->tongue_angle) ? in->tongue_gap : in->tongue_angle};
   double wedge = DEFAULT_WEDGE;
-  if (isnan(context.value) && tongue_at(wedge, volute) < in->least_tongue_gap)
-    context.value = in->least_tongue_gap;
+  if (isnan(context.value) && tongue_at(wedge, volute) < in->least_tongue_gap) context.value = in->least_tongue_gap;
   if (!isnan(context.value)) {
     wedge = cw_root_find(tongue_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
     if (isnan(wedge)) // the nearest tongue; where gap or angle is given, check_tongue() says what is allowed
@@ -224,8 +218,7 @@ static CwStatus check_input(const CwVoluteInput *in) {
       {"discharge_pipe_length_mm", in->discharge_pipe_length, 1e-3, 50, 1e3, "mm", 0},
   };
   for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
-    if (ranges[i].optional && isnan(ranges[i].value))
-      continue;
+    if (ranges[i].optional && isnan(ranges[i].value)) continue;
     CW_REQUIRE(ranges[i].value >= ranges[i].least && ranges[i].value <= ranges[i].largest, CW_ERR_DESIGN,
                "volute: %s is %g %s; allowed: %g to %g %s", ranges[i].name, ranges[i].value * ranges[i].unit,
                ranges[i].unit_name, ranges[i].least * ranges[i].unit, ranges[i].largest * ranges[i].unit,
@@ -241,11 +234,10 @@ static CwStatus check_input(const CwVoluteInput *in) {
   CW_REQUIRE(in->inlet_width <= 0.4 * in->base_diameter, CW_ERR_DESIGN,
              "volute: inlet_width_mm (b3) is %g mm; allowed: at most 0.4 D3 = %g mm", in->inlet_width * 1e3,
              400 * in->base_diameter);
-  CW_REQUIRE(
-      in->section != CW_SECTION_CIRCLE || isnan(in->corner_radius), CW_ERR_DESIGN,
-      "volute: corner_radius_mm is %g mm, but a circle has no corners; allowed: with section trapezoid or "
-      "rectangle",
-      in->corner_radius * 1e3);
+  CW_REQUIRE(in->section != CW_SECTION_CIRCLE || isnan(in->corner_radius), CW_ERR_DESIGN,
+             "volute: corner_radius_mm is %g mm, but a circle has no corners; allowed: with section trapezoid or "
+             "rectangle",
+             in->corner_radius * 1e3);
   CW_REQUIRE(isnan(in->tongue_gap) || isnan(in->tongue_angle), CW_ERR_DESIGN,
              "volute: tongue_gap_mm and tongue_angle_deg both place the tongue; allowed: one of them");
   CW_REQUIRE(isnan(in->outlet_diameter) != isnan(in->diffuser_area_ratio), CW_ERR_DESIGN,
@@ -266,8 +258,7 @@ static CwStatus solve_spiral(CwVolute *volute) {
              "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s (raise the head "
              "or b3, or lower the flow rate)",
              velocity ? "Q / (K3 sqrt(2 g H))" : "Q / (c_u2 r2)", scale * (end - volute->law_start),
-             velocity ? "mm2" : "mm", LARGEST_SPIRAL, scale * (largest - volute->law_start),
-             velocity ? "mm2" : "mm");
+             velocity ? "mm2" : "mm", LARGEST_SPIRAL, scale * (largest - volute->law_start), velocity ? "mm2" : "mm");
   if (!isnan(in->throat_area)) {
     Context context = {.volute = volute};
     // The smallest and the largest spirals may have no room for a tongue at all.
@@ -286,8 +277,7 @@ static CwStatus solve_spiral(CwVolute *volute) {
     CW_REQUIRE(!isnan(end), CW_ERR_DESIGN,
                "volute: throat_area_mm2 is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
                "%.0f mm2",
-               in->throat_area * 1e6, (least_excess + in->throat_area) * 1e6,
-               (largest_excess + in->throat_area) * 1e6);
+               in->throat_area * 1e6, (least_excess + in->throat_area) * 1e6, (largest_excess + in->throat_area) * 1e6);
   }
   close_spiral(volute, end);
   volute->law_constant = in->flow_rate / (end - volute->law_start);
@@ -308,18 +298,16 @@ static CwStatus check_tongue(const CwVolute *volute) {
              in->tongue_angle * 180 / PI, least * 180 / PI, largest * 180 / PI);
   double corner[3] = {volute->inner_wall_x};
   if (!isnan(volute->throat_width))
-    cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle),
-                         volute->arc_half_angle, corner, NULL, NULL);
-  CW_REQUIRE(
-      volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
-          corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
-      CW_ERR_DESIGN,
-      "volute: %s too little side wall at the throat; lower inlet_width_mm or %s, or take section trapezoid%s",
-      cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
-      cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
-      cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
-  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) &&
-                 volute->throat_width > 4 * in->tongue_radius,
+    cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
+                         NULL, NULL);
+  CW_REQUIRE(volute->end_half_angle == ARC_HALF_ANGLE || isnan(volute->throat_width) ||
+                 corner[0] - volute->inner_wall_x > LEAST_SIDE * volute->throat_width,
+             CW_ERR_DESIGN,
+             "volute: %s too little side wall at the throat; lower inlet_width_mm or %s, or take section trapezoid%s",
+             cw_volute_has_corners(volute) ? "the corners leave" : "the circle leaves",
+             cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
+             cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
+  CW_REQUIRE(!isnan(volute->tip_angle) && !isnan(volute->throat_area) && volute->throat_width > 4 * in->tongue_radius,
              CW_ERR_DESIGN,
              "volute: no tongue of radius %g mm fits this spiral; lower tongue_radius_mm or raise throat_area_mm2",
              in->tongue_radius * 1e3);
@@ -392,11 +380,10 @@ static CwStatus solve_diffuser(CwVolute *volute) {
     volute->outlet_y = volute->throat_y;
     Context context = {.volute = volute};
     bend = cw_root_find(bend_excess, &context, 1e-3, 0.6 * PI);
-    CW_REQUIRE(
-        volute->diffuser_length >= 1.5 * radius * bend, CW_ERR_DESIGN,
-        "volute: diffuser_length_mm %g mm is too short for a radial discharge, which bends it by %.0f deg; "
-        "allowed: at least %.1f mm",
-        volute->diffuser_length * 1e3, bend * 180 / PI, 1.5e3 * radius * bend);
+    CW_REQUIRE(volute->diffuser_length >= 1.5 * radius * bend, CW_ERR_DESIGN,
+               "volute: diffuser_length_mm %g mm is too short for a radial discharge, which bends it by %.0f deg; "
+               "allowed: at least %.1f mm",
+               volute->diffuser_length * 1e3, bend * 180 / PI, 1.5e3 * radius * bend);
   }
   end_diffuser(volute, middle, volute->throat_y, bend);
   volute->diffuser_area_ratio = radius * radius / (throat_radius * throat_radius);
@@ -421,8 +408,7 @@ done:
 static CwStatus design_circle(CwVolute *volute) {
   const double touching = volute->end_half_angle;
   for (; volute->end_half_angle > ARC_HALF_ANGLE; volute->end_half_angle -= PI / 18)
-    if (design_spiral(volute) == CW_OK)
-      return CW_OK;
+    if (design_spiral(volute) == CW_OK) return CW_OK;
   volute->end_half_angle = touching;
   return design_spiral(volute);
 }
@@ -431,8 +417,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   CwStatus status = CW_OK;
   memset(volute, 0, sizeof *volute);
   volute->input = *input;
-  if (input->section == CW_SECTION_RECTANGLE)
-    volute->input.side_wall_angle = 0;
+  if (input->section == CW_SECTION_RECTANGLE) volute->input.side_wall_angle = 0;
   CW_TRY(check_input(&volute->input));
   volute->arc_half_angle = volute->end_half_angle = ARC_HALF_ANGLE;
   if (input->section == CW_SECTION_CIRCLE || cw_volute_has_corners(volute))

@@ -54,21 +54,20 @@ typedef struct {
   double angular_momentum; // K = c_u2 r2, m2/s; for constant angular momentum
   double section_speed;    // c3, m/s; for constant velocity
   CwVoluteSectionKind section;
-  double corner_radius;    // m, between side and outer wall; NAN: none (a rectangle needs one)
-  double interface_radius; // of the cylinder to the rotor, m
-  double neck_width;       // b2, m: width from the interface to D3/2
-  double base_diameter;    // D3, m
-  double inlet_width;      // b3, m, at least b2 + 1 mm
-  double side_wall_angle;  // a, rad: half angle between the side walls; a rectangle has 0 whatever it says
-  double throat_area;      // m2; NAN: what the law gives for Q and K or c3
-  double tongue_radius;    // of the nose, m
-  double
-      tongue_gap; // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
-  double tongue_angle;     // rad, from the spiral's start to the tongue's tip; NAN: as the gap or shape asks
-  double least_tongue_gap; // m, for a chosen gap, which comes as near as the spiral allows; NAN: none
-  double diffuser_length;  // m; NAN: from the diffuser's angle
-  double diffuser_angle;   // rad, full angle of the cone of equal areas; used where the length is NAN
-  double outlet_diameter;  // DN, m; NAN: from the area ratio
+  double corner_radius;       // m, between side and outer wall; NAN: none (a rectangle needs one)
+  double interface_radius;    // of the cylinder to the rotor, m
+  double neck_width;          // b2, m: width from the interface to D3/2
+  double base_diameter;       // D3, m
+  double inlet_width;         // b3, m, at least b2 + 1 mm
+  double side_wall_angle;     // a, rad: half angle between the side walls; a rectangle has 0 whatever it says
+  double throat_area;         // m2; NAN: what the law gives for Q and K or c3
+  double tongue_radius;       // of the nose, m
+  double tongue_gap;          // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
+  double tongue_angle;        // rad, from the spiral's start to the tongue's tip; NAN: as the gap or shape asks
+  double least_tongue_gap;    // m, for a chosen gap, which comes as near as the spiral allows; NAN: none
+  double diffuser_length;     // m; NAN: from the diffuser's angle
+  double diffuser_angle;      // rad, full angle of the cone of equal areas; used where the length is NAN
+  double outlet_diameter;     // DN, m; NAN: from the area ratio
   double diffuser_area_ratio; // of outlet to throat; NAN: as the diameter says
   CwDischarge discharge;
   double discharge_pipe_length; // m, behind the diffuser
@@ -76,28 +75,28 @@ typedef struct {
 
 typedef struct {
   CwVoluteInput input;
-  double arc_half_angle; // k0, rad
-  double end_half_angle; // k behind the first sector, rad
-  double law_start;      // M0 at phi = 0, m or m2
-  double law_end;        // M1 at phi = 2 pi
-  double law_constant;   // Q / (M1 - M0): the K, m2/s, or c3, m/s, that the spiral is made for; equals the
-                         // given one unless the throat is given
-  double start_angle;   // rad: where the kink line begins, at the tongue's side; the contact angle at psi = k
-  double tip_angle;     // rad: the contact angle at z = 0
-  double tip_radius;    // m: least distance of the tongue from the axis at z = 0
-  double inner_wall_x;  // x_i, m
-  double throat_y;      // y_t, m
-  double throat_area;   // m2, of the cut at y = y_t
-  double throat_width;  // m, in x at z = 0
-  double side_level;    // m: |z| of the kink where it begins
-  double side_centre_y; // m: y of the nose's centre at that level
+  double arc_half_angle;      // k0, rad
+  double end_half_angle;      // k behind the first sector, rad
+  double law_start;           // M0 at phi = 0, m or m2
+  double law_end;             // M1 at phi = 2 pi
+  double law_constant;        // Q / (M1 - M0): the K, m2/s, or c3, m/s, that the spiral is made for; equals the
+                              // given one unless the throat is given
+  double start_angle;         // rad: where the kink line begins, at the tongue's side; the contact angle at psi = k
+  double tip_angle;           // rad: the contact angle at z = 0
+  double tip_radius;          // m: least distance of the tongue from the axis at z = 0
+  double inner_wall_x;        // x_i, m
+  double throat_y;            // y_t, m
+  double throat_area;         // m2, of the cut at y = y_t
+  double throat_width;        // m, in x at z = 0
+  double side_level;          // m: |z| of the kink where it begins
+  double side_centre_y;       // m: y of the nose's centre at that level
   double side_centre_slope;   // its derivative with respect to |z|
   double diffuser_length;     // m
   double diffuser_angle;      // rad, full angle of the cone of equal areas
   double diffuser_area_ratio; // outlet to throat
-  double throat_lean; // rad: the diffuser begins along (-sin, cos) of it, midway between the throat's walls
-  double discharge_lean;     // rad: the pipe runs along (-sin, cos) of it; tangential: as the throat
-  double outlet_x, outlet_y; // m: centre of the diffuser's end; its z is 0
+  double throat_lean;         // rad: the diffuser begins along (-sin, cos) of it, midway between the throat's walls
+  double discharge_lean;      // rad: the pipe runs along (-sin, cos) of it; tangential: as the throat
+  double outlet_x, outlet_y;  // m: centre of the diffuser's end; its z is 0
 } CwVolute;
 
 // Designs the volute. Fails with CW_ERR_DESIGN and one line that names the quantity and its allowed range.
@@ -108,8 +107,7 @@ double cw_volute_contact_angle(const CwVolute *volute, double psi);
 
 // Centre of the nose's circle (x, y) where it touches the outer wall at (phi, psi), and the unit normal of
 // the wall's level line in plan, out of the fluid.
-void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, double centre[2],
-                              double normal[2]);
+void cw_volute_contact_circle(const CwVolute *volute, double phi, double psi, double centre[2], double normal[2]);
 
 // y of the centre of the nose's circle at the level |z| = w; its x is x_i - tongue radius. Above the level of
 // the kink, where the spiral has no wall to touch, it goes on with the same slope and levels out.

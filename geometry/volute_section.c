@@ -59,8 +59,8 @@ static CwVoluteSection section_at(const CwVolute *volute, double r_k, double k) 
   s.arc_centre = r_k - s.arc_radius * cos(k);
   s.outer_radius = s.arc_centre + s.arc_radius;
   double c = s.arc_centre, rho = s.arc_radius;
-  s.area = (0.5 * b3 + s.kink_height) * (r_k - r3) + rho * rho * (k - sin(k) * cos(k)) +
-           2 * s.flat * (s.outer_radius - r_k);
+  s.area =
+      (0.5 * b3 + s.kink_height) * (r_k - r3) + rho * rho * (k - sin(k) * cos(k)) + 2 * s.flat * (s.outer_radius - r_k);
   // Integral of rho^2 sin^2 psi / (c + rho cos psi) over 0..k, in closed form on either side of c = rho.
   double d = (c - rho) * (c + rho), t = tan(k / 2) * sqrt(fabs((c - rho) / (c + rho)));
   double arc = c * k - rho * sin(k) + 2 * sqrt(fabs(d)) * (d > 0 ? -atan(t) : atanh(t));
@@ -156,8 +156,6 @@ void cw_volute_wall_point(const CwVolute *volute, double phi, double psi, double
 
 double cw_volute_section_parameter(const CwVolute *volute, const CwVoluteSection *s, double w) {
   double alpha = asin(fmin(fmax(0, w - s->flat) / s->arc_radius, 1));
-  if (!cw_volute_has_corners(volute))
-    return alpha / (s->arc_angle / volute->arc_half_angle);
-  return volute->arc_half_angle * (fmin(w, s->flat) + s->arc_radius * alpha) /
-         (s->flat + s->arc_radius * s->arc_angle);
+  if (!cw_volute_has_corners(volute)) return alpha / (s->arc_angle / volute->arc_half_angle);
+  return volute->arc_half_angle * (fmin(w, s->flat) + s->arc_radius * alpha) / (s->flat + s->arc_radius * s->arc_angle);
 }

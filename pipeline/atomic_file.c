@@ -52,8 +52,8 @@ CwStatus cw_atomic_file_commit(CwAtomicFile *file) {
     CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", file->final_path,
                errno ? strerror(errno) : "a write failed");
   }
-  CW_REQUIRE(!rename(file->temporary_path, file->final_path), CW_ERR_IO, "%s: cannot be written: %s",
-             file->final_path, strerror(errno));
+  CW_REQUIRE(!rename(file->temporary_path, file->final_path), CW_ERR_IO, "%s: cannot be written: %s", file->final_path,
+             strerror(errno));
   forget(file);
 done:
   if (status != CW_OK) cw_atomic_file_abandon(file);
@@ -78,8 +78,7 @@ CwStatus cw_make_directory(const char *path) {
     if (mkdir(parent, 0777) && errno != EEXIST) {
       // A parent that stands but may not be written to (EROFS, EACCES) matters only where a child is missing.
       int cause = errno;
-      CW_REQUIRE(!stat(parent, &found), CW_ERR_IO, "%s: the folder cannot be made: %s", parent,
-                 strerror(cause));
+      CW_REQUIRE(!stat(parent, &found), CW_ERR_IO, "%s: the folder cannot be made: %s", parent, strerror(cause));
     }
     *c = '/';
   }

@@ -50,8 +50,7 @@ static CwStatus fail_syntax(const Reader *reader) {
   const char *what = strstr(reader->complaint, ": error: ");
   const char *numbers = strchr(reader->complaint, ':');
   if (!what || !numbers || sscanf(numbers, ":%d:%d", &line, &column) != 2)
-    return CW_FAIL(CW_ERR_INPUT,
-                   "%s:1:1: case file: it is not YAML; allowed: YAML as in docs/case-reference.md",
+    return CW_FAIL(CW_ERR_INPUT, "%s:1:1: case file: it is not YAML; allowed: YAML as in docs/case-reference.md",
                    reader->path);
   what += strlen(": error: ");
   return CW_FAIL(CW_ERR_INPUT,
@@ -108,11 +107,10 @@ static const char *event_words(enum fy_event_type type) {
   }
 }
 
-static CwStatus require_once(const Reader *reader, const char *path, CwCasePlace *found, Place key,
-                             Place value) {
+static CwStatus require_once(const Reader *reader, const char *path, CwCasePlace *found, Place key, Place value) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(!found->given, CW_ERR_INPUT, "%s:%d:%d: %s: given twice, first in line %d; allowed: once",
-             reader->path, key.line, key.column, path, found->line);
+  CW_REQUIRE(!found->given, CW_ERR_INPUT, "%s:%d:%d: %s: given twice, first in line %d; allowed: once", reader->path,
+             key.line, key.column, path, found->line);
   *found = (CwCasePlace){1, value.line, value.column};
 done:
   return status;
@@ -131,27 +129,24 @@ static CwStatus read_pair(Reader *reader, const char *section, const Event *key,
   snprintf(path, sizeof path, "%s%s%s", section, section[0] ? "." : "", name);
   if (index < 0) {
     cw_case_key_unknown(section, key->text, scalar ? value->text : NULL, wrong);
-    CW_REQUIRE(0, CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, key->place.line, key->place.column, path,
-               wrong);
+    CW_REQUIRE(0, CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, key->place.line, key->place.column, path, wrong);
   }
   CW_TRY(require_once(reader, path, &reader->places[index], key->place, value->place));
   cw_case_key_allowed(&cw_case_keys[index], allowed);
   CW_REQUIRE(scalar, CW_ERR_INPUT, "%s:%d:%d: %s: it is %s, not one value; allowed: %s", reader->path,
              value->place.line, value->place.column, path, event_words(value->type), allowed);
-  CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s",
-             reader->path, value->place.line, value->place.column, path, allowed);
+  CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s", reader->path,
+             value->place.line, value->place.column, path, allowed);
   CW_REQUIRE(cw_case_value_read(&cw_case_keys[index], unit, value->text, value->plain, &reader->table, wrong),
-             CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, value->place.line, value->place.column, path,
-             wrong);
+             CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, value->place.line, value->place.column, path, wrong);
 done:
   return status;
 }
 
 static CwStatus require_scalar_key(const Reader *reader, const char *section, const Event *key) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(key->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: a key is %s; allowed: a plain word",
-             reader->path, key->place.line, key->place.column, section[0] ? section : "case file",
-             event_words(key->type));
+  CW_REQUIRE(key->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: a key is %s; allowed: a plain word", reader->path,
+             key->place.line, key->place.column, section[0] ? section : "case file", event_words(key->type));
 done:
   return status;
 }
@@ -192,11 +187,10 @@ static CwStatus read_top(Reader *reader) {
     }
     CW_TRY(require_once(reader, key.text, section_place(reader, key.text), key.place, key.place));
     cw_show(value.text, shown);
-    CW_REQUIRE(
-        value.type == FYET_MAPPING_START, CW_ERR_INPUT,
-        "%s:%d:%d: %s: %s is not a mapping; allowed: the section's keys, one a line, indented below it",
-        reader->path, value.place.line, value.place.column, key.text,
-        value.type == FYET_SCALAR ? shown : event_words(value.type));
+    CW_REQUIRE(value.type == FYET_MAPPING_START, CW_ERR_INPUT,
+               "%s:%d:%d: %s: %s is not a mapping; allowed: the section's keys, one a line, indented below it",
+               reader->path, value.place.line, value.place.column, key.text,
+               value.type == FYET_SCALAR ? shown : event_words(value.type));
     CW_TRY(read_section(reader, key.text));
   }
 done:
@@ -211,16 +205,15 @@ static CwStatus read_stream(Reader *reader) {
   CW_REQUIRE(event.type != FYET_STREAM_END, CW_ERR_INPUT,
              "%s:1:1: case file: it is empty; allowed: the keys of docs/case-reference.md", reader->path);
   CW_REQUIRE(event.type == FYET_MAPPING_START, CW_ERR_INPUT,
-             "%s:%d:%d: case file: it is not a mapping; allowed: the keys of docs/case-reference.md",
-             reader->path, event.place.line ? event.place.line : 1,
-             event.place.line ? event.place.column : 1);
+             "%s:%d:%d: case file: it is not a mapping; allowed: the keys of docs/case-reference.md", reader->path,
+             event.place.line ? event.place.line : 1, event.place.line ? event.place.column : 1);
   reader->root = event.place;
   CW_TRY(read_top(reader));
   do CW_TRY(next_event(reader, &event));
   while (event.type == FYET_DOCUMENT_END);
   CW_REQUIRE(event.type == FYET_STREAM_END, CW_ERR_INPUT,
-             "%s:%d:%d: case file: a second document begins; allowed: one document", reader->path,
-             event.place.line, event.place.column);
+             "%s:%d:%d: case file: a second document begins; allowed: one document", reader->path, event.place.line,
+             event.place.column);
 done:
   return status;
 }
@@ -237,9 +230,8 @@ static CwStatus require_all(Reader *reader) {
     place->column = section->given ? section->column : reader->root.column;
     cw_case_key_path(key, path);
     cw_case_key_allowed(key, allowed);
-    CW_REQUIRE(key->presence != CW_KEY_REQUIRED, CW_ERR_INPUT,
-               "%s:%d:%d: %s: the key is missing; allowed: %s", reader->path, place->line, place->column,
-               path, allowed);
+    CW_REQUIRE(key->presence != CW_KEY_REQUIRED, CW_ERR_INPUT, "%s:%d:%d: %s: the key is missing; allowed: %s",
+               reader->path, place->line, place->column, path, allowed);
   }
 done:
   return status;
@@ -266,8 +258,8 @@ static CwStatus require_utf8(const char *path, const char *text, size_t length) 
   int line = 1, column = 1;
   for (size_t i = 0; i < length;) {
     size_t step = utf8_length((const unsigned char *)text + i, length - i);
-    CW_REQUIRE(step, CW_ERR_INPUT, "%s:%d:%d: case file: byte 0x%02x is no text; allowed: UTF-8 text", path,
-               line, column, (unsigned char)text[i]);
+    CW_REQUIRE(step, CW_ERR_INPUT, "%s:%d:%d: case file: byte 0x%02x is no text; allowed: UTF-8 text", path, line,
+               column, (unsigned char)text[i]);
     column = text[i] == '\n' ? 1 : column + 1;
     line += text[i] == '\n';
     i += step;
@@ -283,13 +275,12 @@ static CwStatus read_file(const char *path, const char *shown_path, char **text,
   CW_REQUIRE(file, CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path, strerror(errno));
   CW_REQUIRE(!fstat(fileno(file), &about), CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path,
              strerror(errno));
-  CW_REQUIRE(!S_ISDIR(about.st_mode), CW_ERR_IO, "%s: this is a folder; allowed: a case file in YAML",
-             shown_path);
+  CW_REQUIRE(!S_ISDIR(about.st_mode), CW_ERR_IO, "%s: this is a folder; allowed: a case file in YAML", shown_path);
   CW_NEW(*text, FILE_LIMIT + 1);
   *length = fread(*text, 1, FILE_LIMIT + 1, file);
   CW_REQUIRE(!ferror(file), CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path, strerror(errno));
-  CW_REQUIRE(*length <= FILE_LIMIT, CW_ERR_INPUT,
-             "%s:1:1: case file: it is too large; allowed: at most 1 MiB", shown_path);
+  CW_REQUIRE(*length <= FILE_LIMIT, CW_ERR_INPUT, "%s:1:1: case file: it is too large; allowed: at most 1 MiB",
+             shown_path);
 done:
   if (file) fclose(file);
   return status;
@@ -304,8 +295,7 @@ CwStatus cw_case_read(const char *path, CwCase *table) {
   // A path of thousands of characters would push the rest out of the message.
   size_t path_length = strlen(path);
   int cut = path_length > PATH_SHOWN;
-  snprintf(shown_path, sizeof shown_path, "%s%s", cut ? "..." : "",
-           path + (cut ? path_length - PATH_SHOWN : 0));
+  snprintf(shown_path, sizeof shown_path, "%s%s", cut ? "..." : "", path + (cut ? path_length - PATH_SHOWN : 0));
   cw_case_defaults(&reader.table);
   CW_NEW(reader.places, cw_case_key_count);
   CW_NEW(reader.sections, cw_case_key_count);

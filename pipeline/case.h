@@ -36,11 +36,11 @@ static inline int cw_case_given(double value) {
 }
 
 typedef struct {
-  double flow_rate;         // m3/s
-  double head;              // m
-  double speed;             // rad/s
-  double inlet_pressure;    // Pa, absolute
-  double time_step_angle;   // rad of rotation per time step of the transient run
+  double flow_rate;       // m3/s
+  double head;            // m
+  double speed;           // rad/s
+  double inlet_pressure;  // Pa, absolute
+  double time_step_angle; // rad of rotation per time step of the transient run
 } CwOperatingPoint;
 
 typedef struct {
@@ -56,92 +56,92 @@ typedef struct {
 } CwDesignTable;
 
 typedef struct {
-  CwPriority priority;       // which constraint of an over-determined table is the law
+  CwPriority priority; // which constraint of an over-determined table is the law
   CwRotation rotation;
-  int blade_count;           // z, 3 to 9; 0: computed
-  double inlet_diameter;     // D1, m
-  double outlet_diameter;    // D2, m
-  double outlet_width;       // b2, m
-  double wrap_angle;         // rad
-  double wrap_spread;        // rad, wrap at the shroud minus wrap at the hub
-  double hub_diameter;       // m, at the nut
-  double axial_length;       // m, of the shroud
+  int blade_count;                                               // z, 3 to 9; 0: computed
+  double inlet_diameter;                                         // D1, m
+  double outlet_diameter;                                        // D2, m
+  double outlet_width;                                           // b2, m
+  double wrap_angle;                                             // rad
+  double wrap_spread;                                            // rad, wrap at the shroud minus wrap at the hub
+  double hub_diameter;                                           // m, at the nut
+  double axial_length;                                           // m, of the shroud
   double hub_pole_radial, shroud_pole_axial, shroud_pole_radial; // shares, inner Bezier poles of the meridian
-  double leading_edge_radius_hub;    // m
-  double leading_edge_radius_shroud; // m
-  double incidence;          // rad, of the computed inlet blade angle
-  double inlet_blade_angle;  // beta1 at mid-span, rad from tangential
-  double outlet_blade_angle; // beta2, rad from tangential
-  double leading_edge_thickness;  // m
-  double blade_thickness;         // m, the largest
-  double trailing_edge_thickness; // m
-  double trailing_edge_bevel;     // m, length of the bevel facet
+  double leading_edge_radius_hub;                                // m
+  double leading_edge_radius_shroud;                             // m
+  double incidence;                                              // rad, of the computed inlet blade angle
+  double inlet_blade_angle;                                      // beta1 at mid-span, rad from tangential
+  double outlet_blade_angle;                                     // beta2, rad from tangential
+  double leading_edge_thickness;                                 // m
+  double blade_thickness;                                        // m, the largest
+  double trailing_edge_thickness;                                // m
+  double trailing_edge_bevel;                                    // m, length of the bevel facet
   CwTrailingEdge trailing_edge;
-  double leading_edge_ratio;      // semi-axes of the leading edge's ellipse, along to across
-  double thickest_at;             // share of the blade's length where it is thickest
+  double leading_edge_ratio; // semi-axes of the leading edge's ellipse, along to across
+  double thickest_at;        // share of the blade's length where it is thickest
   CwBladeForm blade_form;
-  double lean_angle;              // rad, of the trailing edge from the axial direction; positive: shroud ahead
-  double splitter_start;          // share of the meridional length where splitters begin; NAN: none
-  double splitter_position;       // share of the pitch from a blade to the splitter behind its pressure side
-  double nut_length;              // m, of the hub's nose before the hub
-  double nut_flat_diameter;       // m, of its flat end
-  double through_shaft_diameter;  // m, of a shaft that goes out through the inlet; 0: none
-  double root_fillet_radius;      // m, between blades and hub and shroud; 0: none
-  double suction_pipe_length;     // m, from the shroud's inlet
-  CwPipeZone suction_pipe_zone;   // whether most of it is a zone of its own
+  double lean_angle;             // rad, of the trailing edge from the axial direction; positive: shroud ahead
+  double splitter_start;         // share of the meridional length where splitters begin; NAN: none
+  double splitter_position;      // share of the pitch from a blade to the splitter behind its pressure side
+  double nut_length;             // m, of the hub's nose before the hub
+  double nut_flat_diameter;      // m, of its flat end
+  double through_shaft_diameter; // m, of a shaft that goes out through the inlet; 0: none
+  double root_fillet_radius;     // m, between blades and hub and shroud; 0: none
+  double suction_pipe_length;    // m, from the shroud's inlet
+  CwPipeZone suction_pipe_zone;  // whether most of it is a zone of its own
 } CwImpellerTable;
 
 typedef struct {
-  double base_diameter;      // D3, m
-  double inlet_width;        // b3, m
-  CwAreaLaw area_law;        // how the sections grow
-  double velocity_factor;    // K3 = c3 / sqrt(2 g H), with constant velocity
+  double base_diameter;   // D3, m
+  double inlet_width;     // b3, m
+  CwAreaLaw area_law;     // how the sections grow
+  double velocity_factor; // K3 = c3 / sqrt(2 g H), with constant velocity
   CwVoluteSectionKind section;
-  double side_wall_angle;    // rad, half angle between the side walls; not of a rectangle
-  double corner_radius;      // m, between side and outer wall; not of a circle
-  double tongue_radius;      // m, nose
-  double tongue_gap;         // m, radial, from D3/2 to the tongue's tip
-  double tongue_angle;       // rad, from the spiral's start to the tongue's tip
-  double throat_area;        // m2
-  double diffuser_length;    // m
-  double diffuser_angle;     // rad, full angle of the cone of equal areas
-  double diffuser_area_ratio; // of outlet to throat
-  CwDischarge discharge;     // which way the discharge pipe points
-  double outlet_diameter;    // DN, m
-  double discharge_pipe_length; // m
+  double side_wall_angle;         // rad, half angle between the side walls; not of a rectangle
+  double corner_radius;           // m, between side and outer wall; not of a circle
+  double tongue_radius;           // m, nose
+  double tongue_gap;              // m, radial, from D3/2 to the tongue's tip
+  double tongue_angle;            // rad, from the spiral's start to the tongue's tip
+  double throat_area;             // m2
+  double diffuser_length;         // m
+  double diffuser_angle;          // rad, full angle of the cone of equal areas
+  double diffuser_area_ratio;     // of outlet to throat
+  CwDischarge discharge;          // which way the discharge pipe points
+  double outlet_diameter;         // DN, m
+  double discharge_pipe_length;   // m
   CwPipeZone discharge_pipe_zone; // whether most of it is a zone of its own
 } CwVoluteTable;
 
 // What one group of walls asks of its layers.
 typedef struct {
-  double y_plus;             // target
-  double velocity;           // m/s, of the flow along the wall; NAN: from the design
-  double first_height;       // m; NAN: from y+ and velocity
-  double growth_ratio;       // the largest; NAN: that of all walls
-  double total_thickness;    // m, the target of a column; NAN: that of all walls
+  double y_plus;          // target
+  double velocity;        // m/s, of the flow along the wall; NAN: from the design
+  double first_height;    // m; NAN: from y+ and velocity
+  double growth_ratio;    // the largest; NAN: that of all walls
+  double total_thickness; // m, the target of a column; NAN: that of all walls
 } CwWallGroup;
 
 // Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one
 // for all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
 typedef struct {
   int layer_count;
-  double growth_ratio;       // the largest
-  double total_thickness;    // m, the target of a column; NAN: from first height, count and growth
+  double growth_ratio;    // the largest
+  double total_thickness; // m, the target of a column; NAN: from first height, count and growth
   CwYPlusAt y_plus_at;
   CwWallGroup blade, hub_shroud, volute, pipe;
   CwWallTreatment treatment;
-  double roughness;          // m, equivalent sand grain
+  double roughness; // m, equivalent sand grain
 } CwWalls;
 
 typedef struct {
-  int64_t cells;             // asked number of cells, all zones together
-  CwFillMethod fill;         // what makes the tetrahedra; TetGen steps in where the kernel cannot
-  int64_t cells_per_region;  // about this many; 0: computed
-  int least_regions;         // of a domain
-  int periodic_impeller;     // 1: of the equal passages of the impeller one is meshed and copied, 0: meshed whole
-  double gradation;          // growth of size with distance, d(size)/d(distance)
-  double curvature_angle;    // rad of turn of the surface normal across one edge, at relative size 1
-  double cells_across_gap;   // least number of cells across a narrow place
+  int64_t cells;            // asked number of cells, all zones together
+  CwFillMethod fill;        // what makes the tetrahedra; TetGen steps in where the kernel cannot
+  int64_t cells_per_region; // about this many; 0: computed
+  int least_regions;        // of a domain
+  int periodic_impeller;    // 1: of the equal passages of the impeller one is meshed and copied, 0: meshed whole
+  double gradation;         // growth of size with distance, d(size)/d(distance)
+  double curvature_angle;   // rad of turn of the surface normal across one edge, at relative size 1
+  double cells_across_gap;  // least number of cells across a narrow place
   double size_blade, size_hub_shroud, size_volute, size_pipe, size_interface; // relative to the base size
 } CwMeshTable;
 

@@ -37,20 +37,15 @@ static const Rule rules[] = {
      "the flat end is a part of the hub's nose"},
     {"impeller", "through_shaft_diameter_mm", AT_MOST, 1, "impeller", "hub_diameter_mm",
      "the shaft goes on from the hub"},
-    {"impeller", "through_shaft_diameter_mm", BELOW, 1, "impeller", "inlet_diameter_mm",
-     "the eye must stay open"},
-    {"volute", "base_diameter_mm", ABOVE, 1, "impeller", "outlet_diameter_mm",
-     "the volute lies around the impeller"},
-    {"volute", "inlet_width_mm", AT_LEAST, 1, "impeller", "outlet_width_mm",
-     "the volute takes the impeller's outlet"},
-    {"walls", "total_thickness_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
-     "layers on hub and shroud would meet"},
+    {"impeller", "through_shaft_diameter_mm", BELOW, 1, "impeller", "inlet_diameter_mm", "the eye must stay open"},
+    {"volute", "base_diameter_mm", ABOVE, 1, "impeller", "outlet_diameter_mm", "the volute lies around the impeller"},
+    {"volute", "inlet_width_mm", AT_LEAST, 1, "impeller", "outlet_width_mm", "the volute takes the impeller's outlet"},
+    {"walls", "total_thickness_mm", BELOW, 0.5, "impeller", "outlet_width_mm", "layers on hub and shroud would meet"},
     {"walls", "total_thickness_hub_shroud_mm", BELOW, 0.5, "impeller", "outlet_width_mm",
      "layers on hub and shroud would meet"},
 };
 
-static CwStatus check_rule(const char *path, const CwCase *table, const CwCasePlace *places,
-                           const Rule *rule) {
+static CwStatus check_rule(const char *path, const CwCase *table, const CwCasePlace *places, const Rule *rule) {
   CwStatus status = CW_OK;
   int left = cw_case_key_find(rule->section, rule->key);
   int right = cw_case_key_find(rule->other_section, rule->other_key);
@@ -67,8 +62,8 @@ static CwStatus check_rule(const char *path, const CwCase *table, const CwCasePl
   cw_case_key_path(&cw_case_keys[left], name);
   cw_case_key_path(&cw_case_keys[right], other);
   CW_REQUIRE(fine, CW_ERR_INPUT, "%s:%d:%d: %s: %.6g contradicts %s%s (%s); allowed: %s %.6g mm", path,
-             places[left].line, places[left].column, name, value, rule->share == 1 ? "" : "half of ", other,
-             rule->why, relation_texts[rule->relation], limit);
+             places[left].line, places[left].column, name, value, rule->share == 1 ? "" : "half of ", other, rule->why,
+             relation_texts[rule->relation], limit);
 done:
   return status;
 }
@@ -76,18 +71,16 @@ done:
 static CwStatus check_priority(const char *path, const CwCase *table, const CwCasePlace *places) {
   CwStatus status = CW_OK;
   const CwCasePlace *place = &places[cw_case_key_find("impeller", "priority")];
-  CW_REQUIRE(table->impeller.priority != CW_PRIORITY_WRAP || cw_case_given(table->impeller.wrap_angle),
-             CW_ERR_INPUT,
+  CW_REQUIRE(table->impeller.priority != CW_PRIORITY_WRAP || cw_case_given(table->impeller.wrap_angle), CW_ERR_INPUT,
              "%s:%d:%d: impeller.priority: wrap needs the key wrap_angle_deg, which is missing; allowed: "
              "wrap_angle_deg "
              "from 20 to 300 degrees, or priority auto, head or beta",
              path, place->line, place->column);
-  CW_REQUIRE(
-      table->impeller.priority != CW_PRIORITY_BETA || cw_case_given(table->impeller.outlet_blade_angle),
-      CW_ERR_INPUT,
-      "%s:%d:%d: impeller.priority: beta needs the key outlet_blade_angle_deg, which is missing; allowed: "
-      "outlet_blade_angle_deg from 5 to 85 degrees, or priority auto, wrap or head",
-      path, place->line, place->column);
+  CW_REQUIRE(table->impeller.priority != CW_PRIORITY_BETA || cw_case_given(table->impeller.outlet_blade_angle),
+             CW_ERR_INPUT,
+             "%s:%d:%d: impeller.priority: beta needs the key outlet_blade_angle_deg, which is missing; allowed: "
+             "outlet_blade_angle_deg from 5 to 85 degrees, or priority auto, wrap or head",
+             path, place->line, place->column);
 done:
   return status;
 }
@@ -99,11 +92,10 @@ static CwStatus check_operating_point(const char *path, const CwCase *table, con
   double rpm = point->speed * 30 / pi;
   // Specific speed nq = n sqrt(Q) / H^(3/4) in rpm, m3/s, m: radial and mixed-flow impellers lie in 5 to 160.
   double specific_speed = rpm * sqrt(point->flow_rate) / pow(point->head, 0.75);
-  CW_REQUIRE(
-      specific_speed >= 5 && specific_speed <= 160, CW_ERR_INPUT,
-      "%s:%d:%d: operating_point.speed_rpm: %.6g contradicts flow rate and head, together they give the "
-      "specific speed nq = %.4g; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)",
-      path, place->line, place->column, rpm, specific_speed);
+  CW_REQUIRE(specific_speed >= 5 && specific_speed <= 160, CW_ERR_INPUT,
+             "%s:%d:%d: operating_point.speed_rpm: %.6g contradicts flow rate and head, together they give the "
+             "specific speed nq = %.4g; allowed: nq from 5 to 160 (of n in rpm, Q in m3/s, H in m)",
+             path, place->line, place->column, rpm, specific_speed);
   // Without swirl before the impeller no blade gives more than u2^2 / g (Euler).
   double tip_speed = point->speed * table->impeller.outlet_diameter / 2;
   double most = cw_case_given(tip_speed) ? tip_speed * tip_speed / gravity : INFINITY;
@@ -123,11 +115,10 @@ static CwStatus check_blockage(const char *path, const CwCase *table, const CwCa
   const CwCasePlace *place = &places[cw_case_key_find("impeller", "blade_thickness_mm")];
   if (!cw_case_given(impeller->blade_thickness * impeller->inlet_diameter) || !impeller->blade_count) goto done;
   double most = 0.5 * pi * impeller->inlet_diameter / impeller->blade_count;
-  CW_REQUIRE(
-      impeller->blade_thickness < most, CW_ERR_INPUT,
-      "%s:%d:%d: impeller.blade_thickness_mm: %.6g contradicts blade_count and inlet_diameter_mm (the blades "
-      "fill the inlet); allowed: below %.4g mm",
-      path, place->line, place->column, 1000 * impeller->blade_thickness, 1000 * most);
+  CW_REQUIRE(impeller->blade_thickness < most, CW_ERR_INPUT,
+             "%s:%d:%d: impeller.blade_thickness_mm: %.6g contradicts blade_count and inlet_diameter_mm (the blades "
+             "fill the inlet); allowed: below %.4g mm",
+             path, place->line, place->column, 1000 * impeller->blade_thickness, 1000 * most);
 done:
   return status;
 }
@@ -154,12 +145,11 @@ static CwStatus check_volute(const char *path, const CwCase *table, const CwCase
     const int key = cw_case_key_find("volute", pairs[i][0]), other = cw_case_key_find("volute", pairs[i][1]);
     const double value = cw_case_key_value(&cw_case_keys[key], table);
     CW_REQUIRE(isnan(value) || isnan(cw_case_key_value(&cw_case_keys[other], table)), CW_ERR_INPUT,
-               "%s:%d:%d: volute.%s: %.6g contradicts volute.%s, from which it follows; allowed: one of them",
-               path, places[key].line, places[key].column, pairs[i][0], value, pairs[i][1]);
+               "%s:%d:%d: volute.%s: %.6g contradicts volute.%s, from which it follows; allowed: one of them", path,
+               places[key].line, places[key].column, pairs[i][0], value, pairs[i][1]);
   }
   const CwCasePlace *place = &places[cw_case_key_find("volute", "velocity_factor")];
-  CW_REQUIRE(isnan(table->volute.velocity_factor) || table->volute.area_law == CW_AREA_LAW_VELOCITY,
-             CW_ERR_INPUT,
+  CW_REQUIRE(isnan(table->volute.velocity_factor) || table->volute.area_law == CW_AREA_LAW_VELOCITY, CW_ERR_INPUT,
              "%s:%d:%d: volute.velocity_factor: %.6g is of no use with the area_law angular_momentum; "
              "allowed: with area_law velocity",
              path, place->line, place->column, table->volute.velocity_factor);
@@ -175,8 +165,7 @@ done:
 CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace *places) {
   CwStatus status = CW_OK;
   CW_TRY(check_priority(path, table, places));
-  for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i)
-    CW_TRY(check_rule(path, table, places, &rules[i]));
+  for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i) CW_TRY(check_rule(path, table, places, &rules[i]));
   CW_TRY(check_operating_point(path, table, places));
   CW_TRY(check_blockage(path, table, places));
   CW_TRY(check_roughness(path, table, places));

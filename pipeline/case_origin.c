@@ -63,17 +63,19 @@ CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *
              path, stage);
   CW_TRY(cw_json_read(path, &record));
   of = json_object_get(record, "case");
-  CW_REQUIRE(json_is_object(of), CW_ERR_INPUT, "%s: does not say of which case; run cutwater-%s on this case file first",
-             path, stage);
+  CW_REQUIRE(json_is_object(of), CW_ERR_INPUT,
+             "%s: does not say of which case; run cutwater-%s on this case file first", path, stage);
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     cw_case_key_path(&cw_case_keys[i], key_path);
     const json_t *theirs = json_object_get(of, key_path), *ours = json_object_get(origin, key_path);
     if (!cw_case_key_shapes_pump(&cw_case_keys[i]) || same(theirs, ours)) continue;
     show(theirs, made);
     show(ours, asked);
-    CW_REQUIRE(0, CW_ERR_INPUT,
-               "%s/%s: made with %s: %s, the case file has %s; allowed: the same pump, run cutwater-%s on this case file "
-               "first", run, stage, key_path, made, asked, stage);
+    CW_REQUIRE(
+        0, CW_ERR_INPUT,
+        "%s/%s: made with %s: %s, the case file has %s; allowed: the same pump, run cutwater-%s on this case file "
+        "first",
+        run, stage, key_path, made, asked, stage);
   }
 done:
   json_decref(record);

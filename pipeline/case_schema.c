@@ -23,25 +23,25 @@ static const char *const fills[] = {"kernel", "tetgen", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
 #define AT(field) offsetof(CwCase, field)
-#define REAL_REQUIRED(section, key, unit, least, most, field, meaning)                                       \
+#define REAL_REQUIRED(section, key, unit, least, most, field, meaning)                                                 \
   { section, key, CW_KEY_REAL, CW_KEY_REQUIRED, unit, least, most, NAN, NULL, AT(field), meaning }
-#define REAL_DEFAULT(section, key, unit, least, most, fallback, field, meaning)                              \
+#define REAL_DEFAULT(section, key, unit, least, most, fallback, field, meaning)                                        \
   { section, key, CW_KEY_REAL, CW_KEY_DEFAULT, unit, least, most, fallback, NULL, AT(field), meaning }
-#define REAL_COMPUTED(section, key, unit, least, most, field, meaning)                                       \
+#define REAL_COMPUTED(section, key, unit, least, most, field, meaning)                                                 \
   { section, key, CW_KEY_REAL, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
-#define CHOICE(section, key, choices, fallback, field, meaning)                                              \
+#define CHOICE(section, key, choices, fallback, field, meaning)                                                        \
   { section, key, CW_KEY_CHOICE, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
 
 // The layers of one group of walls.
-#define WALL_GROUP(suffix, group, place)                                                                     \
-  REAL_DEFAULT("walls", "y_plus_" suffix, "", 0.05, 1000, 30, walls.group.y_plus, "target " place),          \
-      REAL_COMPUTED("walls", "velocity_" suffix "_m_per_s", "m_per_s", 0.001, 1000, walls.group.velocity,    \
-                    "of the flow along the walls " place "; computed: by the design"),                        \
-      REAL_COMPUTED("walls", "first_height_" suffix "_um", "um", 0.01, 1e5, walls.group.first_height,        \
-                    "of the first layer " place "; computed: from y+ and velocity"),                         \
-      REAL_COMPUTED("walls", "growth_ratio_" suffix, "", 1, 2, walls.group.growth_ratio,                     \
-                    "largest growth ratio " place "; computed: growth_ratio"),                               \
-      REAL_COMPUTED("walls", "total_thickness_" suffix "_mm", "mm", 0.001, 200, walls.group.total_thickness, \
+#define WALL_GROUP(suffix, group, place)                                                                               \
+  REAL_DEFAULT("walls", "y_plus_" suffix, "", 0.05, 1000, 30, walls.group.y_plus, "target " place),                    \
+      REAL_COMPUTED("walls", "velocity_" suffix "_m_per_s", "m_per_s", 0.001, 1000, walls.group.velocity,              \
+                    "of the flow along the walls " place "; computed: by the design"),                                 \
+      REAL_COMPUTED("walls", "first_height_" suffix "_um", "um", 0.01, 1e5, walls.group.first_height,                  \
+                    "of the first layer " place "; computed: from y+ and velocity"),                                   \
+      REAL_COMPUTED("walls", "growth_ratio_" suffix, "", 1, 2, walls.group.growth_ratio,                               \
+                    "largest growth ratio " place "; computed: growth_ratio"),                                         \
+      REAL_COMPUTED("walls", "total_thickness_" suffix "_mm", "mm", 0.001, 200, walls.group.total_thickness,           \
                     "of all layers together " place "; computed: total_thickness, or as that one is")
 
 const CwCaseKey cw_case_keys[] = {
@@ -53,15 +53,14 @@ const CwCaseKey cw_case_keys[] = {
     REAL_REQUIRED("operating_point", "head_m", "m", 0.1, 1000, operating_point.head, "H, design head"),
     REAL_REQUIRED("operating_point", "speed_rpm", "rpm", 10, 100000, operating_point.speed,
                   "n, about +z by the right hand"),
-    REAL_DEFAULT("operating_point", "inlet_pressure_pa", "pa", 100, 1e8, 101325,
-                 operating_point.inlet_pressure, "absolute total pressure at the inlet"),
+    REAL_DEFAULT("operating_point", "inlet_pressure_pa", "pa", 100, 1e8, 101325, operating_point.inlet_pressure,
+                 "absolute total pressure at the inlet"),
     REAL_DEFAULT("operating_point", "time_step_deg", "deg", 0.01, 20, 1, operating_point.time_step_angle,
                  "rotation in one time step of the transient run"),
 
     REAL_DEFAULT("fluid", "density_kg_per_m3", "kg_per_m3", 100, 20000, 998.2, fluid.density,
                  "density; the default is water at 20 degrees Celsius"),
-    REAL_DEFAULT("fluid", "kinematic_viscosity_m2_per_s", "m2_per_s", 1e-8, 1e-2, 1.004e-6,
-                 fluid.kinematic_viscosity,
+    REAL_DEFAULT("fluid", "kinematic_viscosity_m2_per_s", "m2_per_s", 1e-8, 1e-2, 1.004e-6, fluid.kinematic_viscosity,
                  "kinematic viscosity; the default is water at 20 degrees Celsius"),
 
     CHOICE("design", "correlations", correlation_families, CW_CORRELATIONS_GUELICH, design.correlations,
@@ -86,10 +85,8 @@ const CwCaseKey cw_case_keys[] = {
                   "angle about the axis from leading to trailing edge; required where it is the priority"),
     REAL_COMPUTED("impeller", "wrap_spread_deg", "deg", -90, 90, impeller.wrap_spread,
                   "wrap at the shroud minus wrap at the hub; wrap_angle_deg holds at mid-span"),
-    REAL_COMPUTED("impeller", "hub_diameter_mm", "mm", 1, 4000, impeller.hub_diameter,
-                  "of the hub at its nut"),
-    REAL_COMPUTED("impeller", "hub_nut_length_mm", "mm", 0.1, 4000, impeller.nut_length,
-                  "of the hub's elliptic nose"),
+    REAL_COMPUTED("impeller", "hub_diameter_mm", "mm", 1, 4000, impeller.hub_diameter, "of the hub at its nut"),
+    REAL_COMPUTED("impeller", "hub_nut_length_mm", "mm", 0.1, 4000, impeller.nut_length, "of the hub's elliptic nose"),
     REAL_COMPUTED("impeller", "hub_nut_flat_diameter_mm", "mm", 0.1, 4000, impeller.nut_flat_diameter,
                   "of the flat end of the hub's nose"),
     REAL_DEFAULT("impeller", "through_shaft_diameter_mm", "mm", 0, 4000, 0, impeller.through_shaft_diameter,
@@ -106,8 +103,8 @@ const CwCaseKey cw_case_keys[] = {
                   "third Bezier pole of the shroud, outside the eye, as a share of (D2 - D1) / 2"),
     REAL_COMPUTED("impeller", "leading_edge_radius_hub_mm", "mm", 1, 2500, impeller.leading_edge_radius_hub,
                   "radius where the leading edge meets the hub"),
-    REAL_COMPUTED("impeller", "leading_edge_radius_shroud_mm", "mm", 1, 2500,
-                  impeller.leading_edge_radius_shroud, "radius where the leading edge meets the shroud"),
+    REAL_COMPUTED("impeller", "leading_edge_radius_shroud_mm", "mm", 1, 2500, impeller.leading_edge_radius_shroud,
+                  "radius where the leading edge meets the shroud"),
     REAL_COMPUTED("impeller", "incidence_deg", "deg", -10, 20, impeller.incidence,
                   "beta1 minus the flow angle, where beta1 is computed"),
     REAL_COMPUTED("impeller", "inlet_blade_angle_deg", "deg", 5, 85, impeller.inlet_blade_angle,
@@ -142,8 +139,7 @@ const CwCaseKey cw_case_keys[] = {
     CHOICE("impeller", "suction_pipe_zone", suction_zones, CW_PIPE_WITH_NEIGHBOUR, impeller.suction_pipe_zone,
            "own: the suction pipe is a stationary zone, coupled at a disc D1/4 before the hub's nut"),
 
-    REAL_COMPUTED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter,
-                  "D3, base circle of the spiral"),
+    REAL_COMPUTED("volute", "base_diameter_mm", "mm", 10, 6000, volute.base_diameter, "D3, base circle of the spiral"),
     REAL_COMPUTED("volute", "inlet_width_mm", "mm", 0.5, 2000, volute.inlet_width, "b3, width at D3"),
     CHOICE("volute", "area_law", area_laws, CW_AREA_LAW_ANGULAR_MOMENTUM, volute.area_law,
            "how the sections grow: by constant angular momentum c_u r, or by constant velocity (Stepanoff)"),
@@ -173,8 +169,7 @@ const CwCaseKey cw_case_keys[] = {
                   "area of the outlet over that of the throat; instead of the outlet diameter"),
     CHOICE("volute", "discharge", discharges, CW_DISCHARGE_TANGENTIAL, volute.discharge,
            "tangential: straight on from the throat; radial: bent until the pipe points away from the axis"),
-    REAL_COMPUTED("volute", "outlet_diameter_mm", "mm", 5, 5000, volute.outlet_diameter,
-                  "DN, of the discharge"),
+    REAL_COMPUTED("volute", "outlet_diameter_mm", "mm", 5, 5000, volute.outlet_diameter, "DN, of the discharge"),
     REAL_COMPUTED("volute", "discharge_pipe_length_mm", "mm", 1, 100000, volute.discharge_pipe_length,
                   "straight pipe behind the diffuser"),
     CHOICE("volute", "discharge_pipe_zone", discharge_zones, CW_PIPE_WITH_NEIGHBOUR, volute.discharge_pipe_zone,
@@ -199,8 +194,8 @@ const CwCaseKey cw_case_keys[] = {
 
     {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
      "cells of all zones together; --cells on the command line goes before it"},
-    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_COMPUTED, "", 5000, 4e6, 0, NULL,
-     AT(mesh.cells_per_region), "about this many cells a region; computed: 270,000, above 38 million a 140th of all"},
+    {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_COMPUTED, "", 5000, 4e6, 0, NULL, AT(mesh.cells_per_region),
+     "about this many cells a region; computed: 270,000, above 38 million a 140th of all"},
     {"mesh", "least_regions", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 1000, 4, NULL, AT(mesh.least_regions),
      "least number of regions of a domain; with 1 and few cells a domain is not divided"},
     CHOICE("mesh", "fill", fills, CW_FILL_KERNEL, mesh.fill,
@@ -216,8 +211,7 @@ const CwCaseKey cw_case_keys[] = {
                  "least number of cells across a narrow place"),
     REAL_DEFAULT("mesh", "size_blade", "", 0.05, 20, 0.6, mesh.size_blade,
                  "cell size on the blades, relative to the base size"),
-    REAL_DEFAULT("mesh", "size_hub_shroud", "", 0.05, 20, 0.9, mesh.size_hub_shroud,
-                 "the same on hub and shroud"),
+    REAL_DEFAULT("mesh", "size_hub_shroud", "", 0.05, 20, 0.9, mesh.size_hub_shroud, "the same on hub and shroud"),
     REAL_DEFAULT("mesh", "size_volute", "", 0.05, 20, 0.9, mesh.size_volute, "the same in the volute"),
     REAL_DEFAULT("mesh", "size_pipe", "", 0.05, 20, 1.2, mesh.size_pipe, "the same in the pipes"),
     REAL_DEFAULT("mesh", "size_interface", "", 0.05, 20, 0.9, mesh.size_interface,
@@ -316,8 +310,8 @@ int cw_case_section_known(const char *section) {
 }
 
 int cw_case_key_shapes_pump(const CwCaseKey *key) {
-  return strcmp(key->section, "walls") && strcmp(key->section, "mesh") && key->offset != AT(fluid.kinematic_viscosity) &&
-         key->offset != AT(operating_point.time_step_angle);
+  return strcmp(key->section, "walls") && strcmp(key->section, "mesh") &&
+         key->offset != AT(fluid.kinematic_viscosity) && key->offset != AT(operating_point.time_step_angle);
 }
 
 void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]) {
@@ -333,8 +327,7 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
   size_t size = CW_KEY_ALLOWED_SIZE, used = 0;
   switch (key->type) {
   case CW_KEY_REAL:
-    snprintf(allowed, size, "%.10g to %.10g%s%s", key->least, key->most, key->unit[0] ? " " : "",
-             unit_text(key));
+    snprintf(allowed, size, "%.10g to %.10g%s%s", key->least, key->most, key->unit[0] ? " " : "", unit_text(key));
     return;
   case CW_KEY_INT:
     snprintf(allowed, size, "a whole number from %.0f to %.0f", key->least, key->most);
@@ -452,8 +445,8 @@ void cw_case_schema_markdown(FILE *stream) {
       snprintf(fallback, sizeof fallback, "%s", key->choices[(int)key->fallback]);
     else
       snprintf(fallback, sizeof fallback, "%.10g", key->fallback);
-    fprintf(stream, "| `%s` | %s | %s | %s | %s |\n", key->key, key->unit[0] ? unit_text(key) : "-", allowed,
-            fallback, key->meaning);
+    fprintf(stream, "| `%s` | %s | %s | %s | %s |\n", key->key, key->unit[0] ? unit_text(key) : "-", allowed, fallback,
+            key->meaning);
   }
   units_markdown(stream);
 }

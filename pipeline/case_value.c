@@ -85,8 +85,7 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
   char converted[64] = "";
   double number = NAN;
   if (plain && (!*text || !strcmp(text, "~") || !strcasecmp(text, "null"))) {
-    what =
-        key->presence == CW_KEY_REQUIRED ? "is no value" : "is no value (leave the key out for its default)";
+    what = key->presence == CW_KEY_REQUIRED ? "is no value" : "is no value (leave the key out for its default)";
   } else if (key->type == CW_KEY_NAME) {
     if (is_name(text, key->most))
       snprintf((char *)table + key->offset, CW_NAME_SIZE, "%s", text);
@@ -100,7 +99,7 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
         number = i;
       }
   } else {
-    what = !plain                        ? "is text, not a number (it stands in quotes)"
+    what = !plain                      ? "is text, not a number (it stands in quotes)"
            : key->type == CW_KEY_INT64 ? cw_count_text_read(text, &number)
                                        : cw_number_read(text, &number);
     if (!what && key->type == CW_KEY_INT && strspn(text, "+-0123456789") < strlen(text)) what = "is not a whole number";
@@ -161,21 +160,19 @@ static void wrong_unit(const CwCaseKey *key, const char *name, const char *text,
   double number;
   cw_case_key_allowed(key, allowed);
   if (!asked) {
-    snprintf(wrong, CW_WRONG_SIZE, "wrong unit in the key, %s; allowed: %s without unit, %s", unit->text,
-             key->key, allowed);
+    snprintf(wrong, CW_WRONG_SIZE, "wrong unit in the key, %s; allowed: %s without unit, %s", unit->text, key->key,
+             allowed);
     return;
   }
   if (!unit) {
-    snprintf(wrong, CW_WRONG_SIZE, "the key lacks its unit, %s; allowed: %s, %s", asked->text, key->key,
-             allowed);
+    snprintf(wrong, CW_WRONG_SIZE, "the key lacks its unit, %s; allowed: %s, %s", asked->text, key->key, allowed);
     return;
   }
   if (text && !strcmp(unit->quantity, asked->quantity) && !cw_number_read(text, &number))
     snprintf(converted, sizeof converted, " (%.6g %s is %.6g %s)", number, unit->text,
-             number * unit->numerator / unit->denominator * asked->denominator / asked->numerator,
-             asked->text);
-  snprintf(wrong, CW_WRONG_SIZE, "wrong unit in the key, %s instead of %s; allowed: %s, %s%s", unit->text,
-           asked->text, key->key, allowed, converted);
+             number * unit->numerator / unit->denominator * asked->denominator / asked->numerator, asked->text);
+  snprintf(wrong, CW_WRONG_SIZE, "wrong unit in the key, %s instead of %s; allowed: %s, %s%s", unit->text, asked->text,
+           key->key, allowed, converted);
 }
 
 void cw_case_key_unknown(const char *section, const char *name, const char *text, char wrong[CW_WRONG_SIZE]) {
@@ -209,7 +206,6 @@ void cw_case_key_unknown(const char *section, const char *name, const char *text
     nearest = here;
     least = distance;
   }
-  snprintf(wrong, CW_WRONG_SIZE,
-           "unknown key; allowed: the keys of docs/case-reference.md, the nearest is %s",
+  snprintf(wrong, CW_WRONG_SIZE, "unknown key; allowed: the keys of docs/case-reference.md, the nearest is %s",
            nearest ? nearest : cw_case_keys[0].key);
 }

@@ -21,8 +21,8 @@ void cw_show(const char *text, char shown[CW_SHOWN_SIZE]);
 // number are wrong.
 const char *cw_number_read(const char *text, double *number);
 
-// Reads a count as people write it: 500000, 500k, 2M, 1.5M, 2G. Returns NULL, or what is wrong: it must be whole and not
-// negative.
+// Reads a count as people write it: 500000, 500k, 2M, 1.5M, 2G. Returns NULL, or what is wrong: it must be whole and
+// not negative.
 const char *cw_count_text_read(const char *text, double *count);
 
 // Reads `text` (plain: without quotes in the file), in `unit` (of cw_case_key_find_in()), into the key's field. On

@@ -19,22 +19,19 @@ CwStatus cw_json_read(const char *path, json_t **root) {
   *root = value;
   value = NULL;
 done:
-  if (file)
-    fclose(file);
+  if (file) fclose(file);
   json_decref(value);
   return status;
 }
 
 CwStatus cw_json_object(json_t *object, const char *where, const char *key, json_t **value) {
   *value = json_object_get(object, key);
-  return json_is_object(*value) ? CW_OK
-                                : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and an object", where, key);
+  return json_is_object(*value) ? CW_OK : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and an object", where, key);
 }
 
 CwStatus cw_json_array(json_t *object, const char *where, const char *key, json_t **value) {
   *value = json_object_get(object, key);
-  return json_is_array(*value) ? CW_OK
-                               : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and an array", where, key);
+  return json_is_array(*value) ? CW_OK : CW_FAIL(CW_ERR_INPUT, "%s: '%s' must be there and an array", where, key);
 }
 
 CwStatus cw_json_text(json_t *object, const char *where, const char *key, const char **value) {

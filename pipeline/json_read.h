@@ -18,7 +18,7 @@ CwStatus cw_json_array(json_t *object, const char *where, const char *key, json_
 CwStatus cw_json_text(json_t *object, const char *where, const char *key, const char **value);
 CwStatus cw_json_count(json_t *object, const char *where, const char *key, int64_t *value); // not negative
 
-CwStatus cw_json_positive(json_t *object, const char *where, const char *key, double *value);          // above 0
+CwStatus cw_json_positive(json_t *object, const char *where, const char *key, double *value); // above 0
 
 // A number, or NAN where there is none (null, missing, another type).
 double cw_json_real(json_t *object, const char *key);

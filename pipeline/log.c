@@ -255,8 +255,8 @@ static void format_progress(char *text, size_t size, double now, int last) {
       snprintf(left, sizeof left, ", %.0f %%, %s left", floor(share), duration);
     }
   }
-  snprintf(text, size, "%s: %lld%s %s in %s, %s %s/s%s", progress.step, (long long)progress.done, of,
-           progress.unit, spent, rate_text, progress.unit, left);
+  snprintf(text, size, "%s: %lld%s %s in %s, %s %s/s%s", progress.step, (long long)progress.done, of, progress.unit,
+           spent, rate_text, progress.unit, left);
 }
 
 void cw_progress_start(const char *step, int64_t total, const char *unit) {

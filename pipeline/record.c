@@ -62,10 +62,10 @@ static json_t *json_text(const char *text) {
 
 CwStatus cw_record_step(CwRecord *record, const char *name, double seconds, int64_t items, const char *unit) {
   CwStatus status = CW_OK;
-  json_t *step = json_pack("{so so sI so}", "name", json_text(name), "seconds", cw_json_number(seconds),
-                           "items", (json_int_t)items, "unit", json_text(unit));
-  CW_REQUIRE(step && !json_array_append_new(record->steps, step), CW_ERR_MEMORY,
-             "out of memory: the record of step %s", name);
+  json_t *step = json_pack("{so so sI so}", "name", json_text(name), "seconds", cw_json_number(seconds), "items",
+                           (json_int_t)items, "unit", json_text(unit));
+  CW_REQUIRE(step && !json_array_append_new(record->steps, step), CW_ERR_MEMORY, "out of memory: the record of step %s",
+             name);
 done:
   return status;
 }
@@ -82,8 +82,8 @@ CwStatus cw_record_case(CwRecord *record, const CwCase *table) {
 
 CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(!json_object_set_new(record->results, key, value), CW_ERR_MEMORY,
-             "out of memory: the record of result %s", key);
+  CW_REQUIRE(!json_object_set_new(record->results, key, value), CW_ERR_MEMORY, "out of memory: the record of result %s",
+             key);
 done:
   return status;
 }
@@ -100,8 +100,8 @@ CwStatus cw_json_write(const json_t *value, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {0};
   CW_TRY(cw_atomic_file_open(path, &file));
-  int broken = json_dumpf(value, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) ||
-               fputc('\n', file.stream) == EOF;
+  int broken =
+      json_dumpf(value, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) || fputc('\n', file.stream) == EOF;
   CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
   CW_TRY(cw_atomic_file_commit(&file));
 done:
@@ -119,8 +119,8 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
                "out of memory: the record of a warning");
   int64_t peak = record->peak_memory_bytes ? record->peak_memory_bytes : cw_peak_memory_bytes();
   root = json_pack("{so so sI sO sO sO}", "stage", json_text(record->stage), "seconds",
-                   cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak,
-                   "steps", record->steps, "warnings", warnings, "results", record->results);
+                   cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak, "steps",
+                   record->steps, "warnings", warnings, "results", record->results);
   CW_REQUIRE(root && (!record->origin || !json_object_set(root, "case", record->origin)), CW_ERR_MEMORY,
              "out of memory: the record");
   CW_TRY(cw_json_write(root, path));

@@ -24,7 +24,8 @@ static const struct option shared[SHARED_COUNT] = {
 
 static void print_help(const CwStageUsage *usage, FILE *out) {
   fprintf(out, "usage: cutwater-%s --case FILE --run DIR [OPTIONS]\n%s\n", usage->stage, usage->summary);
-  fputs("  --case FILE     the case file, in YAML; docs/case-reference.md lists its keys with units, ranges and defaults\n"
+  fputs("  --case FILE     the case file, in YAML; docs/case-reference.md lists its keys with units, ranges and "
+        "defaults\n"
         "  --run DIR       folder of the run; its files are read and written there, and RUN/log keeps what is said\n"
         "  --cells N       asked number of cells, as 500000, 500k or 2M; left out: mesh.cells of the case file\n",
         out);
@@ -65,9 +66,8 @@ CwStatus cw_stage_args_read(int argc, char **argv, const CwStageUsage *usage, FI
   memset(args, 0, sizeof *args);
   memcpy(options, shared, sizeof shared);
   for (int i = 0; i < usage->option_count && i < CW_STAGE_OPTION_LIMIT; ++i)
-    options[SHARED_COUNT + i] =
-        (struct option){usage->options[i].name, usage->options[i].argument ? required_argument : no_argument,
-                        NULL, OPTION + i};
+    options[SHARED_COUNT + i] = (struct option){
+        usage->options[i].name, usage->options[i].argument ? required_argument : no_argument, NULL, OPTION + i};
   optind = 0; // begins anew, also when called twice
   opterr = 0;
   for (;;) {
@@ -95,8 +95,8 @@ CwStatus cw_stage_args_read(int argc, char **argv, const CwStageUsage *usage, FI
       args->finished = 1;
       goto done;
     case ':':
-      status = CW_FAIL(CW_ERR_USAGE, "%s: its value is missing; see cutwater-%s --help", argv[optind - 1],
-                       usage->stage);
+      status =
+          CW_FAIL(CW_ERR_USAGE, "%s: its value is missing; see cutwater-%s --help", argv[optind - 1], usage->stage);
       goto done;
     case '?':
       // Of short options in one word getopt moves on only behind the last: the word is not always argv[optind
@@ -104,19 +104,19 @@ CwStatus cw_stage_args_read(int argc, char **argv, const CwStageUsage *usage, FI
       if (optopt > 0 && optopt < CASE)
         status = CW_FAIL(CW_ERR_USAGE, "-%c: no such option; see cutwater-%s --help", optopt, usage->stage);
       else
-        status = CW_FAIL(CW_ERR_USAGE, "%s: no such option, or not so; see cutwater-%s --help",
-                         argv[optind - 1], usage->stage);
+        status = CW_FAIL(CW_ERR_USAGE, "%s: no such option, or not so; see cutwater-%s --help", argv[optind - 1],
+                         usage->stage);
       goto done;
     default:
       args->options[code - OPTION] = optarg ? optarg : "";
     }
   }
-  CW_REQUIRE(optind == argc, CW_ERR_USAGE, "%s: an argument without an option; see cutwater-%s --help",
-             argv[optind], usage->stage);
-  CW_REQUIRE(args->case_path && args->case_path[0], CW_ERR_USAGE,
-             "--case FILE is missing; see cutwater-%s --help", usage->stage);
-  CW_REQUIRE(args->run_path && args->run_path[0], CW_ERR_USAGE,
-             "--run DIR is missing; see cutwater-%s --help", usage->stage);
+  CW_REQUIRE(optind == argc, CW_ERR_USAGE, "%s: an argument without an option; see cutwater-%s --help", argv[optind],
+             usage->stage);
+  CW_REQUIRE(args->case_path && args->case_path[0], CW_ERR_USAGE, "--case FILE is missing; see cutwater-%s --help",
+             usage->stage);
+  CW_REQUIRE(args->run_path && args->run_path[0], CW_ERR_USAGE, "--run DIR is missing; see cutwater-%s --help",
+             usage->stage);
 done:
   return status;
 }

@@ -67,8 +67,7 @@ CwStatus cw_count_read(const char *name, const char *text, int64_t least, int64_
 // reads the case and puts --cells in its place, refuses files of earlier stages that were made of another case,
 // makes RUN/STAGE, which must be writable, and removes the record of an earlier run of the stage itself, which must not
 // vouch for the files of this one. Call with `speaks` false on all ranks but one.
-CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args,
-                        CwCase *table);
+CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args, CwCase *table);
 
 // "RUN/NAME" in a new string to be freed, such as "RUN/mesh/manifest.json".
 CwStatus cw_stage_path(const CwStageArgs *args, const char *name, char **path);

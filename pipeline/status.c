@@ -11,8 +11,8 @@ static _Thread_local char trace[2000];
 
 const char *cw_status_text(CwStatus status) {
   switch (status) {
-#define CW_STATUS_TEXT(name, value, text)                                                                    \
-  case name:                                                                                                 \
+#define CW_STATUS_TEXT(name, value, text)                                                                              \
+  case name:                                                                                                           \
     return text;
     CW_STATUS_LIST(CW_STATUS_TEXT)
 #undef CW_STATUS_TEXT
@@ -20,8 +20,7 @@ const char *cw_status_text(CwStatus status) {
   return "unknown status";
 }
 
-CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format,
-                    ...) {
+CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format, ...) {
   // Formatted aside first: an argument may be the old message itself.
   char fresh[sizeof message];
   va_list arguments;

@@ -26,18 +26,18 @@ extern "C" {
 
 // One list makes the codes, their exit statuses and their texts.
 // Codes above zero are fatal and carry a message. Codes below zero are quiet and inner: a caller handles them.
-#define CW_STATUS_LIST(X)                                                                                    \
-  X(CW_RETRY, -1, "try again another way")                                                                   \
-  X(CW_OK, 0, "fine")                                                                                        \
-  X(CW_ERR_USAGE, 2, "wrong use of the command line")                                                        \
-  X(CW_ERR_INPUT, 3, "wrong input")                                                                          \
-  X(CW_ERR_IO, 4, "a file cannot be read or written")                                                        \
-  X(CW_ERR_MEMORY, 5, "out of memory")                                                                       \
-  X(CW_ERR_DESIGN, 6, "the hydraulic design has no solution")                                                \
-  X(CW_ERR_GEOMETRY, 7, "the geometry cannot be built")                                                      \
-  X(CW_ERR_MESH, 8, "the mesh cannot be made")                                                               \
-  X(CW_ERR_EXPORT, 9, "the case cannot be written")                                                          \
-  X(CW_ERR_LIBRARY, 10, "a library failed")                                                                  \
+#define CW_STATUS_LIST(X)                                                                                              \
+  X(CW_RETRY, -1, "try again another way")                                                                             \
+  X(CW_OK, 0, "fine")                                                                                                  \
+  X(CW_ERR_USAGE, 2, "wrong use of the command line")                                                                  \
+  X(CW_ERR_INPUT, 3, "wrong input")                                                                                    \
+  X(CW_ERR_IO, 4, "a file cannot be read or written")                                                                  \
+  X(CW_ERR_MEMORY, 5, "out of memory")                                                                                 \
+  X(CW_ERR_DESIGN, 6, "the hydraulic design has no solution")                                                          \
+  X(CW_ERR_GEOMETRY, 7, "the geometry cannot be built")                                                                \
+  X(CW_ERR_MESH, 8, "the mesh cannot be made")                                                                         \
+  X(CW_ERR_EXPORT, 9, "the case cannot be written")                                                                    \
+  X(CW_ERR_LIBRARY, 10, "a library failed")                                                                            \
   X(CW_ERR_RANK, 11, "another rank failed")
 
 #define CW_STATUS_ENUM(name, value, text) name = value,
@@ -49,8 +49,8 @@ const char *cw_status_text(CwStatus status);
 
 // Records the message of a failure (printf style, kept per thread, at most 1000 bytes) and returns `code`.
 // Called where the failure is found; a later call replaces an earlier one, so a caller may add context.
-CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format,
-                    ...) __attribute__((format(printf, 5, 6)));
+CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
 
 // The message of the last failure in this thread, or "".
 const char *cw_fail_message(void);
@@ -68,57 +68,53 @@ void cw_fail_clear(void);
 #define CW_FAIL(code, ...) cw_fail_at(__FILE__, __LINE__, __func__, (code), __VA_ARGS__)
 
 // Calls; on anything but CW_OK goes to `done`.
-#define CW_TRY(call)                                                                                         \
-  do {                                                                                                       \
-    status = (call);                                                                                         \
-    if (status != CW_OK) {                                                                                   \
-      cw_fail_passed(__FILE__, __LINE__, __func__);                                                          \
-      goto done;                                                                                             \
-    }                                                                                                        \
+#define CW_TRY(call)                                                                                                   \
+  do {                                                                                                                 \
+    status = (call);                                                                                                   \
+    if (status != CW_OK) {                                                                                             \
+      cw_fail_passed(__FILE__, __LINE__, __func__);                                                                    \
+      goto done;                                                                                                       \
+    }                                                                                                                  \
   } while (0)
 
 // Fails with `code` and a message unless `condition` holds.
-#define CW_REQUIRE(condition, code, ...)                                                                     \
-  do {                                                                                                       \
-    if (!(condition)) {                                                                                      \
-      status = CW_FAIL((code), __VA_ARGS__);                                                                 \
-      goto done;                                                                                             \
-    }                                                                                                        \
+#define CW_REQUIRE(condition, code, ...)                                                                               \
+  do {                                                                                                                 \
+    if (!(condition)) {                                                                                                \
+      status = CW_FAIL((code), __VA_ARGS__);                                                                           \
+      goto done;                                                                                                       \
+    }                                                                                                                  \
   } while (0)
 
 // Allocates `count` zeroed items of *pointer; fails with CW_ERR_MEMORY. Zero items give one, never NULL.
-#define CW_NEW(pointer, count)                                                                               \
-  do {                                                                                                       \
-    size_t cw_new_count = (size_t)(count);                                                                   \
-    (pointer) = calloc(cw_new_count ? cw_new_count : 1, sizeof *(pointer));                                  \
-    CW_REQUIRE((pointer), CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_new_count,              \
-               sizeof *(pointer));                                                                           \
+#define CW_NEW(pointer, count)                                                                                         \
+  do {                                                                                                                 \
+    size_t cw_new_count = (size_t)(count);                                                                             \
+    (pointer) = calloc(cw_new_count ? cw_new_count : 1, sizeof *(pointer));                                            \
+    CW_REQUIRE((pointer), CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_new_count, sizeof *(pointer));    \
   } while (0)
 
 // The same without zeroing them: for large arrays that are written before they are read.
-#define CW_NEW_UNSET(pointer, count)                                                                         \
-  do {                                                                                                       \
-    size_t cw_new_count = (size_t)(count);                                                                   \
-    (pointer) = malloc((cw_new_count ? cw_new_count : 1) * sizeof *(pointer));                               \
-    CW_REQUIRE((pointer), CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_new_count,              \
-               sizeof *(pointer));                                                                           \
+#define CW_NEW_UNSET(pointer, count)                                                                                   \
+  do {                                                                                                                 \
+    size_t cw_new_count = (size_t)(count);                                                                             \
+    (pointer) = malloc((cw_new_count ? cw_new_count : 1) * sizeof *(pointer));                                         \
+    CW_REQUIRE((pointer), CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_new_count, sizeof *(pointer));    \
   } while (0)
 
 // Makes room for `wanted` items in a list that has room for `space`, and for as many more, so that a list grown item by
 // item is copied a few times only. The list stays as it is where memory is out (CW_ERR_MEMORY).
-#define CW_GROW(pointer, space, wanted)                                                                      \
-  do {                                                                                                       \
-    size_t cw_grow_wanted = (size_t)(wanted);                                                                \
-    if (cw_grow_wanted > (size_t)(space)) {                                                                  \
-      size_t cw_grow_space = 2 * cw_grow_wanted + 64;                                                        \
-      __typeof__(space) cw_grow_new = (__typeof__(space))cw_grow_space;                                      \
-      void *cw_grown =                                                                                       \
-          cw_grow_new > (space) ? realloc((pointer), cw_grow_space * sizeof *(pointer)) : NULL;              \
-      CW_REQUIRE(cw_grown, CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_grow_space,            \
-                 sizeof *(pointer));                                                                         \
-      (pointer) = cw_grown;                                                                                  \
-      (space) = cw_grow_new;                                                                                 \
-    }                                                                                                        \
+#define CW_GROW(pointer, space, wanted)                                                                                \
+  do {                                                                                                                 \
+    size_t cw_grow_wanted = (size_t)(wanted);                                                                          \
+    if (cw_grow_wanted > (size_t)(space)) {                                                                            \
+      size_t cw_grow_space = 2 * cw_grow_wanted + 64;                                                                  \
+      __typeof__(space) cw_grow_new = (__typeof__(space))cw_grow_space;                                                \
+      void *cw_grown = cw_grow_new > (space) ? realloc((pointer), cw_grow_space * sizeof *(pointer)) : NULL;           \
+      CW_REQUIRE(cw_grown, CW_ERR_MEMORY, "out of memory: %zu items of %zu bytes", cw_grow_space, sizeof *(pointer));  \
+      (pointer) = cw_grown;                                                                                            \
+      (space) = cw_grow_new;                                                                                           \
+    }                                                                                                                  \
   } while (0)
 
 #ifdef __cplusplus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Which group of the case's walls a patch belongs to: the mesher sets its layers by it, the exporter its wall functions.
+// Which group of the case's walls a patch belongs to: the mesher sets its layers by it, the exporter its wall
+// functions.
 #ifndef CUTWATER_PIPELINE_WALL_GROUP_H
 #define CUTWATER_PIPELINE_WALL_GROUP_H
 

@@ -97,8 +97,7 @@ CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *b
   CW_TRY(find_neighbours(cad, background)); // closed, or it fails
   CW_REQUIRE(volume > 0, CW_ERR_GEOMETRY, "the tessellation encloses %g m3; it must be positive", volume);
 done:
-  if (status != CW_OK)
-    cw_background_free(background);
+  if (status != CW_OK) cw_background_free(background);
   return status;
 }
 
@@ -109,8 +108,8 @@ CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackg
   int64_t size;
   int faces = cw_cad_face_count(cad);
   memset(background, 0, sizeof *background);
-  CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE,
-             "deflection %g m and angle %g rad must be greater than zero", deflection, angle);
+  CW_REQUIRE(deflection > 0 && angle > 0, CW_ERR_USAGE, "deflection %g m and angle %g rad must be greater than zero",
+             deflection, angle);
   CW_NEW(bytes, faces);
   CW_TRY(cw_tessellation_start(cad, deflection, angle, &tessellation));
   for (int f = 0; f < faces; f++) CW_TRY(cw_tessellation_face(tessellation, f, &bytes[f], &size));
@@ -137,8 +136,8 @@ double cw_background_volume(const CwBackground *background) {
     const double *a = background->x[background->triangle[t][0]];
     const double *b = background->x[background->triangle[t][1]];
     const double *c = background->x[background->triangle[t][2]];
-    six_volumes += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                   a[2] * (b[0] * c[1] - b[1] * c[0]);
+    six_volumes +=
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
   return six_volumes / 6;
 }

@@ -17,10 +17,10 @@ extern "C" {
 
 typedef struct {
   int32_t point_count, triangle_count;
-  double (*x)[3];         // m
-  int32_t (*triangle)[3]; // normal out of the domain
-  int32_t *face;          // CAD face of each triangle
-  double (*uv)[3][2];     // of each corner on that face
+  double (*x)[3];          // m
+  int32_t (*triangle)[3];  // normal out of the domain
+  int32_t *face;           // CAD face of each triangle
+  double (*uv)[3][2];      // of each corner on that face
   int32_t (*neighbour)[3]; // the triangle across edge (k, k+1) of each
 } CwBackground;
 

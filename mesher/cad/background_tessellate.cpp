@@ -93,11 +93,10 @@ CwStatus weld_edge(const CwCad *cad, int e, Weld &weld) {
     if (side == 1 && count != (int32_t)point.size()) {
       double x[3];
       cw_cad_vertex_point(cad, edge.vertex[0], x);
-      return CW_FAIL(
-          CW_ERR_GEOMETRY,
-          "faces '%s' and '%s': the tessellations do not match along their edge at (%.3f, %.3f, %.3f) mm",
-          cw_cad_face_name(cad, edge.face[0]), cw_cad_face_name(cad, edge.face[1]), x[0] * 1e3, x[1] * 1e3,
-          x[2] * 1e3);
+      return CW_FAIL(CW_ERR_GEOMETRY,
+                     "faces '%s' and '%s': the tessellations do not match along their edge at (%.3f, %.3f, %.3f) mm",
+                     cw_cad_face_name(cad, edge.face[0]), cw_cad_face_name(cad, edge.face[1]), x[0] * 1e3, x[1] * 1e3,
+                     x[2] * 1e3);
     }
     if (side == 0) {
       point.push_back(edge.vertex[0]);
@@ -124,8 +123,7 @@ void add_face(int face, Weld &weld) {
       corner[k] = node[n];
     }
     // The library closes slits with triangles between two nodes of one vertex; they fold away in the weld.
-    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
-      continue;
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
     weld.triangle.push_back(corner);
     weld.face.push_back(face);
     weld.uv.push_back(uv);
@@ -144,8 +142,7 @@ CwStatus hand_over(const Weld &weld, CwBackground *background) {
   CW_REQUIRE(background->x && background->triangle && background->face && background->uv, CW_ERR_MEMORY,
              "out of memory: %zu background triangles", triangles);
   for (size_t i = 0; i < points; i++) {
-    for (int k = 0; k < 3; k++)
-      background->x[i][k] = weld.x[i][k];
+    for (int k = 0; k < 3; k++) background->x[i][k] = weld.x[i][k];
   }
   for (size_t t = 0; t < triangles; t++) {
     background->face[t] = weld.face[t];
@@ -298,11 +295,9 @@ CwStatus weld_faces(const CwCad *cad, void *const *bytes, CwBackground *backgrou
   }
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     CwStatus status = weld_edge(cad, e, weld);
-    if (status != CW_OK)
-      return status;
+    if (status != CW_OK) return status;
   }
-  for (int f = 0; f < cw_cad_face_count(cad); f++)
-    add_face(f, weld);
+  for (int f = 0; f < cw_cad_face_count(cad); f++) add_face(f, weld);
   return hand_over(weld, background);
 }
 
@@ -354,8 +349,7 @@ CwStatus cw_tessellation_weld(const CwCad *cad, void *const *bytes, CwBackground
 }
 
 void cw_tessellation_free(CwTessellation **tessellation) {
-  if (!*tessellation)
-    return;
+  if (!*tessellation) return;
   BRepTools::Clean((*tessellation)->cad->solid);
   delete *tessellation;
   *tessellation = nullptr;

@@ -23,25 +23,20 @@ static const double metre_per_mm = 1e-3;
 static const double pcurve_tolerance = 1e-7; // m: past it the point of an edge is projected onto its face
 
 double CwCadKnots::snap(double parameter) const {
-  if (knot.empty())
-    return parameter;
+  if (knot.empty()) return parameter;
   double tolerance = 1e-12 * (knot.back() - knot.front());
   auto next = std::lower_bound(knot.begin(), knot.end(), parameter);
-  if (next != knot.end() && *next - parameter < tolerance)
-    return *next;
-  if (next != knot.begin() && parameter - *(next - 1) < tolerance)
-    return *(next - 1);
+  if (next != knot.end() && *next - parameter < tolerance) return *next;
+  if (next != knot.begin() && parameter - *(next - 1) < tolerance) return *(next - 1);
   return parameter;
 }
 
 static CwStatus open_cad(const std::string &folder, const char *domain, CwCad *cad) {
   std::string path = folder + "/" + domain + ".brep";
   CwStatus status = cw_cad_read_shape(path.c_str(), cad);
-  if (status != CW_OK)
-    return status;
+  if (status != CW_OK) return status;
   status = cw_face_table_read((folder + "/faces.csv").c_str(), domain, cad->face_map.Extent(), &cad->table);
-  if (status != CW_OK)
-    return status;
+  if (status != CW_OK) return status;
   return cw_cad_read_parts(path.c_str(), cad);
 }
 
@@ -53,19 +48,16 @@ CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad) 
     status = open_cad(geometry_dir, domain, *cad);
   } catch (const Standard_Failure &failure) {
     const char *text = failure.GetMessageString();
-    status = CW_FAIL(CW_ERR_LIBRARY, "%s/%s.brep: OpenCASCADE failed: %s", geometry_dir, domain,
-                     text ? text : "?");
+    status = CW_FAIL(CW_ERR_LIBRARY, "%s/%s.brep: OpenCASCADE failed: %s", geometry_dir, domain, text ? text : "?");
   } catch (const std::exception &failure) {
     status = CW_FAIL(CW_ERR_LIBRARY, "%s/%s.brep: %s", geometry_dir, domain, failure.what());
   }
-  if (status != CW_OK)
-    cw_cad_close(cad);
+  if (status != CW_OK) cw_cad_close(cad);
   return status;
 }
 
 void cw_cad_close(CwCad **cad) {
-  if (!*cad)
-    return;
+  if (!*cad) return;
   cw_face_table_free(&(*cad)->table);
   delete *cad;
   *cad = nullptr;
@@ -110,8 +102,7 @@ static void to_metres(const gp_XYZ &mm, double x[3]) {
   x[2] = mm.Z() * metre_per_mm;
 }
 
-void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3],
-                       double xv[3]) {
+void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]) {
   const CwCadFace &f = cad->face[face];
   double u = f.u_knots.snap(uv[0]), v = f.v_knots.snap(uv[1]);
   gp_Pnt p;
@@ -120,10 +111,8 @@ void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[
   } else {
     gp_Vec du, dv;
     f.surface.D1(u, v, p, du, dv);
-    if (xu)
-      to_metres(du.XYZ(), xu);
-    if (xv)
-      to_metres(dv.XYZ(), xv);
+    if (xu) to_metres(du.XYZ(), xu);
+    if (xv) to_metres(dv.XYZ(), xv);
   }
   to_metres(p.XYZ(), x);
 }
@@ -142,16 +131,14 @@ double cw_cad_face_volume(const CwCad *cad, int face) {
 
 double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
   const CwCadFace &f = cad->face[face];
-  if (f.surface.GetType() == GeomAbs_Plane)
-    return 0;
+  if (f.surface.GetType() == GeomAbs_Plane) return 0;
   gp_Pnt p;
   gp_Vec su, sv, suu, svv, suv;
   f.surface.D2(f.u_knots.snap(uv[0]), f.v_knots.snap(uv[1]), p, su, sv, suu, svv, suv);
   gp_Vec normal = su.Crossed(sv);
   double area = normal.Magnitude();
   // A pole has no curvature of its own.
-  if (!(area > 1e-12 * su.Magnitude() * sv.Magnitude()) || !(area > 0))
-    return 0;
+  if (!(area > 1e-12 * su.Magnitude() * sv.Magnitude()) || !(area > 0)) return 0;
   // Principal curvatures from the fundamental forms: mean H and Gauss K, k = H +- sqrt(H^2 - K).
   double e = su.SquareMagnitude(), g = sv.SquareMagnitude(), m = su.Dot(sv), det = e * g - m * m;
   double l = suu.Dot(normal) / area, n = svv.Dot(normal) / area, k = suv.Dot(normal) / area;
@@ -161,8 +148,8 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
 }
 
 // One damped Newton step for the nearest point, in mm: from u, v with the vector d from x to the surface.
-static void nearest_step(const gp_Vec &d, const gp_Vec &su, const gp_Vec &sv, const gp_Vec &suu,
-                         const gp_Vec &svv, const gp_Vec &suv, const bool fixed[2], double step[2]) {
+static void nearest_step(const gp_Vec &d, const gp_Vec &su, const gp_Vec &sv, const gp_Vec &suu, const gp_Vec &svv,
+                         const gp_Vec &suv, const bool fixed[2], double step[2]) {
   double gu = d.Dot(su), gv = d.Dot(sv);
   double a = su.Dot(su) + d.Dot(suu), b = su.Dot(sv) + d.Dot(suv), c = sv.Dot(sv) + d.Dot(svv);
   if (!(a > 0 && c > 0 && a * c - b * b > 1e-6 * a * c)) {
@@ -194,22 +181,19 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
     double step[2];
     nearest_step(d, su, sv, suu, svv, suv, fixed, step);
     double moved = (su * step[0] + sv * step[1]).Magnitude();
-    if (!(moved > 1e-11))
-      break; // mm
+    if (!(moved > 1e-11)) break; // mm
     bool nearer = false;
     for (int halving = 0; halving < 12 && !nearer; halving++, step[0] /= 2, step[1] /= 2) {
       double un = std::clamp(u + step[0], f.u_range[0], f.u_range[1]);
       double vn = std::clamp(v + step[1], f.v_range[0], f.v_range[1]);
       gp_Pnt pn;
       f.surface.D0(f.u_knots.snap(un), f.v_knots.snap(vn), pn);
-      if (pn.Distance(target) >= distance)
-        continue;
+      if (pn.Distance(target) >= distance) continue;
       nearer = true;
       u = un;
       v = vn;
     }
-    if (!nearer)
-      break;
+    if (!nearer) break;
     f.surface.D2(f.u_knots.snap(u), f.v_knots.snap(v), p, su, sv, suu, svv, suv);
     distance = p.Distance(target);
   }
@@ -261,8 +245,7 @@ void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]
   cw_cad_edge_point(cad, edge, t, on_edge, nullptr);
   cw_cad_face_point(cad, face, uv, on_face, nullptr, nullptr);
   double off = std::hypot(on_edge[0] - on_face[0], on_edge[1] - on_face[1], on_edge[2] - on_face[2]);
-  if (off > pcurve_tolerance)
-    cw_cad_face_project(cad, face, on_edge, uv);
+  if (off > pcurve_tolerance) cw_cad_face_project(cad, face, on_edge, uv);
 }
 
 int cw_cad_vertex_count(const CwCad *cad) {

@@ -42,17 +42,13 @@ static bool read_file(const char *path, TopoDS_Shape &shape) {
 }
 
 CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
-  if (!std::ifstream(path).good())
-    return CW_FAIL(CW_ERR_IO, "%s: cannot be read", path);
+  if (!std::ifstream(path).good()) return CW_FAIL(CW_ERR_IO, "%s: cannot be read", path);
   TopoDS_Shape shape;
-  if (!read_file(path, shape))
-    return CW_FAIL(CW_ERR_INPUT, "%s: is not a B-rep file of OpenCASCADE", path);
+  if (!read_file(path, shape)) return CW_FAIL(CW_ERR_INPUT, "%s: is not a B-rep file of OpenCASCADE", path);
 
   int solids = 0;
-  for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next(), solids++)
-    cad->solid = it.Current();
-  if (solids != 1)
-    return CW_FAIL(CW_ERR_INPUT, "%s: holds %d solids; it must hold one", path, solids);
+  for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next(), solids++) cad->solid = it.Current();
+  if (solids != 1) return CW_FAIL(CW_ERR_INPUT, "%s: holds %d solids; it must hold one", path, solids);
   BRepTools::Clean(cad->solid); // a stored triangulation is not ours
   TopExp::MapShapes(cad->solid, TopAbs_FACE, cad->face_map);
   TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
@@ -62,24 +58,21 @@ CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
 
 static CwCadKnots knots_of(const TColStd_Array1OfReal &intervals) {
   CwCadKnots knots;
-  for (int i = intervals.Lower(); i <= intervals.Upper(); i++)
-    knots.knot.push_back(intervals.Value(i));
+  for (int i = intervals.Lower(); i <= intervals.Upper(); i++) knots.knot.push_back(intervals.Value(i));
   return knots;
 }
 
 static CwCadKnots knots_along(const Adaptor3d_Surface &surface, bool along_u) {
   int count = along_u ? surface.NbUIntervals(GeomAbs_CN) : surface.NbVIntervals(GeomAbs_CN);
   double first = along_u ? surface.FirstUParameter() : surface.FirstVParameter();
-  if (Precision::IsInfinite(first))
-    return CwCadKnots();
+  if (Precision::IsInfinite(first)) return CwCadKnots();
   TColStd_Array1OfReal intervals(1, count + 1);
   along_u ? surface.UIntervals(intervals, GeomAbs_CN) : surface.VIntervals(intervals, GeomAbs_CN);
   return knots_of(intervals);
 }
 
 template <class Curve> static CwCadKnots knots_of_curve(Curve &curve) {
-  if (curve.GetType() != GeomAbs_BSplineCurve)
-    return CwCadKnots();
+  if (curve.GetType() != GeomAbs_BSplineCurve) return CwCadKnots();
   TColStd_Array1OfReal intervals(1, curve.NbIntervals(GeomAbs_CN) + 1);
   curve.Intervals(intervals, GeomAbs_CN);
   return knots_of(intervals);
@@ -104,8 +97,7 @@ static void read_face(CwCad *cad, int index) {
   face.reversed = shape.Orientation() == TopAbs_REVERSED;
 }
 
-static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face,
-                             const char *what) {
+static CwStatus edge_failure(const char *path, const CwCad *cad, const TopoDS_Edge &edge, int face, const char *what) {
   TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
   gp_Pnt p = vertex.IsNull() ? gp_Pnt() : BRep_Tool::Pnt(vertex);
   return CW_FAIL(CW_ERR_INPUT, "%s: face '%s': the edge at (%.3f, %.3f, %.3f) mm %s", path,
@@ -119,32 +111,27 @@ static CwStatus read_edge(const char *path, CwCad *cad, int index, const TopTool
   if (BRep_Tool::Degenerated(shape)) {
     return edge_failure(path, cad, shape, first, "is degenerate (a point); split the face so that none is");
   }
-  if (faces.Extent() != 2)
-    return edge_failure(path, cad, shape, first, "does not have two faces; each edge needs two");
+  if (faces.Extent() != 2) return edge_failure(path, cad, shape, first, "does not have two faces; each edge needs two");
   edge.face[0] = first;
   edge.face[1] = cad->face_map.FindIndex(faces.Last()) - 1;
   if (edge.face[0] == edge.face[1]) {
-    return edge_failure(path, cad, shape, first,
-                        "is a seam; split the face so that each edge has two different faces");
+    return edge_failure(path, cad, shape, first, "is a seam; split the face so that each edge has two different faces");
   }
   Handle(Geom_Curve) curve = BRep_Tool::Curve(shape, edge.range[0], edge.range[1]);
-  if (curve.IsNull())
-    return edge_failure(path, cad, shape, first, "has no curve in space");
+  if (curve.IsNull()) return edge_failure(path, cad, shape, first, "has no curve in space");
   edge.curve.Load(curve);
   edge.knots = knots_of_curve(edge.curve);
   for (int side = 0; side < 2; side++) {
     double range[2];
     const TopoDS_Face &face = TopoDS::Face(cad->face_map(edge.face[side] + 1));
     Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(shape, face, range[0], range[1]);
-    if (pcurve.IsNull())
-      return edge_failure(path, cad, shape, edge.face[side], "has no curve in (u,v) of that face");
+    if (pcurve.IsNull()) return edge_failure(path, cad, shape, edge.face[side], "has no curve in (u,v) of that face");
     edge.pcurve[side].Load(pcurve);
     edge.pcurve_knots[side] = knots_of_curve(edge.pcurve[side]);
   }
   TopoDS_Vertex begin, end;
   TopExp::Vertices(shape, begin, end);
-  if (begin.IsNull() || end.IsNull())
-    return edge_failure(path, cad, shape, first, "has no vertex at one of its ends");
+  if (begin.IsNull() || end.IsNull()) return edge_failure(path, cad, shape, first, "has no vertex at one of its ends");
   edge.vertex[0] = cad->vertex_map.FindIndex(begin) - 1;
   edge.vertex[1] = cad->vertex_map.FindIndex(end) - 1;
   return CW_OK;
@@ -152,16 +139,14 @@ static CwStatus read_edge(const char *path, CwCad *cad, int index, const TopTool
 
 CwStatus cw_cad_read_parts(const char *path, CwCad *cad) {
   cad->face.resize(cad->face_map.Extent());
-  for (int f = 0; f < cad->face_map.Extent(); f++)
-    read_face(cad, f);
+  for (int f = 0; f < cad->face_map.Extent(); f++) read_face(cad, f);
 
   TopTools_IndexedDataMapOfShapeListOfShape edge_faces;
   TopExp::MapShapesAndAncestors(cad->solid, TopAbs_EDGE, TopAbs_FACE, edge_faces);
   cad->edge.resize(cad->edge_map.Extent());
   for (int e = 0; e < cad->edge_map.Extent(); e++) {
     CwStatus status = read_edge(path, cad, e, edge_faces.FindFromKey(cad->edge_map(e + 1)));
-    if (status != CW_OK)
-      return status;
+    if (status != CW_OK) return status;
   }
   return CW_OK;
 }

@@ -29,8 +29,8 @@ static void bins_of(const CwInside *inside, int32_t t, int32_t from[2], int32_t 
   }
 }
 
-CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t triangle_count,
-                        const int32_t (*triangle)[3], CwInside **result) {
+CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t triangle_count, const int32_t (*triangle)[3],
+                        CwInside **result) {
   CwStatus status = CW_OK;
   CwInside *inside = NULL;
   CW_NEW(inside, 1);
@@ -62,8 +62,7 @@ CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t trian
         }
       }
     }
-    if (pass == 1)
-      break;
+    if (pass == 1) break;
     int64_t total = 0;
     for (int64_t b = 0; b <= (int64_t)side * side; b++) { // ends of the bins, filled from behind
       total += inside->start[b];
@@ -79,8 +78,7 @@ done:
 }
 
 void cw_inside_free(CwInside **inside) {
-  if (!*inside)
-    return;
+  if (!*inside) return;
   free((*inside)->start);
   free((*inside)->member);
   free(*inside);
@@ -90,8 +88,7 @@ void cw_inside_free(CwInside **inside) {
 // The edge from a to b crosses the line through p along y, at a y above p's: half-open in x, and always
 // computed from the left end, so that the two triangles at an edge agree to the bit.
 static int edge_above(const double a[3], const double b[3], const double p[3]) {
-  if ((a[0] <= p[0]) == (b[0] <= p[0]))
-    return 0;
+  if ((a[0] <= p[0]) == (b[0] <= p[0])) return 0;
   const double *left = a[0] <= p[0] ? a : b, *right = left == a ? b : a;
   double y = left[1] + (right[1] - left[1]) * ((p[0] - left[0]) / (right[0] - left[0]));
   return y > p[1];
@@ -100,24 +97,19 @@ static int edge_above(const double a[3], const double b[3], const double p[3]) {
 int cw_inside_test(const CwInside *inside, const double p[3]) {
   for (int i = 0; i < 2; i++) {
     double place = p[i] - inside->low[i];
-    if (place < 0.0 || place > inside->cell[i] * inside->cells[i])
-      return 0;
+    if (place < 0.0 || place > inside->cell[i] * inside->cells[i]) return 0;
   }
   int64_t bin = (int64_t)bin_of(inside, 1, p[1]) * inside->cells[0] + bin_of(inside, 0, p[0]);
   int parity = 0;
   for (int64_t k = inside->start[bin]; k < inside->start[bin + 1]; k++) {
     const int32_t *t = inside->triangle[inside->member[k]];
     const double *a = inside->x[t[0]], *b = inside->x[t[1]], *c = inside->x[t[2]];
-    if (!(edge_above(a, b, p) ^ edge_above(b, c, p) ^ edge_above(c, a, p)))
-      continue;
+    if (!(edge_above(a, b, p) ^ edge_above(b, c, p) ^ edge_above(c, a, p))) continue;
     // Over the triangle: z of its plane at p.
-    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1],
-           vz = c[2] - a[2];
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
     double nz = ux * vy - uy * vx, nx = uy * vz - uz * vy, ny = uz * vx - ux * vz;
-    double above =
-        nx * (p[0] - a[0]) + ny * (p[1] - a[1]) + nz * (p[2] - a[2]); // > 0: p on the side of the normal
-    if (nz > 0.0 ? above < 0.0 : above > 0.0)
-      parity ^= 1;
+    double above = nx * (p[0] - a[0]) + ny * (p[1] - a[1]) + nz * (p[2] - a[2]); // > 0: p on the side of the normal
+    if (nz > 0.0 ? above < 0.0 : above > 0.0) parity ^= 1;
   }
   return parity;
 }

@@ -15,8 +15,8 @@ typedef struct CwInside CwInside;
 
 // Keeps the given arrays, which must outlive it. The surface may consist of several shells; voids count as
 // outside.
-CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t triangle_count,
-                        const int32_t (*triangle)[3], CwInside **inside);
+CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t triangle_count, const int32_t (*triangle)[3],
+                        CwInside **inside);
 void cw_inside_free(CwInside **inside);
 
 // 1 inside, 0 outside; either for points on the surface. A ray through an edge or a corner counts each

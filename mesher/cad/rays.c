@@ -27,8 +27,7 @@ typedef struct {
 
 static int by_key(const void *a, const void *b) {
   const Place *p = a, *q = b;
-  if (p->key != q->key)
-    return p->key < q->key ? -1 : 1;
+  if (p->key != q->key) return p->key < q->key ? -1 : 1;
   return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
 }
 
@@ -50,8 +49,7 @@ static uint64_t morton(const Box *all, const double x[3]) {
     place[k] = (uint32_t)((x[k] - all->low[k]) / (all->high[k] - all->low[k] + 1e-30) * 1048575.0);
   }
   for (int bit = 19; bit >= 0; bit--) {
-    for (int k = 0; k < 3; k++)
-      key = key << 1 | (place[k] >> bit & 1);
+    for (int k = 0; k < 3; k++) key = key << 1 | (place[k] >> bit & 1);
   }
   return key;
 }
@@ -61,8 +59,7 @@ static CwStatus sort_triangles(const CwBackground *background, int32_t *order) {
   Place *place = NULL;
   Box all = empty_box();
   CW_NEW(place, background->triangle_count);
-  for (int32_t i = 0; i < background->point_count; i++)
-    box_add(&all, background->x[i]);
+  for (int32_t i = 0; i < background->point_count; i++) box_add(&all, background->x[i]);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     const int32_t *n = background->triangle[t];
     double centre[3];
@@ -72,8 +69,7 @@ static CwStatus sort_triangles(const CwBackground *background, int32_t *order) {
     place[t] = (Place){morton(&all, centre), t};
   }
   qsort(place, (size_t)background->triangle_count, sizeof *place, by_key);
-  for (int32_t t = 0; t < background->triangle_count; t++)
-    order[t] = place[t].triangle;
+  for (int32_t t = 0; t < background->triangle_count; t++) order[t] = place[t].triangle;
 done:
   free(place);
   return status;
@@ -84,8 +80,7 @@ static void build(CwRays *rays, size_t node, int32_t first, int32_t last) {
   if (last - first <= LEAF_SIZE) {
     for (int32_t i = first; i < last; i++) {
       const int32_t *n = rays->background->triangle[rays->order[i]];
-      for (int k = 0; k < 3; k++)
-        box_add(&box, rays->background->x[n[k]]);
+      for (int k = 0; k < 3; k++) box_add(&box, rays->background->x[n[k]]);
     }
   } else {
     int32_t mid = first + (last - first) / 2;
@@ -103,8 +98,7 @@ CwStatus cw_rays_make(const CwBackground *background, CwRays **rays) {
   CwStatus status = CW_OK;
   CwRays *made = NULL;
   size_t nodes = 1;
-  for (int32_t run = background->triangle_count; run > LEAF_SIZE; run = (run + 1) / 2)
-    nodes = 2 * nodes + 1;
+  for (int32_t run = background->triangle_count; run > LEAF_SIZE; run = (run + 1) / 2) nodes = 2 * nodes + 1;
   CW_NEW(made, 1);
   made->background = background;
   CW_NEW(made->order, background->triangle_count);
@@ -119,8 +113,7 @@ done:
 }
 
 void cw_rays_free(CwRays **rays) {
-  if (!*rays)
-    return;
+  if (!*rays) return;
   free((*rays)->order);
   free((*rays)->box);
   free(*rays);
@@ -138,8 +131,7 @@ static int meets_box(const Box *box, const double x[3], const double inverse[3],
 }
 
 // T. Moller, B. Trumbore, Fast, minimum storage ray/triangle intersection, 1997; exits only.
-static int leaves_through(const CwBackground *background, int32_t t, const double x[3], const double d[3],
-                          double *s) {
+static int leaves_through(const CwBackground *background, int32_t t, const double x[3], const double d[3], double *s) {
   const int32_t *n = background->triangle[t];
   const double *a = background->x[n[0]], *b = background->x[n[1]], *c = background->x[n[2]];
   double e[3], f[3], o[3];
@@ -150,12 +142,10 @@ static int leaves_through(const CwBackground *background, int32_t t, const doubl
   }
   double normal[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
   double det = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
-  if (!(det > 0))
-    return 0;
+  if (!(det > 0)) return 0;
   double q[3] = {o[1] * d[2] - o[2] * d[1], o[2] * d[0] - o[0] * d[2], o[0] * d[1] - o[1] * d[0]};
   double u = -(f[0] * q[0] + f[1] * q[1] + f[2] * q[2]), v = e[0] * q[0] + e[1] * q[1] + e[2] * q[2];
-  if (u < 0 || v < 0 || u + v > det)
-    return 0;
+  if (u < 0 || v < 0 || u + v > det) return 0;
   *s = -(normal[0] * o[0] + normal[1] * o[1] + normal[2] * o[2]) / det;
   return 1;
 }
@@ -170,16 +160,14 @@ int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double directi
   int32_t nearest = -1;
   int top = 0;
   // Large and not infinite where the ray is parallel to a side, so that no 0 * infinity comes up.
-  for (int k = 0; k < 3; k++)
-    inverse[k] = fabs(direction[k]) > 1e-30 ? 1 / direction[k] : 1e30;
+  for (int k = 0; k < 3; k++) inverse[k] = fabs(direction[k]) > 1e-30 ? 1 / direction[k] : 1e30;
   stack[top].node = 0;
   stack[top].first = 0;
   stack[top++].last = rays->background->triangle_count;
   while (top > 0) {
     size_t node = stack[--top].node;
     int32_t first = stack[top].first, last = stack[top].last;
-    if (!meets_box(&rays->box[node], x, inverse, from, to))
-      continue;
+    if (!meets_box(&rays->box[node], x, inverse, from, to)) continue;
     if (last - first > LEAF_SIZE) {
       int32_t mid = first + (last - first) / 2;
       stack[top].node = 2 * node + 2;
@@ -192,13 +180,11 @@ int32_t cw_rays_exit(const CwRays *rays, const double x[3], const double directi
     }
     for (int32_t i = first; i < last; i++) {
       double s;
-      if (!leaves_through(rays->background, rays->order[i], x, direction, &s) || s <= from || s >= to)
-        continue;
+      if (!leaves_through(rays->background, rays->order[i], x, direction, &s) || s <= from || s >= to) continue;
       to = s;
       nearest = rays->order[i];
     }
   }
-  if (nearest >= 0)
-    *distance = to;
+  if (nearest >= 0) *distance = to;
   return nearest;
 }

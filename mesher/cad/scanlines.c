@@ -20,14 +20,11 @@ static int meets(const CwBackground *background, int32_t t, const double p[2], d
   const int32_t *n = background->triangle[t];
   double area[3];
   int left[3];
-  for (int k = 0; k < 3; k++)
-    left[k] = left_of(background, n[(k + 1) % 3], n[(k + 2) % 3], p, &area[k]);
-  if (left[0] != left[1] || left[1] != left[2])
-    return 0;
+  for (int k = 0; k < 3; k++) left[k] = left_of(background, n[(k + 1) % 3], n[(k + 2) % 3], p, &area[k]);
+  if (left[0] != left[1] || left[1] != left[2]) return 0;
   double sum = area[0] + area[1] + area[2];
   *x = 0;
-  for (int k = 0; k < 3; k++)
-    *x += (sum != 0 ? area[k] / sum : 1.0 / 3) * background->x[n[k]][0];
+  for (int k = 0; k < 3; k++) *x += (sum != 0 ? area[k] / sum : 1.0 / 3) * background->x[n[k]][0];
   return 1;
 }
 
@@ -122,15 +119,12 @@ static CwStatus cut(const CwBackground *background, const double low[2], const d
   size_t count = (size_t)lines->count[0] * (size_t)lines->count[1];
   CW_NEW(lines->start, count + 1);
   CW_TRY(find_crossings(background, lines, &crossing, &crossings));
-  for (size_t i = 0; i < crossings; i++)
-    lines->start[crossing[i].line + 1]++;
-  for (size_t i = 0; i < count; i++)
-    lines->start[i + 1] += lines->start[i];
+  for (size_t i = 0; i < crossings; i++) lines->start[crossing[i].line + 1]++;
+  for (size_t i = 0; i < count; i++) lines->start[i + 1] += lines->start[i];
   CW_NEW(lines->crossing, lines->start[count]);
   CW_NEW(next, count);
   memcpy(next, lines->start, count * sizeof *next);
-  for (size_t i = 0; i < crossings; i++)
-    lines->crossing[next[crossing[i].line]++] = crossing[i].x;
+  for (size_t i = 0; i < crossings; i++) lines->crossing[next[crossing[i].line]++] = crossing[i].x;
   *odd = 0;
   for (size_t i = 0; i < count; i++) {
     int64_t length = lines->start[i + 1] - lines->start[i];
@@ -143,8 +137,8 @@ done:
   return status;
 }
 
-CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], const double high[2],
-                           double spacing, CwScanlines *lines) {
+CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], const double high[2], double spacing,
+                           CwScanlines *lines) {
   CwStatus status = CW_OK;
   int64_t odd = 1;
   memset(lines, 0, sizeof *lines);
@@ -154,11 +148,10 @@ CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], 
     cw_scanlines_free(lines);
     CW_TRY(cut(background, low, high, spacing, variant, lines, &odd));
   }
-  CW_REQUIRE(odd == 0, CW_ERR_GEOMETRY,
-             "%lld lines through the domain enter it and do not leave: it is not closed", (long long)odd);
+  CW_REQUIRE(odd == 0, CW_ERR_GEOMETRY, "%lld lines through the domain enter it and do not leave: it is not closed",
+             (long long)odd);
 done:
-  if (status != CW_OK)
-    cw_scanlines_free(lines);
+  if (status != CW_OK) cw_scanlines_free(lines);
   return status;
 }
 

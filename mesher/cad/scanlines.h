@@ -25,8 +25,8 @@ typedef struct {
 } CwScanlines;
 
 // Lines over y, z from low to high. Fails with CW_ERR_GEOMETRY where the triangulation is not closed.
-CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], const double high[2],
-                           double spacing, CwScanlines *lines);
+CwStatus cw_scanlines_make(const CwBackground *background, const double low[2], const double high[2], double spacing,
+                           CwScanlines *lines);
 // y, z of line (j, k).
 void cw_scanlines_place(const CwScanlines *lines, int32_t j, int32_t k, double place[2]);
 void cw_scanlines_free(CwScanlines *lines);

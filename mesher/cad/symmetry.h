@@ -24,7 +24,7 @@ typedef struct {
 } CwOrbits;
 
 typedef struct {
-  int32_t count; // z: turns in a revolution
+  int32_t count;               // z: turns in a revolution
   CwOrbits face, edge, vertex; // of the CAD
 } CwSymmetry;
 

@@ -18,10 +18,10 @@ typedef struct {
 } CwBox;
 
 typedef struct {
-  int32_t count;     // items
-  int32_t leaves;    // slots of leaves, a power of two; node k has the children 2k and 2k + 1, the root is 1
-  int32_t *item;     // in the order of the curve
-  CwBox *node;       // 2 * leaves; those without items hold nothing
+  int32_t count;  // items
+  int32_t leaves; // slots of leaves, a power of two; node k has the children 2k and 2k + 1, the root is 1
+  int32_t *item;  // in the order of the curve
+  CwBox *node;    // 2 * leaves; those without items hold nothing
 } CwBoxTree;
 
 // What is called for an item whose leaf is met; a result other than 0 ends the walk.

@@ -34,13 +34,11 @@ uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
   c[2] ^= c[1];
   uint32_t turn = 0;
   for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
-    if (c[2] & bit)
-      turn ^= bit - 1;
+    if (c[2] & bit) turn ^= bit - 1;
   }
   uint64_t place = 0;
   for (int b = bits - 1; b >= 0; b--) {
-    for (int i = 0; i < 3; i++)
-      place = place << 1 | ((c[i] ^ turn) >> b & 1);
+    for (int i = 0; i < 3; i++) place = place << 1 | ((c[i] ^ turn) >> b & 1);
   }
   return place;
 }
@@ -71,8 +69,7 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
     }
     extent = fmax(extent, high - low[i]);
   }
-  for (int32_t n = count; n > 64; n /= 8)
-    rounds++;
+  for (int32_t n = count; n > 64; n /= 8) rounds++;
   double cells = extent > 0.0 ? (double)(1 << BITS) / extent : 0.0;
   for (int32_t p = 0; p < count; p++) {
     uint32_t cell[3];
@@ -87,18 +84,14 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
     int32_t start[(1 << DIGIT) + 1] = {0};
     int shift = digit * DIGIT;
     uint64_t mask = (1u << DIGIT) - 1;
-    for (int32_t k = 0; k < count; k++)
-      start[(from[k].key >> shift & mask) + 1]++;
-    for (int d = 0; d < 1 << DIGIT; d++)
-      start[d + 1] += start[d];
-    for (int32_t k = 0; k < count; k++)
-      to[start[from[k].key >> shift & mask]++] = from[k];
+    for (int32_t k = 0; k < count; k++) start[(from[k].key >> shift & mask) + 1]++;
+    for (int d = 0; d < 1 << DIGIT; d++) start[d + 1] += start[d];
+    for (int32_t k = 0; k < count; k++) to[start[from[k].key >> shift & mask]++] = from[k];
     Place *swap = from;
     from = to;
     to = swap;
   }
-  for (int32_t k = 0; k < count; k++)
-    order[k] = from[k].point;
+  for (int32_t k = 0; k < count; k++) order[k] = from[k].point;
 done:
   free(from);
   free(to);

@@ -25,9 +25,13 @@ using Pair = std::array<int32_t, 2>;
 struct Soup {
   const double (*x)[3];
 
-  Point point(int32_t v) const { return Point(x[v][0], x[v][1], x[v][2]); }
+  Point point(int32_t v) const {
+    return Point(x[v][0], x[v][1], x[v][2]);
+  }
 
-  Triangle shape(const int32_t *t) const { return Triangle(point(t[0]), point(t[1]), point(t[2])); }
+  Triangle shape(const int32_t *t) const {
+    return Triangle(point(t[0]), point(t[1]), point(t[2]));
+  }
 
   // Crossing beyond the vertices that both triangles share.
   bool cross(const int32_t *a, const int32_t *b) const {
@@ -55,8 +59,7 @@ struct Soup {
 } // namespace
 
 extern "C" CwStatus cw_self_intersections(int32_t point_count, const double (*x)[3], int32_t triangle_count,
-                                          const int32_t (*triangle)[3], int32_t *pair_count,
-                                          int32_t (**pair)[2]) {
+                                          const int32_t (*triangle)[3], int32_t *pair_count, int32_t (**pair)[2]) {
   CwStatus status = CW_OK;
   *pair_count = 0;
   *pair = nullptr;

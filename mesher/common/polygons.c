@@ -113,8 +113,8 @@ void cw_polygons_free(CwPolygons *polygons) {
   memset(polygons, 0, sizeof *polygons);
 }
 
-CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count,
-                          const int32_t (*edge)[2], const uint8_t *boundary, CwPolygons *polygons) {
+CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count, const int32_t (*edge)[2],
+                          const uint8_t *boundary, CwPolygons *polygons) {
   CwStatus status = CW_OK;
   Graph graph = {point_count, edge_count, point, edge, NULL, NULL, NULL};
   int32_t halves = 2 * edge_count;

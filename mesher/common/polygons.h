@@ -26,8 +26,8 @@ typedef struct {
 // odd number of edges with `boundary` set (walls and caps); the other edges (lines of other dividing planes) only
 // divide. Edges cross nowhere but at their ends. Fails with CW_ERR_MESH and the place (coordinates of the open end)
 // where a boundary edge chain does not close.
-CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count,
-                          const int32_t (*edge)[2], const uint8_t *boundary, CwPolygons *polygons);
+CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count, const int32_t (*edge)[2],
+                          const uint8_t *boundary, CwPolygons *polygons);
 void cw_polygons_free(CwPolygons *polygons);
 
 // Finds edges that cross others elsewhere than at their ends: *crossing_count of them, the ends of a pair one after the

@@ -29,10 +29,8 @@ static inline double two_product(double a, double b, double *error) {
 static int difference(double a, double b, double h[2]) {
   double low, high = two_sum(a, -b, &low);
   int n = 0;
-  if (low != 0.0)
-    h[n++] = low;
-  if (high != 0.0 || n == 0)
-    h[n++] = high;
+  if (low != 0.0) h[n++] = low;
+  if (high != 0.0 || n == 0) h[n++] = high;
   return n;
 }
 
@@ -47,11 +45,9 @@ static int add(int m, const double *e, int n, const double *f, double *h) {
     else
       next = f[j++];
     sum = two_sum(sum, next, &error);
-    if (error != 0.0)
-      h[count++] = error;
+    if (error != 0.0) h[count++] = error;
   }
-  if (sum != 0.0 || count == 0)
-    h[count++] = sum;
+  if (sum != 0.0 || count == 0) h[count++] = sum;
   return count;
 }
 
@@ -59,25 +55,20 @@ static int add(int m, const double *e, int n, const double *f, double *h) {
 static int scale(int m, const double *e, double b, double *h) {
   int count = 0;
   double error, sum = two_product(e[0], b, &error);
-  if (error != 0.0)
-    h[count++] = error;
+  if (error != 0.0) h[count++] = error;
   for (int i = 1; i < m; i++) {
     double low, high = two_product(e[i], b, &low);
     double middle = two_sum(sum, low, &error);
-    if (error != 0.0)
-      h[count++] = error;
+    if (error != 0.0) h[count++] = error;
     sum = two_sum(high, middle, &error);
-    if (error != 0.0)
-      h[count++] = error;
+    if (error != 0.0) h[count++] = error;
   }
-  if (sum != 0.0 || count == 0)
-    h[count++] = sum;
+  if (sum != 0.0 || count == 0) h[count++] = sum;
   return count;
 }
 
 static void turn(int m, double *e) {
-  for (int i = 0; i < m; i++)
-    e[i] = -e[i];
+  for (int i = 0; i < m; i++) e[i] = -e[i];
 }
 
 static int sign_of(int m, const double *e) {
@@ -90,8 +81,7 @@ enum { TWO = 16, THREE = 192, FOUR = 4 * THREE, FIVE = 4 * FOUR };
 
 // h = e f for f of one or two parts; room for 2 m n, in `spare` too.
 static int multiply(int m, const double *e, int n, const double *f, double *h, double *spare) {
-  if (n == 1)
-    return scale(m, e, f[0], h);
+  if (n == 1) return scale(m, e, f[0], h);
   int low = scale(m, e, f[0], spare), high = scale(m, e, f[1], spare + low);
   return add(low, spare, high, spare + low, h);
 }
@@ -135,8 +125,7 @@ static void minor3(const Short a[3], const Short b[3], const Short c[3], Minor3 
 }
 
 static void from_to(const double a[3], const double b[3], Short d[3]) {
-  for (int i = 0; i < 3; i++)
-    d[i].n = difference(b[i], a[i], d[i].c);
+  for (int i = 0; i < 3; i++) d[i].n = difference(b[i], a[i], d[i].c);
 }
 
 int cw_orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]) {
@@ -149,20 +138,17 @@ int cw_orient3d_exact(const double a[3], const double b[3], const double c[3], c
   return sign_of(det.n, det.c);
 }
 
-int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3],
-                      const double e[3]) {
+int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]) {
   const double *corner[4] = {a, b, c, d};
   Short row[4][3];
   double once[FOUR], twice[FIVE], spare[FIVE], sum[2][12 * FIVE];
   int count = 1, now = 0;
   sum[0][0] = 0.0;
-  for (int k = 0; k < 4; k++)
-    from_to(e, corner[k], row[k]);
+  for (int k = 0; k < 4; k++) from_to(e, corner[k], row[k]);
   for (int k = 0; k < 4; k++) {
     Minor3 minor;
     minor3(row[(k + 1) % 4], row[(k + 2) % 4], row[(k + 3) % 4], &minor);
-    if (k % 2)
-      turn(minor.n, minor.c);
+    if (k % 2) turn(minor.n, minor.c);
     for (int i = 0; i < 3; i++) {
       int n = multiply(minor.n, minor.c, row[k][i].n, row[k][i].c, once, spare);
       n = multiply(n, once, row[k][i].n, row[k][i].c, twice, spare);
@@ -200,16 +186,14 @@ static inline Pair pair_times(Pair a, Pair b) {
   return pair_of(product, error + (a.high * b.low + a.low * b.high));
 }
 
-int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3],
-                      const double e[3]) {
+int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]) {
   const double *corner[4] = {a, b, c, d};
   Pair v[4][3], square[4], det = {0.0, 0.0};
   double size = 0.0;
   for (int k = 0; k < 4; k++) {
-    for (int i = 0; i < 3; i++)
-      v[k][i].high = two_sum(corner[k][i], -e[i], &v[k][i].low);
-    square[k] = pair_plus(pair_plus(pair_times(v[k][0], v[k][0]), pair_times(v[k][1], v[k][1])),
-                          pair_times(v[k][2], v[k][2]));
+    for (int i = 0; i < 3; i++) v[k][i].high = two_sum(corner[k][i], -e[i], &v[k][i].low);
+    square[k] =
+        pair_plus(pair_plus(pair_times(v[k][0], v[k][0]), pair_times(v[k][1], v[k][1])), pair_times(v[k][2], v[k][2]));
   }
   for (int k = 0; k < 4; k++) {
     const Pair *p = v[(k + 1) % 4], *q = v[(k + 2) % 4], *r = v[(k + 3) % 4];
@@ -226,7 +210,6 @@ int cw_insphere_close(const double a[3], const double b[3], const double c[3], c
     size += minor_size * square[k].high;
   }
   // Some twenty operations deep, each within 2^-101.
-  if (fabs(det.high) > 0x1p-94 * size)
-    return det.high > 0.0 ? 1 : -1;
+  if (fabs(det.high) > 0x1p-94 * size) return det.high > 0.0 ? 1 : -1;
   return cw_insphere_exact(a, b, c, d, e);
 }

@@ -14,12 +14,10 @@ extern "C" {
 
 // The same by exact arithmetic alone: -1, 0 or 1.
 int cw_orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]);
-int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3],
-                      const double e[3]);
+int cw_insphere_exact(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]);
 
 // By pairs of doubles where that is enough, then exactly: for signs that plain doubles leave open.
-int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3],
-                      const double e[3]);
+int cw_insphere_close(const double a[3], const double b[3], const double c[3], const double d[3], const double e[3]);
 
 // Bounds of the relative rounding error, in units of 2^-53: 7 and 16 operations deep, with a margin for
 // second order.
@@ -34,12 +32,9 @@ static inline int cw_orient3d(const double a[3], const double b[3], const double
   double dx = d[0] - a[0], dy = d[1] - a[1], dz = d[2] - a[2];
   double p = by * cz, q = bz * cy, r = bz * cx, s = bx * cz, t = bx * cy, u = by * cx;
   double det = (p - q) * dx + (r - s) * dy + (t - u) * dz;
-  double size =
-      (fabs(p) + fabs(q)) * fabs(dx) + (fabs(r) + fabs(s)) * fabs(dy) + (fabs(t) + fabs(u)) * fabs(dz);
-  if (det > CW_ORIENT3D_BOUND * size)
-    return 1;
-  if (det < -CW_ORIENT3D_BOUND * size)
-    return -1;
+  double size = (fabs(p) + fabs(q)) * fabs(dx) + (fabs(r) + fabs(s)) * fabs(dy) + (fabs(t) + fabs(u)) * fabs(dz);
+  if (det > CW_ORIENT3D_BOUND * size) return 1;
+  if (det < -CW_ORIENT3D_BOUND * size) return -1;
   return cw_orient3d_exact(a, b, c, d);
 }
 
@@ -50,8 +45,7 @@ static inline int cw_insphere(const double a[3], const double b[3], const double
   double v[4][3], square[4];
   const double *corner[4] = {a, b, c, d};
   for (int k = 0; k < 4; k++) {
-    for (int i = 0; i < 3; i++)
-      v[k][i] = corner[k][i] - e[i];
+    for (int i = 0; i < 3; i++) v[k][i] = corner[k][i] - e[i];
     square[k] = v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2];
   }
   // Minors of the first two columns, and their sizes; then of three, by the last column.
@@ -68,10 +62,8 @@ static inline int cw_insphere(const double a[3], const double b[3], const double
   za = fabs(za), zb = fabs(zb), zc = fabs(zc), zd = fabs(zd);
   double size = (za * sbc + zb * sac + zc * sab) * square[3] + (zb * scd + zc * sbd + zd * sbc) * square[0] +
                 (zc * sda + zd * sac + za * scd) * square[1] + (zd * sab + za * sbd + zb * sda) * square[2];
-  if (det > CW_INSPHERE_BOUND * size)
-    return 1;
-  if (det < -CW_INSPHERE_BOUND * size)
-    return -1;
+  if (det > CW_INSPHERE_BOUND * size) return 1;
+  if (det < -CW_INSPHERE_BOUND * size) return -1;
   return cw_insphere_close(a, b, c, d, e);
 }
 

@@ -5,8 +5,7 @@
 #include <math.h>
 
 static void subtract(const double a[3], const double b[3], double d[3]) {
-  for (int i = 0; i < 3; i++)
-    d[i] = a[i] - b[i];
+  for (int i = 0; i < 3; i++) d[i] = a[i] - b[i];
 }
 
 static double dot(const double a[3], const double b[3]) {

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int before(CwHeapItem a, CwHeapItem b) { return a.key < b.key || (a.key == b.key && a.v < b.v); }
+static int before(CwHeapItem a, CwHeapItem b) {
+  return a.key < b.key || (a.key == b.key && a.v < b.v);
+}
 
 CwStatus cw_heap_push(CwHeap *heap, double key, int32_t v) {
   CwStatus status = CW_OK;

@@ -12,8 +12,7 @@
 static void middle(const CwFillInput *input, int32_t triangle, double mm[3]) {
   for (int i = 0; i < 3; i++) {
     mm[i] = 0.0;
-    for (int k = 0; k < 3; k++)
-      mm[i] += 1e3 / 3.0 * input->x[input->triangle[triangle][k]][i];
+    for (int k = 0; k < 3; k++) mm[i] += 1e3 / 3.0 * input->x[input->triangle[triangle][k]][i];
   }
 }
 
@@ -24,8 +23,7 @@ static int has_no_area(const double a[3], const double b[3], const double c[3]) 
   cw_sub(b, a, u);
   cw_sub(c, a, v);
   cw_cross(u, v, n);
-  if (cw_dot(n, n) > 1e-20 * cw_dot(u, u) * cw_dot(v, v))
-    return 0;
+  if (cw_dot(n, n) > 1e-20 * cw_dot(u, u) * cw_dot(v, v)) return 0;
   for (int i = 0; i < 3; i++) { // a point off the plane of two shadows tells whether the three are on one line
     double p[3][3], top[3] = {0, 0, 0};
     const double *x[3] = {a, b, c};
@@ -34,8 +32,7 @@ static int has_no_area(const double a[3], const double b[3], const double c[3]) 
       p[k][i] = 0.0;
     }
     top[i] = 1.0;
-    if (cw_orient3d(p[0], p[1], p[2], top) != 0)
-      return 0;
+    if (cw_orient3d(p[0], p[1], p[2], top) != 0) return 0;
   }
   return 1;
 }
@@ -70,10 +67,8 @@ CwStatus cw_boundary_check_crossing(const CwFillInput *input) {
   int32_t count = 0, (*pair)[2] = NULL;
   double mm[2][3];
   CW_TRY(cw_self_intersections(input->point_count, input->x, input->triangle_count, input->triangle, &count, &pair));
-  if (count == 0)
-    goto done;
-  for (int k = 0; k < 2; k++)
-    middle(input, pair[0][k], mm[k]);
+  if (count == 0) goto done;
+  for (int k = 0; k < 2; k++) middle(input, pair[0][k], mm[k]);
   status = CW_FAIL(CW_ERR_MESH,
                    "%s: the boundary crosses itself: %d pairs of triangles, the first at (%.6g, %.6g, %.6g) and "
                    "(%.6g, %.6g, %.6g) mm; triangles may meet only in common edges and corners",

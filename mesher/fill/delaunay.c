@@ -48,8 +48,7 @@ static CwStatus make_pool(CwDelaunay *mesh, int64_t space) {
   CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
   CwDelaunayTet *pool = aligned_alloc(sizeof *pool, (size_t)space * sizeof *pool);
   CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
-  if (mesh->tet_count)
-    memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
+  if (mesh->tet_count) memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
   free(mesh->tet);
   mesh->tet = pool;
   mesh->tet_space = (int32_t)space;
@@ -64,8 +63,7 @@ CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
     mesh->spare = mesh->tet[*tet].corner[1];
     goto done;
   }
-  if (mesh->tet_count == mesh->tet_space)
-    CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64));
+  if (mesh->tet_count == mesh->tet_space) CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64));
   *tet = mesh->tet_count++;
   mesh->tet[*tet] = (CwDelaunayTet){.square = 0.0};
 done:
@@ -81,16 +79,14 @@ void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
 void cw_delaunay_pack(CwDelaunay *mesh) {
   int32_t kept = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (mesh->tet[t].corner[0] < 0)
-      continue;
+    if (mesh->tet[t].corner[0] < 0) continue;
     const CwDelaunayTet *from = &mesh->tet[t];
     CwDelaunayTet *to = &mesh->tet[kept];
     if (kept != t) {
       memcpy(to->corner, from->corner, sizeof to->corner);
       for (int i = 0; i < 4; i++) {
         int32_t next = to->neighbour[i] = from->neighbour[i];
-        if (next >= 0)
-          mesh->tet[next >> 2].neighbour[next & 3] = 4 * kept + i;
+        if (next >= 0) mesh->tet[next >> 2].neighbour[next & 3] = 4 * kept + i;
       }
     }
     kept++;
@@ -138,10 +134,8 @@ static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, con
 static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
   double x = p[0] - t->centre[0], y = p[1] - t->centre[1], z = p[2] - t->centre[2];
   double square = x * x + y * y + z * z;
-  if (square > t->square * (1.0 + band))
-    return 0;
-  if (square < t->square * (1.0 - band))
-    return 1;
+  if (square > t->square * (1.0 + band)) return 0;
+  if (square < t->square * (1.0 - band)) return 1;
   return in_sphere_exactly(mesh, t, p);
 }
 
@@ -171,16 +165,14 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
   int exact = 0;
   for (int64_t step = 0;; step++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
-    if (in_sphere(mesh, tet, p))
-      return t;
+    if (in_sphere(mesh, tet, p)) return t;
     int32_t next = -1;
     exact |= step > 4 * (int64_t)mesh->tet_count; // rounding might lead in circles
     for (int again = exact; again < 2 && next < 0; again++) {
       exact = again;
       for (int k = 0; k < 4 && next < 0; k++) {
         int i = (int)((turn + (uint32_t)k) & 3);
-        if (tet->neighbour[i] < 0 || (!again && tet->neighbour[i] >> 2 == from))
-          continue;
+        if (tet->neighbour[i] < 0 || (!again && tet->neighbour[i] >> 2 == from)) continue;
         const double *a = at(mesh, tet->corner[tet_face[i][0]]), *b = at(mesh, tet->corner[tet_face[i][1]]);
         const double *c = at(mesh, tet->corner[tet_face[i][2]]);
         int beyond;
@@ -192,8 +184,7 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
           double cx = c[0] - p[0], cy = c[1] - p[1], cz = c[2] - p[2];
           beyond = (ay * bz - az * by) * cx + (az * bx - ax * bz) * cy + (ax * by - ay * bx) * cz < 0.0;
         }
-        if (beyond)
-          next = tet->neighbour[i] >> 2;
+        if (beyond) next = tet->neighbour[i] >> 2;
       }
     }
     if (next < 0) {
@@ -222,8 +213,7 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
       int32_t outer = tet->neighbour[i];
       if (outer >= 0) {
         CwDelaunayTet *next = &mesh->tet[outer >> 2];
-        if (next->square == -1.0)
-          continue;
+        if (next->square == -1.0) continue;
         if (in_sphere(mesh, next, p)) {
           next->square = -1.0;
           work->cavity[work->cavity_count++] = outer >> 2;
@@ -231,8 +221,7 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
         }
       }
       Side *side = &work->side[work->side_count++];
-      for (int k = 0; k < 3; k++)
-        side->corner[k] = tet->corner[tet_face[i][k]];
+      for (int k = 0; k < 3; k++) side->corner[k] = tet->corner[tet_face[i][k]];
       side->outer = outer;
     }
   }
@@ -242,10 +231,8 @@ done:
 
 static int compare_edges(const void *left, const void *right) {
   const Edge *a = left, *b = right;
-  if (a->low != b->low)
-    return a->low < b->low ? -1 : 1;
-  if (a->high != b->high)
-    return a->high < b->high ? -1 : 1;
+  if (a->low != b->low) return a->low < b->low ? -1 : 1;
+  if (a->high != b->high) return a->high < b->high ? -1 : 1;
   return a->owner < b->owner ? -1 : 1;
 }
 
@@ -267,8 +254,7 @@ static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
     }
   }
   qsort(work->edge, (size_t)count, sizeof *work->edge, compare_edges);
-  for (int32_t k = 0; k + 1 < count; k += 2)
-    join(mesh, work->edge[k].owner, work->edge[k + 1].owner);
+  for (int32_t k = 0; k + 1 < count; k += 2) join(mesh, work->edge[k].owner, work->edge[k + 1].owner);
 done:
   return status;
 }
@@ -286,8 +272,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
       if (q->mark >> 32 != (uint64_t)point) {
         double *arm = work->arm[locals];
         q->mark = (uint64_t)point << 32 | (uint64_t)locals++;
-        for (int j = 0; j < 3; j++)
-          arm[j] = q->x[j] - p[j];
+        for (int j = 0; j < 3; j++) arm[j] = q->x[j] - p[j];
         arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
       }
       side->local[i] = (int32_t)(uint32_t)q->mark;
@@ -297,8 +282,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
     else
       CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
   }
-  for (int32_t k = work->side_count; k < work->cavity_count; k++)
-    cw_delaunay_free_tet(mesh, work->cavity[k]);
+  for (int32_t k = work->side_count; k < work->cavity_count; k++) cw_delaunay_free_tet(mesh, work->cavity[k]);
   int tabled = locals <= LOCAL;
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
@@ -309,11 +293,9 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
     tet->corner[2] = side->corner[1];
     tet->corner[3] = point;
     tet->neighbour[3] = side->outer;
-    if (side->outer >= 0)
-      mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
+    if (side->outer >= 0) mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
     set_sphere(tet, p, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
-    if (!tabled)
-      continue;
+    if (!tabled) continue;
     table[l[1] * LOCAL + l[2]] = 4 * side->tet;
     table[l[2] * LOCAL + l[0]] = 4 * side->tet + 2;
     table[l[0] * LOCAL + l[1]] = 4 * side->tet + 1;
@@ -343,8 +325,7 @@ static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, c
   pair[1] = -1;
   for (int i = 0; i < 4; i++) {
     const double *a = at(mesh, tet->corner[i]), *b = at(mesh, point);
-    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2])
-      pair[1] = mesh->source[tet->corner[i]];
+    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) pair[1] = mesh->source[tet->corner[i]];
   }
 done:
   return status;
@@ -368,11 +349,9 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
     size = fmax(size, fabs(middle[i]));
   }
   reach = 4.0 * sqrt(reach) + 1e-3 * size;
-  if (!(reach > 0.0))
-    reach = 1.0;
+  if (!(reach > 0.0)) reach = 1.0;
   for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
-    for (int i = 0; i < 3; i++)
-      mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
+    for (int i = 0; i < 3; i++) mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
     mesh->source[k] = -1;
   }
 done:
@@ -397,8 +376,8 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh
   CwStatus status = CW_OK;
   int32_t *order = NULL;
   memset(mesh, 0, sizeof *mesh);
-  CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed",
-             count, INT32_MAX / 32 - 1);
+  CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed", count,
+             INT32_MAX / 32 - 1);
   CW_NEW(order, count);
   CW_TRY(cw_hilbert_order(count, x, order));
   CW_NEW(mesh->point, count + CW_DELAUNAY_CORNERS);
@@ -411,8 +390,7 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh
   }
 done:
   free(order);
-  if (status != CW_OK)
-    cw_delaunay_free(mesh);
+  if (status != CW_OK) cw_delaunay_free(mesh);
   return status;
 }
 
@@ -446,8 +424,7 @@ done:
     free(work->arm);
   }
   free(work);
-  if (status != CW_OK)
-    cw_delaunay_free(mesh);
+  if (status != CW_OK) cw_delaunay_free(mesh);
   return status;
 }
 

@@ -19,8 +19,8 @@ enum { CW_DELAUNAY_CORNERS = 4 }; // of the enclosing tetrahedron
 typedef struct {
   double centre[3], square; // of the circumscribed sphere, radius^2; square is NaN where it is not known well
                             // enough; of no use once the mesh is made, and free for marks
-  int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
-  int32_t neighbour[4]; // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
+  int32_t corner[4];        // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
+  int32_t neighbour[4];     // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
 } CwDelaunayTet;
 
 typedef struct {

@@ -28,15 +28,13 @@ void give_points(const CwFillInput *input, int32_t inner_count, const double (*i
   io.numberofpoints = input->point_count + inner_count;
   io.pointlist = new REAL[3 * (size_t)io.numberofpoints];
   memcpy(io.pointlist, input->x, (size_t)input->point_count * sizeof *input->x);
-  if (inner_count)
-    memcpy(io.pointlist + 3 * (size_t)input->point_count, inner, (size_t)inner_count * sizeof *inner);
+  if (inner_count) memcpy(io.pointlist + 3 * (size_t)input->point_count, inner, (size_t)inner_count * sizeof *inner);
 }
 
 void give_triangles(const CwFillInput *input, tetgenio &io) {
   io.facetlist = new tetgenio::facet[input->triangle_count];
   io.numberoffacets = input->triangle_count;
-  for (int32_t t = 0; t < input->triangle_count; t++)
-    tetgenio::init(&io.facetlist[t]);
+  for (int32_t t = 0; t < input->triangle_count; t++) tetgenio::init(&io.facetlist[t]);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     tetgenio::facet *facet = &io.facetlist[t];
     facet->polygonlist = new tetgenio::polygon[1];
@@ -44,8 +42,7 @@ void give_triangles(const CwFillInput *input, tetgenio &io) {
     tetgenio::init(facet->polygonlist);
     facet->polygonlist->vertexlist = new int[3];
     facet->polygonlist->numberofvertices = 3;
-    for (int k = 0; k < 3; k++)
-      facet->polygonlist->vertexlist[k] = input->triangle[t][k];
+    for (int k = 0; k < 3; k++) facet->polygonlist->vertexlist[k] = input->triangle[t][k];
   }
 }
 
@@ -54,10 +51,8 @@ bool pass(int file, void *data, size_t size, bool out) {
   char *at = static_cast<char *>(data);
   while (size > 0) {
     ssize_t done = out ? write(file, at, size) : read(file, at, size);
-    if (done < 0 && errno == EINTR)
-      continue;
-    if (done <= 0)
-      return false;
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return false;
     at += done;
     size -= (size_t)done;
   }
@@ -91,8 +86,7 @@ int run_and_send(tetgenio &in, int file) {
 // What the child made; CW_RETRY where it did not come to that.
 CwStatus receive(const CwFillInput *input, int file, CwFill *fill) {
   int32_t count[2] = {0, 0};
-  if (!pass(file, count, sizeof count, false) || count[0] < input->point_count || count[1] <= 0)
-    return CW_RETRY;
+  if (!pass(file, count, sizeof count, false) || count[0] < input->point_count || count[1] <= 0) return CW_RETRY;
   fill->x = static_cast<double(*)[3]>(malloc((size_t)count[0] * sizeof *fill->x));
   fill->tetrahedron = static_cast<int32_t(*)[4]>(malloc((size_t)count[1] * sizeof *fill->tetrahedron));
   if (!fill->x || !fill->tetrahedron)
@@ -108,8 +102,7 @@ CwStatus receive(const CwFillInput *input, int file, CwFill *fill) {
 
 // One Delaunay tetrahedralisation of all points, in which TetGen then recovers the few triangles that are
 // missing. In a process of its own: on some boundaries TetGen frees memory twice, or aborts.
-CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3],
-                        CwFill *fill) {
+CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3], CwFill *fill) {
   CwStatus status = CW_OK;
   int ends[2] = {-1, -1}, how = 0;
   pid_t child = -1;
@@ -131,22 +124,18 @@ CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const dou
   status = receive(input, ends[0], fill);
   close(ends[0]); // a child that still writes ends then
   ends[0] = -1;
-  while (waitpid(child, &how, 0) < 0 && errno == EINTR)
-    continue;
-  if (status == CW_ERR_MEMORY)
-    goto done;
+  while (waitpid(child, &how, 0) < 0 && errno == EINTR) continue;
+  if (status == CW_ERR_MEMORY) goto done;
   CW_REQUIRE(!WIFEXITED(how) || WEXITSTATUS(how) != 1, CW_ERR_MEMORY, "%s: out of memory in TetGen", input->name);
   CW_REQUIRE(WIFEXITED(how), CW_ERR_MESH, "%s: TetGen cannot fill the boundary (signal %d)", input->name,
              WTERMSIG(how));
-  CW_REQUIRE(WEXITSTATUS(how) == 0 && status == CW_OK, CW_ERR_MESH,
-             "%s: TetGen cannot fill the boundary (its code %d)", input->name, WEXITSTATUS(how));
+  CW_REQUIRE(WEXITSTATUS(how) == 0 && status == CW_OK, CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)",
+             input->name, WEXITSTATUS(how));
 done:
   for (int end : ends) {
-    if (end >= 0)
-      close(end);
+    if (end >= 0) close(end);
   }
-  if (status != CW_OK)
-    cw_fill_free(fill);
+  if (status != CW_OK) cw_fill_free(fill);
   return status;
 }
 
@@ -191,8 +180,7 @@ CwStatus try_fill(const CwFillInput *input, double clearance, CwFill *fill) {
   CW_TRY(check_volume(input, fill));
 done:
   free(made);
-  if (status != CW_OK)
-    cw_fill_free(fill);
+  if (status != CW_OK) cw_fill_free(fill);
   return status;
 }
 
@@ -213,20 +201,16 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     snprintf(first, sizeof first, "%s", cw_fail_message());
     // Points further away are less in the way of recovery.
     status = try_fill(&away, 2.0, fill);
-    if (status == CW_ERR_MESH)
-      status = CW_FAIL(CW_ERR_MESH, "%s", first);
+    if (status == CW_ERR_MESH) status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }
-  if (status != CW_OK)
-    goto done;
+  if (status != CW_OK) goto done;
   CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
   fill->way.tetgen = 1;
-  cw_log_debug(
-      "%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
-      input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
-      improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+               input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
+               improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
 done:
-  if (status != CW_OK)
-    cw_fill_free(fill);
+  if (status != CW_OK) cw_fill_free(fill);
   return status;
 }
 

@@ -77,8 +77,7 @@ done:
 }
 
 void cw_columns_free(CwColumns **columns) {
-  if (!*columns)
-    return;
+  if (!*columns) return;
   free((*columns)->start);
   free((*columns)->member);
   free((*columns)->z);
@@ -89,8 +88,7 @@ void cw_columns_free(CwColumns **columns) {
 // The edge from a to b crosses the line x = px of the plane above py: half-open in x, and always computed
 // from the left end, so that the two triangles at an edge agree to the bit.
 static inline int edge_above(const double a[3], const double b[3], double px, double py) {
-  if ((a[0] <= px) == (b[0] <= px))
-    return 0;
+  if ((a[0] <= px) == (b[0] <= px)) return 0;
   const double *left = a[0] <= px ? a : b, *right = left == a ? b : a;
   return left[1] + (right[1] - left[1]) * ((px - left[0]) / (right[0] - left[0])) > py;
 }
@@ -104,10 +102,8 @@ CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, 
   for (int64_t k = columns->start[bin]; k < columns->start[bin + 1]; k++) {
     const int32_t *t = columns->triangle[columns->member[k]];
     const double *a = columns->x[t[0]], *b = columns->x[t[1]], *c = columns->x[t[2]];
-    if (!(edge_above(a, b, x, y) ^ edge_above(b, c, x, y) ^ edge_above(c, a, x, y)))
-      continue;
-    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1],
-           vz = c[2] - a[2];
+    if (!(edge_above(a, b, x, y) ^ edge_above(b, c, x, y) ^ edge_above(c, a, x, y))) continue;
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
     double nz = ux * vy - uy * vx, nx = uy * vz - uz * vy, ny = uz * vx - ux * vz;
     double height = a[2] - (nx * (x - a[0]) + ny * (y - a[1])) / nz;
     // An upright triangle is crossed somewhere on its height.

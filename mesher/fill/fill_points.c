@@ -57,8 +57,7 @@ static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
   const double *c = input->x[input->triangle[t][2]];
   double u[3], v[3], normal[3], mean[3], h;
-  for (int i = 0; i < 3; i++)
-    mean[i] = (a[i] + b[i] + c[i]) / 3.0;
+  for (int i = 0; i < 3; i++) mean[i] = (a[i] + b[i] + c[i]) / 3.0;
   CW_TRY(cw_lattice_size(input, mean, &h));
   cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, &tree->box[t], &tree->ball[t]);
   cw_sub(b, a, u);
@@ -84,17 +83,14 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
   for (int32_t k = reached->count - 1; k >= 0; k--) { // the row first: it is soon asked
     int32_t t = tree->list[reached->list + k], place = t - input->triangle_count;
-    if ((place >= 0 && !tree->row[place].chosen) || !cw_reach_holds(&tree->box[t], p))
-      continue;
+    if ((place >= 0 && !tree->row[place].chosen) || !cw_reach_holds(&tree->box[t], p)) continue;
     if (place >= 0) {
       const CwRowPlace *point = &tree->row[place].place;
       double nearest = apart * point->spacing;
-      if (distance_square(x, point->x) < nearest * nearest)
-        return 1;
+      if (distance_square(x, point->x) < nearest * nearest) return 1;
       continue;
     }
-    if (h == 0.0)
-      h = tree->clearance * size_at(input, x);
+    if (h == 0.0) h = tree->clearance * size_at(input, x);
     int open = !of_row && t >= input->triangle_count - input->open_count;
     const int32_t *q = input->triangle[t];
     if ((!open && cw_reach_in_ball(&tree->ball[t], x)) ||
@@ -111,20 +107,17 @@ static CwStatus test_inside(Tree *tree, const double x[3], int *inside) {
   const double *z;
   *inside = 0;
   CW_TRY(cw_columns_cut(tree->columns, x[0], x[1], &count, &z));
-  for (int32_t k = 0; k < count; k++)
-    *inside ^= z[k] > x[2];
+  for (int32_t k = 0; k < count; k++) *inside ^= z[k] > x[2];
 done:
   return status;
 }
 
 static void centre_of(const Tree *tree, const int32_t at[3], int level, double x[3]) {
-  for (int i = 0; i < 3; i++)
-    x[i] = tree->frame.origin[i] + tree->frame.unit * (at[i] + 0.5 * (double)(1 << level));
+  for (int i = 0; i < 3; i++) x[i] = tree->frame.origin[i] + tree->frame.unit * (at[i] + 0.5 * (double)(1 << level));
 }
 
 static void child_of(const int32_t at[3], int level, int child, int32_t corner[3]) {
-  for (int i = 0; i < 3; i++)
-    corner[i] = at[i] + ((child >> i & 1) << (level - 1));
+  for (int i = 0; i < 3; i++) corner[i] = at[i] + ((child >> i & 1) << (level - 1));
 }
 
 // Whether no item reaches into the box of a cell, as far as their own boxes tell. They keep no distance here, as
@@ -145,8 +138,7 @@ static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t li
     for (int i = 0; i < 3; i++)
       apart |= ((a[i] < low[i]) & (b[i] < low[i]) & (c[i] < low[i])) |
                ((a[i] > high[i]) & (b[i] > high[i]) & (c[i] > high[i]));
-    if (!apart)
-      return 0;
+    if (!apart) return 0;
   }
   return 1;
 }
@@ -174,8 +166,7 @@ static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t 
   memset(child_count, 0, 8 * sizeof *child_count);
   for (int32_t k = 0; k < list_count; k++) {
     uint8_t children = tree->children[k] = children_of(&tree->box[tree->list[list + k]], low, high);
-    for (; children; children &= (uint8_t)(children - 1))
-      child_count[__builtin_ctz(children)]++;
+    for (; children; children &= (uint8_t)(children - 1)) child_count[__builtin_ctz(children)]++;
   }
   for (int c = 0; c < 8; c++) {
     child_list[c] = tree->list_count;
@@ -204,8 +195,7 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
   if (list_count == 0 || level == 0 || edge <= coarse * CW_LATTICE_CONSTANT * size) {
     int clear = is_clear(tree, at, level, list, list_count);
     CW_TRY(test_inside(tree, centre, &inside));
-    if (list_count == 0 && !inside)
-      goto done;
+    if (list_count == 0 && !inside) goto done;
     CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
     CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
     tree->reached[tree->cell_count] = (Reached){list_count, list, list_count == 0, clear};
@@ -233,8 +223,7 @@ static void find_cells(Tree *tree) {
     const Reached *reached = &tree->reached[c];
     for (int32_t k = reached->count - 1; k >= 0; k--) { // the row comes last
       int32_t p = tree->list[reached->list + k] - tree->input->triangle_count;
-      if (p < 0)
-        break;
+      if (p < 0) break;
       const int32_t *at = tree->row[p].at;
       int32_t over = (at[0] - cell->at[0]) | (at[1] - cell->at[1]) | (at[2] - cell->at[2]);
       if (over >> cell->level == 0) // neither below its corner nor beyond its edge
@@ -250,8 +239,7 @@ static void shorten_lists(Tree *tree) {
     Reached *reached = &tree->reached[c];
     int32_t *list = tree->list + reached->list, count = 0;
     for (int32_t k = 0; k < reached->count; k++) {
-      if (list[k] < first || tree->row[list[k] - first].chosen)
-        list[count++] = list[k];
+      if (list[k] < first || tree->row[list[k] - first].chosen) list[count++] = list[k];
     }
     reached->count = count;
   }
@@ -265,8 +253,7 @@ static CwStatus choose_row(Tree *tree, int32_t *chosen) {
   find_cells(tree);
   for (int32_t p = 0; p < tree->input->row_count; p++) {
     RowPoint *point = &tree->row[p];
-    if (point->cell < 0 || is_forbidden(tree, &tree->reached[point->cell], point->place.x, 1))
-      continue;
+    if (point->cell < 0 || is_forbidden(tree, &tree->reached[point->cell], point->place.x, 1)) continue;
     CW_TRY(test_inside(tree, point->place.x, &point->chosen));
     *chosen += point->chosen;
   }
@@ -289,8 +276,7 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
   CW_REQUIRE(place_count < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
   CW_NEW(points, place_count + chosen);
-  if (site)
-    CW_NEW(sites, place_count + chosen);
+  if (site) CW_NEW(sites, place_count + chosen);
   for (int64_t k = 0; k < place_count; k++) {
     const CwLatticePlace *place = &places[k];
     const Reached *reached = &tree->reached[place->cell];
@@ -302,27 +288,21 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
         CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));
       }
       int inside = 0;
-      for (int32_t c = 0; c < crossings; c++)
-        inside ^= z[c] > fixed[2];
-      if (!inside || is_forbidden(tree, reached, p, 0))
-        continue;
+      for (int32_t c = 0; c < crossings; c++) inside ^= z[c] > fixed[2];
+      if (!inside || is_forbidden(tree, reached, p, 0)) continue;
     }
-    if (site)
-      sites[kept] = (CwLatticeSite){place->key, place->level, reached->clear};
+    if (site) sites[kept] = (CwLatticeSite){place->key, place->level, reached->clear};
     memcpy(points[kept++], p, sizeof p);
   }
   for (int32_t p = 0; p < tree->input->row_count; p++) {
-    if (!tree->row[p].chosen)
-      continue;
-    if (site)
-      sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
+    if (!tree->row[p].chosen) continue;
+    if (site) sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
     memcpy(points[kept++], tree->row[p].place.x, sizeof *points);
   }
   *count = kept;
   *x = points;
   points = NULL;
-  if (site)
-    *site = sites;
+  if (site) *site = sites;
   sites = NULL;
 done:
   free(points);
@@ -345,8 +325,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   int above = 0;
   *count = 0;
   *x = NULL;
-  if (site)
-    *site = NULL;
+  if (site) *site = NULL;
   CW_TRY(cw_columns_make(input, &tree->columns));
   int32_t items = input->triangle_count + input->row_count;
   CW_NEW(tree->box, items);
@@ -371,8 +350,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
         cw_reach_box(tree->row[p].place.x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * tree->row[p].place.spacing);
     tree->list[tree->list_count++] = input->triangle_count + p;
   }
-  for (int i = 0; i < 3; i++)
-    extent = fmax(extent, high[i] - low[i]);
+  for (int i = 0; i < 3; i++) extent = fmax(extent, high[i] - low[i]);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
   double edge = CW_LATTICE_CONSTANT * exp(weight / area);
   while (edge * (double)(1 << above) < 1.001 * extent) {

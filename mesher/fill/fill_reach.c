@@ -63,8 +63,7 @@ static double distance_square(const double x[3], const double a[3], const double
   double det = uu * vv - uv * uv, s = vv * wu - uv * wv, t = uu * wv - uv * wu;
   if (s >= 0.0 && t >= 0.0 && s + t <= det && det > 0.0) {
     double d[3];
-    for (int i = 0; i < 3; i++)
-      d[i] = w[i] - (s * u[i] + t * v[i]) / det;
+    for (int i = 0; i < 3; i++) d[i] = w[i] - (s * u[i] + t * v[i]) / det;
     return cw_dot(d, d);
   }
   const double *corner[3] = {a, b, c};
@@ -75,11 +74,9 @@ static double distance_square(const double x[3], const double a[3], const double
     cw_sub(x, corner[k], f);
     double ee = cw_dot(e, e), along = ee > 0.0 ? cw_dot(e, f) / ee : 0.0;
     along = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
-    for (int i = 0; i < 3; i++)
-      f[i] -= along * e[i];
+    for (int i = 0; i < 3; i++) f[i] -= along * e[i];
     double square = cw_dot(f, f);
-    if (square < least)
-      least = square;
+    if (square < least) least = square;
   }
   return least;
 }

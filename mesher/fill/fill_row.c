@@ -19,20 +19,16 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   cw_sub(c, a, v);
   cw_cross(u, v, normal);
   cw_unit(normal);
-  for (int i = 0; i < 3; i++)
-    place.x[i] = (a[i] + b[i] + c[i]) / 3.0;
+  for (int i = 0; i < 3; i++) place.x[i] = (a[i] + b[i] + c[i]) / 3.0;
   double edge = sqrt(2.0 * (cw_dot(u, u) + cw_dot(v, v) - cw_dot(u, v)) / 3.0);
   place.spacing = fmin(sqrt(edge * input->size(input->size_context, place.x)), most * edge);
-  for (int i = 0; i < 3; i++)
-    place.x[i] -= height * place.spacing * normal[i];
+  for (int i = 0; i < 3; i++) place.x[i] -= height * place.spacing * normal[i];
   place.along = cw_dot(line, place.x);
   return place;
 }
 
 int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b) {
-  if (a->on_interface != b->on_interface)
-    return b->on_interface - a->on_interface;
-  if (a->along != b->along)
-    return a->along < b->along ? -1 : 1;
+  if (a->on_interface != b->on_interface) return b->on_interface - a->on_interface;
+  if (a->along != b->along) return a->along < b->along ? -1 : 1;
   return (a->triangle > b->triangle) - (a->triangle < b->triangle);
 }

@@ -16,8 +16,7 @@ typedef struct {
 static int compare_places(const void *left, const void *right) {
   const double *a = *(const double *const *)left, *b = *(const double *const *)right;
   for (int i = 0; i < 3; i++) {
-    if (a[i] != b[i])
-      return a[i] < b[i] ? -1 : 1;
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
   }
   return 0;
 }
@@ -26,14 +25,13 @@ static CwStatus check_points(const CwFillInput *input) {
   CwStatus status = CW_OK;
   const double **place = NULL;
   CW_NEW(place, input->point_count);
-  for (int32_t p = 0; p < input->point_count; p++)
-    place[p] = input->x[p];
+  for (int32_t p = 0; p < input->point_count; p++) place[p] = input->x[p];
   qsort(place, (size_t)input->point_count, sizeof *place, compare_places);
   for (int32_t p = 1; p < input->point_count; p++) {
     const double *x = place[p];
     CW_REQUIRE(compare_places(&place[p - 1], &place[p]), CW_ERR_MESH,
-               "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, 1e3 * x[0],
-               1e3 * x[1], 1e3 * x[2]);
+               "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, 1e3 * x[0], 1e3 * x[1],
+               1e3 * x[2]);
   }
 done:
   free(place);
@@ -49,34 +47,30 @@ CwStatus cw_fill_check_closed(const CwFillInput *input) {
   CW_NEW(edge, count);
   CW_NEW(sum, input->point_count);
   CW_NEW(start, (int64_t)input->point_count + 2);
-  CW_REQUIRE(input->triangle_count >= 4, CW_ERR_MESH,
-             "%s: the boundary has %d triangles; at least 4 are needed", input->name, input->triangle_count);
+  CW_REQUIRE(input->triangle_count >= 4, CW_ERR_MESH, "%s: the boundary has %d triangles; at least 4 are needed",
+             input->name, input->triangle_count);
   for (int64_t k = 0; k < count; k++) {
     const int32_t *p = input->triangle[k / 3];
     int32_t a = p[k % 3], b = p[(k + 1) % 3];
-    CW_REQUIRE(
-        a >= 0 && a < input->point_count && b >= 0 && b < input->point_count && a != b, CW_ERR_MESH,
-        "%s: boundary triangle %lld has points %d, %d, %d; three different ones from 0 to %d are allowed",
-        input->name, (long long)(k / 3), p[0], p[1], p[2], input->point_count - 1);
+    CW_REQUIRE(a >= 0 && a < input->point_count && b >= 0 && b < input->point_count && a != b, CW_ERR_MESH,
+               "%s: boundary triangle %lld has points %d, %d, %d; three different ones from 0 to %d are allowed",
+               input->name, (long long)(k / 3), p[0], p[1], p[2], input->point_count - 1);
     start[(a < b ? a : b) + 2]++;
   }
-  for (int32_t p = 0; p < input->point_count; p++)
-    start[p + 2] += start[p + 1];
+  for (int32_t p = 0; p < input->point_count; p++) start[p + 2] += start[p + 1];
   for (int64_t k = 0; k < count; k++) { // leaves start[p + 1] at the end of the list of p
     const int32_t *p = input->triangle[k / 3];
     int32_t a = p[k % 3], b = p[(k + 1) % 3];
     edge[start[(a < b ? a : b) + 1]++] = a < b ? (Directed){b, 1} : (Directed){a, -1};
   }
   for (int32_t p = 0; p < input->point_count; p++) {
-    for (int64_t k = start[p]; k < start[p + 1]; k++)
-      sum[edge[k].high] += edge[k].sign;
+    for (int64_t k = start[p]; k < start[p + 1]; k++) sum[edge[k].high] += edge[k].sign;
     for (int64_t k = start[p]; k < start[p + 1]; k++) { // all sums are 0 again, or it fails
       const double *a = input->x[p], *b = input->x[edge[k].high];
-      CW_REQUIRE(
-          sum[edge[k].high] == 0, CW_ERR_MESH,
-          "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
-          "%.6g) mm",
-          input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
+      CW_REQUIRE(sum[edge[k].high] == 0, CW_ERR_MESH,
+                 "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
+                 "%.6g) mm",
+                 input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
     }
   }
 done:
@@ -94,20 +88,16 @@ typedef struct {
 
 static int32_t face_of(const int32_t p[3], int32_t owner, Face *face) {
   int32_t a = p[0], b = p[1], c = p[2], swap;
-  if (a > b)
-    swap = a, a = b, b = swap;
-  if (b > c)
-    swap = b, b = c, c = swap;
-  if (a > b)
-    swap = a, a = b, b = swap;
+  if (a > b) swap = a, a = b, b = swap;
+  if (b > c) swap = b, b = c, c = swap;
+  if (a > b) swap = a, a = b, b = swap;
   *face = (Face){b, c, owner};
   return a;
 }
 
 // Faces in buckets of their least points; within a bucket in the order (middle, high, owner).
 static CwStatus sort_faces(int32_t point_count, int32_t tetrahedron_count, const int32_t (*tetrahedron)[4],
-                           int32_t triangle_count, const int32_t (*triangle)[3], int64_t **start,
-                           Face **face) {
+                           int32_t triangle_count, const int32_t (*triangle)[3], int64_t **start, Face **face) {
   CwStatus status = CW_OK;
   CW_NEW(*start, (int64_t)point_count + 1);
   CW_NEW(*face, 4 * (int64_t)tetrahedron_count + triangle_count);
@@ -115,8 +105,7 @@ static CwStatus sort_faces(int32_t point_count, int32_t tetrahedron_count, const
     for (int64_t k = 4 * (int64_t)tetrahedron_count - 1; k >= -(int64_t)triangle_count; k--) {
       int32_t p[3];
       Face one;
-      for (int i = 0; i < 3; i++)
-        p[i] = k < 0 ? triangle[-1 - k][i] : tetrahedron[k / 4][tet_face[k % 4][i]];
+      for (int i = 0; i < 3; i++) p[i] = k < 0 ? triangle[-1 - k][i] : tetrahedron[k / 4][tet_face[k % 4][i]];
       int32_t least = face_of(p, (int32_t)k, &one);
       if (pass == 0)
         ++(*start)[least];
@@ -135,8 +124,7 @@ static CwStatus sort_faces(int32_t point_count, int32_t tetrahedron_count, const
     for (int64_t i = 1; i < n; i++) { // short lists: insertion; equal faces keep the order of their owners
       Face one = f[i];
       int64_t j = i;
-      for (; j > 0 &&
-             (f[j - 1].middle > one.middle || (f[j - 1].middle == one.middle && f[j - 1].high > one.high));
+      for (; j > 0 && (f[j - 1].middle > one.middle || (f[j - 1].middle == one.middle && f[j - 1].high > one.high));
            j--)
         f[j] = f[j - 1];
       f[j] = one;
@@ -155,19 +143,16 @@ CwStatus cw_tet_neighbours(int32_t point_count, int32_t tetrahedron_count, const
   CwStatus status = CW_OK;
   int64_t *start = NULL;
   Face *face = NULL;
-  CW_REQUIRE(tetrahedron_count < INT32_MAX / 4, CW_ERR_MESH,
-             "%d tetrahedra in one region; at most %d are allowed", tetrahedron_count, INT32_MAX / 4);
+  CW_REQUIRE(tetrahedron_count < INT32_MAX / 4, CW_ERR_MESH, "%d tetrahedra in one region; at most %d are allowed",
+             tetrahedron_count, INT32_MAX / 4);
   CW_TRY(sort_faces(point_count, tetrahedron_count, tetrahedron, 0, NULL, &start, &face));
   for (int32_t p = 0; p < point_count; p++) {
     for (int64_t k = start[p], next; k < start[p + 1]; k = next) {
-      for (next = k + 1; next < start[p + 1] && same(&face[k], &face[next]);)
-        next++;
-      CW_REQUIRE(next - k <= 2, CW_ERR_MESH, "a face of tetrahedron %d belongs to more than two",
-                 face[k].owner / 4);
+      for (next = k + 1; next < start[p + 1] && same(&face[k], &face[next]);) next++;
+      CW_REQUIRE(next - k <= 2, CW_ERR_MESH, "a face of tetrahedron %d belongs to more than two", face[k].owner / 4);
       int32_t a = face[k].owner, b = next - k == 2 ? face[k + 1].owner : -1;
       neighbour[a / 4][a % 4] = b;
-      if (b >= 0)
-        neighbour[b / 4][b % 4] = a;
+      if (b >= 0) neighbour[b / 4][b % 4] = a;
     }
   }
 done:
@@ -185,47 +170,42 @@ static int same_turn(const int32_t p[3], const int32_t q[3]) {
 static CwStatus fail_triangle(const CwFillInput *input, int32_t t, const char *fault) {
   double mean[3] = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 3; i++)
-      mean[i] += 1e3 / 3.0 * input->x[input->triangle[t][k]][i];
+    for (int i = 0; i < 3; i++) mean[i] += 1e3 / 3.0 * input->x[input->triangle[t][k]][i];
   }
-  return CW_FAIL(CW_ERR_MESH, "%s: boundary triangle at (%.6g, %.6g, %.6g) mm %s", input->name, mean[0],
-                 mean[1], mean[2], fault);
+  return CW_FAIL(CW_ERR_MESH, "%s: boundary triangle at (%.6g, %.6g, %.6g) mm %s", input->name, mean[0], mean[1],
+                 mean[2], fault);
 }
 
 // Marks seeds on both sides of the boundary: side[t] is 1 inside, 2 outside; wall[t] has bit i where face i
 // is boundary.
-static CwStatus mark_boundary(const CwFillInput *input, const CwFill *fill, int32_t (*neighbour)[4],
-                              uint8_t *side, uint8_t *wall) {
+static CwStatus mark_boundary(const CwFillInput *input, const CwFill *fill, int32_t (*neighbour)[4], uint8_t *side,
+                              uint8_t *wall) {
   CwStatus status = CW_OK;
   int64_t *start = NULL;
   Face *face = NULL;
   const int32_t(*tet)[4] = (const int32_t(*)[4])fill->tetrahedron;
-  CW_TRY(sort_faces(fill->point_count, fill->tetrahedron_count, tet, input->triangle_count, input->triangle,
-                    &start, &face));
+  CW_TRY(sort_faces(fill->point_count, fill->tetrahedron_count, tet, input->triangle_count, input->triangle, &start,
+                    &face));
   for (int32_t p = 0; p < fill->point_count; p++) {
     for (int64_t k = start[p], next; k < start[p + 1]; k = next) {
       int64_t listed = 0;
-      for (next = k; next < start[p + 1] && same(&face[k], &face[next]); next++)
-        listed += face[next].owner < 0;
+      for (next = k; next < start[p + 1] && same(&face[k], &face[next]); next++) listed += face[next].owner < 0;
       int64_t cells = next - k - listed;
       if (cells == 2) {
         int32_t a = face[k + listed].owner, b = face[k + listed + 1].owner;
         neighbour[a / 4][a % 4] = b;
         neighbour[b / 4][b % 4] = a;
       }
-      if (listed == 0)
-        continue;
+      if (listed == 0) continue;
       int32_t t = -1 - face[k].owner;
       if (listed > 1)
         status = fail_triangle(input, t, "is listed twice");
       else if (cells == 0)
         status = fail_triangle(input, t, "was lost by TetGen");
-      if (status != CW_OK)
-        goto done;
+      if (status != CW_OK) goto done;
       for (int64_t c = k + 1; c < next; c++) {
         int32_t owner = face[c].owner, q[3];
-        for (int i = 0; i < 3; i++)
-          q[i] = tet[owner / 4][tet_face[owner % 4][i]];
+        for (int i = 0; i < 3; i++) q[i] = tet[owner / 4][tet_face[owner % 4][i]];
         uint8_t here = same_turn(input->triangle[t], q) ? 1 : 2;
         if (side[owner / 4] && side[owner / 4] != here) {
           status = fail_triangle(input, t, "has its normal turned against its neighbours");
@@ -255,14 +235,12 @@ CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill) {
   memset(neighbour, -1, (size_t)count * sizeof *neighbour);
   CW_TRY(mark_boundary(input, fill, neighbour, side, wall));
   for (int32_t t = 0; t < count; t++) {
-    if (side[t])
-      queue[tail++] = t;
+    if (side[t]) queue[tail++] = t;
   }
   while (head < tail) {
     int32_t t = queue[head++];
     for (int i = 0; i < 4; i++) {
-      if (neighbour[t][i] < 0 || wall[t] >> i & 1)
-        continue;
+      if (neighbour[t][i] < 0 || wall[t] >> i & 1) continue;
       int32_t other = neighbour[t][i] / 4;
       if (!side[other]) {
         side[other] = side[t];
@@ -276,28 +254,23 @@ CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill) {
   }
   int32_t kept = 0, points = input->point_count;
   for (int32_t t = 0; t < count; t++) {
-    if (side[t] != 1)
-      continue;
+    if (side[t] != 1) continue;
     memmove(fill->tetrahedron[kept++], fill->tetrahedron[t], sizeof *fill->tetrahedron);
   }
-  CW_REQUIRE(kept > 0, CW_ERR_MESH, "%s: nothing lies inside the boundary: its normals point inward",
-             input->name);
+  CW_REQUIRE(kept > 0, CW_ERR_MESH, "%s: nothing lies inside the boundary: its normals point inward", input->name);
   fill->tetrahedron_count = kept;
   for (int32_t t = 0; t < kept; t++) {
-    for (int i = 0; i < 4; i++)
-      renumber[fill->tetrahedron[t][i]] = 1;
+    for (int i = 0; i < 4; i++) renumber[fill->tetrahedron[t][i]] = 1;
   }
   for (int32_t p = 0; p < fill->point_count; p++) {
-    if (p >= input->point_count && !renumber[p])
-      continue;
+    if (p >= input->point_count && !renumber[p]) continue;
     int32_t to = p < input->point_count ? p : points++;
     renumber[p] = to;
     memmove(fill->x[to], fill->x[p], sizeof *fill->x);
   }
   fill->point_count = points;
   for (int32_t t = 0; t < kept; t++) {
-    for (int i = 0; i < 4; i++)
-      fill->tetrahedron[t][i] = renumber[fill->tetrahedron[t][i]];
+    for (int i = 0; i < 4; i++) fill->tetrahedron[t][i] = renumber[fill->tetrahedron[t][i]];
   }
 done:
   free(renumber);

@@ -16,8 +16,7 @@ double cw_fill_flatness(const CwFill *fill) {
   for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
     const double *x[4];
     double square = 0.0, d[3];
-    for (int k = 0; k < 4; k++)
-      x[k] = fill->x[fill->tetrahedron[t][k]];
+    for (int k = 0; k < 4; k++) x[k] = fill->x[fill->tetrahedron[t][k]];
     for (int k = 0; k < 6; k++) {
       cw_sub(x[k < 3 ? 0 : k < 5 ? 1 : 2], x[k < 3 ? k + 1 : k < 5 ? k - 1 : 3], d);
       square = fmax(square, cw_dot(d, d));
@@ -34,8 +33,7 @@ CwStatus cw_fill_sure(const CwFillInput *input, CwFillMethod method, CwFill *fil
   memset(fill, 0, sizeof *fill);
   if (method == CW_FILL_KERNEL) {
     status = cw_kernel_fill(input, &own);
-    if (status != CW_OK && status != CW_RETRY)
-      goto done;
+    if (status != CW_OK && status != CW_RETRY) goto done;
     flatness = status == CW_OK ? cw_fill_flatness(&own) : 0.0;
     if (flatness > FLAT_CELL) {
       *fill = own;

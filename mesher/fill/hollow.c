@@ -48,8 +48,7 @@ double cw_hollow_worth(const CwHollow *hollow, const CwDelaunay *mesh, const dou
   for (int32_t k = 0; k < hollow->count; k++) {
     const double *x[3];
     double square = 0.0, d[3];
-    for (int i = 0; i < 3; i++)
-      x[i] = at(mesh, hollow->face[k][i]);
+    for (int i = 0; i < 3; i++) x[i] = at(mesh, hollow->face[k][i]);
     for (int i = 0; i < 3; i++) {
       cw_sub(x[i], p, d);
       square = fmax(square, cw_dot(d, d));
@@ -57,10 +56,8 @@ double cw_hollow_worth(const CwHollow *hollow, const CwDelaunay *mesh, const dou
       square = fmax(square, cw_dot(d, d));
     }
     double worth = cw_tet_volume6(x[0], x[1], x[2], p) / (square * sqrt(square));
-    if (cw_orient3d(x[0], x[1], x[2], p) <= 0)
-      worth = fmin(worth, 0.0);
-    if (worth >= least)
-      continue;
+    if (cw_orient3d(x[0], x[1], x[2], p) <= 0) worth = fmin(worth, 0.0);
+    if (worth >= least) continue;
     least = worth;
     *worst = k;
   }
@@ -84,40 +81,35 @@ static void climb(const CwHollow *h, const CwDelaunay *mesh, const double start[
       double d[3];
       cw_sub(now, at(mesh, h->face[k][0]), d);
       double height = cw_dot(d, h->normal[k]);
-      if (height >= least)
-        continue;
+      if (height >= least) continue;
       least = height;
       lowest = k;
     }
-    for (int i = 0; i < 3; i++)
-      now[i] += step * h->normal[lowest][i];
+    for (int i = 0; i < 3; i++) now[i] += step * h->normal[lowest][i];
   }
 }
 
-double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const double start[3],
-                       const double inward[3], double p[3]) {
+double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const double start[3], const double inward[3],
+                       double p[3]) {
   double best = 0.0, size = 0.0, middle[3] = {0, 0, 0};
   int32_t worst;
   for (int32_t k = 0; k < 3 * hollow->count; k++) {
     const double *x = at(mesh, hollow->face[k / 3][k % 3]);
     size = fmax(size, cw_distance(x, start ? start : at(mesh, hollow->face[0][0])));
-    for (int i = 0; i < 3; i++)
-      middle[i] += x[i] / (3.0 * hollow->count);
+    for (int i = 0; i < 3; i++) middle[i] += x[i] / (3.0 * hollow->count);
   }
   cw_copy(middle, p);
   double step = size;
   for (int k = 0; k < HALVINGS && start; k++, step *= 0.5) {
     double now[3];
-    for (int i = 0; i < 3; i++)
-      now[i] = start[i] + step * inward[i];
+    for (int i = 0; i < 3; i++) now[i] = start[i] + step * inward[i];
     double worth = cw_hollow_worth(hollow, mesh, now, &worst);
     if (worth > best) {
       best = worth;
       cw_copy(now, p);
     }
   }
-  if (start)
-    climb(hollow, mesh, start, size, p, &best);
+  if (start) climb(hollow, mesh, start, size, p, &best);
   climb(hollow, mesh, middle, size, p, &best);
   return best;
 }

@@ -26,8 +26,8 @@ double cw_hollow_worth(const CwHollow *hollow, const CwDelaunay *mesh, const dou
 // Searches the place of most worth: from the middle of the faces, and where `start` is given, which sees all
 // faces or nearly, also from there, at first into the direction `inward`. Returns its worth; where that is not above 0,
 // p is the middle.
-double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const double start[3],
-                       const double inward[3], double p[3]);
+double cw_hollow_place(const CwHollow *hollow, const CwDelaunay *mesh, const double start[3], const double inward[3],
+                       double p[3]);
 
 #ifdef __cplusplus
 }

@@ -54,12 +54,16 @@ static void give_back(void) {
 
 enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
-enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
+enum { INNER = 16, OUTSIDE = 32 };      // of a tetrahedron, and bit i: its face i is a facet
 
 // Stands in the square, as a number below 0.
-static int place_of(const CwDelaunayTet *tet) { return tet->square < 0.0 ? -(int)tet->square : 0; }
+static int place_of(const CwDelaunayTet *tet) {
+  return tet->square < 0.0 ? -(int)tet->square : 0;
+}
 
-static void add_place(CwDelaunayTet *tet, int place) { tet->square = -(double)(place_of(tet) | place); }
+static void add_place(CwDelaunayTet *tet, int place) {
+  tet->square = -(double)(place_of(tet) | place);
+}
 
 // A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of
 // these hang together.
@@ -72,8 +76,7 @@ static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
       corners += c[i] < CW_DELAUNAY_CORNERS;
       *own = c[i] < CW_DELAUNAY_CORNERS ? *own : i;
     }
-    if (c[0] >= 0 && corners)
-      return t;
+    if (c[0] >= 0 && corners) return t;
   }
   return 0;
 }
@@ -106,15 +109,13 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     const CwDelaunayTet *tet = &mesh->tet[t];
     waiting = tet->corner[1];
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0 || place_of(tet) & 1 << i)
-        continue;
+      if (tet->neighbour[i] < 0 || place_of(tet) & 1 << i) continue;
       CwDelaunayTet *next = &mesh->tet[tet->neighbour[i] / 4];
       const double *y = mesh->point[tet->corner[0]].x;
       CW_REQUIRE((place_of(next) & INNER) == 0, CW_ERR_MESH,
                  "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
                  input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
-      if (place_of(next) & OUTSIDE)
-        continue;
+      if (place_of(next) & OUTSIDE) continue;
       add_place(next, OUTSIDE);
       next->corner[1] = waiting;
       waiting = tet->neighbour[i] / 4;
@@ -126,10 +127,8 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
              "%s: the boundary encloses all that lies outside it: its normals point inward near "
              "(%.6g, %.6g, %.6g) mm",
              input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
-  for (int32_t f = 0; f < facets->count; f++)
-    mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
-  if (freed > mesh->tet_count / 4)
-    cw_delaunay_pack(mesh);
+  for (int32_t f = 0; f < facets->count; f++) mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
+  if (freed > mesh->tet_count / 4) cw_delaunay_pack(mesh);
 done:
   return status;
 }
@@ -152,8 +151,7 @@ static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *fa
     cw_facets_locate(mesh, input->point_count, facets);
   }
   if (facets->missing_count) {
-    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count,
-                 facets->count);
+    cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count, facets->count);
     status = CW_RETRY;
   }
 done:
@@ -169,8 +167,7 @@ static CwStatus raise_flat(const CwFillInput *input, CwDelaunay *mesh, int32_t *
   CwStatus status = CW_OK;
   int32_t left;
   *raised = 0;
-  if (improved->least_after > NEARLY_FLAT)
-    goto done;
+  if (improved->least_after > NEARLY_FLAT) goto done;
   CW_TRY(cw_kernel_flat(mesh, source_count, raised, &left));
   cw_log_debug("%s: %d flat tetrahedra raised, %d not", input->name, *raised, left);
 done:
@@ -211,8 +208,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   }
   CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
   CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
-  if (raised)
-    CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
+  if (raised) CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
   CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
   cw_log_debug(
@@ -225,8 +221,7 @@ done:
   cw_facets_free(&facets);
   cw_kernel_core_free(&core);
   cw_delaunay_free(&mesh);
-  if (status != CW_OK)
-    cw_fill_free(fill);
+  if (status != CW_OK) cw_fill_free(fill);
   fill->way = way;
   return status;
 }

@@ -16,8 +16,7 @@ int cw_kernel_meet(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t
 
 // *found is 0, and nothing has changed, where the hollow is too large, other boundary triangles lie in it, or
 // no point sees all of a side. New points have sources from *source_count on.
-CwStatus cw_kernel_clear(CwFlips *flips, const CwFacets *facets, int32_t facet, int32_t *source_count,
-                         int *found);
+CwStatus cw_kernel_clear(CwFlips *flips, const CwFacets *facets, int32_t facet, int32_t *source_count, int *found);
 
 #ifdef __cplusplus
 }

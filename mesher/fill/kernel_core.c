@@ -39,8 +39,7 @@ CwStatus cw_kernel_core_make(const CwFillInput *input, int32_t inner_count, cons
   int32_t *number = NULL;
   memset(core, 0, sizeof *core);
   *x = NULL;
-  if (site)
-    CW_TRY(cw_lattice_core_make(inner_count, site, &lattice));
+  if (site) CW_TRY(cw_lattice_core_make(inner_count, site, &lattice));
   core->fixed_count = input->point_count + lattice.skin_count;
   core->skin_count = lattice.skin_count;
   core->deep_count = lattice.deep_count;
@@ -49,12 +48,10 @@ CwStatus cw_kernel_core_make(const CwFillInput *input, int32_t inner_count, cons
   CW_NEW(number, inner_count);
   CW_TRY(order_points(input, inner_count, inner, &lattice, core, number, *x));
   for (int32_t t = 0; t < lattice.tet_count; t++) {
-    for (int i = 0; i < 4; i++)
-      lattice.tet[t][i] = number[lattice.tet[t][i]];
+    for (int i = 0; i < 4; i++) lattice.tet[t][i] = number[lattice.tet[t][i]];
   }
   for (int32_t f = 0; f < lattice.face_count; f++) {
-    for (int i = 0; i < 3; i++)
-      lattice.face[f][i] = number[lattice.face[f][i]];
+    for (int i = 0; i < 3; i++) lattice.face[f][i] = number[lattice.face[f][i]];
   }
   core->tet_count = lattice.tet_count;
   core->tet = lattice.tet;
@@ -76,8 +73,7 @@ done:
 // Frees a tetrahedron, once, and puts it into the chain of those whose neighbours are to be looked at: its
 // neighbours and corner[2] stay readable.
 static void take_out(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
-  if (mesh->tet[t].corner[0] < 0)
-    return;
+  if (mesh->tet[t].corner[0] < 0) return;
   cw_delaunay_free_tet(mesh, t);
   mesh->tet[t].corner[2] = *waiting;
   *waiting = t;
@@ -92,8 +88,7 @@ typedef struct {
 // The face with its least point first.
 static void turned(const int32_t corner[3], int32_t face[3]) {
   int least = corner[0] < corner[1] ? (corner[0] < corner[2] ? 0 : 2) : corner[1] < corner[2] ? 1 : 2;
-  for (int i = 0; i < 3; i++)
-    face[i] = corner[(least + i) % 3];
+  for (int i = 0; i < 3; i++) face[i] = corner[(least + i) % 3];
 }
 
 static CwStatus sort_skin(const CwKernelCore *core, const CwDelaunay *mesh, Skin *skin) {
@@ -103,21 +98,18 @@ static CwStatus sort_skin(const CwKernelCore *core, const CwDelaunay *mesh, Skin
   CW_NEW(skin->start, mesh->point_count + 1);
   CW_NEW(skin->rest, core->face_count);
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    if (mesh->source[p] >= first && mesh->source[p] < core->fixed_count)
-      number[mesh->source[p] - first] = p;
+    if (mesh->source[p] >= first && mesh->source[p] < core->fixed_count) number[mesh->source[p] - first] = p;
   }
   for (int store = 0; store < 2; store++) { // counts, then fills from behind
     for (int32_t f = 0; f < core->face_count; f++) {
-      for (int i = 0; i < 3; i++)
-        corner[i] = number[core->face[f][i] - first];
+      for (int i = 0; i < 3; i++) corner[i] = number[core->face[f][i] - first];
       turned(corner, face);
       if (store)
         memcpy(skin->rest[--skin->start[face[0]]], face + 1, sizeof *skin->rest);
       else
         skin->start[face[0]]++;
     }
-    for (int32_t p = 0; p < mesh->point_count && !store; p++)
-      skin->start[p + 1] += skin->start[p];
+    for (int32_t p = 0; p < mesh->point_count && !store; p++) skin->start[p + 1] += skin->start[p];
   }
 done:
   free(number);
@@ -128,8 +120,7 @@ static int is_of_skin(const Skin *skin, const int32_t corner[3]) {
   int32_t face[3];
   turned(corner, face);
   for (int32_t k = skin->start[face[0]]; k < skin->start[face[0] + 1]; k++) {
-    if (skin->rest[k][0] == face[1] && skin->rest[k][1] == face[2])
-      return 1;
+    if (skin->rest[k][0] == face[1] && skin->rest[k][1] == face[2]) return 1;
   }
   return 0;
 }
@@ -140,8 +131,7 @@ static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwDelaunayTet *tet = &mesh->tet[t];
     int on_skin = 0, count = 0, inside = 0;
-    if (tet->corner[0] < 0)
-      continue;
+    if (tet->corner[0] < 0) continue;
     for (int i = 0; i < 4 && count + 2 > i; i++) {
       int32_t given = mesh->source[tet->corner[i]];
       int is = given >= first && given < core->fixed_count;
@@ -150,19 +140,15 @@ static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh
     }
     for (int i = 0; i < 4 && count >= 3; i++) {
       int32_t beyond = tet->neighbour[i], corner[3];
-      if (beyond < 0 || (on_skin | 1 << i) != 15)
-        continue;
-      for (int k = 0; k < 3; k++)
-        corner[k] = tet->corner[tet_face[i][k]];
-      if (!is_of_skin(skin, corner))
-        continue;
+      if (beyond < 0 || (on_skin | 1 << i) != 15) continue;
+      for (int k = 0; k < 3; k++) corner[k] = tet->corner[tet_face[i][k]];
+      if (!is_of_skin(skin, corner)) continue;
       mesh->tet[beyond / 4].neighbour[beyond % 4] = -1;
       tet->neighbour[i] = -1;
       inside = 1;
       found++;
     }
-    if (inside)
-      take_out(mesh, t, waiting);
+    if (inside) take_out(mesh, t, waiting);
   }
   return found;
 }
@@ -171,8 +157,7 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
   Skin skin = {0};
   int32_t waiting = -1;
-  if (!core->face_count)
-    goto done;
+  if (!core->face_count) goto done;
   CW_TRY(sort_skin(core, mesh, &skin));
   if (part(core, &skin, mesh, &waiting) != core->face_count) {
     status = CW_RETRY;
@@ -182,8 +167,7 @@ CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwDelaunay *mesh) {
     const CwDelaunayTet *tet = &mesh->tet[waiting];
     waiting = tet->corner[2];
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] >= 0)
-        take_out(mesh, tet->neighbour[i] / 4, &waiting);
+      if (tet->neighbour[i] >= 0) take_out(mesh, tet->neighbour[i] / 4, &waiting);
     }
   }
 done:
@@ -194,8 +178,7 @@ done:
 
 CwStatus cw_kernel_core_append(const CwKernelCore *core, CwFill *fill) {
   CwStatus status = CW_OK;
-  if (!core->tet_count)
-    goto done;
+  if (!core->tet_count) goto done;
   int64_t tets = (int64_t)fill->tetrahedron_count + core->tet_count;
   int32_t more = fill->point_count - core->fixed_count;
   CW_REQUIRE(tets < INT32_MAX, CW_ERR_MESH, "%lld tetrahedra in one region", (long long)tets);

@@ -22,24 +22,25 @@ static uint32_t scatter_three(const int32_t p[3]) {
 
 static int same_points(const int32_t p[3], const int32_t q[3]) {
   for (int k = 0; k < 3; k++) {
-    if (p[k] != q[0] && p[k] != q[1] && p[k] != q[2])
-      return 0;
+    if (p[k] != q[0] && p[k] != q[1] && p[k] != q[2]) return 0;
   }
   return 1;
 }
 
 // The place of a hash in a table of `space` places, and the one after another.
-static uint32_t place_of(uint32_t hash, uint32_t space) { return (uint32_t)((uint64_t)hash * space >> 32); }
+static uint32_t place_of(uint32_t hash, uint32_t space) {
+  return (uint32_t)((uint64_t)hash * space >> 32);
+}
 
-static uint32_t after(uint32_t place, uint32_t space) { return place + 1 < space ? place + 1 : 0; }
+static uint32_t after(uint32_t place, uint32_t space) {
+  return place + 1 < space ? place + 1 : 0;
+}
 
 int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]) {
   for (uint32_t k = place_of(scatter_three(corner), facets->table_space);; k = after(k, facets->table_space)) {
     int32_t f = facets->table[k];
-    if (f == EMPTY)
-      return -1;
-    if (f >= 0 && same_points(facets->corner[f], corner))
-      return f;
+    if (f == EMPTY) return -1;
+    if (f >= 0 && same_points(facets->corner[f], corner)) return f;
   }
 }
 
@@ -65,13 +66,11 @@ int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b) {
 static void note_facet(CwFacets *facets, int32_t f) {
   const int32_t *p = facets->corner[f];
   uint32_t place = place_of(scatter_three(p), facets->table_space);
-  while (facets->table[place] >= 0)
-    place = after(place, facets->table_space);
+  while (facets->table[place] >= 0) place = after(place, facets->table_space);
   facets->table_used += facets->table[place] == EMPTY;
   facets->table[place] = f;
   for (int k = 0; k < 3; k++) {
-    if (p[k] > p[(k + 1) % 3])
-      continue; // the boundary is closed: another facet has the edge the other way round
+    if (p[k] > p[(k + 1) % 3]) continue; // the boundary is closed: another facet has the edge the other way round
     int32_t *edge = &facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])];
     facets->edge_used += *edge == EMPTY;
     *edge = 3 * f + k;
@@ -107,17 +106,15 @@ CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFace
   CW_TRY(make_tables(facets, facets->space));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     int32_t given = mesh->source[p];
-    if (given >= 0 && given < input->point_count)
-      number[given] = p;
+    if (given >= 0 && given < input->point_count) number[given] = p;
   }
   for (; facets->count < input->triangle_count; facets->count++) {
     int32_t *p = facets->corner[facets->count];
-    for (int k = 0; k < 3; k++)
-      p[k] = number[input->triangle[facets->count][k]];
+    for (int k = 0; k < 3; k++) p[k] = number[input->triangle[facets->count][k]];
     const double *x = mesh->point[p[0]].x;
     CW_REQUIRE(cw_facets_find(facets, p) < 0, CW_ERR_MESH,
-               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm is listed twice", input->name, 1e3 * x[0],
-               1e3 * x[1], 1e3 * x[2]);
+               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm is listed twice", input->name, 1e3 * x[0], 1e3 * x[1],
+               1e3 * x[2]);
     note_facet(facets, facets->count);
   }
 done:
@@ -141,8 +138,7 @@ static CwStatus make_room(CwFacets *facets, int more) {
   if ((facets->table_used + 2 * (uint32_t)more) * 8 > 7 * facets->table_space ||
       (facets->edge_used + 4 * (uint32_t)more) * 8 > 7 * facets->edge_space) {
     CW_TRY(make_tables(facets, facets->space));
-    for (int32_t f = 0; f < facets->count; f++)
-      note_facet(facets, f);
+    for (int32_t f = 0; f < facets->count; f++) note_facet(facets, f);
   }
 done:
   return status;
@@ -159,13 +155,11 @@ static void put_facet(CwFacets *facets, int32_t f, int32_t a, int32_t b, int32_t
 static void forget_facet(CwFacets *facets, int32_t f) {
   const int32_t *p = facets->corner[f];
   uint32_t place = place_of(scatter_three(p), facets->table_space);
-  while (facets->table[place] != f)
-    place = after(place, facets->table_space);
+  while (facets->table[place] != f) place = after(place, facets->table_space);
   facets->table[place] = DIVIDED;
   for (int k = 0; k < 3; k++) {
     int32_t *edge = &facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])];
-    if (*edge == 3 * f + k)
-      *edge = DIVIDED;
+    if (*edge == 3 * f + k) *edge = DIVIDED;
   }
 }
 
@@ -178,8 +172,7 @@ CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s
     const int32_t *p = facets->corner[f];
     for (int k = 0; k < 3; k++) {
       int32_t from = p[k], to = p[(k + 1) % 3];
-      if (!((from == a && to == b) || (from == b && to == a)))
-        continue;
+      if (!((from == a && to == b) || (from == b && to == a))) continue;
       if (*count < 2) {
         at[*count] = f;
         ends[*count][0] = from;
@@ -189,11 +182,9 @@ CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s
       ++*count;
     }
   }
-  if (*count != 2)
-    goto done;
+  if (*count != 2) goto done;
   CW_TRY(make_room(facets, 2));
-  for (int k = 0; k < 2; k++)
-    forget_facet(facets, at[k]);
+  for (int k = 0; k < 2; k++) forget_facet(facets, at[k]);
   for (int k = 0; k < 2; k++) {
     put_facet(facets, at[k], ends[k][0], s, apex[k]);
     put_facet(facets, facets->count++, s, ends[k][1], apex[k]);
@@ -227,8 +218,7 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
   memset(facets->inner, -1, (size_t)facets->count * sizeof *facets->inner);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
-    if (tet->corner[0] < 0)
-      continue;
+    if (tet->corner[0] < 0) continue;
     int on_boundary = 0, count = 0;
     for (int i = 0; i < 4 && count + 2 > i; i++) { // most have two corners inside, and are done with
       int32_t given = mesh->source[tet->corner[i]];
@@ -236,17 +226,13 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
       on_boundary |= is << i;
       count += is;
     }
-    if (count < 3)
-      continue;
+    if (count < 3) continue;
     for (int i = 0; i < 4; i++) {
       int32_t p[3], beyond = tet->neighbour[i];
-      if ((on_boundary | 1 << i) != 15 || (beyond >= 0 && beyond < 4 * t))
-        continue; // each face once
-      for (int k = 0; k < 3; k++)
-        p[k] = tet->corner[tet_face[i][k]];
+      if ((on_boundary | 1 << i) != 15 || (beyond >= 0 && beyond < 4 * t)) continue; // each face once
+      for (int k = 0; k < 3; k++) p[k] = tet->corner[tet_face[i][k]];
       int32_t f = cw_facets_find(facets, p);
-      if (f < 0)
-        continue;
+      if (f < 0) continue;
       // Where outward for the tetrahedron is outward for the region, it lies inside, else the one beyond.
       const int32_t *q = facets->corner[f];
       int k = q[0] == p[0] ? 0 : q[1] == p[0] ? 1 : 2;

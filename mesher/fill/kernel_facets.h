@@ -19,8 +19,8 @@ typedef struct {
   int32_t (*corner)[3]; // points of the Delaunay mesh; normal out of the region
   int32_t *inner;       // 4 * tetrahedron + face: the face of each facet, seen from inside; -1: missing
   int32_t missing_count;
-  int32_t *table;       // hash table of facets by their points; -1: empty, -2: one that was divided
-  int32_t *edge;        // hash table of their edges, as 3 * facet + side of one facet that has it upward; -1, -2 likewise
+  int32_t *table; // hash table of facets by their points; -1: empty, -2: one that was divided
+  int32_t *edge;  // hash table of their edges, as 3 * facet + side of one facet that has it upward; -1, -2 likewise
   uint32_t table_space, edge_space;
   uint32_t table_used, edge_used; // places that are not empty
   int32_t space;                  // of corner and inner

@@ -26,8 +26,7 @@ typedef struct {
 
 static int has(const int32_t *list, int count, int32_t item) {
   for (int k = 0; k < count; k++) {
-    if (list[k] == item)
-      return 1;
+    if (list[k] == item) return 1;
   }
   return 0;
 }
@@ -35,8 +34,7 @@ static int has(const int32_t *list, int count, int32_t item) {
 static double flatness(const CwDelaunay *mesh, int32_t t) {
   const double *x[4];
   double square = 0.0, d[3];
-  for (int i = 0; i < 4; i++)
-    x[i] = mesh->point[mesh->tet[t].corner[i]].x;
+  for (int i = 0; i < 4; i++) x[i] = mesh->point[mesh->tet[t].corner[i]].x;
   for (int k = 0; k < 4; k++) {
     for (int i = 0; i < k; i++) {
       cw_sub(x[i], x[k], d);
@@ -56,8 +54,7 @@ static int is_ball(const CwHollow *h) {
       same += a == c && b == d;
       opposite += a == d && b == c;
     }
-    if (same != 1 || opposite != 1)
-      return 0;
+    if (same != 1 || opposite != 1) return 0;
   }
   return 1;
 }
@@ -72,12 +69,9 @@ static CwStatus find_walls(Raiser *r, int *good) {
     const CwDelaunayTet *tet = &mesh->tet[r->tet[k]];
     for (int i = 0; i < 4; i++) {
       int32_t next = tet->neighbour[i] < 0 ? -1 : tet->neighbour[i] / 4;
-      if (next >= 0 && has(r->tet, r->tet_count, next))
-        continue;
-      if (r->hollow.count == WALLS)
-        goto done;
-      const int32_t face[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][2]],
-                               tet->corner[tet_face[i][1]]};
+      if (next >= 0 && has(r->tet, r->tet_count, next)) continue;
+      if (r->hollow.count == WALLS) goto done;
+      const int32_t face[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][2]], tet->corner[tet_face[i][1]]};
       r->beyond[r->hollow.count] = next;
       CW_TRY(cw_hollow_add(&r->hollow, mesh, face));
     }
@@ -99,18 +93,15 @@ static CwStatus raise_one(Raiser *r, int32_t t, int32_t *source_count, int *rais
   for (;;) {
     int good;
     CW_TRY(find_walls(r, &good));
-    if (!good)
-      goto done;
+    if (!good) goto done;
     double worth = r->tet_count > 1 ? cw_hollow_place(&r->hollow, mesh, NULL, NULL, p) : 0.0;
-    if (worth > least_worth && worth > gain * before && is_ball(&r->hollow))
-      break;
+    if (worth > least_worth && worth > gain * before && is_ball(&r->hollow)) break;
     // Take away what the worst face hides; of a single tetrahedron, all that lies at it.
     int32_t next = -1;
     if (r->tet_count > 1) {
       cw_hollow_worth(&r->hollow, mesh, p, &worst);
       next = r->beyond[worst];
-      for (int32_t k = 0; k < r->hollow.count && next < 0; k++)
-        next = r->beyond[k];
+      for (int32_t k = 0; k < r->hollow.count && next < 0; k++) next = r->beyond[k];
     } else {
       next = r->beyond[0];
       for (int32_t k = 1; k < r->hollow.count; k++) {
@@ -120,8 +111,7 @@ static CwStatus raise_one(Raiser *r, int32_t t, int32_t *source_count, int *rais
           next = r->beyond[k];
       }
     }
-    if (next < 0 || r->tet_count == TETS)
-      goto done;
+    if (next < 0 || r->tet_count == TETS) goto done;
     r->tet[r->tet_count++] = next;
     before = fmin(before, flatness(mesh, next));
   }
@@ -146,14 +136,12 @@ CwStatus cw_kernel_flat(CwDelaunay *mesh, int32_t *source_count, int32_t *raised
     *left = 0;
     for (int32_t t = 0; t < count; t++) {
       int good;
-      if (mesh->tet[t].corner[0] < 0 || flatness(mesh, t) > flat)
-        continue;
+      if (mesh->tet[t].corner[0] < 0 || flatness(mesh, t) > flat) continue;
       CW_TRY(raise_one(&r, t, source_count, &good));
       *raised += good;
       *left += !good;
     }
-    if (*left == 0 || *raised == before)
-      break;
+    if (*left == 0 || *raised == before) break;
   }
 done:
   cw_hollow_free(&r.hollow);

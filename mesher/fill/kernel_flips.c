@@ -17,8 +17,7 @@ CwStatus cw_flips_make(CwDelaunay *mesh, CwFlips *flips) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwDelaunayTet *tet = &mesh->tet[t];
     tet->square = 0.0;
-    for (int i = 0; i < 4 && tet->corner[0] >= 0; i++)
-      flips->tet_at[tet->corner[i]] = t;
+    for (int i = 0; i < 4 && tet->corner[0] >= 0; i++) flips->tet_at[tet->corner[i]] = t;
   }
 done:
   return status;
@@ -43,8 +42,7 @@ done:
 
 static int corner_of(const CwDelaunayTet *tet, int32_t point) {
   for (int i = 0; i < 4; i++) {
-    if (tet->corner[i] == point)
-      return i;
+    if (tet->corner[i] == point) return i;
   }
   return -1;
 }
@@ -66,11 +64,9 @@ CwStatus cw_flips_star(CwFlips *flips, int32_t point) {
   for (int32_t head = 0; head < flips->star_count; head++) {
     const CwDelaunayTet *tet = &flips->mesh->tet[flips->star[head]];
     for (int i = 0; i < 4; i++) {
-      if (tet->corner[i] == point || tet->neighbour[i] < 0)
-        continue;
+      if (tet->corner[i] == point || tet->neighbour[i] < 0) continue;
       int32_t next = tet->neighbour[i] / 4;
-      if (flips->mesh->tet[next].square != flips->stamp)
-        CW_TRY(push(flips, next));
+      if (flips->mesh->tet[next].square != flips->stamp) CW_TRY(push(flips, next));
     }
   }
 done:
@@ -82,8 +78,7 @@ CwStatus cw_flips_find_edge(CwFlips *flips, int32_t a, int32_t b, int32_t *tet) 
   *tet = -1;
   CW_TRY(cw_flips_star(flips, a));
   for (int32_t k = 0; k < flips->star_count && *tet < 0; k++) {
-    if (corner_of(&flips->mesh->tet[flips->star[k]], b) >= 0)
-      *tet = flips->star[k];
+    if (corner_of(&flips->mesh->tet[flips->star[k]], b) >= 0) *tet = flips->star[k];
   }
 done:
   return status;
@@ -96,13 +91,11 @@ int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int32_t
   int i = corner_of(now, a), j = corner_of(now, b), first = first_of[i][j], count = 0;
   int32_t from = now->corner[first], to = now->corner[6 - i - j - first], start = t;
   do {
-    if (count == CW_RING)
-      return 0;
+    if (count == CW_RING) return 0;
     tet[count] = t;
     ring[count++] = from;
     int32_t next = now->neighbour[corner_of(now, from)];
-    if (next < 0)
-      return 0;
+    if (next < 0) return 0;
     t = next / 4;
     now = &flips->mesh->tet[t];
     from = to;
@@ -120,8 +113,7 @@ static Side side_of(const int32_t corner[4], int i, int32_t owner) {
   Side s = {{corner[tet_face[i][0]], corner[tet_face[i][1]], corner[tet_face[i][2]]}, owner};
   for (int k = 0; k < 3; k++) {
     int m = k == 1 ? 1 : 0; // compares 0-1, 1-2, 0-1
-    if (s.p[m] <= s.p[m + 1])
-      continue;
+    if (s.p[m] <= s.p[m + 1]) continue;
     int32_t swap = s.p[m];
     s.p[m] = s.p[m + 1];
     s.p[m + 1] = swap;
@@ -129,8 +121,8 @@ static Side side_of(const int32_t corner[4], int i, int32_t owner) {
   return s;
 }
 
-CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count,
-                          const int32_t (*corner)[4], int32_t *slot) {
+CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                          int32_t *slot) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = flips->mesh;
   Side side[8 * CW_FLIP];
@@ -139,10 +131,8 @@ CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int
     const CwDelaunayTet *tet = &mesh->tet[old[k]];
     for (int i = 0; i < 4; i++) {
       int within = 0;
-      for (int m = 0; m < old_count && tet->neighbour[i] >= 0; m++)
-        within |= tet->neighbour[i] / 4 == old[m];
-      if (!within)
-        side[sides++] = side_of(tet->corner, i, tet->neighbour[i]);
+      for (int m = 0; m < old_count && tet->neighbour[i] >= 0; m++) within |= tet->neighbour[i] / 4 == old[m];
+      if (!within) side[sides++] = side_of(tet->corner, i, tet->neighbour[i]);
     }
   }
   for (int k = 0; k < count; k++) {
@@ -151,32 +141,27 @@ CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int
     else
       CW_TRY(cw_delaunay_new_tet(mesh, &slot[k]));
   }
-  for (int k = count; k < old_count; k++)
-    cw_delaunay_free_tet(mesh, old[k]);
+  for (int k = count; k < old_count; k++) cw_delaunay_free_tet(mesh, old[k]);
   for (int k = 0; k < count; k++) {
     CwDelaunayTet *tet = &mesh->tet[slot[k]];
     memcpy(tet->corner, corner[k], sizeof tet->corner);
     tet->square = 0.0;
     for (int i = 0; i < 4; i++) {
-      if (flips->tet_at)
-        flips->tet_at[corner[k][i]] = slot[k];
+      if (flips->tet_at) flips->tet_at[corner[k][i]] = slot[k];
       Side one = side_of(corner[k], i, 4 * slot[k] + i);
       int m = 0;
-      while (m < sides && (side[m].p[0] != one.p[0] || side[m].p[1] != one.p[1] || side[m].p[2] != one.p[2]))
-        m++;
+      while (m < sides && (side[m].p[0] != one.p[0] || side[m].p[1] != one.p[1] || side[m].p[2] != one.p[2])) m++;
       if (m == sides) {
         side[sides++] = one;
         continue;
       }
       tet->neighbour[i] = side[m].owner;
-      if (side[m].owner >= 0)
-        mesh->tet[side[m].owner / 4].neighbour[side[m].owner % 4] = one.owner;
+      if (side[m].owner >= 0) mesh->tet[side[m].owner / 4].neighbour[side[m].owner % 4] = one.owner;
       side[m] = side[--sides];
     }
   }
   flips->done++;
-  CW_REQUIRE(sides == 0, CW_ERR_MESH, "a flip of %d tetrahedra to %d left %d faces open", old_count, count,
-             sides);
+  CW_REQUIRE(sides == 0, CW_ERR_MESH, "a flip of %d tetrahedra to %d left %d faces open", old_count, count, sides);
 done:
   return status;
 }
@@ -196,23 +181,18 @@ CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped) {
   const CwDelaunayTet *tet = &flips->mesh->tet[t];
   int32_t other = tet->neighbour[i], made[3][4], slot[3];
   *flipped = 0;
-  if (other < 0)
-    goto done;
+  if (other < 0) goto done;
   const int32_t old[2] = {t, other / 4};
   int32_t below = tet->corner[i], above = flips->mesh->tet[old[1]].corner[other % 4];
-  const int32_t f[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][1]],
-                        tet->corner[tet_face[i][2]]};
+  const int32_t f[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][1]], tet->corner[tet_face[i][2]]};
   for (int k = 0; k < 3; k++) {
     const int32_t one[4] = {f[k], f[(k + 1) % 3], below, above};
-    if (!is_positive(flips, one[0], one[1], one[2], one[3]))
-      goto done;
+    if (!is_positive(flips, one[0], one[1], one[2], one[3])) goto done;
     memcpy(made[k], one, sizeof one);
   }
   int before = crossings(flips, 3, f[0], f[1], f[2]), after = crossings(flips, 2, below, above, -1);
-  for (int k = 0; k < 3; k++)
-    after += crossings(flips, 3, below, above, f[k]);
-  if (after >= before + flips->slack)
-    goto done;
+  for (int k = 0; k < 3; k++) after += crossings(flips, 3, below, above, f[k]);
+  if (after >= before + flips->slack) goto done;
   CW_TRY(cw_flips_replace(flips, 2, old, 3, (const int32_t(*)[4])made, slot));
   *flipped = 1;
 done:
@@ -234,38 +214,34 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
   RingTable table;
   *flipped = 0;
   int n = cw_flips_ring(flips, t, a, b, old, ring);
-  if (n < 3)
-    goto done;
+  if (n < 3) goto done;
   int before = crossings(flips, 2, a, b, -1);
   for (int k = 0; k < n; k++) {
     before += crossings(flips, 3, a, b, ring[k]);
-    if (k + 1 < n)
-      table.least[k][k + 1] = 0;
+    if (k + 1 < n) table.least[k][k + 1] = 0;
   }
   for (int span = 2; span < n; span++) {
     for (int from = 0; from + span < n; from++) {
       int to = from + span, least = never;
       // The faces at the chord, unless it is a side of the ring.
-      int chord = span == n - 1 ? 0
-                                : crossings(flips, 2, ring[from], ring[to], -1) +
-                                      crossings(flips, 3, ring[from], ring[to], a) +
-                                      crossings(flips, 3, ring[from], ring[to], b);
+      int chord = span == n - 1
+                      ? 0
+                      : crossings(flips, 2, ring[from], ring[to], -1) + crossings(flips, 3, ring[from], ring[to], a) +
+                            crossings(flips, 3, ring[from], ring[to], b);
       for (int k = from + 1; k < to; k++) {
         int sum = chord + table.least[from][k] + table.least[k][to];
         if (sum >= least || !is_positive(flips, ring[from], ring[k], ring[to], b) ||
             !is_positive(flips, ring[from], ring[to], ring[k], a))
           continue;
         sum += crossings(flips, 3, ring[from], ring[k], ring[to]);
-        if (sum >= least)
-          continue;
+        if (sum >= least) continue;
         least = sum;
         table.cut[from][to] = (int8_t)k;
       }
       table.least[from][to] = least;
     }
   }
-  if (table.least[0][n - 1] >= never || table.least[0][n - 1] >= before + flips->slack)
-    goto done;
+  if (table.least[0][n - 1] >= never || table.least[0][n - 1] >= before + flips->slack) goto done;
   int count = cw_ring_tets(&table.cut[0][0], CW_RING, ring, a, b, 0, n - 1, tet, 0);
   CW_TRY(cw_flips_replace(flips, n, old, count, (const int32_t(*)[4])tet, slot));
   *flipped = 1;

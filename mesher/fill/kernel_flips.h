@@ -14,10 +14,7 @@
 extern "C" {
 #endif
 
-enum {
-  CW_RING = 24,
-  CW_FLIP = 2 * CW_RING
-}; // tetrahedra round an edge that is removed, and in a flip, at most
+enum { CW_RING = 24, CW_FLIP = 2 * CW_RING }; // tetrahedra round an edge that is removed, and in a flip, at most
 
 // How much the edge (count = 2) or face (count = 3) with these points is in the way; 0: not at all.
 typedef int (*CwCrossing)(const void *context, int count, const int32_t *point);
@@ -54,8 +51,8 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
 
 // Puts `count` tetrahedra in the place of the `old_count` ones, which fill the same cavity; slot[k] is where
 // each is now.
-CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count,
-                          const int32_t (*corner)[4], int32_t *slot);
+CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                          int32_t *slot);
 
 #ifdef __cplusplus
 }

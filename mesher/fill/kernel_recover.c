@@ -25,8 +25,7 @@ static int side(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32_t
 static int shares(const int32_t *p, int m, const int32_t *q, int n) {
   for (int i = 0; i < m; i++) {
     for (int k = 0; k < n; k++) {
-      if (p[i] == q[k])
-        return 1;
+      if (p[i] == q[k]) return 1;
     }
   }
   return 0;
@@ -34,15 +33,13 @@ static int shares(const int32_t *p, int m, const int32_t *q, int n) {
 
 static int face_crosses_edge(const void *context, int count, const int32_t *point) {
   const Goal *goal = context;
-  if (count != 3 || shares(point, 3, goal->point, 2))
-    return 0;
+  if (count != 3 || shares(point, 3, goal->point, 2)) return 0;
   return cw_kernel_meet(goal->mesh, goal->point[0], goal->point[1], point);
 }
 
 static int edge_crosses_face(const void *context, int count, const int32_t *point) {
   const Goal *goal = context;
-  if (count != 2 || shares(point, 2, goal->point, 3))
-    return 0;
+  if (count != 2 || shares(point, 2, goal->point, 3)) return 0;
   return cw_kernel_meet(goal->mesh, point[0], point[1], goal->point);
 }
 
@@ -59,12 +56,10 @@ static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int dep
   CwFlips *flips = &r->flips;
   int32_t tet[CW_RING], ring[CW_RING];
   *moved = 0;
-  if (cw_facets_has_edge(r->facets, p, q))
-    goto done;
+  if (cw_facets_has_edge(r->facets, p, q)) goto done;
   CW_TRY(cw_flips_edge(flips, t, p, q, moved));
   *moved *= 2;
-  if (*moved || depth == 0)
-    goto done;
+  if (*moved || depth == 0) goto done;
   int n = cw_flips_ring(flips, t, p, q, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
   flips->slack = 1; // no more crossings than before
   for (int step = 0; step < n && !*moved; step++) {
@@ -72,14 +67,11 @@ static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int dep
     const CwDelaunayTet *now = &flips->mesh->tet[tet[k]];
     int32_t far = ring[(k + 1) % n];
     const int32_t face[3] = {p, q, ring[k]};
-    if (cw_facets_find(r->facets, face) >= 0)
-      continue;
+    if (cw_facets_find(r->facets, face) >= 0) continue;
     for (int i = 0; i < 4 && !*moved; i++) { // the face p, q, ring[k]
-      if (now->corner[i] == far)
-        CW_TRY(cw_flips_face(flips, tet[k], i, moved));
+      if (now->corner[i] == far) CW_TRY(cw_flips_face(flips, tet[k], i, moved));
     }
-    for (int end = 0; end < 2 && !*moved; end++)
-      CW_TRY(clear_edge(r, tet[k], end ? p : q, ring[k], depth - 1, moved));
+    for (int end = 0; end < 2 && !*moved; end++) CW_TRY(clear_edge(r, tet[k], end ? p : q, ring[k], depth - 1, moved));
   }
   flips->slack = slack;
   *moved = *moved > 0;
@@ -99,11 +91,9 @@ static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *fou
   for (int32_t k = 0; k < flips->star_count && !*found; k++) {
     const CwDelaunayTet *tet = &mesh->tet[flips->star[k]];
     int at = 0, zeros = 0, zero = -1, within = 1;
-    while (tet->corner[at] != a)
-      at++;
+    while (tet->corner[at] != a) at++;
     for (int i = 0; i < 4 && within; i++) {
-      if (i == at)
-        continue;
+      if (i == at) continue;
       int32_t p[4];
       memcpy(p, tet->corner, sizeof p);
       p[i] = b;
@@ -114,26 +104,21 @@ static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *fou
         zero = i;
       }
     }
-    if (!within)
-      continue;
+    if (!within) continue;
     t = flips->star[k];
     int32_t f[3];
-    for (int i = 0; i < 3; i++)
-      f[i] = tet->corner[tet_face[at][i]];
-    if (zeros > 1)
-      goto done; // through a point
+    for (int i = 0; i < 3; i++) f[i] = tet->corner[tet_face[at][i]];
+    if (zeros > 1) goto done; // through a point
     if (zeros == 1) {
       int32_t end[2];
       int ends = 0;
       for (int i = 0; i < 4; i++) {
-        if (i != at && i != zero)
-          end[ends++] = tet->corner[i];
+        if (i != at && i != zero) end[ends++] = tet->corner[i];
       }
       CW_TRY(clear_edge(r, t, end[0], end[1], depth, moved));
       goto done;
     }
-    if (cw_facets_find(r->facets, f) >= 0)
-      goto done;
+    if (cw_facets_find(r->facets, f) >= 0) goto done;
     CW_TRY(cw_flips_face(flips, t, at, moved));
     *moved *= 2;
     for (int level = 0; level <= depth && !*moved; level++) {
@@ -157,8 +142,7 @@ CwStatus cw_recovery_edge(CwRecovery *r, int32_t a, int32_t b, int tries, int *f
   for (int stuck = 0; stuck < tries; stuck++) {
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
       CW_TRY(clear_way(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
-      if (*found)
-        goto done;
+      if (*found) goto done;
     }
   }
 done:
@@ -180,14 +164,11 @@ CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int
       moved = 0;
       CW_TRY(cw_flips_find_edge(flips, a, b, &t));
       int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, tet, ring);
-      for (int k = 0; k < n && !*found; k++)
-        *found = ring[k] == c;
-      if (*found)
-        goto done;
+      for (int k = 0; k < n && !*found; k++) *found = ring[k] == c;
+      if (*found) goto done;
       for (int k = 0; k < n && !moved; k++) {
         int32_t end[2] = {ring[k], ring[(k + 1) % n]};
-        if (edge_crosses_face(&r->goal, 2, end))
-          CW_TRY(clear_edge(r, tet[k], end[0], end[1], stuck / 3, &moved));
+        if (edge_crosses_face(&r->goal, 2, end)) CW_TRY(clear_edge(r, tet[k], end[0], end[1], stuck / 3, &moved));
       }
     }
   }
@@ -215,8 +196,7 @@ CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, 
   int lost_edges = 0, lost_faces = 0;
   CW_TRY(cw_recovery_make(mesh, facets, (uint32_t)round, &r));
   for (int32_t f = 0; f < facets->count; f++) {
-    if (facets->inner[f] >= 0)
-      continue;
+    if (facets->inner[f] >= 0) continue;
     for (int k = 0; k < 3; k++) {
       int found;
       CW_TRY(cw_recovery_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], TRIES, &found));
@@ -224,18 +204,16 @@ CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, 
     }
   }
   for (int32_t f = 0; f < facets->count; f++) {
-    if (facets->inner[f] >= 0)
-      continue;
+    if (facets->inner[f] >= 0) continue;
     int found, cleared = 0;
     CW_TRY(cw_recovery_face(&r, facets->corner[f], TRIES, &found));
-    if (!found && round >= 2)
-      CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &cleared));
+    if (!found && round >= 2) CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &cleared));
     recovered->cleared += cleared;
     lost_faces += !found && !cleared;
   }
   recovered->flips += r.flips.done;
-  cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered",
-               facets->missing_count, (long long)r.flips.done, lost_edges, lost_faces);
+  cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered", facets->missing_count,
+               (long long)r.flips.done, lost_edges, lost_faces);
 done:
   cw_recovery_free(&r);
   return status;

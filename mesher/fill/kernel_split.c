@@ -42,18 +42,15 @@ static const double *at(const CwDelaunay *mesh, int32_t p) {
 
 static int has(const int32_t *list, int count, int32_t item) {
   for (int k = 0; k < count; k++) {
-    if (list[k] == item)
-      return 1;
+    if (list[k] == item) return 1;
   }
   return 0;
 }
 
 static void note_place(Splitter *s, const Place *place) {
-  if (s->place_count == PLACES && s->place[PLACES - 1].worth >= place->worth)
-    return;
+  if (s->place_count == PLACES && s->place[PLACES - 1].worth >= place->worth) return;
   int k = s->place_count < PLACES ? s->place_count++ : PLACES - 1;
-  for (; k > 0 && s->place[k - 1].worth < place->worth; k--)
-    s->place[k] = s->place[k - 1];
+  for (; k > 0 && s->place[k - 1].worth < place->worth; k--) s->place[k] = s->place[k - 1];
   s->place[k] = *place;
 }
 
@@ -63,12 +60,10 @@ static double six(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32
 }
 
 // Where the segment a-b crosses the triangle, at which share of the way; how many of its edges it meets.
-static int crossing(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t[3], double *share,
-                    int *on_edge) {
+static int crossing(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t[3], double *share, int *on_edge) {
   int zeros = 0;
   for (int k = 0; k < 3; k++) {
-    if (cw_orient3d(at(mesh, a), at(mesh, b), at(mesh, t[k]), at(mesh, t[(k + 1) % 3])) != 0)
-      continue;
+    if (cw_orient3d(at(mesh, a), at(mesh, b), at(mesh, t[k]), at(mesh, t[(k + 1) % 3])) != 0) continue;
     zeros++;
     *on_edge = k;
   }
@@ -100,8 +95,7 @@ static int look_along_edge(Splitter *s, const int32_t *goal, int32_t t) {
     Place place = {.count = 3, .tet = t};
     double share;
     int on_edge = 0;
-    for (int k = 0; k < 3; k++)
-      place.point[k] = tet->corner[tet_face[i][k]];
+    for (int k = 0; k < 3; k++) place.point[k] = tet->corner[tet_face[i][k]];
     if (has(place.point, 3, goal[0]) || has(place.point, 3, goal[1]) ||
         !cw_kernel_meet(mesh, goal[0], goal[1], place.point))
       continue;
@@ -109,19 +103,16 @@ static int look_along_edge(Splitter *s, const int32_t *goal, int32_t t) {
     int zeros = crossing(mesh, goal[0], goal[1], place.point, &share, &on_edge);
     low = fmin(low, share);
     high = fmax(high, share);
-    if (zeros > 1)
-      continue; // through a point
+    if (zeros > 1) continue; // through a point
     cw_lerp(at(mesh, goal[0]), at(mesh, goal[1]), share, place.x);
     place.worth = -fabs(share - 0.5);
-    if (zeros == 0)
-      note_place(s, &place);
+    if (zeros == 0) note_place(s, &place);
     place.count = 2;
     place.worth -= zeros ? 0.0 : less_on_edge;
     for (int k = 0; k < 3; k++) {
       const int32_t end[2] = {tet->corner[tet_face[i][k]], tet->corner[tet_face[i][(k + 1) % 3]]};
       memcpy(place.point, end, sizeof end);
-      if (zeros == 0 || k == on_edge)
-        note_place(s, &place);
+      if (zeros == 0 || k == on_edge) note_place(s, &place);
     }
   }
   if (found && high > low) {
@@ -146,27 +137,22 @@ static int look_in_face(Splitter *s, const int32_t *goal, int32_t t) {
         !cw_kernel_meet(mesh, place.point[0], place.point[1], goal))
       continue;
     found = 1;
-    if (crossing(mesh, place.point[0], place.point[1], goal, &share, &on_edge) > 0)
-      continue;
+    if (crossing(mesh, place.point[0], place.point[1], goal, &share, &on_edge) > 0) continue;
     cw_lerp(at(mesh, place.point[0]), at(mesh, place.point[1]), share, place.x);
     for (int k = 0; k < 3; k++)
       sum += part[k] = fabs(six(mesh, place.point[0], place.point[1], goal[k], goal[(k + 1) % 3]));
     place.worth = fmin(part[0], fmin(part[1], part[2])) / sum;
-    for (int i = 0; i < 3; i++)
-      between.x[i] += place.x[i];
+    for (int i = 0; i < 3; i++) between.x[i] += place.x[i];
     between.worth = fmin(between.worth, place.worth - less_inside);
     inner++;
     int seen = 0;
     for (int k = 0; k < s->place_count && !seen; k++)
       seen = s->place[k].count == 2 && has(s->place[k].point, 2, place.point[0]) &&
              has(s->place[k].point, 2, place.point[1]);
-    if (!seen)
-      note_place(s, &place);
+    if (!seen) note_place(s, &place);
   }
-  for (int i = 0; i < 3 && inner; i++)
-    between.x[i] /= inner;
-  if (inner >= 2)
-    note_place(s, &between);
+  for (int i = 0; i < 3 && inner; i++) between.x[i] /= inner;
+  if (inner >= 2) note_place(s, &between);
   return found;
 }
 
@@ -186,18 +172,15 @@ static CwStatus find_places(Splitter *s, int count, const int32_t *goal) {
     for (int32_t i = 0; i < flips->star_count; i++) {
       int32_t t = flips->star[i];
       s->place_count = 0;
-      if (look(s, count, goal, t) && !has(s->crossed, s->crossed_count, t))
-        CW_TRY(push(s, t));
+      if (look(s, count, goal, t) && !has(s->crossed, s->crossed_count, t)) CW_TRY(push(s, t));
     }
   }
   flips->stamp += 1.0;
-  for (int32_t k = 0; k < s->crossed_count; k++)
-    mesh->tet[s->crossed[k]].square = flips->stamp;
+  for (int32_t k = 0; k < s->crossed_count; k++) mesh->tet[s->crossed[k]].square = flips->stamp;
   s->place_count = 0;
   for (int32_t head = 0; head < s->crossed_count; head++) {
     const CwDelaunayTet *tet = &mesh->tet[s->crossed[head]];
-    if (!look(s, count, goal, s->crossed[head]))
-      continue;
+    if (!look(s, count, goal, s->crossed[head])) continue;
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] >= 0 && mesh->tet[tet->neighbour[i] / 4].square != flips->stamp)
         CW_TRY(push(s, tet->neighbour[i] / 4));
@@ -225,10 +208,8 @@ static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
   } else if (place->count == 3) {
     const CwDelaunayTet *tet = &mesh->tet[place->tet];
     int i = 0;
-    while (has(place->point, 3, tet->corner[i]))
-      i++;
-    if (cw_facets_find(s->facets, place->point) >= 0 || tet->neighbour[i] < 0)
-      goto done;
+    while (has(place->point, 3, tet->corner[i])) i++;
+    if (cw_facets_find(s->facets, place->point) >= 0 || tet->neighbour[i] < 0) goto done;
     int32_t other = tet->neighbour[i];
     old[old_count++] = place->tet;
     old[old_count++] = other / 4;
@@ -241,8 +222,7 @@ static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
     }
   } else {
     int32_t a = place->point[0], b = place->point[1];
-    if (cw_facets_has_edge(s->facets, a, b))
-      goto done;
+    if (cw_facets_has_edge(s->facets, a, b)) goto done;
     old_count = cw_flips_ring(flips, place->tet, a, b, old, ring);
     for (int k = 0; k < old_count; k++) {
       int32_t from = ring[k], to = ring[(k + 1) % old_count]; // (a, b, from, to) is positive
@@ -252,14 +232,11 @@ static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
     }
   }
   for (int k = 0; k < count; k++) {
-    if (cw_orient3d(at(mesh, made[k][0]), at(mesh, made[k][1]), at(mesh, made[k][2]), place->x) <= 0)
-      goto done;
+    if (cw_orient3d(at(mesh, made[k][0]), at(mesh, made[k][1]), at(mesh, made[k][2]), place->x) <= 0) goto done;
   }
-  if (count == 0)
-    goto done;
+  if (count == 0) goto done;
   CW_TRY(cw_flips_add_point(flips, place->x, (*s->source_count)++, point));
-  for (int k = 0; k < count; k++)
-    made[k][3] = *point;
+  for (int k = 0; k < count; k++) made[k][3] = *point;
   CW_TRY(cw_flips_replace(flips, old_count, old, count, (const int32_t(*)[4])made, slot));
 done:
   return status;
@@ -273,8 +250,7 @@ static CwStatus find_around(Splitter *s, const double x[3], int32_t *tet) {
   int32_t kept = s->crossed_count, last = kept;
   *tet = -1;
   flips->stamp += 1.0;
-  for (int32_t k = 0; k < kept; k++)
-    mesh->tet[s->crossed[k]].square = flips->stamp;
+  for (int32_t k = 0; k < kept; k++) mesh->tet[s->crossed[k]].square = flips->stamp;
   for (int32_t k = 0, layer = 0; k < s->crossed_count && *tet < 0; k++) {
     if (k == last) {
       layer++;
@@ -291,8 +267,7 @@ static CwStatus find_around(Splitter *s, const double x[3], int32_t *tet) {
         now = &mesh->tet[s->crossed[k]];
       }
     }
-    if (inside)
-      *tet = s->crossed[k];
+    if (inside) *tet = s->crossed[k];
   }
   s->crossed_count = kept;
 done:
@@ -320,12 +295,10 @@ static CwStatus put_beside(Splitter *s, int32_t facet, int count, const int32_t 
     Place place = {.count = 4};
     for (int i = 0; i < 3; i++) {
       place.x[i] = off[k / 3] * length * normal[i];
-      for (int c = 0; c < count; c++)
-        place.x[i] += w[c] * at(mesh, goal[c])[i];
+      for (int c = 0; c < count; c++) place.x[i] += w[c] * at(mesh, goal[c])[i];
     }
     CW_TRY(find_around(s, place.x, &place.tet));
-    if (place.tet >= 0)
-      CW_TRY(put_point(s, &place, point));
+    if (place.tet >= 0) CW_TRY(put_point(s, &place, point));
   }
 done:
   return status;
@@ -345,16 +318,12 @@ static CwStatus divide(Splitter *s, int32_t facet, int count, const int32_t *goa
   CwSplit split = {.point = -1};
   *done_it = 0;
   CW_TRY(find_places(s, count, goal));
-  for (int k = 0; k < s->place_count && split.point < 0; k++)
-    CW_TRY(put_point(s, &s->place[k], &split.point));
-  if (split.point < 0)
-    CW_TRY(put_beside(s, facet, count, goal, &split.point));
-  if (split.point < 0)
-    goto done;
+  for (int k = 0; k < s->place_count && split.point < 0; k++) CW_TRY(put_point(s, &s->place[k], &split.point));
+  if (split.point < 0) CW_TRY(put_beside(s, facet, count, goal, &split.point));
+  if (split.point < 0) goto done;
   if (count == 2) {
     CW_TRY(cw_facets_divide_edge(s->facets, goal[0], goal[1], split.point, &split.count, split.ends, split.apex));
-    if (split.count != 2)
-      goto done; // bodies touch here: the point stays as one of the inside or outside
+    if (split.count != 2) goto done; // bodies touch here: the point stays as one of the inside or outside
   } else {
     split.count = 1;
     split.ends[0][0] = goal[0];
@@ -374,8 +343,7 @@ CwStatus cw_kernel_split(CwDelaunay *mesh, CwFacets *facets, int32_t *source_cou
   Splitter s = {.facets = facets, .splits = splits, .source_count = source_count};
   int32_t most = MOST_EACH * facets->missing_count + MOST, lost = 0;
   CW_TRY(cw_recovery_make(mesh, facets, 1000, &s.recovery));
-  if (facets->divided_from > *source_count)
-    facets->divided_from = *source_count;
+  if (facets->divided_from > *source_count) facets->divided_from = *source_count;
   for (int32_t f = 0; f < facets->count; f++) {
     while (facets->inner[f] < 0) {
       int32_t p[3], goal[3];

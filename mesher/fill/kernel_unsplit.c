@@ -10,8 +10,7 @@ static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}
 
 static int has(const int32_t *list, int count, int32_t item) {
   for (int k = 0; k < count; k++) {
-    if (list[k] == item)
-      return 1;
+    if (list[k] == item) return 1;
   }
   return 0;
 }
@@ -24,10 +23,8 @@ static CwStatus gather_hollow(const CwFlips *flips, const CwSplit *split, CwHoll
   for (int32_t k = 0; k < flips->star_count; k++) {
     const CwDelaunayTet *tet = &mesh->tet[flips->star[k]];
     int i = 0;
-    while (tet->corner[i] != split->point)
-      i++;
-    const int32_t face[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][2]],
-                             tet->corner[tet_face[i][1]]};
+    while (tet->corner[i] != split->point) i++;
+    const int32_t face[3] = {tet->corner[tet_face[i][0]], tet->corner[tet_face[i][2]], tet->corner[tet_face[i][1]]};
     CW_TRY(cw_hollow_add(h, mesh, face));
   }
   for (int k = 0; k < split->count; k++) {
@@ -42,8 +39,7 @@ done:
 static void find_place(const CwDelaunay *mesh, const CwSplit *split, const CwHollow *h, double p[3], int *good) {
   double inward[3] = {0, 0, 0};
   for (int k = 0; k < split->count; k++) {
-    for (int i = 0; i < 3; i++)
-      inward[i] += h->normal[h->count - 1 - k][i];
+    for (int i = 0; i < 3; i++) inward[i] += h->normal[h->count - 1 - k][i];
   }
   cw_unit(inward);
   *good = cw_hollow_place(h, mesh, mesh->point[split->point].x, inward, p) > 0.0;
@@ -81,15 +77,12 @@ static CwStatus take_off(CwFlips *flips, const CwSplit *split, CwHollow *h, int 
     const int32_t *e = split->ends[k], c = split->apex[k], s = split->point;
     side[k][0] = face_of(flips, s, e[1], c);
     side[k][1] = face_of(flips, e[0], s, c);
-    if (split->count == 1)
-      side[k][2] = face_of(flips, e[0], e[1], s);
+    if (split->count == 1) side[k][2] = face_of(flips, e[0], e[1], s);
     *good = *good && side[k][0] >= 0 && side[k][1] >= 0 && (split->count == 2 || side[k][2] >= 0);
   }
-  if (!*good)
-    goto done;
+  if (!*good) goto done;
   cw_copy(p, mesh->point[split->point].x);
-  for (int k = 0; k < split->count; k++)
-    CW_TRY(cw_delaunay_new_tet(mesh, &made[k]));
+  for (int k = 0; k < split->count; k++) CW_TRY(cw_delaunay_new_tet(mesh, &made[k]));
   for (int k = 0; k < split->count; k++) {
     const int32_t corner[4] = {split->ends[k][1], split->ends[k][0], split->apex[k], split->point};
     CwDelaunayTet *tet = &mesh->tet[made[k]];
@@ -102,8 +95,7 @@ static CwStatus take_off(CwFlips *flips, const CwSplit *split, CwHollow *h, int 
       join(mesh, 4 * made[k] + 2, side[k][2]);
     else
       tet->neighbour[2] = 4 * made[1 - k] + 2;
-    for (int i = 0; i < 4; i++)
-      flips->tet_at[corner[i]] = made[k];
+    for (int i = 0; i < 4; i++) flips->tet_at[corner[i]] = made[k];
   }
 done:
   return status;
@@ -115,8 +107,7 @@ CwStatus cw_kernel_unsplit(CwDelaunay *mesh, const CwSplits *splits, int *good) 
   CwHollow h = {0};
   *good = 1;
   CW_TRY(cw_flips_make(mesh, &flips));
-  for (int32_t k = splits->count - 1; k >= 0 && *good; k--)
-    CW_TRY(take_off(&flips, &splits->split[k], &h, good));
+  for (int32_t k = splits->count - 1; k >= 0 && *good; k--) CW_TRY(take_off(&flips, &splits->split[k], &h, good));
 done:
   cw_flips_free(&flips);
   cw_hollow_free(&h);

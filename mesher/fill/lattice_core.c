@@ -19,8 +19,8 @@ typedef struct {
 } Lattice;
 
 static const int8_t beside_face[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
-static const int8_t beside_edge[12][3] = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {-1, 0, -1}, {1, 0, -1},
-                                          {-1, 0, 1},  {1, 0, 1},  {0, -1, -1}, {0, 1, -1}, {0, -1, 1}, {0, 1, 1}};
+static const int8_t beside_edge[12][3] = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0},  {1, 1, 0},  {-1, 0, -1}, {1, 0, -1},
+                                          {-1, 0, 1},  {1, 0, 1},  {0, -1, -1}, {0, 1, -1}, {0, -1, 1},  {0, 1, 1}};
 
 // The site with a key, or -1: by doubled steps from where the cursor stands, which takes the place that the key has
 // or would have.
@@ -59,8 +59,7 @@ static int32_t find_from(Lattice *lattice, const int32_t at[3], int level, int l
   int32_t there[3];
   for (int i = 0; i < 3; i++) {
     there[i] = at[i] + (length << level) * o[i];
-    if ((uint32_t)there[i] >= END)
-      return -1;
+    if ((uint32_t)there[i] >= END) return -1;
   }
   int towards = 9 * (o[2] + 1) + 3 * (o[1] + 1) + o[0] + 1;
   return search(lattice, cw_lattice_key(there), &lattice->cursor[level][length - 1][towards]);
@@ -84,8 +83,7 @@ static int lies_in_larger(Lattice *lattice, const int32_t at[3], int level, cons
   int32_t centre[3], edge = 2 << level;
   for (int i = 0; i < 3; i++) {
     int32_t low = at[i] + edge * o[i] - edge / 2;
-    if (low < 0)
-      return 0;
+    if (low < 0) return 0;
     centre[i] = (low & ~(2 * edge - 1)) + edge;
   }
   return find_beside(lattice, centre, level + 1, (int8_t[3]){0, 0, 0}) >= 0;
@@ -96,8 +94,7 @@ static int lies_in_larger(Lattice *lattice, const int32_t at[3], int level, cons
 static int is_calm_round(Lattice *lattice, const int32_t at[3], int level) {
   for (int k = 0; k < 18; k++) {
     const int8_t *o = k < 6 ? beside_face[k] : beside_edge[k - 6];
-    if (find_beside(lattice, at, level, o) < 0 && !lies_in_larger(lattice, at, level, o))
-      return 0;
+    if (find_beside(lattice, at, level, o) < 0 && !lies_in_larger(lattice, at, level, o)) return 0;
   }
   return 1;
 }
@@ -106,17 +103,13 @@ static void find_calm(Lattice *lattice) {
   for (int32_t s = 0; s < lattice->count; s++) {
     const CwLatticeSite *site = &lattice->site[s];
     int32_t at[3], corner[8];
-    if (!site->clear || !is_centre(site))
-      continue;
+    if (!site->clear || !is_centre(site)) continue;
     cw_lattice_at(site->key, at);
     int calm = is_calm_round(lattice, at, site->level);
-    for (int k = 0; k < 8 && calm; k++)
-      calm = (corner[k] = find_corner(lattice, at, site->level, k)) >= 0;
-    if (!calm)
-      continue;
+    for (int k = 0; k < 8 && calm; k++) calm = (corner[k] = find_corner(lattice, at, site->level, k)) >= 0;
+    if (!calm) continue;
     lattice->calm[s] = CALM;
-    for (int k = 0; k < 8; k++)
-      lattice->calm[corner[k]]++;
+    for (int k = 0; k < 8; k++) lattice->calm[corner[k]]++;
   }
 }
 
@@ -152,8 +145,7 @@ static CwStatus leave_thick(Lattice *lattice, CwLatticeCore *core) {
       innermost = core->role[near[k]] == CW_LATTICE_DEEP;
     }
     thick[s] |= (uint8_t)innermost;
-    for (int k = 0; k < 14 && innermost; k++)
-      thick[near[k]] = 1;
+    for (int k = 0; k < 14 && innermost; k++) thick[near[k]] = 1;
   }
   for (int32_t s = 0; s < lattice->count; s++) {
     core->role[s] = thick[s] ? CW_LATTICE_DEEP : CW_LATTICE_SHELL;
@@ -174,9 +166,8 @@ static void add_face(CwLatticeCore *core, int32_t a, int32_t b, int32_t c) {
 
 // The tetrahedra at the face of calm cell s towards d that have a deep corner; and those of their faces beyond
 // which there is none: a tetrahedron beside one of the core is of the core where its apex over the face is deep.
-static void add_tets(Lattice *lattice, CwLatticeCore *core, int32_t s, int32_t other, int d,
-                     const int32_t corner[8]) {
-  static const int8_t turn[EDGES][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}; // counter-clockwise from outside
+static void add_tets(Lattice *lattice, CwLatticeCore *core, int32_t s, int32_t other, int d, const int32_t corner[8]) {
+  static const int8_t turn[EDGES][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // counter-clockwise from outside
   static const int8_t out[EDGES][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}}; // beyond the edge to the next corner
   int level = lattice->site[s].level, side = d % 2, i = d / 2, j = (i + 1 + !side) % 3, k = (i + 2 - !side) % 3;
   int32_t at[2][3], of_face[EDGES];
@@ -185,30 +176,23 @@ static void add_tets(Lattice *lattice, CwLatticeCore *core, int32_t s, int32_t o
     of_face[e] = corner[side << i | turn[e][0] << j | turn[e][1] << k];
     any |= is_deep(core, of_face[e]);
   }
-  if (!any)
-    return;
+  if (!any) return;
   cw_lattice_at(lattice->site[s].key, at[0]);
   cw_lattice_at(lattice->site[other].key, at[1]);
   for (int e = 0; e < EDGES; e++) {
     int32_t p = of_face[e], q = of_face[(e + 1) % EDGES];
     int deep[4] = {is_deep(core, s), is_deep(core, other), is_deep(core, p), is_deep(core, q)};
     int count = deep[0] + deep[1] + deep[2] + deep[3];
-    if (count == 0)
-      continue;
+    if (count == 0) continue;
     memcpy(core->tet[core->tet_count++], (int32_t[4]){s, other, p, q}, sizeof *core->tet);
-    if (count > 1)
-      continue;
+    if (count > 1) continue;
     int8_t o[3] = {0, 0, 0};
     o[j] = out[e][0];
     o[k] = out[e][1];
-    if (deep[0] && !is_deep(core, find_beside(lattice, at[1], level, o)))
-      add_face(core, other, p, q);
-    if (deep[1] && !is_deep(core, find_beside(lattice, at[0], level, o)))
-      add_face(core, s, q, p);
-    if (deep[2] && !is_deep(core, of_face[(e + 2) % EDGES]))
-      add_face(core, s, other, q);
-    if (deep[3] && !is_deep(core, of_face[(e + 3) % EDGES]))
-      add_face(core, s, p, other);
+    if (deep[0] && !is_deep(core, find_beside(lattice, at[1], level, o))) add_face(core, other, p, q);
+    if (deep[1] && !is_deep(core, find_beside(lattice, at[0], level, o))) add_face(core, s, q, p);
+    if (deep[2] && !is_deep(core, of_face[(e + 2) % EDGES])) add_face(core, s, other, q);
+    if (deep[3] && !is_deep(core, of_face[(e + 3) % EDGES])) add_face(core, s, p, other);
   }
 }
 
@@ -216,15 +200,12 @@ static void add_tets(Lattice *lattice, CwLatticeCore *core, int32_t s, int32_t o
 static void add_all(Lattice *lattice, CwLatticeCore *core) {
   for (int32_t s = 0; s < lattice->count; s++) {
     int32_t at[3], corner[8], level = lattice->site[s].level;
-    if (lattice->calm[s] != CALM)
-      continue;
+    if (lattice->calm[s] != CALM) continue;
     cw_lattice_at(lattice->site[s].key, at);
-    for (int k = 0; k < 8; k++)
-      corner[k] = find_corner(lattice, at, level, k);
+    for (int k = 0; k < 8; k++) corner[k] = find_corner(lattice, at, level, k);
     for (int d = 0; d < 6; d++) {
       int32_t other = find_beside(lattice, at, level, beside_face[d]);
-      if (other >= 0 && (d % 2 || lattice->calm[other] != CALM))
-        add_tets(lattice, core, s, other, d, corner);
+      if (other >= 0 && (d % 2 || lattice->calm[other] != CALM)) add_tets(lattice, core, s, other, d, corner);
     }
   }
 }
@@ -262,8 +243,7 @@ CwStatus cw_lattice_core_make(int32_t count, const CwLatticeSite *site, CwLattic
   name_skin(core);
 done:
   free(lattice.calm);
-  if (status != CW_OK)
-    cw_lattice_core_free(core);
+  if (status != CW_OK) cw_lattice_core_free(core);
   return status;
 }
 

@@ -15,9 +15,9 @@ extern "C" {
 
 // A point's place in the lattice, in half edges of the octree's finest cell.
 typedef struct {
-  uint64_t key;   // 21 bits an axis: y, x, z from the high end
-  int32_t level;  // of a cell that it is a corner or the centre of; the edge is 2 << level
-  int32_t clear;  // 1: the boundary has no part in the cell
+  uint64_t key;  // 21 bits an axis: y, x, z from the high end
+  int32_t level; // of a cell that it is a corner or the centre of; the edge is 2 << level
+  int32_t clear; // 1: the boundary has no part in the cell
 } CwLatticeSite;
 
 // Points beside the lattice have keys from here on, above those of all places, and are not clear.

@@ -23,9 +23,8 @@ typedef struct {
 CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size) {
   CwStatus status = CW_OK;
   *size = input->size(input->size_context, x);
-  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH,
-             "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm", input->name, *size, 1e3 * x[0],
-             1e3 * x[1], 1e3 * x[2]);
+  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH, "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm",
+             input->name, *size, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
 done:
   return status;
 }
@@ -41,8 +40,7 @@ static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int lev
   if (level > 0 && edge > 1.4142135623730951 * lattice->fit * asked) {
     for (int child = 0; child < 8; child++) {
       int32_t corner[3];
-      for (int i = 0; i < 3; i++)
-        corner[i] = at[i] + ((child >> i & 1) << (level - 1));
+      for (int i = 0; i < 3; i++) corner[i] = at[i] + ((child >> i & 1) << (level - 1));
       CW_TRY(cut(lattice, cell, corner, level - 1, store));
     }
     goto done;
@@ -55,8 +53,7 @@ static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int lev
   CW_GROW(lattice->place, lattice->place_space, lattice->place_count + 9);
   for (int k = 0; k < 9; k++) {
     int32_t there[3];
-    for (int i = 0; i < 3; i++)
-      there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
+    for (int i = 0; i < 3; i++) there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
     uint64_t key = cw_lattice_key(there), *seen = &lattice->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
     if (*seen != key) // of equal places the first one counts
       lattice->place[lattice->place_count++] = (CwLatticePlace){key, cell, level};
@@ -70,8 +67,7 @@ static CwStatus cut_all(Lattice *lattice, int32_t count, const CwLatticeCell *ce
   CwStatus status = CW_OK;
   lattice->wanted = lattice->found = 0.0;
   for (int32_t c = 0; c < count; c++) {
-    if (store || cell[c].counts)
-      CW_TRY(cut(lattice, c, cell[c].at, cell[c].level, store));
+    if (store || cell[c].counts) CW_TRY(cut(lattice, c, cell[c].at, cell[c].level, store));
   }
 done:
   return status;
@@ -85,8 +81,7 @@ static CwStatus fit_spacing(Lattice *lattice, int32_t count, const CwLatticeCell
   double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
   for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
     CW_TRY(cut_all(lattice, count, cell, 0));
-    if (!(lattice->wanted > 0.0))
-      break;
+    if (!(lattice->wanted > 0.0)) break;
     double ratio = lattice->found / lattice->wanted, error = fabs(log(ratio));
     if (error < best_error) {
       best = lattice->fit;
@@ -121,12 +116,9 @@ static CwStatus sort_places(Lattice *lattice) {
       continue;
     }
     int64_t start[(1 << DIGIT) + 1] = {0};
-    for (int64_t k = 0; k < count; k++)
-      start[(lattice->place[k].key >> shift & mask) + 1]++;
-    for (int d = 0; d < 1 << DIGIT; d++)
-      start[d + 1] += start[d];
-    for (int64_t k = 0; k < count; k++)
-      other[start[lattice->place[k].key >> shift & mask]++] = lattice->place[k];
+    for (int64_t k = 0; k < count; k++) start[(lattice->place[k].key >> shift & mask) + 1]++;
+    for (int d = 0; d < 1 << DIGIT; d++) start[d + 1] += start[d];
+    for (int64_t k = 0; k < count; k++) other[start[lattice->place[k].key >> shift & mask]++] = lattice->place[k];
     swap = lattice->place;
     lattice->place = other;
     other = swap;
@@ -149,8 +141,7 @@ CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame
   CW_TRY(cut_all(&lattice, cell_count, cell, 1));
   CW_TRY(sort_places(&lattice));
   for (int64_t k = 0; k < lattice.place_count; k++) {
-    if (k == 0 || lattice.place[k].key != lattice.place[*count - 1].key)
-      lattice.place[(*count)++] = lattice.place[k];
+    if (k == 0 || lattice.place[k].key != lattice.place[*count - 1].key) lattice.place[(*count)++] = lattice.place[k];
   }
   *place = lattice.place;
   lattice.place = NULL;

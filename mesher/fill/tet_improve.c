@@ -15,8 +15,7 @@ const int8_t cw_tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}
 
 CwStatus cw_tet_push(CwTetWork *w, int32_t t) {
   CwStatus status = CW_OK;
-  if (w->mesh->tet[t].centre[1] == (double)w->pass)
-    goto done;
+  if (w->mesh->tet[t].centre[1] == (double)w->pass) goto done;
   w->mesh->tet[t].centre[1] = (double)w->pass;
   CW_GROW(w->next, w->next_space, w->next_count + 1);
   w->next[w->next_count++] = t;
@@ -27,18 +26,16 @@ done:
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
   CwDelaunayTet *tet = &w->mesh->tet[t];
   tet->square = quality;
-  for (int i = 0; i < 4; i++)
-    w->mesh->point[tet->corner[i]].mark = w->pass;
+  for (int i = 0; i < 4; i++) w->mesh->point[tet->corner[i]].mark = w->pass;
   return quality < w->limit ? cw_tet_push(w, t) : CW_OK;
 }
 
-CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count,
-                        const int32_t (*corner)[4], const double *quality) {
+CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                        const double *quality) {
   CwStatus status = CW_OK;
   int32_t slot[CW_FLIP];
   CW_TRY(cw_flips_replace(&w->flips, old_count, old, count, corner, slot));
-  for (int k = 0; k < count; k++)
-    CW_TRY(cw_tet_set_quality(w, slot[k], quality[k]));
+  for (int k = 0; k < count; k++) CW_TRY(cw_tet_set_quality(w, slot[k], quality[k]));
 done:
   return status;
 }
@@ -50,30 +47,24 @@ static CwStatus improve_one(CwTetWork *w, int32_t t, int move, int insert, int *
   int order[6];
   memcpy(c, w->mesh->tet[t].corner, sizeof c);
   *done_it = 0;
-  CwTetMeasures m =
-      cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+  CwTetMeasures m = cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
   for (int e = 0; e < 6; e++) { // longest first: the diagonals of a flat one
     int k = e;
-    for (; k > 0 && m.edge[order[k - 1]] < m.edge[e]; k--)
-      order[k] = order[k - 1];
+    for (; k > 0 && m.edge[order[k - 1]] < m.edge[e]; k--) order[k] = order[k - 1];
     order[k] = e;
   }
   for (int e = 0; e < 6 && !*done_it; e++)
     CW_TRY(cw_tet_remove_edge(w, t, c[cw_tet_edge[order[e]][0]], c[cw_tet_edge[order[e]][1]], done_it));
-  for (int i = 0; i < 4 && !*done_it; i++)
-    CW_TRY(cw_tet_remove_face(w, t, i, done_it));
-  for (int i = 0; i < 4 && move && !*done_it; i++)
-    CW_TRY(cw_tet_smooth(w, t, c[i], done_it));
-  if (insert && !*done_it && w->mesh->tet[t].square < w->insert)
-    CW_TRY(cw_tet_insert(w, t, done_it));
+  for (int i = 0; i < 4 && !*done_it; i++) CW_TRY(cw_tet_remove_face(w, t, i, done_it));
+  for (int i = 0; i < 4 && move && !*done_it; i++) CW_TRY(cw_tet_smooth(w, t, c[i], done_it));
+  if (insert && !*done_it && w->mesh->tet[t].square < w->insert) CW_TRY(cw_tet_insert(w, t, done_it));
 done:
   return status;
 }
 
 static int has_changed(const CwTetWork *w, int32_t t) {
   for (int i = 0; i < 4; i++) {
-    if (w->mesh->point[w->mesh->tet[t].corner[i]].mark + 1 >= w->pass)
-      return 1;
+    if (w->mesh->point[w->mesh->tet[t].corner[i]].mark + 1 >= w->pass) return 1;
   }
   return 0;
 }
@@ -88,16 +79,12 @@ CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move) {
     for (int32_t k = 0; k < w->bad_count; k++) {
       int32_t t = w->bad[k];
       int done_it = 0;
-      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= w->limit)
-        continue;
-      if (pass <= 1 || has_changed(w, t))
-        CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
+      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= w->limit) continue;
+      if (pass <= 1 || has_changed(w, t)) CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
       changes += done_it;
-      if (!done_it)
-        CW_TRY(cw_tet_push(w, t));
+      if (!done_it) CW_TRY(cw_tet_push(w, t));
     }
-    if (changes == 0 && pass >= 1)
-      break;
+    if (changes == 0 && pass >= 1) break;
   }
 done:
   return status;
@@ -108,19 +95,16 @@ static double least_quality(const CwTetWork *w) {
   double least = 1.0;
   for (int32_t k = 0; k < w->next_count; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[w->next[k]];
-    if (tet->corner[0] >= 0)
-      least = cw_tet_less(least, tet->square);
+    if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->square);
   }
   for (int32_t t = 0; t < w->mesh->tet_count && least >= CW_TET_IMPROVE; t++) {
     const CwDelaunayTet *tet = &w->mesh->tet[t];
-    if (tet->corner[0] >= 0)
-      least = cw_tet_less(least, tet->square);
+    if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->square);
   }
   return least;
 }
 
-CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count,
-                             CwTetImproved *improved) {
+CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count, CwTetImproved *improved) {
   CwStatus status = CW_OK;
   CwTetWork w = {.flips = {.mesh = mesh},
                  .mesh = mesh,
@@ -137,12 +121,10 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_IMPROVE;
   CW_TRY(cw_tet_improve_list(&w, PASSES, 1));
-  if (fixed_count < *source_count)
-    CW_TRY(cw_tet_search(&w));
+  if (fixed_count < *source_count) CW_TRY(cw_tet_search(&w));
   w.count.least_after = least_quality(&w);
   *source_count = w.source_count;
-  if (improved)
-    *improved = w.count;
+  if (improved) *improved = w.count;
 done:
   free(w.bad);
   free(w.next);
@@ -160,7 +142,6 @@ CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improv
   CW_TRY(cw_tet_mesh_take(&mesh, fixed_count, count, fill));
 done:
   cw_delaunay_free(&mesh);
-  if (status != CW_OK)
-    cw_fill_free(fill);
+  if (status != CW_OK) cw_fill_free(fill);
   return status;
 }

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double worth = 0.02;   // least gain: a point more must pay
-static const double SPACING = 0.2;  // of these, over the mean edge
+static const double worth = 0.02;  // least gain: a point more must pay
+static const double SPACING = 0.2; // of these, over the mean edge
 enum { CAVITY = 64, SIDES = CW_FLIP, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
 
 // Tetrahedra to be taken away, and the faces of their hull, as 4 * tetrahedron + face.
@@ -23,8 +23,7 @@ typedef struct {
 static double side_quality(const CwTetWork *w, int32_t side, const double p[3]) {
   const int32_t *corner = w->mesh->tet[side / 4].corner;
   const int8_t *face = cw_tet_face[side % 4];
-  return cw_tet_quality(cw_tet_at(w, corner[face[0]]), cw_tet_at(w, corner[face[2]]),
-                        cw_tet_at(w, corner[face[1]]), p);
+  return cw_tet_quality(cw_tet_at(w, corner[face[0]]), cw_tet_at(w, corner[face[2]]), cw_tet_at(w, corner[face[1]]), p);
 }
 
 // Grows the cavity from t over every face that would make a tetrahedron with p no better than `enough`
@@ -40,12 +39,10 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
   cavity->count = 1;
   cavity->side_count = 0;
   *grown = (Grown){-INFINITY, INFINITY};
-  for (int i = 0; i < 4; i++)
-    open[opened++] = 4 * t + i;
+  for (int i = 0; i < 4; i++) open[opened++] = 4 * t + i;
   for (int head = 0; head < opened; head++) {
     int32_t side = open[head], other = mesh->tet[side / 4].neighbour[side % 4];
-    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp)
-      continue;
+    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp) continue;
     double quality = side_quality(w, side, p);
     if (quality > enough) {
       open[kept++] = side; // never ahead of head
@@ -53,21 +50,17 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
       continue;
     }
     grown->crossed = fmax(grown->crossed, quality);
-    if (other < 0 || cavity->count == CAVITY)
-      return 0;
+    if (other < 0 || cavity->count == CAVITY) return 0;
     mesh->tet[other / 4].centre[0] = w->stamp;
     cavity->tet[cavity->count++] = other / 4;
     for (int i = 0; i < 4; i++) {
-      if (i != other % 4)
-        open[opened++] = other / 4 * 4 + i;
+      if (i != other % 4) open[opened++] = other / 4 * 4 + i;
     }
   }
   for (int k = 0; k < kept; k++) {
     int32_t other = mesh->tet[open[k] / 4].neighbour[open[k] % 4];
-    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp)
-      continue; // what lies behind was taken later
-    if (cavity->side_count == SIDES)
-      return 0;
+    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp) continue; // what lies behind was taken later
+    if (cavity->side_count == SIDES) return 0;
     cavity->side[cavity->side_count++] = open[k];
   }
   return 1;
@@ -94,13 +87,11 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   const CwDelaunayTet *tet = &w->mesh->tet[t];
   const double *x[4];
   int count = 0;
-  for (int i = 0; i < 4; i++)
-    x[i] = cw_tet_at(w, tet->corner[i]);
+  for (int i = 0; i < 4; i++) x[i] = cw_tet_at(w, tet->corner[i]);
   for (int f = 0; f < 4; f++) {
     const double *a = x[cw_tet_face[f][0]], *b = x[cw_tet_face[f][1]], *c = x[cw_tet_face[f][2]];
     double u[3], v[3], normal[3], square = 0.0;
-    for (int i = 0; i < 3; i++)
-      u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+    for (int i = 0; i < 3; i++) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
     for (int i = 0; i < 3; i++) {
       normal[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
       square += normal[i] * normal[i];
@@ -108,26 +99,21 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
     // The height of the regular tetrahedron on a face of the same area, sqrt(2/3) (4/sqrt(3) A)^(1/2).
     double height = tet->neighbour[f] < 0 ? -0.8774 * sqrt(sqrt(square)) / sqrt(square) : 0.0;
     for (int step = 1; step <= (height < 0.0 ? 3 : 1); step++, count++) {
-      for (int i = 0; i < 3; i++)
-        place[count][i] = (a[i] + b[i] + c[i]) / 3.0 + step / 3.0 * height * normal[i];
+      for (int i = 0; i < 3; i++) place[count][i] = (a[i] + b[i] + c[i]) / 3.0 + step / 3.0 * height * normal[i];
     }
   }
-  for (int i = 0; i < 3; i++)
-    place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]);
+  for (int i = 0; i < 3; i++) place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]);
   count++;
   for (int e = 0; e < 6; e++, count++) {
-    for (int i = 0; i < 3; i++)
-      place[count][i] = 0.5 * (x[cw_tet_edge[e][0]][i] + x[cw_tet_edge[e][1]][i]);
+    for (int i = 0; i < 3; i++) place[count][i] = 0.5 * (x[cw_tet_edge[e][0]][i] + x[cw_tet_edge[e][1]][i]);
   }
-  if (tet->square >= w->insert_round)
-    return count;
+  if (tet->square >= w->insert_round) return count;
   CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
   double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
   for (int k = 0; k < 14 * SHELLS; k++, count++) {
     const double *way = cw_tet_way[k % 14];
     double radius = SPACING * edge * (double)(k / 14 + 1);
-    for (int i = 0; i < 3; i++)
-      place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * way[i];
+    for (int i = 0; i < 3; i++) place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * way[i];
   }
   return count;
 }
@@ -155,12 +141,10 @@ static double best_from(CwTetWork *w, int32_t t, const double place[3], double a
   double there[3];
   memcpy(there, place, sizeof there);
   for (int again = 0; again < AGAIN; again++) {
-    if (!grow(w, t, there, fmax(aim, best), &cavity, again ? &later : first) || !is_filled(w, &cavity, there))
-      break;
+    if (!grow(w, t, there, fmax(aim, best), &cavity, again ? &later : first) || !is_filled(w, &cavity, there)) break;
     make_hollow(w, &cavity, &hollow);
     double got = cw_hollow_best(&hollow, there, cw_hollow_quality(&hollow, there, -2.0));
-    if (got <= best)
-      break;
+    if (got <= best) break;
     best = got;
     *chosen = cavity;
     memcpy(p, there, sizeof there);
@@ -208,8 +192,7 @@ CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
         best = best_from(w, t, place[k], aim[a], best, &chosen, p, &grown[k]);
     }
   }
-  if (best <= least)
-    goto done;
+  if (best <= least) goto done;
   CW_TRY(fill_cavity(w, &chosen, p));
   w->count.points_added++;
   *done_it = 1;

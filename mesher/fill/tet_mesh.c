@@ -17,21 +17,18 @@ CwStatus cw_tet_mesh_make(const CwFill *fill, CwDelaunay *mesh) {
   CW_NEW(mesh->point, mesh->point_count);
   CW_NEW(mesh->source, mesh->point_count);
   CW_NEW(mesh->tet, count);
-  for (int32_t p = 0; p < CW_DELAUNAY_CORNERS; p++)
-    mesh->source[p] = -1;
+  for (int32_t p = 0; p < CW_DELAUNAY_CORNERS; p++) mesh->source[p] = -1;
   for (int32_t p = 0; p < fill->point_count; p++) {
     memcpy(mesh->point[CW_DELAUNAY_CORNERS + p].x, fill->x[p], sizeof *fill->x);
     mesh->source[CW_DELAUNAY_CORNERS + p] = p;
   }
   for (int32_t t = 0; t < count; t++) {
     memcpy(mesh->tet[t].neighbour, neighbour[t], sizeof *neighbour);
-    for (int i = 0; i < 4; i++)
-      mesh->tet[t].corner[i] = CW_DELAUNAY_CORNERS + fill->tetrahedron[t][i];
+    for (int i = 0; i < 4; i++) mesh->tet[t].corner[i] = CW_DELAUNAY_CORNERS + fill->tetrahedron[t][i];
   }
 done:
   free(neighbour);
-  if (status != CW_OK)
-    cw_delaunay_free(mesh);
+  if (status != CW_OK) cw_delaunay_free(mesh);
   return status;
 }
 
@@ -45,8 +42,7 @@ CwStatus cw_tet_mesh_take(CwDelaunay *mesh, int32_t fixed_count, int32_t source_
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     int32_t corner[4];
     memcpy(corner, mesh->tet[t].corner, sizeof corner);
-    if (corner[0] < 0)
-      continue;
+    if (corner[0] < 0) continue;
     for (int i = 0; i < 4; i++) {
       corner[i] = mesh->source[corner[i]];
       number[corner[i]] = 1;
@@ -55,8 +51,7 @@ CwStatus cw_tet_mesh_take(CwDelaunay *mesh, int32_t fixed_count, int32_t source_
   }
   mesh->tet = NULL;
   fill->tetrahedron = realloc(made, (size_t)kept * sizeof *made);
-  if (!fill->tetrahedron)
-    fill->tetrahedron = made;
+  if (!fill->tetrahedron) fill->tetrahedron = made;
   fill->tetrahedron_count = kept;
   for (int32_t p = 0; p < source_count; p++) {
     if (p < fixed_count)
@@ -65,15 +60,13 @@ CwStatus cw_tet_mesh_take(CwDelaunay *mesh, int32_t fixed_count, int32_t source_
       number[p] = number[p] ? points++ : -1;
   }
   for (int32_t t = 0; t < kept; t++) {
-    for (int i = 0; i < 4; i++)
-      fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
+    for (int i = 0; i < 4; i++) fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
   }
   fill->x = malloc((size_t)points * sizeof *fill->x);
   CW_REQUIRE(fill->x, CW_ERR_MEMORY, "out of memory: %d points", points);
   for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh->point_count; p++) {
     int32_t to = number[mesh->source[p]];
-    if (to >= 0)
-      memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
+    if (to >= 0) memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
   }
   fill->point_count = points;
 done:

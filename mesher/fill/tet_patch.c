@@ -133,8 +133,7 @@ static CwStatus find_hull(const CwTetPatch *patch, const CwDelaunay *whole, int3
   for (int32_t k = 0; k < 4 * patch->tet_count; k++) {
     const CwDelaunayTet *tet = &whole->tet[patch->tet[k / 4]];
     int32_t next = tet->neighbour[k % 4];
-    if (next < 0 || find(list, patch->tet_count, next / 4) < 0)
-      (*hull)[(*count)++] = side_of(tet->corner, k % 4, next);
+    if (next < 0 || find(list, patch->tet_count, next / 4) < 0) (*hull)[(*count)++] = side_of(tet->corner, k % 4, next);
   }
   qsort(*hull, (size_t)*count, sizeof **hull, compare_sides);
 done:

@@ -12,8 +12,8 @@ typedef struct {
   double area[4]; // squares of the doubled areas, opposite a, b, c, d
 } CwTetMeasures;
 
-static inline __attribute__((always_inline)) CwTetMeasures
-cw_tet_measures(const double a[3], const double b[3], const double c[3], const double d[3]) {
+static inline __attribute__((always_inline)) CwTetMeasures cw_tet_measures(const double a[3], const double b[3],
+                                                                           const double c[3], const double d[3]) {
   CwTetMeasures s;
   double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
   double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
@@ -21,7 +21,7 @@ cw_tet_measures(const double a[3], const double b[3], const double c[3], const d
   double ux = py * qz - pz * qy, uy = pz * qx - px * qz, uz = px * qy - py * qx; // p x q, opposite d
   double vx = qy * rz - qz * ry, vy = qz * rx - qx * rz, vz = qx * ry - qy * rx; // q x r, opposite b
   double wx = ry * pz - rz * py, wy = rz * px - rx * pz, wz = rx * py - ry * px; // r x p, opposite c
-  double nx = ux + vx + wx, ny = uy + vy + wy, nz = uz + vz + wz; // (q - p) x (r - p), opposite a
+  double nx = ux + vx + wx, ny = uy + vy + wy, nz = uz + vz + wz;                // (q - p) x (r - p), opposite a
   double ex = qx - px, ey = qy - py, ez = qz - pz, fx = rx - px, fy = ry - py, fz = rz - pz;
   double gx = rx - qx, gy = ry - qy, gz = rz - qz;
   s.six = ux * rx + uy * ry + uz * rz;
@@ -39,8 +39,8 @@ cw_tet_measures(const double a[3], const double b[3], const double c[3], const d
 }
 
 // Six times the volume, as among the measures.
-static inline __attribute__((always_inline)) double cw_tet_six(const double a[3], const double b[3],
-                                                               const double c[3], const double d[3]) {
+static inline __attribute__((always_inline)) double cw_tet_six(const double a[3], const double b[3], const double c[3],
+                                                               const double d[3]) {
   double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
   double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
   double rx = d[0] - a[0], ry = d[1] - a[1], rz = d[2] - a[2];
@@ -57,10 +57,8 @@ static inline double cw_tet_more(double a, double b) {
 
 static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double *longest) {
   const double *l = s->edge;
-  *shortest =
-      cw_tet_less(cw_tet_less(cw_tet_less(l[0], l[1]), cw_tet_less(l[2], l[3])), cw_tet_less(l[4], l[5]));
-  *longest =
-      cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])), cw_tet_more(l[4], l[5]));
+  *shortest = cw_tet_less(cw_tet_less(cw_tet_less(l[0], l[1]), cw_tet_less(l[2], l[3])), cw_tet_less(l[4], l[5]));
+  *longest = cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])), cw_tet_more(l[4], l[5]));
 }
 
 // Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.
@@ -75,30 +73,25 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 // where it is flat or not positive. Above an aspect of 4 the edges count by their root, so that a slender triangle of
 // the boundary, which nothing can help, does not hide flat angles. The sine at an edge is 6 V times the edge over the
 // (doubled) areas of its two faces. Where it is above `enough` only 1 is known, without division.
-static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3],
-                                       const double d[3], double enough) {
+static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3], const double d[3],
+                                       double enough) {
   double shortest, longest, squared = enough * enough;
-  if (!(cw_tet_six(a, b, c, d) > 0.0))
-    return -1.0; // many are, and need nothing else
+  if (!(cw_tet_six(a, b, c, d) > 0.0)) return -1.0; // many are, and need nothing else
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
   cw_tet_edges(&s, &shortest, &longest);
-  if (!(s.six * s.six > CW_TET_FLAT * longest * longest * longest))
-    return -1.0;
+  if (!(s.six * s.six > CW_TET_FLAT * longest * longest * longest)) return -1.0;
   const double *l = s.edge, *n = s.area;
   double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
                              cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
   least = s.six * s.six * cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   double areas = n[0] * n[1] * n[2] * n[3];
-  if (least > squared * areas && CW_TET_ASPECT * shortest > squared * longest)
-    return 1.0;
+  if (least > squared * areas && CW_TET_ASPECT * shortest > squared * longest) return 1.0;
   double aspect = CW_TET_ASPECT * shortest / longest;
-  if (aspect < CW_TET_SLENDER)
-    aspect = sqrt(CW_TET_SLENDER * aspect);
+  if (aspect < CW_TET_SLENDER) aspect = sqrt(CW_TET_SLENDER * aspect);
   return sqrt(cw_tet_less(least / areas, aspect));
 }
 
-static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3],
-                                    const double d[3]) {
+static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3], const double d[3]) {
   return cw_tet_quality_to(a, b, c, d, 1.0); // no sine is above 1
 }
 

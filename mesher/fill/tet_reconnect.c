@@ -23,14 +23,11 @@ CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *
   RingTable table;
   *done_it = 0;
   int n = cw_flips_ring(&w->flips, t, a, b, old, ring);
-  if (n < 3 || n > RING)
-    goto done;
+  if (n < 3 || n > RING) goto done;
   for (int k = 0; k < n; k++) {
     double q = w->mesh->tet[old[k]].square;
-    if (q < least)
-      least = q;
-    if (k + 1 < n)
-      table.best[k][k + 1] = INFINITY;
+    if (q < least) least = q;
+    if (k + 1 < n) table.best[k][k + 1] = INFINITY;
   }
   least += CW_TET_GAIN;
   for (int span = 2; span < n; span++) {
@@ -40,29 +37,22 @@ CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *
       table.cut[from][to] = (int8_t)(from + 1);
       for (int k = from + 1; k < to; k++) {
         double worst = table.best[from][k] < table.best[k][to] ? table.best[from][k] : table.best[k][to];
-        if (worst <= least || worst <= best)
-          continue;
+        if (worst <= least || worst <= best) continue;
         double q = cw_tet_quality_of(w, ring[from], ring[k], ring[to], b);
-        if (q < worst)
-          worst = q;
-        if (worst <= least || worst <= best)
-          continue;
+        if (q < worst) worst = q;
+        if (worst <= least || worst <= best) continue;
         q = cw_tet_quality_of(w, ring[from], ring[to], ring[k], a);
-        if (q < worst)
-          worst = q;
-        if (worst <= best)
-          continue;
+        if (q < worst) worst = q;
+        if (worst <= best) continue;
         best = worst;
         table.cut[from][to] = (int8_t)k;
       }
       table.best[from][to] = best;
     }
   }
-  if (!(table.best[0][n - 1] > least))
-    goto done;
+  if (!(table.best[0][n - 1] > least)) goto done;
   int count = cw_ring_tets(&table.cut[0][0], RING, ring, a, b, 0, n - 1, tet, 0);
-  for (int k = 0; k < count; k++)
-    quality[k] = cw_tet_quality_of(w, tet[k][0], tet[k][1], tet[k][2], tet[k][3]);
+  for (int k = 0; k < count; k++) quality[k] = cw_tet_quality_of(w, tet[k][0], tet[k][1], tet[k][2], tet[k][3]);
   CW_TRY(cw_tet_replace(w, n, old, count, (const int32_t(*)[4])tet, quality));
   w->count.edges_removed++;
   *done_it = 1;
@@ -77,17 +67,14 @@ CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
   int32_t made[3][4], other = tet->neighbour[i];
   double quality[3];
   *done_it = 0;
-  if (other < 0)
-    goto done;
+  if (other < 0) goto done;
   const int32_t old[2] = {t, other / 4};
   int32_t below = tet->corner[i], above = w->mesh->tet[old[1]].corner[other % 4];
   double least = w->mesh->tet[old[1]].square < tet->square ? w->mesh->tet[old[1]].square : tet->square;
   for (int k = 0; k < 3; k++) {
-    const int32_t one[4] = {tet->corner[cw_tet_face[i][k]], tet->corner[cw_tet_face[i][(k + 1) % 3]], below,
-                            above};
+    const int32_t one[4] = {tet->corner[cw_tet_face[i][k]], tet->corner[cw_tet_face[i][(k + 1) % 3]], below, above};
     quality[k] = cw_tet_quality_of(w, one[0], one[1], one[2], one[3]);
-    if (quality[k] <= least + CW_TET_GAIN)
-      goto done;
+    if (quality[k] <= least + CW_TET_GAIN) goto done;
     memcpy(made[k], one, sizeof one);
   }
   CW_TRY(cw_tet_replace(w, 2, old, 3, (const int32_t(*)[4])made, quality));

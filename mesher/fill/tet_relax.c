@@ -8,28 +8,26 @@
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
 static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
 static const double pull = 0.15;          // of an edge
-enum { MOVED = 1, RETURNED = 2 }; // a point that is free to move
+enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
 
 // Sets the quality (1 for all that are regular enough), and puts the tetrahedron into the list where it is
 // below the limit.
 static CwStatus judge(CwTetWork *w, int32_t t) {
   CwDelaunayTet *tet = &w->mesh->tet[t];
   const int32_t *c = tet->corner;
-  tet->square = cw_tet_quality_to(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]),
-                                  cw_tet_at(w, c[3]), regular);
+  tet->square =
+      cw_tet_quality_to(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]), regular);
   return tet->square < w->limit ? cw_tet_push(w, t) : CW_OK;
 }
 
 CwStatus cw_tet_scan(CwTetWork *w) {
   CwStatus status = CW_OK;
-  for (int32_t p = 0; p < w->mesh->point_count; p++)
-    w->mesh->point[p].mark = 0;
+  for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     CwDelaunayTet *tet = &w->mesh->tet[t];
     tet->centre[0] = 0.0;
     tet->centre[1] = -1.0;
-    if (tet->corner[0] >= 0)
-      CW_TRY(judge(w, t));
+    if (tet->corner[0] >= 0) CW_TRY(judge(w, t));
   }
 done:
   return status;
@@ -57,18 +55,16 @@ static inline void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
   ab[0] = a[1] * b[2] - a[2] * b[1], ab[1] = a[2] * b[0] - a[0] * b[2], ab[2] = a[0] * b[1] - a[1] * b[0];
   double aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2], bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
   double cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-  double products = a[0] * (b[0] + c[0]) + a[1] * (b[1] + c[1]) + a[2] * (b[2] + c[2]) + b[0] * c[0] +
-                    b[1] * c[1] + b[2] * c[2];
+  double products =
+      a[0] * (b[0] + c[0]) + a[1] * (b[1] + c[1]) + a[2] * (b[2] + c[2]) + b[0] * c[0] + b[1] * c[1] + b[2] * c[2];
   double squares = 3.0 * (aa + bb + cc) - 2.0 * products; // of all six edges
   double scale = 1.0 / (squares * sqrt(squares)), way[3];
   double weight = scale * (a[0] * bc[0] + a[1] * bc[1] + a[2] * bc[2]);
-  for (int i = 0; i < 3; i++)
-    way[i] = 0.5 * scale * (aa * bc[i] + bb * ca[i] + cc * ab[i]);
+  for (int i = 0; i < 3; i++) way[i] = 0.5 * scale * (aa * bc[i] + bb * ca[i] + cc * ab[i]);
   for (int k = 0; k < 4; k++) {
     Sum *s = &sum[corner[k]];
     const double *from = k == 0 ? NULL : k == 1 ? a : k == 2 ? b : c;
-    for (int i = 0; i < 3; i++)
-      s->way[i] += (float)(from ? way[i] - weight * from[i] : way[i]);
+    for (int i = 0; i < 3; i++) s->way[i] += (float)(from ? way[i] - weight * from[i] : way[i]);
     s->weight += (float)weight;
   }
 }
@@ -78,8 +74,7 @@ static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
   const int32_t *c = w->mesh->tet[t].corner;
   double x[4][3], square[6];
   int shortest = 0, longest = 0;
-  for (int k = 0; k < 4; k++)
-    memcpy(x[k], cw_tet_at(w, c[k]), sizeof x[k]);
+  for (int k = 0; k < 4; k++) memcpy(x[k], cw_tet_at(w, c[k]), sizeof x[k]);
   for (int e = 0; e < 6; e++) {
     const double *p = x[cw_tet_edge[e][0]], *q = x[cw_tet_edge[e][1]];
     double u = q[0] - p[0], v = q[1] - p[1], z = q[2] - p[2];
@@ -87,8 +82,7 @@ static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
     shortest = square[e] < square[shortest] ? e : shortest;
     longest = square[e] > square[longest] ? e : longest;
   }
-  if (!(square[shortest] > CW_TET_FLAT * square[longest]))
-    return;
+  if (!(square[shortest] > CW_TET_FLAT * square[longest])) return;
   for (int k = 0; k < 2; k++) {
     int e = k ? longest : shortest, a = cw_tet_edge[e][0], b = cw_tet_edge[e][1];
     double weight = 1.0 / square[e], step = k ? weight * pull : -weight * pull;
@@ -106,9 +100,8 @@ static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
 // Whether the move made a tetrahedron worse than it may be.
 static int is_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3]) {
   const CwDelaunayTet *tet = &w->mesh->tet[t];
-  return tet->square < floor_quality &&
-         tet->square < cw_tet_quality(old[tet->corner[0]], old[tet->corner[1]], old[tet->corner[2]],
-                                      old[tet->corner[3]]);
+  return tet->square < floor_quality && tet->square < cw_tet_quality(old[tet->corner[0]], old[tet->corner[1]],
+                                                                     old[tet->corner[2]], old[tet->corner[3]]);
 }
 
 // Marks the inner points that are not in a lattice.
@@ -116,11 +109,9 @@ static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   CwDelaunay *mesh = w->mesh;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
-    if (c[0] >= 0 && mesh->tet[t].square < regular)
-      moved[c[0]] = moved[c[1]] = moved[c[2]] = moved[c[3]] = MOVED;
+    if (c[0] >= 0 && mesh->tet[t].square < regular) moved[c[0]] = moved[c[1]] = moved[c[2]] = moved[c[3]] = MOVED;
   }
-  for (int32_t p = 0; p < mesh->point_count; p++)
-    moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
+  for (int32_t p = 0; p < mesh->point_count; p++) moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
 }
 
 // Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
@@ -130,8 +121,7 @@ static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, int32_t
   memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
-    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
-      add(w, t, sum);
+    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) add(w, t, sum);
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
     for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0f; i++)
@@ -145,8 +135,7 @@ typedef struct {
 
 static CwStatus note_if_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3], List *spoilt) {
   CwStatus status = CW_OK;
-  if (!is_spoilt(w, t, old))
-    goto done;
+  if (!is_spoilt(w, t, old)) goto done;
   CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
   spoilt->tet[spoilt->count++] = t;
 done:
@@ -179,8 +168,7 @@ static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) 
     whole = 0;
     for (int32_t t = 0; t < mesh->tet_count; t++) {
       const int32_t *c = mesh->tet[t].corner;
-      if (c[0] < 0 || !(moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
-        continue;
+      if (c[0] < 0 || !(moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) continue;
       CW_TRY(judge(w, t));
       CW_TRY(note_if_spoilt(w, t, old, &spoilt));
     }
@@ -188,8 +176,7 @@ static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) 
       int32_t t = spoilt.tet[--spoilt.count];
       for (int i = 0; i < 4 && is_spoilt(w, t, old); i++) {
         int32_t point = mesh->tet[t].corner[i];
-        if (moved[point] != MOVED)
-          continue;
+        if (moved[point] != MOVED) continue;
         moved[point] = RETURNED;
         w->count.points_moved--;
         CW_TRY(put_back(w, t, point, old, &spoilt, &whole));

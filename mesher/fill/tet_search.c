@@ -10,26 +10,26 @@
 #include "mesher/fill/tet_work.h"
 
 // Sines of dihedral angles.
-static const double wanted = 0.2250;  // 13 degrees: a search begins where there is less
-static const double reached = 0.2419; // 14 degrees: it ends
+static const double wanted = 0.2250;   // 13 degrees: a search begins where there is less
+static const double reached = 0.2419;  // 14 degrees: it ends
 static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again,
 static const double worthwhile = 0.85; // and below so much of the angle that the boundary allows, too
-static const double counted = 0.3746; // 22 degrees: what is less counts in a patch
-static const double sound = 0.02;     // what a disturbance leaves, at least; flatter ones are no matter of this search
-static const double alike = 0.05;     // above the worst: those that are disturbed, too
-static const double shaken = 0.3;     // of an edge: the farthest that points are moved by a disturbance
+static const double counted = 0.3746;  // 22 degrees: what is less counts in a patch
+static const double sound = 0.02;      // what a disturbance leaves, at least; flatter ones are no matter of this search
+static const double alike = 0.05;      // above the worst: those that are disturbed, too
+static const double shaken = 0.3;      // of an edge: the farthest that points are moved by a disturbance
 static const int32_t patch_size[2] = {300, 100}; // tetrahedra, in turn: few are searched more thoroughly
 enum {
-  PLACES = 6,      // of a mesh
-  TRIES = 400,     // of a beginning
-  IDLE = 250,      // of these, without a gain
-  SHARE = 500,     // one try for as many tetrahedra of the mesh: half as long as their fill takes,
-  FEWEST = 600,    // or so many
-  BEGINNINGS = 8,  // of a place where one is
-  MIXED = 3,       // in one beginning of as many points do not only go in
-  FEW = 250,       // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
-  CHANGES = 3,     // of one disturbance, at most
-  AWAY = 4,        // faces to step over from a bad tetrahedron, at most
+  PLACES = 6,     // of a mesh
+  TRIES = 400,    // of a beginning
+  IDLE = 250,     // of these, without a gain
+  SHARE = 500,    // one try for as many tetrahedra of the mesh: half as long as their fill takes,
+  FEWEST = 600,   // or so many
+  BEGINNINGS = 8, // of a place where one is
+  MIXED = 3,      // in one beginning of as many points do not only go in
+  FEW = 250,      // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
+  CHANGES = 3,    // of one disturbance, at most
+  AWAY = 4,       // faces to step over from a bad tetrahedron, at most
   PASSES = 4,
 };
 
@@ -49,9 +49,9 @@ typedef struct {
   Found now, best;        // of this beginning; of all of a place
   CwDelaunay trial;
   uint64_t random;
-  int32_t tries;          // left
-  double again;           // least sine below which a search begins again
-  int mixed;              // all kinds of disturbances, though an angle is pressing
+  int32_t tries; // left
+  double again;  // least sine below which a search begins again
+  int mixed;     // all kinds of disturbances, though an angle is pressing
 } Search;
 
 // In [0, 1).
@@ -60,7 +60,9 @@ static double next_random(Search *s) {
   return (double)(cw_mix(s->random) >> 11) * 0x1p-53;
 }
 
-static int32_t choose(Search *s, int32_t count) { return (int32_t)(next_random(s) * count); }
+static int32_t choose(Search *s, int32_t count) {
+  return (int32_t)(next_random(s) * count);
+}
 
 static CwTetMeasures measures_of(const CwDelaunay *mesh, int32_t t) {
   const int32_t *c = mesh->tet[t].corner;

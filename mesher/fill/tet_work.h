@@ -34,7 +34,7 @@ typedef struct {
   CwDelaunay *mesh;
   int32_t fixed_count, source_count;
   double stamp;
-  double limit; // quality below which tetrahedra are in the list
+  double limit;                // quality below which tetrahedra are in the list
   double insert, insert_round; // and those for which a new point is tried, and at places round about
   uint64_t pass;
   int32_t *bad, bad_count, bad_space; // to look at in this pass
@@ -64,8 +64,8 @@ static inline double cw_tet_quality_of(const CwTetWork *w, int32_t a, int32_t b,
 CwStatus cw_tet_push(CwTetWork *w, int32_t t);
 // Keeps a new quality, and the tetrahedron in mind where it is below the limit.
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality);
-CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count,
-                        const int32_t (*corner)[4], const double *quality);
+CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                        const double *quality);
 
 // Removes the edge a-b of t.
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it);

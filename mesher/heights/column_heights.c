@@ -11,14 +11,14 @@
 #include "mesher/layers/layers.h"
 #include "mesher/parallel/share.h"
 
-static const double TALLER_COLUMN = 3.25; // of the wanted length, where the last layer would else be below LOW_LAST
-static const double TALLEST_AT_BEND = 2;  // the same and that of all where the wall bends: there columns crowd
-static const double BEND = 0.94;          // least cosine of the normals about a vertex of a wall as good as flat
-static const double HOLLOW = 0.25;        // least rise of an edge over its length at a bend that is concave
-static const double LAST_LAYER = 1.0;     // its height over that of a regular tetrahedron above, at most
-static const double LOW_LAST = 0.75;      // the same where columns are at their tallest
-static const double LAST_IN_HOLLOW = 0.65; // the same at concave bends, times their cosine: tetrahedra there have two
-                                           // faces on the front, and are the flatter the sharper the bend is
+static const double TALLER_COLUMN = 3.25;   // of the wanted length, where the last layer would else be below LOW_LAST
+static const double TALLEST_AT_BEND = 2;    // the same and that of all where the wall bends: there columns crowd
+static const double BEND = 0.94;            // least cosine of the normals about a vertex of a wall as good as flat
+static const double HOLLOW = 0.25;          // least rise of an edge over its length at a bend that is concave
+static const double LAST_LAYER = 1.0;       // its height over that of a regular tetrahedron above, at most
+static const double LOW_LAST = 0.75;        // the same where columns are at their tallest
+static const double LAST_IN_HOLLOW = 0.65;  // the same at concave bends, times their cosine: tetrahedra there have two
+                                            // faces on the front, and are the flatter the sharper the bend is
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
 static const double LITTLE_GROWTH = 1.1;
@@ -65,7 +65,7 @@ typedef struct {
   const CwIncident *around;
   const CwColumnHeights *heights;
   const CwLayerTarget *layers; // of each CAD face
-  const double *graded; // heights
+  const double *graded;        // heights
 } Columns;
 
 static double size_at(const CwSkeleton *skeleton, const double x[3]) {

@@ -50,9 +50,8 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
 CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
                                  const CwLayerTarget *layers, double *share);
 
-// Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them, on the
-// wall and between the ends of the columns as they stand.
-// Collective.
+// Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them, on
+// the wall and between the ends of the columns as they stand. Collective.
 CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton);
 
 // What the heights allow the layers over each wall triangle of a region, in the order of its file; caller frees.

@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity,
-                       int at_centre) {
+double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre) {
   double reynolds = velocity * length / kinematic_viscosity;
   double friction = 0.026 * pow(reynolds, -1.0 / 7.0);
   double friction_velocity = velocity * sqrt(0.5 * friction);
@@ -19,8 +18,7 @@ static double geometric_sum(int count, double growth, double *derivative) {
     slope = slope * growth + sum;
     sum = sum * growth + 1.0;
   }
-  if (derivative)
-    *derivative = slope;
+  if (derivative) *derivative = slope;
   return sum;
 }
 
@@ -38,8 +36,7 @@ static double solve_growth(int count, double wanted, double low, double high) {
       high = growth;
     else
       low = growth;
-    if (fabs(excess) <= 1e-14 * wanted || high - low <= 1e-15)
-      break;
+    if (fabs(excess) <= 1e-14 * wanted || high - low <= 1e-15) break;
     double next = slope > 0.0 ? growth - excess / slope : low;
     growth = next > low && next < high ? next : 0.5 * (low + high);
   }
@@ -59,8 +56,7 @@ double cw_layer_fractions(double height, double first, int count, double growth_
     growth = solve_growth(count, height / first, least, growth);
   }
   fraction[0] = 0.0;
-  for (int k = 1; k < count; k++)
-    fraction[k] = start * geometric_sum(k, growth, NULL) / height;
+  for (int k = 1; k < count; k++) fraction[k] = start * geometric_sum(k, growth, NULL) / height;
   fraction[count] = 1.0;
   return count == 1 ? height : start;
 }

@@ -14,8 +14,7 @@ extern "C" {
 
 // First height of a layer for a y+ target (m): y = y+ nu / u_tau, u_tau = U sqrt(Cf/2), Cf = 0.026 Re^(-1/7),
 // Re = U L / nu; twice that where y+ is counted at the cell centre (`at_centre`).
-double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity,
-                       int at_centre);
+double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre);
 
 // Total thickness of `count` layers from `first` with growth ratio `growth`, m.
 double cw_layer_thickness(double first, int count, double growth);

@@ -16,12 +16,9 @@ CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales) {
   const struct {
     const char *key;
     double *value;
-  } wanted[] = {{"relative_speed_m_per_s", &scales->relative_speed},
-                {"volute_speed_m_per_s", &scales->volute_speed},
-                {"suction_speed_m_per_s", &scales->suction_speed},
-                {"throat_speed_m_per_s", &throat_speed},
-                {"discharge_speed_m_per_s", &scales->discharge_speed},
-                {"interface_radius_m", &outlet_radius}};
+  } wanted[] = {{"relative_speed_m_per_s", &scales->relative_speed},   {"volute_speed_m_per_s", &scales->volute_speed},
+                {"suction_speed_m_per_s", &scales->suction_speed},     {"throat_speed_m_per_s", &throat_speed},
+                {"discharge_speed_m_per_s", &scales->discharge_speed}, {"interface_radius_m", &outlet_radius}};
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
     CW_TRY(cw_json_positive(design, design_path, wanted[i].key, wanted[i].value));
   // The diffuser widens like a cone, from throat to discharge: along it the mean of Q / (pi r^2) is Q / (pi r0 r1).

@@ -8,11 +8,11 @@
 #include "mesher/parallel/share.h"
 
 enum { SWEEPS = 12 };
-static const double GAIN = 1.1;          // least factor by which a flip raises the least angle of the front
-static const double FLAT = 0.9;          // cosine between the normals of a pair that may be turned
-static const double WALL_SHARE = 0.6;    // of its least angle the wall keeps
-static const double FAIR_ANGLE = 0.35;   // rad: a wall triangle with angles above it is fair in any case
-static const double VALID_PRISM = 0.02;  // scaled Jacobian of a prism, least
+static const double GAIN = 1.1;         // least factor by which a flip raises the least angle of the front
+static const double FLAT = 0.9;         // cosine between the normals of a pair that may be turned
+static const double WALL_SHARE = 0.6;   // of its least angle the wall keeps
+static const double FAIR_ANGLE = 0.35;  // rad: a wall triangle with angles above it is fair in any case
+static const double VALID_PRISM = 0.02; // scaled Jacobian of a prism, least
 
 // Least angle of a triangle: the one across from its shortest edge.
 static double least_angle(const double (*x)[3], int32_t a, int32_t b, int32_t c) {

@@ -26,19 +26,19 @@ extern "C" {
 #endif
 
 typedef enum {
-  CW_LAYER_FULL,       // height as asked
-  CW_LAYER_GAP,        // limited by a narrow gap or hollow
-  CW_LAYER_GRADATION,  // limited by neighbours
-  CW_LAYER_REPAIR      // limited by validity of the prisms or of the front
+  CW_LAYER_FULL,      // height as asked
+  CW_LAYER_GAP,       // limited by a narrow gap or hollow
+  CW_LAYER_GRADATION, // limited by neighbours
+  CW_LAYER_REPAIR     // limited by validity of the prisms or of the front
 } CwLayerReason;
 
 typedef struct {
   int32_t point_count;
-  const double (*x)[3];               // wall vertices, m
+  const double (*x)[3]; // wall vertices, m
   int32_t triangle_count;
-  const int32_t (*triangle)[3];       // wall triangles, normal out of the domain
-  const double *target;               // asked height of each vertex, normal to the wall, m
-  const double *least;                // no column is thinned below this for a better shape of the front; NULL: 0
+  const int32_t (*triangle)[3]; // wall triangles, normal out of the domain
+  const double *target;         // asked height of each vertex, normal to the wall, m
+  const double *least;          // no column is thinned below this for a better shape of the front; NULL: 0
   // Guides: a vertex on a rim with a cap, or on a dividing plane, marches inside that surface. Up to two per
   // vertex:
   // none: free; one: stays in the tangent plane; two: stays on the line of both.
@@ -59,9 +59,9 @@ typedef struct {
 } CwLayerInput;
 
 typedef struct {
-  double (*front)[3];   // outer end of each column
-  double *height;       // normal height of each column: the least over the faces around, m
-  uint8_t *reason;      // CwLayerReason
+  double (*front)[3]; // outer end of each column
+  double *height;     // normal height of each column: the least over the faces around, m
+  uint8_t *reason;    // CwLayerReason
   int32_t repair_rounds;
   int32_t thinned_count; // columns below 0.99 of the target
 } CwLayers;

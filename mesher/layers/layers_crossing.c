@@ -92,7 +92,7 @@ static CwBox box_of(const CwLayerWork *work, const double (*x)[3], int kind, int
 static CwBox box_of_item(const void *context, int32_t f) {
   const CwLayerCrossing *crossing = context;
   const CwLayerWork *work = crossing->work;
-  const double (*x)[3] = (const double (*)[3])crossing->x;
+  const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t walls = work->in->triangle_count;
   if (f >= walls) return box_of(work, x, 2, f - walls);
   CwBox front = box_of(work, x, 0, f), wall = box_of(work, x, 1, f);
@@ -147,7 +147,7 @@ done:
 static CwStatus try_pair(Finder *finder, int kind_f, int kind_g, int32_t g) {
   CwStatus status = CW_OK;
   const CwLayerCrossing *crossing = finder->crossing;
-  const double (*x)[3] = (const double (*)[3])crossing->x;
+  const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t a[3], b[3];
   CwBox box = box_of(crossing->work, x, kind_g, g);
   if (!cw_boxes_meet(kind_f ? &finder->wall : &finder->front, &box)) goto done;
@@ -199,7 +199,7 @@ static int is_guided(const CwLayerInput *in, int32_t f) {
 static CwStatus search_block(void *context, int32_t block, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwLayerCrossing *crossing = context;
-  const double (*x)[3] = (const double (*)[3])crossing->x;
+  const double(*x)[3] = (const double(*)[3])crossing->x;
   int32_t first = block * BLOCK, last = crossing->list_count - first < BLOCK ? crossing->list_count : first + BLOCK;
   Finder finder = {.crossing = crossing};
   for (int32_t i = first; i < last; i++) {

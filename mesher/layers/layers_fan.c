@@ -117,8 +117,8 @@ CwStatus cw_layers_fan(CwLayerWork *work) {
   for (int32_t i = 0; i < fans->source_count; i++) raise_source(work, &fans->source[i]);
   CW_NEW(bytes, fans->block_count);
   CW_NEW(size, fans->block_count);
-  CwSchedule schedule = {.step = "layers: fans", .count = fans->block_count, .run = cw_fan_solve_block, .context = fans,
-                         .gather = 1};
+  CwSchedule schedule = {
+      .step = "layers: fans", .count = fans->block_count, .run = cw_fan_solve_block, .context = fans, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t v = 0; v < work->n; v++) fans->lean_t[v] = fans->reach[v].source >= 0 ? work->t[v] : -1;
   for (int32_t i = 0; i < fans->count; i++) {

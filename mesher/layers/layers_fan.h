@@ -37,14 +37,14 @@ typedef struct {
 typedef struct CwFans {
   const CwLayerWork *work;
   int32_t source_count;
-  CwFanSource *source;      // in order of their vertices
+  CwFanSource *source; // in order of their vertices
   CwFanReach *reach;
-  int32_t *local;           // scratch of a block: local number + 1 of every vertex of the domain, else 0
-  int32_t count;            // vertices in reach that may lean
-  int32_t *member, *place;  // these, block by block; the place of each vertex among them, -1: none of them
+  int32_t *local;          // scratch of a block: local number + 1 of every vertex of the domain, else 0
+  int32_t count;           // vertices in reach that may lean
+  int32_t *member, *place; // these, block by block; the place of each vertex among them, -1: none of them
   int32_t block_count;
-  void **lean;              // the CwLean of the members of each block, as the last fan left them; NULL before the first
-  double *lean_t;           // of each vertex: the height it was made for; negative out of reach
+  void **lean;    // the CwLean of the members of each block, as the last fan left them; NULL before the first
+  double *lean_t; // of each vertex: the height it was made for; negative out of reach
 } CwFans;
 
 // layers_fan_reach.c: sets `reach` from the sources. Collective.

@@ -5,10 +5,10 @@
 #include "mesher/layers/layers_fan.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
-static const double FADE = 6;         // the opening of the crease is forgotten at this many heights from it
-static const double POOR = 0.2;       // prism quality under which a fan is widened
+static const double FADE = 6;   // the opening of the crease is forgotten at this many heights from it
+static const double POOR = 0.2; // prism quality under which a fan is widened
 static const double WIDEST = 5;
-static const double SETTLED = 1e-3;   // change in one sweep, in heights, that is none
+static const double SETTLED = 1e-3; // change in one sweep, in heights, that is none
 
 // Projects u onto the directions in which the column of v may lean without changing its normal height or
 // leaving its guides.
@@ -74,19 +74,19 @@ typedef struct {
   const CwLayerWork *work;
   int32_t count, all;
   int32_t *member;
-  int32_t *outer;               // vertices around: all - count
-  int32_t *near_start, *near;   // local numbers of the neighbours of members
-  uint8_t *across;              // neighbour is a convex edge that leans along itself only
-  double *weight, *weights;     // of neighbours; their sum
-  double *area;                 // of members
-  double *reach;                // of members, where nothing is widened
-  uint8_t *stirred, *changed;   // members to relax; those whose displacement changed since the columns were set
-  uint8_t *touched;             // whose displacement changed at all
-  FanAt *fan;                   // of all
+  int32_t *outer;             // vertices around: all - count
+  int32_t *near_start, *near; // local numbers of the neighbours of members
+  uint8_t *across;            // neighbour is a convex edge that leans along itself only
+  double *weight, *weights;   // of neighbours; their sum
+  double *area;               // of members
+  double *reach;              // of members, where nothing is widened
+  uint8_t *stirred, *changed; // members to relax; those whose displacement changed since the columns were set
+  uint8_t *touched;           // whose displacement changed at all
+  FanAt *fan;                 // of all
   double (*column)[3], (*front)[3];
   int32_t triangle_count, *triangle; // of the wall, with a member
-  double *quality;              // of the prisms over them
-  int32_t *local;               // of the domain's vertices; as in CwFans
+  double *quality;                   // of the prisms over them
+  int32_t *local;                    // of the domain's vertices; as in CwFans
 } Part;
 
 static int32_t vertex_of(const Part *part, int32_t i) {

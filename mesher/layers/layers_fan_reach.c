@@ -121,8 +121,8 @@ CwStatus cw_fan_find_reach(CwFans *fans) {
   CW_NEW(bytes, count);
   CW_NEW(size, count);
   for (int32_t v = 0; v < n; v++) blocks.reach[v] = (CwFanReach){INFINITY, -1};
-  CwSchedule schedule = {.step = "layers: fans' reach", .count = count, .run = find_block, .context = &blocks,
-                         .gather = 1};
+  CwSchedule schedule = {
+      .step = "layers: fans' reach", .count = count, .run = find_block, .context = &blocks, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t b = 0; b < count; b++) {
     const CwFanReach *made = bytes[b];

@@ -19,21 +19,21 @@ typedef enum { CW_CREASE_NONE, CW_CREASE_CONVEX, CW_CREASE_CONCAVE } CwCrease;
 // normal height.
 typedef struct {
   const CwLayerInput *in;
-  int32_t n;                           // vertices
-  double (*face_normal)[3];            // unit
-  int32_t *face_start, *face;          // triangles around each vertex, ascending
-  int32_t *near_start, *near;          // neighbours of each vertex, ascending
-  double (*normal)[3], *normal_cos;    // most normal direction without guides; its least cosine to the normals
-  double (*base)[3], *base_cos;        // the same inside the guides
-  uint8_t *crease;                     // CwCrease
-  double (*along)[3];                  // crease: direction of the edge, or zero at a corner
-  double (*column)[3];                 // unit-height displacement
-  double *t;                           // height, m
-  double *most;                        // the target, or less in a hollow: no height is greater, m
-  int32_t *curve;                      // all vertices along a curve through space: near in the list, near in space
-  double *gap, (*gap_column)[3];       // height that the gap along a column allows, m, and that column; NULL at first
-  struct CwFans *fans;                 // layers_fan.h; NULL before the first fan
-  uint8_t *reason;                     // CwLayerReason
+  int32_t n;                        // vertices
+  double (*face_normal)[3];         // unit
+  int32_t *face_start, *face;       // triangles around each vertex, ascending
+  int32_t *near_start, *near;       // neighbours of each vertex, ascending
+  double (*normal)[3], *normal_cos; // most normal direction without guides; its least cosine to the normals
+  double (*base)[3], *base_cos;     // the same inside the guides
+  uint8_t *crease;                  // CwCrease
+  double (*along)[3];               // crease: direction of the edge, or zero at a corner
+  double (*column)[3];              // unit-height displacement
+  double *t;                        // height, m
+  double *most;                     // the target, or less in a hollow: no height is greater, m
+  int32_t *curve;                   // all vertices along a curve through space: near in the list, near in space
+  double *gap, (*gap_column)[3];    // height that the gap along a column allows, m, and that column; NULL at first
+  struct CwFans *fans;              // layers_fan.h; NULL before the first fan
+  uint8_t *reason;                  // CwLayerReason
 } CwLayerWork;
 
 static inline double dot3(const double a[3], const double b[3]) {
@@ -46,7 +46,9 @@ static inline void cross3(const double a[3], const double b[3], double c[3]) {
 static inline void sub3(const double a[3], const double b[3], double c[3]) {
   for (int k = 0; k < 3; k++) c[k] = a[k] - b[k];
 }
-static inline double length3(const double a[3]) { return sqrt(dot3(a, a)); }
+static inline double length3(const double a[3]) {
+  return sqrt(dot3(a, a));
+}
 static inline double distance3(const double a[3], const double b[3]) {
   double d[3];
   sub3(a, b, d);
@@ -118,13 +120,13 @@ typedef struct {
 typedef struct {
   const CwLayerWork *work;
   int32_t item_count;
-  double (*x)[3];       // front, wall, caps
-  CwBoxTree tree;       // of the prisms and the caps; may be given in any order
-  uint8_t *active;      // triangles that moved
+  double (*x)[3];  // front, wall, caps
+  CwBoxTree tree;  // of the prisms and the caps; may be given in any order
+  uint8_t *active; // triangles that moved
   int32_t *list, list_count;
-  int searched;         // a first time
+  int searched; // a first time
   int32_t pair_count;
-  CwLayerPair *pair;    // front with front, wall or cap; wall with wall, looked for once
+  CwLayerPair *pair; // front with front, wall or cap; wall with wall, looked for once
 } CwLayerCrossing;
 CwStatus cw_layers_crossing_make(const CwLayerWork *work, CwLayerCrossing *crossing); // zeroed before
 void cw_layers_crossing_free(CwLayerCrossing *crossing);

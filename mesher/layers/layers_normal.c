@@ -32,7 +32,7 @@ static void offer_both(Search *search, const double candidate[3]) {
 }
 
 static void search_free(Search *search) {
-  const double (*n)[3] = search->normal;
+  const double(*n)[3] = search->normal;
   for (int i = 0; i < search->count; i++) offer(search, n[i]);
   for (int i = 0; i < search->count; i++)
     for (int j = i + 1; j < search->count; j++) {
@@ -53,7 +53,7 @@ static void search_free(Search *search) {
 // In the plane normal to m the cosine to n[i] is a cosine wave of the angle: the best is a crest or a
 // crossing of two.
 static void search_plane(Search *search, const double m[3]) {
-  const double (*n)[3] = search->normal;
+  const double(*n)[3] = search->normal;
   for (int i = 0; i < search->count; i++) {
     double g[3] = {n[i][0], n[i][1], n[i][2]};
     flatten3(g, m);
@@ -152,7 +152,7 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   Direction *made = out;
   double normal[CW_LAYER_NORMALS][3], *g = made->normal;
   int count = cw_layers_distinct_normals(work, v, normal);
-  double c = cw_layers_most_normal(count, (const double (*)[3])normal, 0, none, g);
+  double c = cw_layers_most_normal(count, (const double(*)[3])normal, 0, none, g);
   CW_REQUIRE(c > LEAST_COSINE, CW_ERR_MESH,
              "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
              "least %.2f needed): the wall is folded or has an edge too sharp there",
@@ -196,7 +196,7 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
   made->base_cos = work->normal_cos[v];
   if (guides == 0) return CW_OK;
   made->base_cos =
-      cw_layers_most_normal(count, (const double (*)[3])normal, guides, work->in->guide_normal[v], made->base);
+      cw_layers_most_normal(count, (const double(*)[3])normal, guides, work->in->guide_normal[v], made->base);
   return CW_OK;
 }
 

@@ -5,20 +5,20 @@
 #include "mesher/parallel/schedule.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
-enum { TOGETHER = 16 };   // columns at least that are turned in one task
-enum { MANY = 2048 }; // prisms that are worth handing round the ranks
-enum { FOR_SHAPE = 1, FOR_SOUNDNESS }; // what a column is turned and thinned for
-static const double GOOD = 0.12, FAIR = 0.05;         // least prism quality
-static const double KEPT = 0.08;         // the same where columns would have to give up their first height for more
-static const double FRONT = 0.4;         // what the quality of the front counts beside that of prisms: 0.3 is good
-static const double MUCH = 100;          // more than any quality
-static const double THIN = 0.8;          // what a thinned column keeps
-static const double LEAST_COSINE = 0.3;  // of a direction that the search may choose
-static const double LEAST_SHARE = 0.01;  // of its target: a column this thin that still crosses will not get clear
+enum { TOGETHER = 16 };                       // columns at least that are turned in one task
+enum { MANY = 2048 };                         // prisms that are worth handing round the ranks
+enum { FOR_SHAPE = 1, FOR_SOUNDNESS };        // what a column is turned and thinned for
+static const double GOOD = 0.12, FAIR = 0.05; // least prism quality
+static const double KEPT = 0.08;        // the same where columns would have to give up their first height for more
+static const double FRONT = 0.4;        // what the quality of the front counts beside that of prisms: 0.3 is good
+static const double MUCH = 100;         // more than any quality
+static const double THIN = 0.8;         // what a thinned column keeps
+static const double LEAST_COSINE = 0.3; // of a direction that the search may choose
+static const double LEAST_SHARE = 0.01; // of its target: a column this thin that still crosses will not get clear
 
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
   const int32_t *v = work->in->triangle[f];
-  const double (*x)[3] = work->in->x;
+  const double(*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
   return cw_prism_quality(wall, end);
 }
@@ -26,7 +26,7 @@ double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double 
 // What the front of a prism counts beside it.
 static double front_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
   const int32_t *v = work->in->triangle[f];
-  const double (*x)[3] = work->in->x;
+  const double(*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
   return FRONT * cw_prism_front_quality(wall, end);
 }
@@ -58,7 +58,7 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
   int guides = in->guide_count ? in->guide_count[v] : 0;
   if (guides == 2) return;
   int32_t first = 0;
-  double best = cw_layers_around(work, v, (const double (*)[3])front, -INFINITY, &first), kept[3], column[3];
+  double best = cw_layers_around(work, v, (const double(*)[3])front, -INFINITY, &first), kept[3], column[3];
   double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
   memcpy(kept, front[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
@@ -86,7 +86,7 @@ static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
       if (cosine < least_cosine) continue;
       for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
       cw_layers_place(work, v, front[v]);
-      double quality = cw_layers_around(work, v, (const double (*)[3])front, best, &first);
+      double quality = cw_layers_around(work, v, (const double(*)[3])front, best, &first);
       if (quality > best) {
         best = quality;
         memcpy(kept, front[v], sizeof kept);
@@ -107,19 +107,21 @@ typedef struct {
   uint8_t *mark;           // vertices to turn or to thin, and what for
   uint8_t *moved;          // vertices that moved since prisms were judged
   int32_t moved_count, *moved_list;
-  uint8_t *uncrossed;      // and since crossings were looked for
-  double limit;            // prism quality asked for
-  double *height;          // as placed
+  uint8_t *uncrossed; // and since crossings were looked for
+  double limit;       // prism quality asked for
+  double *height;     // as placed
   CwLayerCrossing crossing;
 } Repair;
 
 // Height down to which column v may be thinned for a better shape.
-static double least_height(const CwLayerWork *work, int32_t v) { return work->in->least ? work->in->least[v] : 0; }
+static double least_height(const CwLayerWork *work, int32_t v) {
+  return work->in->least ? work->in->least[v] : 0;
+}
 
 // The front, and rounder prisms, count as long as one of the columns can still give way.
 static double judge(const Repair *repair, int32_t f) {
   const CwLayerWork *work = repair->work;
-  const double (*front)[3] = (const double (*)[3])repair->front;
+  const double(*front)[3] = (const double(*)[3])repair->front;
   double prism = cw_layers_prism_quality(work, f, front);
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
@@ -173,7 +175,7 @@ static CwStatus find_bad(Repair *repair) {
   memset(repair->mark, 0, (size_t)work->n);
   for (int32_t i = 0; i < kept; i++) {
     int32_t f = repair->bad[i];
-    int sound = cw_layers_prism_quality(work, f, (const double (*)[3])repair->front) >= fmin(KEPT, repair->limit);
+    int sound = cw_layers_prism_quality(work, f, (const double(*)[3])repair->front) >= fmin(KEPT, repair->limit);
     for (int k = 0; k < 3; k++) {
       uint8_t *mark = &repair->mark[work->in->triangle[f][k]];
       if (*mark != FOR_SOUNDNESS) *mark = sound ? FOR_SHAPE : FOR_SOUNDNESS;
@@ -216,15 +218,16 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
   const CwLayerWork *work = repair->work;
   const CwLayerInput *in = work->in;
   memset(repair->mark, 0, work->n);
-  CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double (*)[3])repair->front, repair->uncrossed));
+  CW_TRY(cw_layers_crossing_find(&repair->crossing, (const double(*)[3])repair->front, repair->uncrossed));
   memset(repair->uncrossed, 0, work->n);
   *crossing = repair->crossing.pair_count;
   for (int32_t i = 0; i < repair->crossing.pair_count; i++) {
     const CwLayerPair *pair = &repair->crossing.pair[i];
     const double *x = in->x[in->triangle[pair->f][0]];
-    CW_REQUIRE(pair->kind_f == 0, CW_ERR_MESH, "layers: the wall itself crosses or touches itself near "
-               "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, pair->f,
-               pair->g);
+    CW_REQUIRE(pair->kind_f == 0, CW_ERR_MESH,
+               "layers: the wall itself crosses or touches itself near "
+               "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)",
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, pair->f, pair->g);
     double share = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = in->triangle[pair->f][k];
@@ -238,7 +241,10 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
     }
     CW_REQUIRE(share > LEAST_SHARE, CW_ERR_MESH,
                "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made", x[0] * 1e3,
-               x[1] * 1e3, x[2] * 1e3, pair->kind_g == 0 ? "itself" : pair->kind_g == 1 ? "the wall" : "a cap");
+               x[1] * 1e3, x[2] * 1e3,
+               pair->kind_g == 0   ? "itself"
+               : pair->kind_g == 1 ? "the wall"
+                                   : "a cap");
   }
 done:
   return status;
@@ -336,8 +342,8 @@ static CwStatus turn_marked(Repair *repair) {
   CW_NEW(bytes, groups.count);
   CW_NEW(size, groups.count);
   for (int32_t g = 0; g < groups.count; g++) cost[g] = groups.start[g + 1] - groups.start[g];
-  CwSchedule schedule = {.step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group,
-                         .context = &groups, .gather = 1};
+  CwSchedule schedule = {
+      .step = "layers: turns", .count = groups.count, .cost = cost, .run = turn_group, .context = &groups, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t g = 0; g < groups.count; g++) {
     const Turned *made = bytes[g];
@@ -379,7 +385,7 @@ done:
 static CwStatus turn_kept(Repair *repair, int *turned) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
-  const double (*front)[3] = (const double (*)[3])repair->front;
+  const double(*front)[3] = (const double(*)[3])repair->front;
   *turned = 0;
   for (int pass = 0; pass < TURNS; pass++) {
     int marked = 0;

@@ -8,8 +8,8 @@
 #include "mesher/layers/layers_inner.h"
 
 enum { SWEEPS = 8 };
-static const double OPEN = 0.2;  // cosine of a vertex that needs no help
-static const double GAIN = 0.02; // in the cosine, that is worth a flip
+static const double OPEN = 0.2;      // cosine of a vertex that needs no help
+static const double GAIN = 0.02;     // in the cosine, that is worth a flip
 static const double FLATTEST = 0.02; // height over base of a triangle that a flip may make
 
 typedef struct {
@@ -41,7 +41,7 @@ static double openness(const Wall *wall, int32_t v) {
     } while (t >= 0 && t != wall->around[v]);
     if (t >= 0) break;
   }
-  return cw_layers_most_normal(count, (const double (*)[3])normal, 0, NULL, g);
+  return cw_layers_most_normal(count, (const double(*)[3])normal, 0, NULL, g);
 }
 
 static CwStatus judge_vertex(void *context, int32_t v, void *out) {

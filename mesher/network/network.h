@@ -53,8 +53,8 @@ typedef struct {
 
 // Builds corners and curves (not yet discretised). CW_RETRY where a plane touches a face or an edge in a way that
 // cannot be resolved, with the place in mm: other planes may not. Collective.
-CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
-                         const CwPlan *plan, CwNetwork *network);
+CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
+                         CwNetwork *network);
 void cw_network_free(CwNetwork *network);
 
 // Point of a curve at arc length `length` of its fine polyline, exactly on its surfaces; parameter (2 values) as in

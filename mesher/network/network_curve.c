@@ -61,8 +61,7 @@ void cw_curve_point(const CwNetwork *network, const CwCurve *curve, double lengt
   double s = span > 0 ? (length - curve->fine_length[low]) / span : 0;
   s = fmin(fmax(s, 0), 1);
   for (int k = 0; k < 2; k++) {
-    parameter[k] = curve->fine_parameter[low][k] +
-                   s * (curve->fine_parameter[high][k] - curve->fine_parameter[low][k]);
+    parameter[k] = curve->fine_parameter[low][k] + s * (curve->fine_parameter[high][k] - curve->fine_parameter[low][k]);
   }
   switch (curve->kind) {
   case CW_CURVE_EDGE:

@@ -123,8 +123,8 @@ done:
   return status;
 }
 
-CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
-                         const CwPlan *plan, CwNetwork *network) {
+CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
+                         CwNetwork *network) {
   CwStatus status = CW_OK;
   Place *place = NULL;
   int32_t *below = NULL;

@@ -9,7 +9,7 @@
 #include "mesher/network/network.h"
 
 enum { EDGE_SAMPLES = 257 };
-static const double FOUND = 1e-9;       // m: Newton has arrived
+static const double FOUND = 1e-9; // m: Newton has arrived
 
 // A background edge that the plane crosses, as seen from one of its two triangles.
 typedef struct {

@@ -131,7 +131,8 @@ static int32_t find_curve(const CwNetwork *network, const CwSymmetry *symmetry, 
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *other = &network->curve[i];
     if (!(other->corner[0] == end[0] && other->corner[1] == end[1]) &&
-        !(other->corner[0] == end[1] && other->corner[1] == end[0])) continue;
+        !(other->corner[0] == end[1] && other->corner[1] == end[0]))
+      continue;
     if (other->kind != curve->kind || other->wall != curve->wall || !same_faces(other, face)) continue;
     if (other->plane[0] != plane[0] || other->plane[1] != plane[1]) continue;
     if (curve->edge >= 0 && other->edge != symmetry->edge.next[curve->edge]) continue;

@@ -148,14 +148,13 @@ static CwStatus account_json(const Account *account, const double *most, json_t 
   for (int32_t i = 0; i < account->entry_count; i++) {
     const Entry *entry = &account->entry[i];
     double longest = most ? most[account->part_count + i] : 0;
-    CW_REQUIRE(json_array_append_new(tasks, json_pack("{s:s, s:o, s:o, s:o, s:o, s:I}", "step", entry->step,
-                                                      "task_cost",
-                                                      numbers(entry->cost ? entry->count : 0, entry->cost, 0),
-                                                      "task_after",
-                                                      numbers(entry->after ? entry->count : 0, entry->after, 0),
-                                                      "task_seconds", numbers(entry->count, entry->seconds, 1), "most",
-                                                      rounded(longest), "bytes", (json_int_t)entry->bytes)) == 0,
-               CW_ERR_MEMORY, "out of memory: record of %d tasks", entry->count);
+    CW_REQUIRE(
+        json_array_append_new(tasks, json_pack("{s:s, s:o, s:o, s:o, s:o, s:I}", "step", entry->step, "task_cost",
+                                               numbers(entry->cost ? entry->count : 0, entry->cost, 0), "task_after",
+                                               numbers(entry->after ? entry->count : 0, entry->after, 0),
+                                               "task_seconds", numbers(entry->count, entry->seconds, 1), "most",
+                                               rounded(longest), "bytes", (json_int_t)entry->bytes)) == 0,
+        CW_ERR_MEMORY, "out of memory: record of %d tasks", entry->count);
   }
   *made = json_pack("{s:o, s:o}", "every_rank", json_incref(parts), "tasks", json_incref(tasks));
   CW_REQUIRE(*made, CW_ERR_MEMORY, "out of memory: record of the ledger");

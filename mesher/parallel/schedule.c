@@ -59,10 +59,8 @@ static void quiet_barrier(int progress) {
   MPI_Ibarrier(team.comm, &request);
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
     sleep_seconds(pause);
-    if (pause < 2e-3)
-      pause *= 1.5;
-    if (progress)
-      cw_progress(counter_add(SLOT_DONE, 0));
+    if (pause < 2e-3) pause *= 1.5;
+    if (progress) cw_progress(counter_add(SLOT_DONE, 0));
   }
 }
 
@@ -84,8 +82,8 @@ CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
   join_all();
   if (world.ranks > 1) {
     MPI_Aint bytes = SLOT_COUNT * (MPI_Aint)sizeof(int64_t);
-    CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot,
-                                &world.window) == MPI_SUCCESS,
+    CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot, &world.window) ==
+                   MPI_SUCCESS,
                CW_ERR_LIBRARY, "MPI gives no shared counter");
     memset(world.slot, 0, (size_t)bytes);
     MPI_Barrier(MPI_COMM_WORLD);
@@ -100,8 +98,7 @@ done:
 void cw_mpi_end(void) {
   int started = 0;
   MPI_Initialized(&started);
-  if (!started)
-    return;
+  if (!started) return;
   if (world.ranks > 1) {
     quiet_barrier(0);
     MPI_Win_unlock_all(world.window);
@@ -114,11 +111,9 @@ void cw_mpi_end(void) {
 }
 
 int cw_mpi_fail(CwStatus status) {
-  if (world.ranks == 1)
-    return cw_log_error(status);
+  if (world.ranks == 1) return cw_log_error(status);
   // The second to fail leaves the line to the first, and time to print it.
-  if (add_on(0, SLOT_FAILED, 1) > 0)
-    sleep_seconds(5.0);
+  if (add_on(0, SLOT_FAILED, 1) > 0) sleep_seconds(5.0);
   int code = cw_log_error(status);
   MPI_Abort(MPI_COMM_WORLD, code);
   _exit(code);
@@ -169,8 +164,7 @@ typedef struct {
 
 static int compare_cost(const void *left, const void *right) {
   const Ordered *a = left, *b = right;
-  if (a->cost != b->cost)
-    return a->cost > b->cost ? -1 : 1;
+  if (a->cost != b->cost) return a->cost > b->cost ? -1 : 1;
   return a->task < b->task ? -1 : 1;
 }
 
@@ -183,24 +177,20 @@ static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes
   for (int rank = 0; rank < team.ranks; rank++) {
     int64_t total = 0, at = 0;
     for (int32_t task = 0; task < count; task++) {
-      if (owner[task] == rank)
-        total += size[task];
+      if (owner[task] == rank) total += size[task];
     }
-    if (total == 0)
-      continue;
+    if (total == 0) continue;
     pack = malloc((size_t)total);
     CW_REQUIRE(pack, CW_ERR_MEMORY, "out of memory: %lld bytes of results", (long long)total);
     for (int32_t task = 0; rank == team.rank && task < count; task++) {
-      if (owner[task] != rank || size[task] == 0)
-        continue;
+      if (owner[task] != rank || size[task] == 0) continue;
       memcpy(pack + at, bytes[task], (size_t)size[task]);
       at += size[task];
     }
     broadcast(pack, total, rank);
     at = 0;
     for (int32_t task = 0; rank != team.rank && task < count; task++) {
-      if (owner[task] != rank || size[task] == 0)
-        continue;
+      if (owner[task] != rank || size[task] == 0) continue;
       bytes[task] = malloc((size_t)size[task]);
       CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %lld bytes", (long long)size[task]);
       memcpy(bytes[task], pack + at, (size_t)size[task]);
@@ -285,8 +275,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
   for (;;) {
     int64_t place = team.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
-    if (place >= schedule->count)
-      break;
+    if (place >= schedule->count) break;
     int32_t task = order[place].task;
     void *result = NULL;
     int64_t result_size = 0;
@@ -300,8 +289,7 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
       bytes[task] = result;
     else
       free(result);
-    if (size)
-      size[task] = result_size;
+    if (size) size[task] = result_size;
     if (marks.window != MPI_WIN_NULL) mark_add(&marks, task, 1);
     finished = team.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
     if (schedule->unit) cw_progress(finished);
@@ -311,20 +299,17 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
     free_marks(&marks);
     MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, team.comm);
     MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, team.comm);
-    if (schedule->gather)
-      CW_TRY(gather_results(schedule->count, owner, bytes, size));
+    if (schedule->gather) CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }
   for (int32_t task = 0; schedule->gather && task < schedule->count; task++) gathered += size[task];
   CW_TRY(cw_ledger_tasks(schedule->step, schedule->count, schedule->cost, schedule->after, time, own, gathered));
-  if (seconds)
-    memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
+  if (seconds) memcpy(seconds, time, (size_t)schedule->count * sizeof *time);
   if (schedule->unit) cw_progress_end();
   cw_ledger_part(part);
 done:
   free(time);
   free(owner);
   free(order);
-  if (status != CW_OK && world.ranks > 1)
-    cw_mpi_fail(status);
+  if (status != CW_OK && world.ranks > 1) cw_mpi_fail(status);
   return status;
 }

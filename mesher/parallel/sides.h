@@ -23,8 +23,8 @@ typedef struct {
 } CwSideHand;
 
 typedef struct {
-  const char *step; // in the ledger
-  int32_t count;    // sides
+  const char *step;   // in the ledger
+  int32_t count;      // sides
   const double *cost; // predicted, of each
   double own;         // the share of the cost that every rank of a group does for itself
   // Works on a side: collective over the ranks of the group, with the same result on all of them.

@@ -12,16 +12,16 @@
 
 enum {
   AXIS_SAMPLES = 400,
-  STATIONS = 80,   // places tried for the plane across the axis
-  STEPS = 36,      // of equal work in a slice, where planes between slices may stand
-  WINDOW = 3,      // slices to either side of its even place in which such a plane is looked for
-  ANGLES = 120         // places tried for half-planes in one pitch
+  STATIONS = 80, // places tried for the plane across the axis
+  STEPS = 36,    // of equal work in a slice, where planes between slices may stand
+  WINDOW = 3,    // slices to either side of its even place in which such a plane is looked for
+  ANGLES = 120   // places tried for half-planes in one pitch
 };
 // What unevenness weighs here: planes across the axis have one place to choose where others have directions too, and a
 // slice too large is better than a plane along a wall.
 static const double UNEVEN = 0.33;
 static const double OFF_MOST = 0.14, OFF_FAR = 100; // but past that share of its work a slice costs so much more
-static const double OFF_COST = 3;                    // at most
+static const double OFF_COST = 3;                   // at most
 // Numbers of regions in a pitch that are weighed, and tried where regions are more than EVEN off their mean.
 enum { NUMBERS = 10, NUMBERS_TRIED = 4 };
 static const double EVEN = 0.15, SHARP = 0.643; // sine of 40 degrees
@@ -400,7 +400,7 @@ static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked
   }
   qsort(all, (size_t)found, sizeof *all, by_cost);
   *count = found < NUMBERS ? found : NUMBERS;
-  for (int32_t i = 0; i < *count && *count > 1; i++) {
+  for (int32_t i = 0; i<*count && * count> 1; i++) {
     int32_t slices;
     CW_TRY(place_root(fan, all[i].regions, &slices));
     int32_t regions = slices + fan->count * all[i].regions;

@@ -33,7 +33,7 @@ CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   size_t n = (size_t)plan->region_count, nodes = n * sizeof *plan->node, numbers = n * sizeof(double);
   const int32_t count[6] = {plan->node_count, plan->region_count, plan->fan_first,
-                            plan->fan_count, plan->fan_region, plan->fan_turns};
+                            plan->fan_count,  plan->fan_region,   plan->fan_turns};
   char *block;
   CW_NEW(block, sizeof count + nodes + 2 * numbers);
   memcpy(block, count, sizeof count);

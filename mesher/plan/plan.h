@@ -20,19 +20,19 @@ extern "C" {
 #endif
 
 typedef struct {
-  CwPlane plane;      // child[0] lies on the negative side
-  int32_t parent;     // -1 for the root; of a half-plane the plane above the fan
-  int32_t child[2];   // node, or -1 - region for a leaf
+  CwPlane plane;    // child[0] lies on the negative side
+  int32_t parent;   // -1 for the root; of a half-plane the plane above the fan
+  int32_t child[2]; // node, or -1 - region for a leaf
 } CwPlanNode;
 
 typedef struct {
-  int32_t node_count;      // region_count - 1, of a fan region_count
+  int32_t node_count; // region_count - 1, of a fan region_count
   int32_t region_count;
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
   double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
   int32_t fan_first, fan_count, fan_region; // half-planes and the first region of a wedge (fan.h); fan_count 0: none
-  int32_t fan_turns;       // that bring the plan's wedges to themselves
+  int32_t fan_turns;                        // that bring the plan's wedges to themselves
 } CwPlan;
 
 // A plane that bounds a cell, and the side on which the cell lies.
@@ -47,11 +47,11 @@ CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node);
 CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound);
 
 typedef struct {
-  int32_t region_count;     // at least 1; the plan has fewer where no plane divides a part of the domain any more
-  const double *thickness;  // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
+  int32_t region_count;    // at least 1; the plan has fewer where no plane divides a part of the domain any more
+  const double *thickness; // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
   const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
   double tallest;
-  double prism_factor;      // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
+  double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 
 // True where x lies in the closed cell of `region`, within `tolerance` (m).

@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 enum {
-  CW_TURNS = 120,  // over half a turn, every 1.5 degrees: the other half are the same planes
-  CW_TILTS = 13,   // to either side of upright, every 0.1 rad
+  CW_TURNS = 120, // over half a turn, every 1.5 degrees: the other half are the same planes
+  CW_TILTS = 13,  // to either side of upright, every 0.1 rad
   CW_ALONG_AXIS = CW_TURNS * (2 * CW_TILTS + 1),
   CW_DIRECTIONS = CW_ALONG_AXIS + 1
 };

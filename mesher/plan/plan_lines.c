@@ -13,13 +13,13 @@ static const double ROOM = 1.5;       // thicknesses of the layers: lines of two
 // Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
 // have room.
 static const double SAME_LINE = 1, APART = 3;
-static const double SAME_POINT = 1e-9;  // m
-static const double LEANING = 0.55;     // cosine of a line to a wall's normal: columns that lean more are lower
+static const double SAME_POINT = 1e-9;   // m
+static const double LEANING = 0.55;      // cosine of a line to a wall's normal: columns that lean more are lower
 static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
 static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
 static const double HOLLOW_WALL = 0.8;   // share of the layers that a line in them leaves behind where the wall bends
-static const double SAME_WALL = 0.9;    // least cosine between triangles of one wall
-static const double BESIDE_SHARE = 0.3; // of a line that may run beside another
+static const double SAME_WALL = 0.9;     // least cosine between triangles of one wall
+static const double BESIDE_SHARE = 0.3;  // of a line that may run beside another
 static const double SHARP = 0.649, FAIR = 0.766; // sines of 40.5 degrees, so that none is just under 40, and of 50
 static const double CRAMPED = 2, BLOCKED = 2;    // what a line without room costs, and one with hardly any besides
 static const double HARDLY = 0.8;                // shortage of room from which on a line has hardly any

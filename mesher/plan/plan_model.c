@@ -19,11 +19,11 @@ static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that i
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
 // want a cell between them; beside a smooth edge only the surface triangles do.
 static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
-static const double TOUCH_ROOM = 0.5;   // between a cut and an edge beside it, in wanted lengths
-// Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the front (the paper's pump from 1 to 20
-// million cells, by region).
-static const double LATTICE = 8.4; // per volume / h^3
-static const double SHELL = 4.2;   // per area of the walls / h^2
+static const double TOUCH_ROOM = 0.5; // between a cut and an edge beside it, in wanted lengths
+// Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the front (the paper's pump from 1 to
+// 20 million cells, by region).
+static const double LATTICE = 8.4;      // per volume / h^3
+static const double SHELL = 4.2;        // per area of the walls / h^2
 static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
 static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
 

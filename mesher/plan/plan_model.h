@@ -24,17 +24,17 @@ typedef struct {
   double (*normal)[3];                 // of each background triangle
   int32_t edge_count;                  // points along CAD edges
   double (*edge_x)[3], (*edge_tangent)[3];
-  double *edge_room;                   // m: how near a plane may come to each of them
-  double *edge_touch;                  // m: nearer than that a cut and the edge leave room for flat triangles alone
-  uint8_t *edge_end, *edge_sharp;      // at a CAD vertex; of an edge that is a feature
-  int32_t wall_count;                  // points all over the walls
+  double *edge_room;              // m: how near a plane may come to each of them
+  double *edge_touch;             // m: nearer than that a cut and the edge leave room for flat triangles alone
+  uint8_t *edge_end, *edge_sharp; // at a CAD vertex; of an edge that is a feature
+  int32_t wall_count;             // points all over the walls
   double (*wall_x)[3];
-  int32_t *wall_triangle;              // of each, the background triangle
-  double thickest;                     // m, of the layers anywhere
+  int32_t *wall_triangle; // of each, the background triangle
+  double thickest;        // m, of the layers anywhere
   CwCubes walls;
-  CwBoxTree triangles;                 // all of the background
-  int32_t region_count;                // asked
-  double mean_work;                    // of the regions to be
+  CwBoxTree triangles;  // all of the background
+  int32_t region_count; // asked
+  double mean_work;     // of the regions to be
 } CwPlanModel;
 
 // Convex pieces of background triangles: corner[start[i] .. start[i+1]) of piece i, cut from triangle[i].

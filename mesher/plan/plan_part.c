@@ -47,8 +47,7 @@ static CwStatus pieces_clip(const CwPlanModel *model, const CwPieces *pieces, co
   for (int32_t i = 0; i < pieces->count; i++) {
     int32_t first = pieces->start[i], corners = pieces->start[i + 1] - first;
     double clipped[CW_CLIP_MAX][3];
-    CW_REQUIRE(corners < CW_CLIP_MAX, CW_ERR_MESH, "a surface triangle was cut into more than %d corners",
-               CW_CLIP_MAX);
+    CW_REQUIRE(corners < CW_CLIP_MAX, CW_ERR_MESH, "a surface triangle was cut into more than %d corners", CW_CLIP_MAX);
     int left = cw_clip_polygon(plane, corners, (const double(*)[3])(pieces->corner + first), clipped);
     if (left) piece_add(model, kept, pieces->triangle[i], left, (const double(*)[3])clipped);
   }

@@ -122,8 +122,8 @@ static void smooth(double *bins, int width) {
   }
 }
 
-static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const double n[3], int32_t most,
-                        double *work, CwPlanProfile *profile) {
+static void add_samples(const CwPlanModel *model, const CwPlanPart *part, const double n[3], int32_t most, double *work,
+                        CwPlanProfile *profile) {
   int32_t stride = part->sample_count / most + 1;
   double volume = 0, cells = 0, all = part->work, scale = 1 / profile->width;
   for (int32_t i = 0; i < part->sample_count; i += stride) {

@@ -10,12 +10,12 @@
 enum { CW_PROFILE_BINS = 256 };
 
 typedef struct {
-  double low, width;                  // m: bin b covers low + b width .. low + (b + 1) width
-  double below[CW_PROFILE_BINS + 1];  // cells below the start of each bin
-  double area[CW_PROFILE_BINS];       // m2, of the section, mean over the bin
-  double worst[CW_PROFILE_BINS];      // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
-  double grazed[CW_PROFILE_BINS];     // points of CAD edges it runs along, and ends of them it comes near
-  double cut[CW_PROFILE_BINS];        // of those on sharp edges the one nearest: 1 within the layers, 0 at its room
+  double low, width;                 // m: bin b covers low + b width .. low + (b + 1) width
+  double below[CW_PROFILE_BINS + 1]; // cells below the start of each bin
+  double area[CW_PROFILE_BINS];      // m2, of the section, mean over the bin
+  double worst[CW_PROFILE_BINS];     // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
+  double grazed[CW_PROFILE_BINS];    // points of CAD edges it runs along, and ends of them it comes near
+  double cut[CW_PROFILE_BINS];       // of those on sharp edges the one nearest: 1 within the layers, 0 at its room
 } CwPlanProfile;
 
 // From about samples_most of the part's samples, or all of fewer. Fails with nothing: a part without extent along the
@@ -36,8 +36,8 @@ typedef struct {
 
 // Of one plane, where it lies on the positive side of `end` (NULL: everywhere).
 CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
-// How near one plane, where it lies on the positive side of `end` (NULL: everywhere), comes to an edge that it runs along:
-// 0 where there is room for triangles between both, 1 where there is none.
+// How near one plane, where it lies on the positive side of `end` (NULL: everywhere), comes to an edge that it runs
+// along: 0 where there is room for triangles between both, 1 where there is none.
 double cw_plan_touch(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end);
 CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin);
 

@@ -10,33 +10,37 @@
 #include "mesher/plan/plan_directions.h"
 
 enum {
-  COARSE = 3,        // of so many upright directions one is looked along at first
-  COARSE_TURN = 13, COARSE_TILT = 4, LEANING = 2, // of leaning ones: every 13th turn at tilts of 4 and 8 to either side
-  STEP = 4,          // turns and half as many tilts: first steps from the best plane where it does not do well
-  SPLITS_MOST = 5,   // numbers of regions tried below the plane
-  SHIFTS = 8,        // places tried on either side of the even one, wider and wider apart
+  COARSE = 3, // of so many upright directions one is looked along at first
+  COARSE_TURN = 13,
+  COARSE_TILT = 4,
+  LEANING = 2,          // of leaning ones: every 13th turn at tilts of 4 and 8 to either side
+  STEP = 4,             // turns and half as many tilts: first steps from the best plane where it does not do well
+  SPLITS_MOST = 5,      // numbers of regions tried below the plane
+  SHIFTS = 8,           // places tried on either side of the even one, wider and wider apart
   SAMPLES_MOST = 16000, // a section is seen well enough with these; smaller parts use all they have
   SHARED_LEAST = 40000, // pieces and samples, over all directions looked along, that are worth sharing among the ranks
-  LINES_JUDGED = 200, // candidates whose lines are looked at, best first
-  SMALL_PART = 12,    // regions to come of a part for which other planes are tried
-  TRIES = 4, TRIES_MOST = 6, MANY = 150 // of them; more, and for so many regions, which find less room
+  LINES_JUDGED = 200,   // candidates whose lines are looked at, best first
+  SMALL_PART = 12,      // regions to come of a part for which other planes are tried
+  TRIES = 4,
+  TRIES_MOST = 6,
+  MANY = 150 // of them; more, and for so many regions, which find less room
 };
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
-static const double WIDER = 6;                       // shifts until they are twice as wide
-static const double WELL = 3;                        // score of a plane that will do
-static const double OFF_MOST = 0.1;                  // share of a region's work past which a plane is hardly wanted
-static const double OFF_LIMIT = 0.14;                // and past which it is not
-static const double CUT_LAYERS = 4;                  // what a plane through the layers along an edge costs
-static const double TOUCH = 4;                       // what a cut costs that leaves flat triangles beside an edge
-static const double BAD = 5;                         // score of a plane for which others are tried
-static const double WHOLE = 20;                      // what a part costs that has to stay whole
-static const double LIKE = 0.97;                     // cosine between planes that are tried in vain alike
+static const double WIDER = 6;                        // shifts until they are twice as wide
+static const double WELL = 3;                         // score of a plane that will do
+static const double OFF_MOST = 0.1;                   // share of a region's work past which a plane is hardly wanted
+static const double OFF_LIMIT = 0.14;                 // and past which it is not
+static const double CUT_LAYERS = 4;                   // what a plane through the layers along an edge costs
+static const double TOUCH = 4;                        // what a cut costs that leaves flat triangles beside an edge
+static const double BAD = 5;                          // score of a plane for which others are tried
+static const double WHOLE = 20;                       // what a part costs that has to stay whole
+static const double LIKE = 0.97;                      // cosine between planes that are tried in vain alike
 
 typedef struct {
-  double score, offset; // without what follows; m
-  double further;       // what its lines and edges that it touches cost at least
+  double score, offset;     // without what follows; m
+  double further;           // what its lines and edges that it touches cost at least
   int32_t direction, below; // regions below
-  int32_t judged;       // 1: they cost just so
+  int32_t judged;           // 1: they cost just so
 } Candidate;
 
 static int by_score(const void *a, const void *b) {
@@ -68,8 +72,8 @@ static double score_of(const CwPlanModel *model, const CwPlanPart *part, const C
   // Against the mean of the whole domain: what one plane leaves uneven the next ones do not hide.
   double uneven = fmax(cw_plan_unevenness(cells, below * model->mean_work, below),
                        cw_plan_unevenness(all - cells, (regions - below) * model->mean_work, regions - below));
-  return uneven + 0.5 * fabs(2.0 * below / regions - 1) +
-         0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) + cw_plan_place_cost(cw_profile_at(profile, bin));
+  return uneven + 0.5 * fabs(2.0 * below / regions - 1) + 0.5 * profile->area[bin] / pow(part->volume, 2.0 / 3) +
+         cw_plan_place_cost(cw_profile_at(profile, bin));
 }
 
 // Numbers of regions to try below the plane: about half of them, and of three one or two.

@@ -24,16 +24,14 @@ static uint64_t open_face_hash(const CwRegionData *data, int32_t open) {
   int32_t point[4];
   int64_t shared[4];
   int order[4], corners = cw_cell_face(data, open / CW_CELL_FACES, open % CW_CELL_FACES, point);
-  for (int k = 0; k < corners; k++)
-    shared[k] = data->shared_id[point[k]];
+  for (int k = 0; k < corners; k++) shared[k] = data->shared_id[point[k]];
   int back = cw_face_loop(shared, corners, order);
   uint64_t hash = (uint64_t)corners;
   for (int k = 0; k < corners; k++) {
     uint64_t bits[3];
     memcpy(bits, data->points[point[order[k]]], sizeof bits);
     hash = mixed(hash, (uint64_t)shared[order[k]]);
-    for (int i = 0; i < 3; i++)
-      hash = mixed(hash, bits[i]);
+    for (int i = 0; i < 3; i++) hash = mixed(hash, bits[i]);
   }
   return back ? -hash : hash;
 }
@@ -46,8 +44,7 @@ static CwStatus check_faces(const CwRegionMesh *r, int only_shared, uint64_t *su
   char name[40];
   snprintf(name, sizeof name, "%s region %d", r->domain, r->region);
   CW_TRY(cw_region_open_faces(name, CW_ERR_MESH, &data, only_shared, &open, &count));
-  for (int32_t k = 0; k < count; k++)
-    *sum += open_face_hash(&data, open[k]);
+  for (int32_t k = 0; k < count; k++) *sum += open_face_hash(&data, open[k]);
 done:
   free(open);
   return status;
@@ -63,8 +60,8 @@ static CwStatus check_indices(const CwRegionMesh *r) {
     const int32_t *corner = cw_cell_nodes(&data, c, &corners);
     for (int k = 0; k < corners; k++) {
       CW_REQUIRE(corner[k] >= 0 && corner[k] < r->point_count, CW_ERR_MESH,
-                 "%s region %d: cell %d names point %d; 0 to %d are allowed", r->domain, r->region, c,
-                 corner[k], r->point_count - 1);
+                 "%s region %d: cell %d names point %d; 0 to %d are allowed", r->domain, r->region, c, corner[k],
+                 r->point_count - 1);
       used[corner[k]] = 1;
     }
   }
@@ -78,8 +75,8 @@ static CwStatus check_indices(const CwRegionMesh *r) {
     }
   }
   for (int32_t p = 0; p < r->point_count; p++) {
-    CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell",
-               r->domain, r->region, p, 1e3 * r->x[p][0], 1e3 * r->x[p][1], 1e3 * r->x[p][2]);
+    CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell", r->domain,
+               r->region, p, 1e3 * r->x[p][0], 1e3 * r->x[p][1], 1e3 * r->x[p][2]);
   }
 done:
   free(used);
@@ -114,8 +111,7 @@ static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, in
                              const double *x[6], double *volume) {
   CwStatus status = CW_OK;
   const int32_t *corner = cw_cell_nodes(data, cell, corners);
-  for (int k = 0; k < *corners; k++)
-    x[k] = data->points[corner[k]];
+  for (int k = 0; k < *corners; k++) x[k] = data->points[corner[k]];
   int is_tet = *corners == 4;
   *volume = is_tet ? cw_tet_volume6(x[0], x[1], x[2], x[3]) / 6.0 : cw_cell_volume(*corners, x);
   double doubt = is_tet ? cw_tet_volume6_error(x[0], x[1], x[2], x[3]) / 6.0 : 0.0;
@@ -149,13 +145,11 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       double aspect = shape.edge_longest / shape.edge_shortest;
       aspects += aspect;
       int beside = 0;
-      for (int k = 0; k < 4; k++)
-        beside |= r->tetrahedron[c][k] < r->shared_count;
+      for (int k = 0; k < 4; k++) beside |= r->tetrahedron[c][k] < r->shared_count;
       add_tet(beside ? &quality->beside : &quality->apart, &shape, aspect);
       quality->aspect_max = fmax(quality->aspect_max, aspect);
       int class = 0;
-      while (class < 7 && aspect > limit[class])
-        class ++;
+      while (class < 7 && aspect > limit[class]) class ++;
       quality->aspect_class[class]++;
       quality->dihedral_least = fmin(quality->dihedral_least, shape.dihedral_least);
       quality->dihedral_greatest = fmax(quality->dihedral_greatest, shape.dihedral_greatest);
@@ -166,8 +160,7 @@ static CwStatus check_cells(const CwRegionMesh *r, CwQuality *quality) {
       quality->prism_jacobian_bin[bin_of(jacobian, 1.0 / CW_QUALITY_BINS, CW_QUALITY_BINS)]++;
     }
   }
-  if (r->tetrahedron_count)
-    quality->aspect_mean = aspects / r->tetrahedron_count;
+  if (r->tetrahedron_count) quality->aspect_mean = aspects / r->tetrahedron_count;
 done:
   return status;
 }
@@ -207,28 +200,23 @@ void cw_quality_start(CwQuality *sum) {
 
 void cw_quality_add(CwQuality *sum, const CwQuality *more, int64_t tetrahedra) {
   int64_t before = 0;
-  for (int k = 0; k < 8; k++)
-    before += sum->aspect_class[k];
+  for (int k = 0; k < 8; k++) before += sum->aspect_class[k];
   if (before + tetrahedra > 0) {
-    sum->aspect_mean = (sum->aspect_mean * (double)before + more->aspect_mean * (double)tetrahedra) /
-                       (double)(before + tetrahedra);
+    sum->aspect_mean =
+        (sum->aspect_mean * (double)before + more->aspect_mean * (double)tetrahedra) / (double)(before + tetrahedra);
   }
   sum->volume += more->volume;
   sum->least_volume = fmin(sum->least_volume, more->least_volume);
   sum->cells += more->cells;
   sum->aspect_max = fmax(sum->aspect_max, more->aspect_max);
-  for (int k = 0; k < 8; k++)
-    sum->aspect_class[k] += more->aspect_class[k];
+  for (int k = 0; k < 8; k++) sum->aspect_class[k] += more->aspect_class[k];
   sum->dihedral_least = fmin(sum->dihedral_least, more->dihedral_least);
   sum->dihedral_greatest = fmax(sum->dihedral_greatest, more->dihedral_greatest);
-  for (int k = 0; k < 18; k++)
-    sum->dihedral_bin[k] += more->dihedral_bin[k];
+  for (int k = 0; k < 18; k++) sum->dihedral_bin[k] += more->dihedral_bin[k];
   add_figures(&sum->beside, &more->beside);
   add_figures(&sum->apart, &more->apart);
   sum->open_faces += more->open_faces;
   sum->prism_count += more->prism_count;
-  sum->prism_least_scaled_jacobian =
-      fmin(sum->prism_least_scaled_jacobian, more->prism_least_scaled_jacobian);
-  for (int k = 0; k < CW_QUALITY_BINS; k++)
-    sum->prism_jacobian_bin[k] += more->prism_jacobian_bin[k];
+  sum->prism_least_scaled_jacobian = fmin(sum->prism_least_scaled_jacobian, more->prism_least_scaled_jacobian);
+  for (int k = 0; k < CW_QUALITY_BINS; k++) sum->prism_jacobian_bin[k] += more->prism_jacobian_bin[k];
 }

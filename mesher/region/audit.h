@@ -31,8 +31,8 @@ typedef struct {
   double aspect_mean, aspect_max;           // longest / shortest edge; 0 without tetrahedra
   int64_t aspect_class[8];                  // paper, Table 1: 1-1.5, 1.5-2, 2-3, 3-4, 4-5, 5-7, 7-10, above
   double dihedral_least, dihedral_greatest; // degrees
-  int64_t dihedral_bin[18]; // of the least angle of each tetrahedron, 10 degrees wide up to 180
-  CwTetFigures beside, apart; // those with a corner on a dividing plane, and the others
+  int64_t dihedral_bin[18];                 // of the least angle of each tetrahedron, 10 degrees wide up to 180
+  CwTetFigures beside, apart;               // those with a corner on a dividing plane, and the others
   // Sum of hashes of all open faces on dividing planes (shared numbers and coordinates to the last bit), negative where
   // the face is seen from its other side: 0 over all regions of a domain where each face has its two cells.
   uint64_t open_faces;

@@ -82,8 +82,10 @@ int32_t cw_beside_in_sphere(const CwBeside *beside, const double centre[2], doub
   int32_t low = 0, high = beside->count, found = 0;
   while (low < high) {
     int32_t middle = low + (high - low) / 2;
-    if (beside->at[middle][0] < centre[0] - radius) low = middle + 1;
-    else high = middle;
+    if (beside->at[middle][0] < centre[0] - radius)
+      low = middle + 1;
+    else
+      high = middle;
   }
   for (int32_t i = low; i < beside->count && beside->at[i][0] <= centre[0] + radius; i++) {
     const double *p = beside->at[i];

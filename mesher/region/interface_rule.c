@@ -16,8 +16,8 @@ enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 
 int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, int32_t outline) {
   const CwInterfaceOutline *interface = &skeleton->outline[outline];
-  const int32_t(*regions)[2] = (const int32_t(*)[2])(
-      skeleton->planned_region ? skeleton->planned_region : skeleton->interface_region);
+  const int32_t(*regions)[2] =
+      (const int32_t(*)[2])(skeleton->planned_region ? skeleton->planned_region : skeleton->interface_region);
   const int32_t *region = regions[interface->triangle_start];
   return number[region[0]] < number[region[1]] ? region[0] : region[1];
 }
@@ -225,7 +225,7 @@ CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, co
     CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
     const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->interface_triangle + interface->refined_start;
     double reach = largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])skeleton->node_x);
-    CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, *count, (const double(*)[3])*x, &beside));
+    CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, *count, (const double(*)[3]) * x, &beside));
     for (int32_t t = 0; t < interface->refined_count; t++) {
       double uv[3][2], centre[2], radius;
       for (int k = 0; k < 3; k++) cw_plane_uv(&map, skeleton->node_x[triangle[t][k]], uv[k]);

@@ -130,8 +130,8 @@ typedef struct {
   int32_t region;
   CwRegionBoundary boundary;
   CwFill fill;
-  int32_t *place;       // point of the region file for each fill point
-  int32_t *column;      // first point of the layers below each local node that stands on the front, by level
+  int32_t *place;  // point of the region file for each fill point
+  int32_t *column; // first point of the layers below each local node that stands on the front, by level
 } Build;
 
 // Numbers the points of the region file, shared ones first, and places them.
@@ -182,8 +182,7 @@ static int32_t column_point(const Build *build, int32_t local, int level) {
 
 static int32_t rim_cap(const CwRegionContext *context, int32_t a, int32_t b) {
   int32_t key[3] = {a < b ? a : b, a < b ? b : a, 0};
-  const int32_t(*found)[3] =
-      bsearch(key, context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
+  const int32_t(*found)[3] = bsearch(key, context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
   return found ? (*found)[2] : -1;
 }
 

@@ -16,11 +16,11 @@ typedef struct {
   const double *first_height; // of each wall vertex, m
   const double *growth;       // of each wall vertex, largest ratio of neighbouring layers
   // Filled by cw_region_context_make:
-  int64_t *shared_base;       // of each skeleton node: first shared number of its column (or its own), -1: not shared
+  int64_t *shared_base; // of each skeleton node: first shared number of its column (or its own), -1: not shared
   int64_t shared_count;
   int32_t shared_node_count, *shared_node; // the shared nodes by ascending base
   int32_t rim_count;
-  int32_t (*rim)[3];          // wall edges on caps: smaller vertex, greater vertex, cap face; sorted
+  int32_t (*rim)[3]; // wall edges on caps: smaller vertex, greater vertex, cap face; sorted
 } CwRegionContext;
 
 CwStatus cw_region_context_make(CwRegionContext *context);

@@ -104,16 +104,15 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
     int32_t count;
     size_t size;
     void *to;
-  } arrays[] = {
-      {first->tetrahedron, first->tetrahedron_count, sizeof *first->tetrahedron, &mesh->tetrahedron},
-      {first->pyramid, first->pyramid_count, sizeof *first->pyramid, &mesh->pyramid},
-      {first->prism, first->prism_count, sizeof *first->prism, &mesh->prism},
-      {first->triangle, first->triangle_count, sizeof *first->triangle, &mesh->triangle},
-      {first->triangle_patch, first->triangle_count, sizeof *first->triangle_patch, &mesh->triangle_patch},
-      {first->triangle_cell, first->triangle_count, sizeof *first->triangle_cell, &mesh->triangle_cell},
-      {first->quad, first->quad_count, sizeof *first->quad, &mesh->quad},
-      {first->quad_patch, first->quad_count, sizeof *first->quad_patch, &mesh->quad_patch},
-      {first->quad_cell, first->quad_count, sizeof *first->quad_cell, &mesh->quad_cell}};
+  } arrays[] = {{first->tetrahedron, first->tetrahedron_count, sizeof *first->tetrahedron, &mesh->tetrahedron},
+                {first->pyramid, first->pyramid_count, sizeof *first->pyramid, &mesh->pyramid},
+                {first->prism, first->prism_count, sizeof *first->prism, &mesh->prism},
+                {first->triangle, first->triangle_count, sizeof *first->triangle, &mesh->triangle},
+                {first->triangle_patch, first->triangle_count, sizeof *first->triangle_patch, &mesh->triangle_patch},
+                {first->triangle_cell, first->triangle_count, sizeof *first->triangle_cell, &mesh->triangle_cell},
+                {first->quad, first->quad_count, sizeof *first->quad, &mesh->quad},
+                {first->quad_patch, first->quad_count, sizeof *first->quad_patch, &mesh->quad_patch},
+                {first->quad_cell, first->quad_count, sizeof *first->quad_cell, &mesh->quad_cell}};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     CW_TRY(copy_array(arrays[i].from, (size_t)arrays[i].count, arrays[i].size, arrays[i].to));
   }

@@ -7,11 +7,11 @@
 #include "mesher/region/region_boundary.h"
 
 typedef struct {
-  int32_t failed;    // 1: the region could not be made
+  int32_t failed;     // 1: the region could not be made
   int32_t everywhere; // no place is known: 1 means all of the region
-  double at[3];      // m
-  char patch[40];    // where the place is on the front or on a cap, else "dividing plane"
-  char message[400]; // of the last attempt
+  double at[3];       // m
+  char patch[40];     // where the place is on the front or on a cap, else "dividing plane"
+  char message[400];  // of the last attempt
 } CwRegionFailure;
 
 // Examines the boundary of `region` after a failure with `message`, and writes it to `path` (VTK PolyData; cell data

@@ -6,18 +6,15 @@
 #include <string.h>
 #include <unistd.h>
 
-
 static CwStatus write_attribute(hid_t file, const char *name, hid_t type, const void *data) {
   CwStatus status = CW_OK;
   hid_t space = H5Screate(H5S_SCALAR);
   hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, data) >= 0, CW_ERR_IO,
-             "attribute %s: cannot be written", name);
+  CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, data) >= 0, CW_ERR_IO, "attribute %s: cannot be written",
+             name);
 done:
-  if (attribute >= 0)
-    H5Aclose(attribute);
-  if (space >= 0)
-    H5Sclose(space);
+  if (attribute >= 0) H5Aclose(attribute);
+  if (space >= 0) H5Sclose(space);
   return status;
 }
 
@@ -121,14 +118,10 @@ CwStatus cw_region_write(const char *path, const CwRegionMesh *region) {
   CW_REQUIRE(rename(temporary, path) == 0, CW_ERR_IO, "%s: cannot be renamed to %s", temporary, path);
   made = 0;
 done:
-  if (file >= 0)
-    H5Fclose(file);
-  if (made)
-    unlink(temporary);
-  if (creation >= 0)
-    H5Pclose(creation);
-  if (access >= 0)
-    H5Pclose(access);
+  if (file >= 0) H5Fclose(file);
+  if (made) unlink(temporary);
+  if (creation >= 0) H5Pclose(creation);
+  if (access >= 0) H5Pclose(access);
   free(temporary);
   return status;
 }
@@ -171,10 +164,8 @@ CwStatus cw_region_read(const char *path, CwRegionMesh *region) {
   CW_TRY(cw_region_items_open(path, &file));
   CW_TRY(read_items(file, path, region));
 done:
-  if (file >= 0)
-    H5Fclose(file);
-  if (status != CW_OK)
-    cw_region_free(region);
+  if (file >= 0) H5Fclose(file);
+  if (status != CW_OK) cw_region_free(region);
   return status;
 }
 
@@ -182,16 +173,14 @@ int cw_region_is_current(const char *path, const char *fingerprint) {
   int current = 0;
   char found[sizeof((CwRegionMesh *)0)->fingerprint];
   hid_t file = -1;
-  if (access(path, R_OK) != 0)
-    return 0;
+  if (access(path, R_OK) != 0) return 0;
   // A file cut short does not open: its superblock holds its length.
   if (cw_region_items_open(path, &file) == CW_OK) {
     current = cw_region_items_text(file, path, "fingerprint", found, sizeof found) == CW_OK &&
               strcmp(found, fingerprint) == 0;
     H5Fclose(file);
   }
-  if (!current)
-    cw_fail_clear();
+  if (!current) cw_fail_clear();
   return current;
 }
 

@@ -368,7 +368,7 @@ done:
 static void count_thin(const CwSkeleton *skeleton, int32_t t, const double *height, int layer_count,
                        CwLayerCoverage *of) {
   const int32_t *corner = skeleton->wall_triangle[t];
-  const double (*x)[3] = (const double (*)[3])skeleton->wall_x;
+  const double(*x)[3] = (const double(*)[3])skeleton->wall_x;
   double u[3], v[3], normal[3];
   cw_sub(x[corner[1]], x[corner[0]], u);
   cw_sub(x[corner[2]], x[corner[0]], v);

@@ -15,37 +15,37 @@
 
 // The layers over a piece of wall, where h is nearly one.
 typedef struct {
-  double density;          // area / h^3 at scale 1, m-1
-  double size;             // h at scale 1, m
+  double density; // area / h^3 at scale 1, m-1
+  double size;    // h at scale 1, m
   int32_t patch;
 } CwLayerSample;
 
 typedef struct {
   const char *name;
   CwCad *cad;
-  struct CwTessellation *tessellation;        // while the background is made
+  struct CwTessellation *tessellation; // while the background is made
   CwBackground background;
-  double solid_volume;                        // m3, exact
+  double solid_volume; // m3, exact
   CwInside *inside;
-  CwSymmetry *symmetry;                       // of solid and plan; NULL: the domain is meshed whole
-  CwSizeSeeds *seeds;                         // while the seeds of the faces are made
+  CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
+  CwSizeSeeds *seeds;   // while the seeds of the faces are made
   CwSize *size;
-  double *relative_size;                      // of each patch
-  CwLayerTarget *patch_layers;                // of each patch
+  double *relative_size;       // of each patch
+  CwLayerTarget *patch_layers; // of each patch
   int layer_count;
-  double prism_integral;                      // sum over walls of area / h^2, at scale 1
-  double *face_triangles;                     // area / h^2 of each face, at scale 1
-  double volume_integral;                     // integral of h^-3 over the domain, at scale 1
-  CwLayerSample *layer_sample;                // what the layers take of it
+  double prism_integral;       // sum over walls of area / h^2, at scale 1
+  double *face_triangles;      // area / h^2 of each face, at scale 1
+  double volume_integral;      // integral of h^-3 over the domain, at scale 1
+  CwLayerSample *layer_sample; // what the layers take of it
   int32_t layer_sample_count;
-  double layer_share;                         // of that, what graded columns take; known with the walls
-  int32_t more_regions;                       // than the number of cells asks for: plans given up
+  double layer_share;   // of that, what graded columns take; known with the walls
+  int32_t more_regions; // than the number of cells asks for: plans given up
   CwPlan plan;
   CwSkeleton skeleton;
   CwColumnHeights heights;
   CwRegionContext context;
-  int32_t *number, colours;                   // region numbers
-  int32_t pair_count, (*pair)[2];             // adjacent regions
+  int32_t *number, colours;       // region numbers
+  int32_t pair_count, (*pair)[2]; // adjacent regions
   CwInterfaceRuleCounts rule;
 } CwDomain;
 
@@ -66,7 +66,7 @@ int cw_domain_size_parts(const CwDomain *domain);
 void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
 CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, void *const *seeds,
                              int part, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
+CwStatus cw_domain_take_size(CwDomain *domain, void **bytes);  // takes them over (cw_size_unpack); collective
 CwStatus cw_domain_take_field(CwDomain *domain, void **bytes); // the same for part CW_SIZE_SEEDS made once more
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.
@@ -94,12 +94,12 @@ CwStatus cw_domain_share(CwDomain *domain, const CwCase *table);
 // How the layers of a patch cover it, as far as it bounds one region.
 enum { CW_LAYER_REASONS = 4 };
 typedef struct {
-  int64_t faces, full, first_met;       // wall faces; with the full thickness; with the first height
-  int64_t reason[CW_LAYER_REASONS];     // by CwLayerReason: why not the full thickness; [0]: it is
-  int64_t missed[CW_LAYER_REASONS];     // why not the first height
-  double thickness, least;              // sum over the faces, least of all, m
-  int64_t thin;                         // prisms whose determinant checkMesh calls small (thin_prism)
-  double thin_wanted;                   // how many times as tall the thinnest would have to be
+  int64_t faces, full, first_met;   // wall faces; with the full thickness; with the first height
+  int64_t reason[CW_LAYER_REASONS]; // by CwLayerReason: why not the full thickness; [0]: it is
+  int64_t missed[CW_LAYER_REASONS]; // why not the first height
+  double thickness, least;          // sum over the faces, least of all, m
+  int64_t thin;                     // prisms whose determinant checkMesh calls small (thin_prism)
+  double thin_wanted;               // how many times as tall the thinnest would have to be
 } CwLayerCoverage;
 // Of the patches up to `patches`, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);

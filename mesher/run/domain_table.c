@@ -110,8 +110,9 @@ CwStatus cw_domain_table_read(const char *geometry_dir, CwDomainTable *table) {
     if (number > 1) CW_TRY(read_interface(path, number, word, side_count, sides, table));
   }
   for (int i = 0; i < side_count; i++) {
-    CW_REQUIRE(sides[i].coupled, CW_ERR_INPUT, "%s: patch '%s' of domain '%s' is of kind interface, but coupled to none",
-               path, sides[i].patch, sides[i].domain);
+    CW_REQUIRE(sides[i].coupled, CW_ERR_INPUT,
+               "%s: patch '%s' of domain '%s' is of kind interface, but coupled to none", path, sides[i].patch,
+               sides[i].domain);
   }
 done:
   if (file) fclose(file);

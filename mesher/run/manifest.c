@@ -53,8 +53,8 @@ static json_t *manifest_json(const CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
                                              (json_int_t)domain->context.shared_count, "solid_volume_m3",
-                                             cw_json_number(domain->solid_volume), "patches",
-                                             patches_json(domain), "regions", regions_json(run, d)));
+                                             cw_json_number(domain->solid_volume), "patches", patches_json(domain),
+                                             "regions", regions_json(run, d)));
   }
   return json_pack("{s:i, s:o, s:o}", "format", 1, "domains", domains, "interfaces", interfaces_json(&run->domains));
 }
@@ -202,19 +202,19 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     error = fmax(error, fabs(domain->plan.predicted_cells[r] / predicted_sum * sum / cells - 1));
   }
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    json_array_append_new(patch_list, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
-                                                KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2",
-                                                cw_json_number(area[p])));
+    json_array_append_new(patch_list,
+                          json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                                    KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2", cw_json_number(area[p])));
     if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
   warn_of_thin(domain->name, coverage);
   double solid = domain->solid_volume;
-  json_t *result = json_pack(
-      "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
-      "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", regions, "interfaces",
-      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
-      "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
-      "least_cell_volume_m3", cw_json_number(quality.least_volume));
+  json_t *result = json_pack("{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points",
+                             (json_int_t)points, "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms,
+                             "regions", regions, "interfaces", domain->skeleton.outline_count, "colours",
+                             domain->colours, "mesh_volume_m3", cw_json_number(quality.volume), "solid_volume_m3",
+                             cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
+                             "least_cell_volume_m3", cw_json_number(quality.least_volume));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));

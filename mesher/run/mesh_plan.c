@@ -13,7 +13,7 @@
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
 enum { GRADATION_ROUNDS = 4 };
 static const double GRADATION_TOLERANCE = 0.05; // over that of the case
-static const double OWN_PLAN = 0.2; // of the work on a plan, what every rank does for itself
+static const double OWN_PLAN = 0.2;             // of the work on a plan, what every rank does for itself
 
 // Background triangulations, face by face.
 static CwStatus triangulate_domains(CwMeshRun *run) {

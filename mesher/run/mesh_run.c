@@ -24,8 +24,9 @@ static const double COPY_COST = 0.07;       // of a turned copy of a region, by 
 // triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
 // (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
 // A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise, and with the many
-// regions of small scales those on interfaces (measured from 3 to 20 million cells: 12.9 at scale 0.75, 11.4 at 0.51, 10.5
-// at 0.36; above 1 sizes grow no more steeply: 14.2 at 1.24, 13.1 at 2.26, and 11.8 to 17.4 in pumps of other sizes).
+// regions of small scales those on interfaces (measured from 3 to 20 million cells: 12.9 at scale 0.75, 11.4 at
+// 0.51, 10.5 at 0.36; above 1 sizes grow no more steeply: 14.2 at 1.24, 13.1 at 2.26, and 11.8 to 17.4 in pumps of
+// other sizes).
 static double prisms_per_layer(double scale) {
   return 2.33 + 0.1 * scale;
 }
@@ -291,8 +292,8 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
     }
   }
   CW_TRY(cw_results_make(&results, run->domains.count, regions));
-  CW_TRY(cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes,
-                     run->region_seconds));
+  CW_TRY(
+      cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes, run->region_seconds));
   cw_ledger_part("results");
   run->cells = 0;
   *failed = 0;

@@ -17,7 +17,7 @@ enum { CW_PATCH_LIMIT = 32 };
 // What is known of a finished region; travels between ranks as bytes.
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
-  double patch_area[CW_PATCH_LIMIT]; // m2, of the region's boundary faces
+  double patch_area[CW_PATCH_LIMIT];  // m2, of the region's boundary faces
   CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
   CwLayerCoverage coverage[CW_PATCH_LIMIT];
   CwFillWay way;
@@ -35,16 +35,16 @@ typedef struct {
   CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
-  void **seeds[CW_DOMAINS_MOST];   // of the size field, by part, while it is made
-  double prism_factor, tet_factor; // cells per unit of the integrals
-  double scale;                    // of the size field
-  double gradation;                // of the size field at scale 1
+  void **seeds[CW_DOMAINS_MOST];        // of the size field, by part, while it is made
+  double prism_factor, tet_factor;      // cells per unit of the integrals
+  double scale;                         // of the size field
+  double gradation;                     // of the size field at scale 1
   double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
   // With which the domains were planned.
   double planned_prism_factor, planned_tet_factor, planned_scale;
-  int whole;                       // 1: a symmetry was given up
-  int passes, retries;             // retries: of all passes
-  int64_t cells;                   // made
+  int whole;           // 1: a symmetry was given up
+  int passes, retries; // retries: of all passes
+  int64_t cells;       // made
 } CwMeshRun;
 
 // Meshes the case: reads RUN/geometry, writes the region files and the manifest into RUN/mesh. Collective over all

@@ -21,8 +21,8 @@ CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 }
 
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_make_size(&run->domain[task.domain], run->table, run->gradation, run->seeds[task.domain],
-                             task.index, bytes, size);
+  return cw_domain_make_size(&run->domain[task.domain], run->table, run->gradation, run->seeds[task.domain], task.index,
+                             bytes, size);
 }
 
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
@@ -177,8 +177,8 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
                           : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
   if (made == CW_OK) made = cw_audit_region(&mesh, &summary->quality);
   if (made == CW_ERR_MESH) {
-    CW_TRY(cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path,
-                                     &summary->failure));
+    CW_TRY(
+        cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path, &summary->failure));
     remove(path); // of an earlier attempt: it must not be copied
   } else {
     CW_TRY(made);

@@ -33,12 +33,15 @@ CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const Cw
   const CwWalls *walls = &table->walls;
   const CwMeshTable *mesh = &table->mesh;
   // Value by value: structures have padding.
-  const double value[] = {walls->layer_count, walls->growth_ratio, walls->total_thickness, walls->y_plus_at,
-                          (double)mesh->cells, (double)mesh->cells_per_region, mesh->least_regions, mesh->fill,
-                          mesh->periodic_impeller,
-                          mesh->gradation, mesh->curvature_angle,
-                          mesh->cells_across_gap, mesh->size_blade, mesh->size_hub_shroud, mesh->size_volute,
-                          mesh->size_pipe, mesh->size_interface, table->fluid.kinematic_viscosity};
+  const double value[] = {walls->layer_count,      walls->growth_ratio,
+                          walls->total_thickness,  walls->y_plus_at,
+                          (double)mesh->cells,     (double)mesh->cells_per_region,
+                          mesh->least_regions,     mesh->fill,
+                          mesh->periodic_impeller, mesh->gradation,
+                          mesh->curvature_angle,   mesh->cells_across_gap,
+                          mesh->size_blade,        mesh->size_hub_shroud,
+                          mesh->size_volute,       mesh->size_pipe,
+                          mesh->size_interface,    table->fluid.kinematic_viscosity};
   cw_hash_bytes(&hash, value, sizeof value);
   const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
   for (size_t i = 0; i < sizeof group / sizeof *group; i++) {

@@ -7,9 +7,9 @@
 #include "mesher/run/domain_table.h"
 
 typedef struct {
-  int pass;                        // the pass to run, from 1
-  double prism_factor, tet_factor; // cells per unit of the integrals, as learned
-  int whole;                       // 1: the symmetry of the impeller was given up
+  int pass;                              // the pass to run, from 1
+  double prism_factor, tet_factor;       // cells per unit of the integrals, as learned
+  int whole;                             // 1: the symmetry of the impeller was given up
   int32_t more_regions[CW_DOMAINS_MOST]; // of each domain, than its cells ask for
 } CwPassState;
 

@@ -46,8 +46,13 @@ CwStatus cw_run_heights(CwMeshRun *run) {
   CwStatus outcome[CW_DOMAINS_MOST]; // all fine: heights are never tried another way
   double cost[CW_DOMAINS_MOST];
   find_costs(run, COPIED_HEIGHTS, cost);
-  CwSides sides = {.step = "heights of the layers", .count = run->domains.count, .cost = cost, .own = OWN_HEIGHTS,
-                   .run = find_heights, .hand = hand_heights, .context = run};
+  CwSides sides = {.step = "heights of the layers",
+                   .count = run->domains.count,
+                   .cost = cost,
+                   .own = OWN_HEIGHTS,
+                   .run = find_heights,
+                   .hand = hand_heights,
+                   .context = run};
   return cw_sides_run(&sides, outcome);
 }
 
@@ -81,8 +86,13 @@ CwStatus cw_run_layers(CwMeshRun *run, int *unfit) {
   CwStatus status = CW_OK, outcome[CW_DOMAINS_MOST];
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
   int64_t faces = find_costs(run, COPIED_LAYERS, cost);
-  CwSides sides = {.step = "layers", .count = run->domains.count, .cost = cost, .own = OWN_LAYERS, .run = grow,
-                   .hand = hand_layers, .context = run};
+  CwSides sides = {.step = "layers",
+                   .count = run->domains.count,
+                   .cost = cost,
+                   .own = OWN_LAYERS,
+                   .run = grow,
+                   .hand = hand_layers,
+                   .context = run};
   cw_progress_start("layers", faces, "wall faces");
   CW_TRY(cw_sides_run(&sides, outcome));
   for (int d = run->domains.count - 1; d >= 0; d--) {

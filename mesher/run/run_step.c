@@ -29,8 +29,14 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
   CW_NEW(cost, count);
   CW_NEW(time, count);
   for (int32_t i = 0; i < count; i++) cost[i] = task[i].cost;
-  CwSchedule schedule = {.step = name, .unit = unit, .count = count, .cost = cost, .after = after, .run = run_one,
-                         .context = &context, .gather = 1};
+  CwSchedule schedule = {.step = name,
+                         .unit = unit,
+                         .count = count,
+                         .cost = cost,
+                         .after = after,
+                         .run = run_one,
+                         .context = &context,
+                         .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, result, size, time));
   for (int32_t i = 0; i < count; i++) {
     bytes[task[i].domain][task[i].index] = result[i];

@@ -109,8 +109,7 @@ done:
 }
 
 void cw_size_seeds_free(CwSizeSeeds **seeds) {
-  if (!*seeds)
-    return;
+  if (!*seeds) return;
   cw_size_surface_free(&(*seeds)->surface);
   free(*seeds);
   *seeds = NULL;
@@ -234,8 +233,7 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   CwSize made = arrays_in(&head, block);
   grid.value = part == CW_SIZE_SEEDS ? made.grid.value : made.rim.value;
   cw_size_grid_clear(&grid);
-  for (int i = 0; i < lists; i++)
-    cw_size_take_seeds(&grid, seeds[i]);
+  for (int i = 0; i < lists; i++) cw_size_take_seeds(&grid, seeds[i]);
   CW_TRY(mark_inside(&grid, &lines, &within));
   if (part == CW_SIZE_SEEDS) {
     memcpy(made.lines.start, lines.start, head.starts * sizeof *lines.start);
@@ -280,8 +278,7 @@ void cw_size_join(CwSize *size, CwSize **rims) {
 }
 
 void cw_size_free(CwSize **size) {
-  if (!*size)
-    return;
+  if (!*size) return;
   free((*size)->block);
   free((*size)->rim_block);
   free(*size);

@@ -22,13 +22,10 @@ static void face_normal(const CwCad *cad, int edge, int face, double t, double n
   double uv[2], x[3], xu[3], xv[3];
   cw_cad_edge_uv(cad, edge, face, t, uv);
   cw_cad_face_point(cad, face, uv, x, xu, xv);
-  for (int k = 0; k < 3; k++)
-    n[k] = xu[(k + 1) % 3] * xv[(k + 2) % 3] - xu[(k + 2) % 3] * xv[(k + 1) % 3];
+  for (int k = 0; k < 3; k++) n[k] = xu[(k + 1) % 3] * xv[(k + 2) % 3] - xu[(k + 2) % 3] * xv[(k + 1) % 3];
   double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (cw_cad_face_reversed(cad, face))
-    size = -size;
-  for (int k = 0; k < 3; k++)
-    n[k] = size != 0 ? n[k] / size : 0;
+  if (cw_cad_face_reversed(cad, face)) size = -size;
+  for (int k = 0; k < 3; k++) n[k] = size != 0 ? n[k] / size : 0;
 }
 
 static double distance(const double a[3], const double b[3]) {
@@ -44,10 +41,8 @@ static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
   cw_cad_edge_faces(cad, edge, line->face);
   for (int i = 0; i <= 2 * LEAST_PARTS; i++) { // rough length, for the number of parts
     cw_cad_edge_point(cad, edge, t[0] + (t[1] - t[0]) * i / (2 * LEAST_PARTS), x, NULL);
-    if (i > 0)
-      line->length += distance(before, x);
-    for (int k = 0; k < 3; k++)
-      before[k] = x[k];
+    if (i > 0) line->length += distance(before, x);
+    for (int k = 0; k < 3; k++) before[k] = x[k];
   }
   int parts = (int)fmin(fmax(ceil(line->length / step), LEAST_PARTS), MOST_PARTS);
   line->count = parts + 1;
@@ -73,8 +68,7 @@ static double distance_to_part(const double p[3], const double a[3], const doubl
     ap += (b[k] - a[k]) * (p[k] - a[k]);
   }
   double s = ab > 0 ? fmin(fmax(ap / ab, 0), 1) : 0;
-  for (int k = 0; k < 3; k++)
-    nearest[k] = a[k] + s * (b[k] - a[k]);
+  for (int k = 0; k < 3; k++) nearest[k] = a[k] + s * (b[k] - a[k]);
   return distance(p, nearest);
 }
 
@@ -82,16 +76,13 @@ static double distance_to_part(const double p[3], const double a[3], const doubl
 static void measure_between(Polyline *line, const Polyline *other) {
   for (int i = 0; i < 2; i++) {
     for (int j = 0; j < 2; j++) {
-      if (line->vertex[i] == other->vertex[j])
-        return;
+      if (line->vertex[i] == other->vertex[j]) return;
     }
   }
   for (int i = 0; i < line->count; i++) {
-    if (!line->crease[i])
-      continue;
+    if (!line->crease[i]) continue;
     for (int j = 0; j + 1 < other->count; j++) {
-      if (!other->crease[j] && !other->crease[j + 1])
-        continue;
+      if (!other->crease[j] && !other->crease[j + 1]) continue;
       line->width[i] = fmin(line->width[i], distance_to_part(line->x[i], other->x[j], other->x[j + 1]));
     }
   }
@@ -100,14 +91,12 @@ static void measure_between(Polyline *line, const Polyline *other) {
 static void seed_line(const CwSizeInput *input, const Polyline *line, CwSizeGrid *grid) {
   double floor_size = cw_size_least_share * input->base_size;
   for (int i = 0; i + 1 < line->count; i++) {
-    if (!line->crease[i] && !line->crease[i + 1])
-      continue;
+    if (!line->crease[i] && !line->crease[i + 1]) continue;
     double size = fmax(fmin(line->length, fmin(line->width[i], line->width[i + 1])), floor_size);
     int parts = (int)ceil(distance(line->x[i], line->x[i + 1]) / grid->spacing) + 1;
     for (int j = 0; j <= parts; j++) {
       double s = (double)j / parts, x[3];
-      for (int k = 0; k < 3; k++)
-        x[k] = line->x[i][k] + s * (line->x[i + 1][k] - line->x[i][k]);
+      for (int k = 0; k < 3; k++) x[k] = line->x[i][k] + s * (line->x[i + 1][k] - line->x[i][k]);
       cw_size_grid_seed(grid, x, size);
     }
   }
@@ -118,18 +107,15 @@ CwStatus cw_size_seed_edges(const CwSizeInput *input, CwSizeGrid *grid) {
   int count = cw_cad_edge_count(input->cad);
   Polyline *line = NULL;
   CW_NEW(line, count);
-  for (int e = 0; e < count; e++)
-    CW_TRY(trace(input->cad, e, 0.5 * input->base_size, &line[e]));
+  for (int e = 0; e < count; e++) CW_TRY(trace(input->cad, e, 0.5 * input->base_size, &line[e]));
   for (int e = 0; e < count; e++) {
     for (int o = 0; o < count; o++) {
       int common = line[e].face[0] == line[o].face[0] || line[e].face[0] == line[o].face[1] ||
                    line[e].face[1] == line[o].face[0] || line[e].face[1] == line[o].face[1];
-      if (o != e && common)
-        measure_between(&line[e], &line[o]);
+      if (o != e && common) measure_between(&line[e], &line[o]);
     }
   }
-  for (int e = 0; e < count; e++)
-    seed_line(input, &line[e], grid);
+  for (int e = 0; e < count; e++) seed_line(input, &line[e], grid);
 done:
   for (int e = 0; line && e < count; e++) {
     free(line[e].x);
@@ -152,8 +138,7 @@ static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSi
     int face[2];
     double t[2], from[3], to[3];
     cw_cad_edge_faces(cad, e, face);
-    if (is_wall(cad, face[0]) == is_wall(cad, face[1]))
-      continue;
+    if (is_wall(cad, face[0]) == is_wall(cad, face[1])) continue;
     double size = input->rim_size[cw_cad_face_patch(cad, is_wall(cad, face[0]) ? face[0] : face[1])];
     cw_cad_edge_range(cad, e, t);
     cw_cad_edge_point(cad, e, t[0], from, NULL);
@@ -162,14 +147,12 @@ static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSi
       int parts = (int)ceil(distance(from, to) / (grid ? grid : wanted)->spacing);
       for (int j = 0; j <= parts; j++) {
         double x[3];
-        for (int k = 0; k < 3; k++)
-          x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
+        for (int k = 0; k < 3; k++) x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);
         if (grid) cw_size_grid_seed(grid, x, size);
         if (wanted) shares += size / cw_size_grid_at(wanted, x);
         count++;
       }
-      for (int k = 0; k < 3; k++)
-        from[k] = to[k];
+      for (int k = 0; k < 3; k++) from[k] = to[k];
     }
   }
   return count > 0 ? shares / count : 0;

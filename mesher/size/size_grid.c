@@ -21,11 +21,9 @@ void cw_size_grid_shape(const double low[3], const double high[3], double spacin
                         CwSizeGrid *grid) {
   memset(grid, 0, sizeof *grid);
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  while (node_count(extent, spacing, grid->count) > (double)node_limit)
-    spacing *= 1.02;
+  while (node_count(extent, spacing, grid->count) > (double)node_limit) spacing *= 1.02;
   grid->spacing = spacing;
-  for (int k = 0; k < 3; k++)
-    grid->low[k] = low[k] - spacing;
+  for (int k = 0; k < 3; k++) grid->low[k] = low[k] - spacing;
 }
 
 CwStatus cw_size_grid_make(const double low[3], const double high[3], double spacing, int64_t node_limit,
@@ -40,8 +38,7 @@ done:
 
 void cw_size_grid_clear(CwSizeGrid *grid) {
   size_t nodes = cw_size_grid_nodes(grid);
-  for (size_t i = 0; i < nodes; i++)
-    grid->value[i] = unset;
+  for (size_t i = 0; i < nodes; i++) grid->value[i] = unset;
 }
 
 void cw_size_grid_free(CwSizeGrid *grid) {
@@ -90,8 +87,7 @@ void cw_size_grid_seed(CwSizeGrid *grid, const double x[3], double value) {
   size_t row = (size_t)grid->count[0], slab = row * (size_t)grid->count[1];
   const size_t corner[8] = {0, 1, row, row + 1, slab, slab + 1, slab + row, slab + row + 1};
   for (int c = 0; c < 8; c++) {
-    if (value < node[corner[c]])
-      node[corner[c]] = (float)value;
+    if (value < node[corner[c]]) node[corner[c]] = (float)value;
   }
 }
 

@@ -10,9 +10,9 @@
 static const double spacing_share = 0.6; // of the base size
 static const int64_t node_limit = 6000000;
 static const double least_curvature_share = 0.4; // of the patch size
-static const double least_facing = 0.7;           // cosine of the angle between a ray and the wall it meets
-static const double parallel_facing = 0.95;       // from here on no crease can be the cause
-static const double crease_angle_cosine = 0.94;   // 20 degrees between normals
+static const double least_facing = 0.7;          // cosine of the angle between a ray and the wall it meets
+static const double parallel_facing = 0.95;      // from here on no crease can be the cause
+static const double crease_angle_cosine = 0.94;  // 20 degrees between normals
 
 enum { PIECE_STACK = 128 };
 
@@ -23,14 +23,14 @@ typedef struct {
 
 struct CwSizeSurface {
   CwSizeInput input;
-  CwSizeGrid grid;        // of the face in hand; unset in between
-  float *curvature;       // of each background point on that face, 1/m; below 0: not known yet
+  CwSizeGrid grid;  // of the face in hand; unset in between
+  float *curvature; // of each background point on that face, 1/m; below 0: not known yet
   CwRays *rays;
-  int32_t *face_start;    // triangles of face f: face_triangle[face_start[f] .. face_start[f + 1])
+  int32_t *face_start; // triangles of face f: face_triangle[face_start[f] .. face_start[f + 1])
   int32_t *face_triangle;
-  double (*crease)[3];    // points along creases where walls meet at less than 160 degrees of fluid
+  double (*crease)[3]; // points along creases where walls meet at less than 160 degrees of fluid
   int32_t crease_count, crease_capacity;
-  CwCubes cubes;          // of these
+  CwCubes cubes; // of these
 };
 
 typedef struct {
@@ -49,11 +49,9 @@ static double dot(const double a[3], const double b[3]) {
 }
 
 static void unit_cross(const double a[3], const double b[3], double n[3]) {
-  for (int k = 0; k < 3; k++)
-    n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+  for (int k = 0; k < 3; k++) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
   double size = length(n);
-  for (int k = 0; k < 3; k++)
-    n[k] = size > 0 ? n[k] / size : 0;
+  for (int k = 0; k < 3; k++) n[k] = size > 0 ? n[k] / size : 0;
 }
 
 static void triangle_normal(const CwBackground *background, int32_t t, double n[3]) {
@@ -76,8 +74,7 @@ static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3])
   cw_cad_face_point(input->cad, b->face[t], uv, x, xu, xv);
   unit_cross(xu, xv, n);
   if (cw_cad_face_reversed(input->cad, b->face[t])) {
-    for (int i = 0; i < 3; i++)
-      n[i] = -n[i];
+    for (int i = 0; i < 3; i++) n[i] = -n[i];
   }
 }
 
@@ -88,8 +85,7 @@ static CwStatus add_crease(Surface *surface, const double a[3], const double b[3
   CW_GROW(surface->crease, surface->crease_capacity, surface->crease_count + count + 1);
   for (int i = 0; i <= count; i++) {
     double s = (double)i / count;
-    for (int k = 0; k < 3; k++)
-      surface->crease[surface->crease_count][k] = a[k] + s * d[k];
+    for (int k = 0; k < 3; k++) surface->crease[surface->crease_count][k] = a[k] + s * d[k];
     surface->crease_count++;
   }
 done:
@@ -103,22 +99,17 @@ static CwStatus find_creases(Surface *surface) {
   for (int32_t t = 0; t < b->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
       int32_t other = neighbour[t][k];
-      if (other < t || b->face[other] == b->face[t])
-        continue;
+      if (other < t || b->face[other] == b->face[t]) continue;
       int side = 0;
-      while (neighbour[other][side] != t)
-        side++;
+      while (neighbour[other][side] != t) side++;
       double n[3], m[3], facet[3], away[3];
       edge_normal(&surface->input, t, k, n);
       edge_normal(&surface->input, other, side, m);
-      if (dot(n, m) > crease_angle_cosine)
-        continue;
+      if (dot(n, m) > crease_angle_cosine) continue;
       triangle_normal(b, t, facet);
       const double *from = b->x[b->triangle[t][k]], *apex = b->x[b->triangle[other][(side + 2) % 3]];
-      for (int i = 0; i < 3; i++)
-        away[i] = apex[i] - from[i];
-      if (dot(facet, away) >= 0)
-        continue; // the walls turn away from each other: no wedge of fluid
+      for (int i = 0; i < 3; i++) away[i] = apex[i] - from[i];
+      if (dot(facet, away) >= 0) continue; // the walls turn away from each other: no wedge of fluid
       CW_TRY(add_crease(surface, from, b->x[b->triangle[t][(k + 1) % 3]]));
     }
   }
@@ -132,16 +123,14 @@ static int crease_within(const Surface *surface, const double x[3], double radiu
   const CwCubes *cubes = &surface->cubes;
   int32_t from[3], to[3];
   cw_cubes_near(cubes, x, radius, from, to);
-  if (from[0] > to[0])
-    return 0;
+  if (from[0] > to[0]) return 0;
   for (int32_t c = from[2]; c <= to[2]; c++) {
     for (int32_t b = from[1]; b <= to[1]; b++) {
       int32_t end = cubes->start[cw_cube(cubes, to[0], b, c) + 1];
       for (int32_t i = cubes->start[cw_cube(cubes, from[0], b, c)]; i < end; i++) {
         const double *p = surface->crease[cubes->member[i]];
         double d[3] = {p[0] - x[0], p[1] - x[1], p[2] - x[2]};
-        if (dot(d, d) < radius * radius)
-          return 1;
+        if (dot(d, d) < radius * radius) return 1;
       }
     }
   }
@@ -156,10 +145,8 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   const double inward[3] = {-outward[0], -outward[1], -outward[2]};
   double cells = fmax(input->table->cells_across_gap, 1), distance;
   int32_t hit = cw_rays_exit(surface->rays, x, inward, 1e-3 * patch_size, cells * patch_size, &distance);
-  if (hit < 0)
-    return INFINITY;
-  int patch = cw_cad_face_patch(input->cad, b->face[t]),
-      hit_patch = cw_cad_face_patch(input->cad, b->face[hit]);
+  if (hit < 0) return INFINITY;
+  int patch = cw_cad_face_patch(input->cad, b->face[t]), hit_patch = cw_cad_face_patch(input->cad, b->face[hit]);
   // Before an open face there are no layers and no velocity profile: two cells do.
   if (cw_cad_patch_kind(input->cad, patch) != CW_PATCH_WALL ||
       cw_cad_patch_kind(input->cad, hit_patch) != CW_PATCH_WALL) {
@@ -168,20 +155,17 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
   double met[3];
   triangle_normal(b, hit, met);
   double facing = dot(inward, met);
-  if (facing < least_facing)
-    return INFINITY;
+  if (facing < least_facing) return INFINITY;
   if (facing < parallel_facing) {
     // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
     double meeting = distance * facing / sqrt(1 - facing * facing);
-    if (crease_within(surface, x, fmax(2 * patch_size, 1.2 * meeting)))
-      return INFINITY;
+    if (crease_within(surface, x, fmax(2 * patch_size, 1.2 * meeting))) return INFINITY;
   }
   return fmax(distance / cells, cw_size_least_share * input->base_size);
 }
 
 static void centre_of(const Piece *piece, double x[3], double *curvature) {
-  for (int k = 0; k < 3; k++)
-    x[k] = (piece->x[0][k] + piece->x[1][k] + piece->x[2][k]) / 3;
+  for (int k = 0; k < 3; k++) x[k] = (piece->x[0][k] + piece->x[1][k] + piece->x[2][k]) / 3;
   *curvature = (piece->curvature[0] + piece->curvature[1] + piece->curvature[2]) / 3;
 }
 
@@ -198,8 +182,7 @@ static int halve(Piece *piece, double limit, Piece *other) {
       longest = k;
     }
   }
-  if (most <= limit)
-    return 0;
+  if (most <= limit) return 0;
   int next = (longest + 1) % 3;
   *other = *piece;
   for (int k = 0; k < 3; k++) {
@@ -242,8 +225,7 @@ static void seed_triangle(Surface *surface, int32_t t) {
   for (int k = 0; k < 3; k++) {
     memcpy(stack[0].x[k], b->x[b->triangle[t][k]], sizeof stack[0].x[k]);
     float *curvature = &surface->curvature[b->triangle[t][k]];
-    if (*curvature < 0)
-      *curvature = (float)cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k]);
+    if (*curvature < 0) *curvature = (float)cw_cad_face_curvature(input->cad, b->face[t], b->uv[t][k]);
     stack[0].curvature[k] = *curvature;
   }
   while (top > 0) {
@@ -261,8 +243,7 @@ static void seed_triangle(Surface *surface, int32_t t) {
 }
 
 void cw_size_box(const CwBackground *background, double low[3], double high[3]) {
-  for (int k = 0; k < 3; k++)
-    low[k] = INFINITY, high[k] = -INFINITY;
+  for (int k = 0; k < 3; k++) low[k] = INFINITY, high[k] = -INFINITY;
   for (int32_t i = 0; i < background->point_count; i++) {
     for (int k = 0; k < 3; k++) {
       low[k] = fmin(low[k], background->x[i][k]);
@@ -290,12 +271,10 @@ CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) 
   CW_NEW(surface->curvature, b->point_count);
   CW_NEW(surface->face_start, faces + 1);
   CW_NEW(surface->face_triangle, b->triangle_count);
-  for (int32_t t = 0; t < b->triangle_count; t++)
-    surface->face_start[b->face[t]]++;
+  for (int32_t t = 0; t < b->triangle_count; t++) surface->face_start[b->face[t]]++;
   for (int f = 0; f < faces; f++) // ends of the faces, filled from behind
     surface->face_start[f + 1] += surface->face_start[f];
-  for (int32_t t = b->triangle_count - 1; t >= 0; t--)
-    surface->face_triangle[--surface->face_start[b->face[t]]] = t;
+  for (int32_t t = b->triangle_count - 1; t >= 0; t--) surface->face_triangle[--surface->face_start[b->face[t]]] = t;
   CW_TRY(cw_rays_make(b, &surface->rays));
   CW_TRY(find_creases(surface));
   *result = surface;
@@ -306,8 +285,7 @@ done:
 }
 
 void cw_size_surface_free(CwSizeSurface **surface) {
-  if (!*surface)
-    return;
+  if (!*surface) return;
   cw_rays_free(&(*surface)->rays);
   cw_cubes_free(&(*surface)->cubes);
   cw_size_grid_free(&(*surface)->grid);
@@ -349,11 +327,9 @@ static CwStatus pack_seeds(CwSizeGrid *grid, const int32_t from[3], const int32_
     for (int32_t k = from[2]; k <= to[2]; k++) {
       for (int32_t j = from[1]; j <= to[1]; j++) {
         int64_t line = ((int64_t)k * grid->count[1] + j) * grid->count[0];
-        if (!cw_size_grid_any_set(grid, line + from[0], line + to[0]))
-          continue; // most lines
+        if (!cw_size_grid_any_set(grid, line + from[0], line + to[0])) continue; // most lines
         for (int64_t node = line + from[0]; node <= line + to[0]; node++) {
-          if (!cw_size_grid_is_set(grid, node))
-            continue;
+          if (!cw_size_grid_is_set(grid, node)) continue;
           if (store) {
             seed[count] = (Seed){.node = (int32_t)node, .value = grid->value[node]};
             cw_size_grid_unset(grid, node);
@@ -362,8 +338,7 @@ static CwStatus pack_seeds(CwSizeGrid *grid, const int32_t from[3], const int32_
         }
       }
     }
-    if (!store)
-      CW_NEW(block, sizeof count + (size_t)count * sizeof(Seed));
+    if (!store) CW_NEW(block, sizeof count + (size_t)count * sizeof(Seed));
   }
   memcpy(block, &count, sizeof count);
   *bytes = block;
@@ -374,8 +349,7 @@ done:
 
 CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count) {
   int32_t from[3], to[3];
-  for (int32_t i = 0; i < surface->input.background->point_count; i++)
-    surface->curvature[i] = -1;
+  for (int32_t i = 0; i < surface->input.background->point_count; i++) surface->curvature[i] = -1;
   for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++)
     seed_triangle(surface, surface->face_triangle[i]);
   box_of_face(surface, face, from, to);
@@ -402,7 +376,6 @@ void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes) {
   memcpy(&count, bytes, sizeof count);
   const Seed *seed = (const Seed *)((const char *)bytes + sizeof count);
   for (int64_t i = 0; i < count; i++) {
-    if (seed[i].value < grid->value[seed[i].node])
-      grid->value[seed[i].node] = seed[i].value;
+    if (seed[i].value < grid->value[seed[i].node]) grid->value[seed[i].node] = seed[i].value;
   }
 }

@@ -10,11 +10,11 @@
 #include "pipeline/log.h"
 
 enum { ROUNDS = 20, SWEEPS = 2 }; // of thinning; over the seams, to choose their columns
-static const double REACH = 4;       // thicknesses: how far the layers feel one another through gaps and gradation
+static const double REACH = 4;    // thicknesses: how far the layers feel one another through gaps and gradation
 static const double FAIR = 0.05, VALID = 0.02; // least prism quality, and where half the rounds did not bring it
-static const double THIN = 0.8;      // what a column keeps where the copies do not fit one another
-static const double SLOPE = 0.3;     // heights change by no more per distance, as where they are graded (layers_gap)
-static const double SAME = 1e-9;     // m: fronts that differ less are the same
+static const double THIN = 0.8;                // what a column keeps where the copies do not fit one another
+static const double SLOPE = 0.3; // heights change by no more per distance, as where they are graded (layers_gap)
+static const double SAME = 1e-9; // m: fronts that differ less are the same
 
 // The part of the wall that the first ones and what stands near them make up.
 typedef struct {
@@ -234,7 +234,7 @@ static double place_orbit(const Part *part, const CwLayerWork *work, int32_t v, 
       int32_t local = part->local[at], first = 0;
       if (!around && local >= 0) cw_orbit_point(orbits, turns, end, front[local]);
       if (around && part->is_first[at]) {
-        least = fmin(least, cw_layers_around(work, local, (const double (*)[3])front, -INFINITY, &first));
+        least = fmin(least, cw_layers_around(work, local, (const double(*)[3])front, -INFINITY, &first));
       }
       turns++;
       at = cw_orbit_node(orbits, at, 1);
@@ -252,8 +252,8 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
   CwIncident incident = {0};
   double(*front)[3] = NULL;
   CW_TRY(cw_incident_make(part->in.point_count, part->in.triangle_count, part->in.triangle, &incident));
-  CwLayerWork work = {.in = &part->in, .n = part->in.point_count, .face_start = incident.start,
-                      .face = incident.triangle};
+  CwLayerWork work = {
+      .in = &part->in, .n = part->in.point_count, .face_start = incident.start, .face = incident.triangle};
   CW_NEW_UNSET(front, part->in.point_count);
   for (int32_t i = 0; i < part->in.point_count; i++) memcpy(front[i], layers->front[part->global[i]], sizeof *front);
   for (int sweep = 0; sweep < SWEEPS; sweep++) {

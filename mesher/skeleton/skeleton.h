@@ -26,11 +26,11 @@ typedef struct {
 
 // One outline on a dividing plane: an interface between two regions.
 typedef struct {
-  int32_t node;          // plan node of its plane
-  int32_t corner_count;  // of all loops
+  int32_t node;         // plan node of its plane
+  int32_t corner_count; // of all loops
   int32_t loop_count;
-  int32_t *loop_start;   // loop_count + 1
-  int32_t *corner;       // skeleton nodes
+  int32_t *loop_start; // loop_count + 1
+  int32_t *corner;     // skeleton nodes
   // Set when the inner surfaces are merged:
   int32_t free_start, free_count;         // its inner nodes, as planned
   int32_t triangle_start, triangle_count; // its triangles as planned,
@@ -60,14 +60,14 @@ typedef struct {
   int32_t wall_triangle_count;
   int32_t (*wall_triangle)[3], *wall_face, *wall_region;
   int32_t *region_wall_start, *region_wall; // wall triangles of each region, ascending
-  int32_t *wall_source;   // the wall triangle that this one is a copy of, turned; or itself
+  int32_t *wall_source;                     // the wall triangle that this one is a copy of, turned; or itself
   double (*front)[3], *height;
   uint8_t *reason;
 
   int32_t node_count, node_capacity;
   double (*node_x)[3];
-  uint8_t *on_plane;      // node (and its column) is shared by regions
-  int32_t *corner_node;   // skeleton node of each corner, or -1
+  uint8_t *on_plane;    // node (and its column) is shared by regions
+  int32_t *corner_node; // skeleton node of each corner, or -1
 
   int32_t tight_count; // places where layers leave no room for a free curve, or front and free curves cross
   double (*tight)[3];

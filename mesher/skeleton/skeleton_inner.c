@@ -161,8 +161,8 @@ static CwStatus find_polygons(CwSkeleton *skeleton, int32_t node) {
   CW_TRY(cw_polygons_find(outline.point_count, (const double(*)[2])outline.uv, outline.edge_count,
                           (const int32_t(*)[2])outline.edge, outline.boundary, &polygons));
   if (polygons.polygon_count == 0) goto done;
-  CwInterfaceOutline *grown = realloc(
-      skeleton->outline, (size_t)(skeleton->outline_count + polygons.polygon_count) * sizeof *skeleton->outline);
+  CwInterfaceOutline *grown = realloc(skeleton->outline, (size_t)(skeleton->outline_count + polygons.polygon_count) *
+                                                             sizeof *skeleton->outline);
   CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", skeleton->outline_count);
   skeleton->outline = grown;
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
@@ -299,8 +299,8 @@ static CwStatus merge_interface(CwSkeleton *skeleton, int32_t index, const CwPat
     interface->free_count = block->point_count;
     interface->triangle_start = skeleton->interface_triangle_count;
     interface->triangle_count = block->triangle_count;
-    CW_TRY(append(skeleton, block, 1, turns, copies,
-                  skeleton->interface_triangle + skeleton->interface_triangle_count));
+    CW_TRY(
+        append(skeleton, block, 1, turns, copies, skeleton->interface_triangle + skeleton->interface_triangle_count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
       int32_t *region = skeleton->interface_region[skeleton->interface_triangle_count++];
       region[0] = cw_orbit_region(orbits, skeleton->plan, block->label[t] / regions, turns);

@@ -221,8 +221,8 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
   }
   CW_NEW(bytes, curves.count);
   CW_NEW(size, curves.count);
-  CwSchedule schedule = {.step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves,
-                         .gather = 1};
+  CwSchedule schedule = {
+      .step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t i = 0; i < curves.count; i++) {
     const CurvePoint *point = bytes[i];

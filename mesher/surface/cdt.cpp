@@ -25,8 +25,7 @@ struct FaceInfo {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel>;
 using FaceBase =
-    CGAL::Constrained_triangulation_face_base_2<Kernel,
-                                                CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
@@ -37,8 +36,7 @@ using Pair = std::pair<int32_t, int32_t>;
 
 template <typename T> void take_memory(T **pointer, size_t count) {
   *pointer = static_cast<T *>(calloc(count, sizeof(T)));
-  if (!*pointer)
-    throw std::bad_alloc();
+  if (!*pointer) throw std::bad_alloc();
 }
 
 Pair sorted_pair(int32_t a, int32_t b) {
@@ -47,8 +45,7 @@ Pair sorted_pair(int32_t a, int32_t b) {
 
 // The place of a point for messages: mm, and (u,v).
 #define PLACE "(%.6g, %.6g, %.6g) mm, (u,v) = (%.9g, %.9g)"
-#define PLACE_OF(p)                                                                                          \
-  1e3 * input->x[p][0], 1e3 * input->x[p][1], 1e3 * input->x[p][2], input->uv[p][0], input->uv[p][1]
+#define PLACE_OF(p) 1e3 * input->x[p][0], 1e3 * input->x[p][1], 1e3 * input->x[p][2], input->uv[p][0], input->uv[p][1]
 
 CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {
   CwStatus status = CW_OK;
@@ -62,8 +59,8 @@ CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {
   for (int32_t e = 0; e < input->edge_count; e++) {
     int32_t a = input->edge[e][0], b = input->edge[e][1];
     CW_REQUIRE(a >= 0 && b >= 0 && a < input->point_count && b < input->point_count && a != b, CW_ERR_INPUT,
-               "patch %s: edge %d joins points %d and %d: allowed are two different points of 0 to %d",
-               input->name, e, a, b, input->point_count - 1);
+               "patch %s: edge %d joins points %d and %d: allowed are two different points of 0 to %d", input->name, e,
+               a, b, input->point_count - 1);
   }
 done:
   return status;
@@ -74,12 +71,10 @@ CwStatus check_closed(const CwPatchInput *input) {
   CwStatus status = CW_OK;
   std::vector<int32_t> edges(size_t(input->point_count), 0);
   for (int32_t e = 0; e < input->edge_count; e++)
-    for (int k = 0; input->boundary[e] && k < 2; k++)
-      edges[size_t(input->edge[e][k])]++;
+    for (int k = 0; input->boundary[e] && k < 2; k++) edges[size_t(input->edge[e][k])]++;
   for (int32_t p = 0; p < input->point_count; p++)
     CW_REQUIRE(edges[size_t(p)] % 2 == 0, CW_ERR_INPUT,
-               "patch %s: the boundary is open at point %d, " PLACE
-               " (%d boundary edges meet there; allowed: an even "
+               "patch %s: the boundary is open at point %d, " PLACE " (%d boundary edges meet there; allowed: an even "
                "number)",
                input->name, p, PLACE_OF(p), edges[size_t(p)]);
 done:
@@ -93,28 +88,23 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
   auto at = [&](int32_t p) { return vertex[size_t(p)]->point(); };
   for (int32_t p = 0; p < input->point_count; p++)
     if (p != a && p != b && CGAL::are_strictly_ordered_along_line(at(a), at(p), at(b)))
-      return CW_FAIL(CW_ERR_INPUT, "patch %s: point %d at " PLACE " lies on edge %d (points %d and %d)",
-                     input->name, p, PLACE_OF(p), e, a, b);
+      return CW_FAIL(CW_ERR_INPUT, "patch %s: point %d at " PLACE " lies on edge %d (points %d and %d)", input->name, p,
+                     PLACE_OF(p), e, a, b);
   for (int32_t f = 0; f < input->edge_count; f++) {
     int32_t c = input->edge[f][0], d = input->edge[f][1];
-    if (f == e || c == a || c == b || d == a || d == b)
-      continue;
-    double ca = CGAL::to_double(CGAL::area(at(c), at(d), at(a))),
-           cb = CGAL::to_double(CGAL::area(at(c), at(d), at(b)));
+    if (f == e || c == a || c == b || d == a || d == b) continue;
+    double ca = CGAL::to_double(CGAL::area(at(c), at(d), at(a))), cb = CGAL::to_double(CGAL::area(at(c), at(d), at(b)));
     if (CGAL::orientation(at(c), at(d), at(a)) == CGAL::orientation(at(c), at(d), at(b)) ||
         CGAL::orientation(at(a), at(b), at(c)) == CGAL::orientation(at(a), at(b), at(d)))
       continue;
     double t = ca == cb ? 0.5 : ca / (ca - cb), x[3], uv[2];
-    for (int k = 0; k < 3; k++)
-      x[k] = 1e3 * ((1 - t) * input->x[a][k] + t * input->x[b][k]);
-    for (int k = 0; k < 2; k++)
-      uv[k] = (1 - t) * input->uv[a][k] + t * input->uv[b][k];
-    return CW_FAIL(CW_ERR_INPUT,
-                   "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE,
+    for (int k = 0; k < 3; k++) x[k] = 1e3 * ((1 - t) * input->x[a][k] + t * input->x[b][k]);
+    for (int k = 0; k < 2; k++) uv[k] = (1 - t) * input->uv[a][k] + t * input->uv[b][k];
+    return CW_FAIL(CW_ERR_INPUT, "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE,
                    input->name, e, a, b, f, c, d, x[0], x[1], x[2], uv[0], uv[1]);
   }
-  return CW_FAIL(CW_ERR_INPUT, "patch %s: edge %d (points %d and %d) crosses another near " PLACE,
-                 input->name, e, a, b, PLACE_OF(a));
+  return CW_FAIL(CW_ERR_INPUT, "patch %s: edge %d (points %d and %d) crosses another near " PLACE, input->name, e, a, b,
+                 PLACE_OF(a));
 }
 
 CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangulation &mesh,
@@ -125,11 +115,10 @@ CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangu
     points[size_t(p)] = {Point(scale[0] * input->uv[p][0], scale[1] * input->uv[p][1]), p};
   mesh.insert(points.begin(), points.end());
   vertex.assign(points.size(), Vertex());
-  for (Vertex v : mesh.finite_vertex_handles())
-    vertex[size_t(v->info())] = v;
+  for (Vertex v : mesh.finite_vertex_handles()) vertex[size_t(v->info())] = v;
   for (int32_t p = 0; p < input->point_count; p++)
-    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_INPUT,
-               "patch %s: point %d at " PLACE " coincides with another", input->name, p, PLACE_OF(p));
+    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_INPUT, "patch %s: point %d at " PLACE " coincides with another",
+               input->name, p, PLACE_OF(p));
 done:
   return status;
 }
@@ -143,8 +132,8 @@ CwStatus insert_edges(const CwPatchInput *input, Triangulation &mesh, const std:
   for (size_t k = 1; k < pairs.size(); k++)
     CW_REQUIRE(pairs[k].first != pairs[k - 1].first, CW_ERR_INPUT,
                "patch %s: the edge of points %d and %d at " PLACE " is given twice (%d and %d)", input->name,
-               pairs[k].first.first, pairs[k].first.second, PLACE_OF(pairs[k].first.first),
-               pairs[k - 1].second, pairs[k].second);
+               pairs[k].first.first, pairs[k].first.second, PLACE_OF(pairs[k].first.first), pairs[k - 1].second,
+               pairs[k].second);
   for (int32_t e = 0; e < input->edge_count; e++) {
     try {
       mesh.insert_constraint(vertex[size_t(input->edge[e][0])], vertex[size_t(input->edge[e][1])]);
@@ -167,8 +156,7 @@ done:
 void find_parity(const CwPatchInput *input, Triangulation &mesh) {
   std::vector<Pair> walls;
   for (int32_t e = 0; e < input->edge_count; e++)
-    if (input->boundary[e])
-      walls.push_back(sorted_pair(input->edge[e][0], input->edge[e][1]));
+    if (input->boundary[e]) walls.push_back(sorted_pair(input->edge[e][0], input->edge[e][1]));
   std::sort(walls.begin(), walls.end());
   std::vector<Face> queue{mesh.infinite_face()};
   queue[0]->info().parity = 0;
@@ -176,8 +164,7 @@ void find_parity(const CwPatchInput *input, Triangulation &mesh) {
     Face face = queue[k];
     for (int i = 0; i < 3; i++) {
       Face next = face->neighbor(i);
-      if (next->info().parity >= 0)
-        continue;
+      if (next->info().parity >= 0) continue;
       Vertex a = face->vertex(mesh.ccw(i)), b = face->vertex(mesh.cw(i));
       int wall = face->is_constrained(i) && !mesh.is_infinite(a) && !mesh.is_infinite(b) &&
                  std::binary_search(walls.begin(), walls.end(), sorted_pair(a->info(), b->info()));
@@ -192,35 +179,31 @@ CwStatus take_inside(const CwPatchInput *input, Triangulation &mesh, CwCdt *cdt)
   // Sorted by points, so that numbers follow from the input alone.
   std::vector<std::pair<std::array<int32_t, 3>, std::pair<Face, int>>> inside;
   for (Face face : mesh.finite_face_handles()) {
-    if (face->info().parity != 1)
-      continue;
+    if (face->info().parity != 1) continue;
     int first = 0;
     for (int i = 1; i < 3; i++)
-      if (face->vertex(i)->info() < face->vertex(first)->info())
-        first = i;
-    inside.push_back({{face->vertex(first)->info(), face->vertex(mesh.ccw(first))->info(),
-                       face->vertex(mesh.cw(first))->info()},
-                      {face, first}});
+      if (face->vertex(i)->info() < face->vertex(first)->info()) first = i;
+    inside.push_back(
+        {{face->vertex(first)->info(), face->vertex(mesh.ccw(first))->info(), face->vertex(mesh.cw(first))->info()},
+         {face, first}});
   }
   std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   size_t count = inside.size();
-  CW_REQUIRE(count > 0, CW_ERR_INPUT, "patch %s: nothing lies inside its boundary (%d points, %d edges)",
-             input->name, input->point_count, input->edge_count);
+  CW_REQUIRE(count > 0, CW_ERR_INPUT, "patch %s: nothing lies inside its boundary (%d points, %d edges)", input->name,
+             input->point_count, input->edge_count);
   take_memory(&cdt->triangle, count);
   take_memory(&cdt->neighbour, count);
   take_memory(&cdt->given, count);
   take_memory(&cdt->component, count);
   cdt->triangle_count = int32_t(count);
-  for (size_t t = 0; t < count; t++)
-    inside[t].second.first->info().number = int32_t(t);
+  for (size_t t = 0; t < count; t++) inside[t].second.first->info().number = int32_t(t);
   for (size_t t = 0; t < count; t++) {
     Face face = inside[t].second.first;
     for (int k = 0; k < 3; k++) {
       int i = (inside[t].second.second + k) % 3;
       cdt->triangle[t][k] = inside[t].first[size_t(k)];
       cdt->neighbour[t][k] = face->neighbor(i)->info().number;
-      if (face->is_constrained(i))
-        cdt->given[t] = uint8_t(cdt->given[t] | 1 << k);
+      if (face->is_constrained(i)) cdt->given[t] = uint8_t(cdt->given[t] | 1 << k);
     }
     cdt->component[t] = -1;
   }
@@ -231,8 +214,7 @@ done:
 void find_components(CwCdt *cdt) {
   std::vector<int32_t> stack;
   for (int32_t t = 0; t < cdt->triangle_count; t++) {
-    if (cdt->component[t] >= 0)
-      continue;
+    if (cdt->component[t] >= 0) continue;
     cdt->component[t] = cdt->component_count;
     stack.push_back(t);
     while (!stack.empty()) {
@@ -240,8 +222,7 @@ void find_components(CwCdt *cdt) {
       stack.pop_back();
       for (int i = 0; i < 3; i++) {
         int32_t n = cdt->neighbour[s][i];
-        if (n < 0 || cdt->given[s] >> i & 1 || cdt->component[n] >= 0)
-          continue;
+        if (n < 0 || cdt->given[s] >> i & 1 || cdt->component[n] >= 0) continue;
         cdt->component[n] = cdt->component_count;
         stack.push_back(n);
       }
@@ -267,14 +248,13 @@ CwStatus cw_cdt_make(const CwPatchInput *input, const double scale[2], CwCdt *cd
     CW_TRY(take_inside(input, mesh, cdt));
     find_components(cdt);
   } catch (const std::bad_alloc &) {
-    status = CW_FAIL(CW_ERR_MEMORY, "patch %s: out of memory in the Delaunay triangulation of %d points",
-                     input->name, input->point_count);
+    status = CW_FAIL(CW_ERR_MEMORY, "patch %s: out of memory in the Delaunay triangulation of %d points", input->name,
+                     input->point_count);
   } catch (const std::exception &failure) {
     status = CW_FAIL(CW_ERR_LIBRARY, "patch %s: CGAL failed: %s", input->name, failure.what());
   }
 done:
-  if (status != CW_OK)
-    cw_cdt_free(cdt);
+  if (status != CW_OK) cw_cdt_free(cdt);
   return status;
 }
 

@@ -12,8 +12,8 @@ int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
 
 // An edge, listed with the lesser of its two vertices.
 typedef struct {
-  int32_t other, next;    // its greater vertex; the next edge of the list, or -1
-  int32_t first, second;  // its sides: 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
+  int32_t other, next;   // its greater vertex; the next edge of the list, or -1
+  int32_t first, second; // its sides: 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
 } Edge;
 
 enum { NONE = -1, MANY = -2 }; // in place of a second side

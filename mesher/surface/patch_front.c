@@ -30,8 +30,7 @@ typedef struct {
 
 static CwStatus open_queues(Front *front, int32_t count) {
   CwStatus status = CW_OK;
-  if (count <= front->queue_count)
-    goto done;
+  if (count <= front->queue_count) goto done;
   count *= 2;
   int32_t(*grown)[2] = realloc(front->queue, (size_t)count * sizeof *grown);
   CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: a front of %d rows", count);
@@ -55,18 +54,15 @@ static CwStatus push(Front *front, int32_t t, int32_t a, int32_t b) {
   else
     front->entry[queue[1]].next = n;
   queue[1] = n;
-  if (rows < front->current)
-    front->current = rows;
+  if (rows < front->current) front->current = rows;
 done:
   return status;
 }
 
 // The next edge; 0 when none is left.
 static int pop(Front *front, Entry *entry) {
-  while (front->current < front->queue_count && front->queue[front->current][0] < 0)
-    front->current++;
-  if (front->current == front->queue_count)
-    return 0;
+  while (front->current < front->queue_count && front->queue[front->current][0] < 0) front->current++;
+  if (front->current == front->queue_count) return 0;
   int32_t *queue = front->queue[front->current];
   *entry = front->entry[queue[0]];
   queue[0] = entry->next;
@@ -96,11 +92,9 @@ static int shape_of(const CwPatchWork *work, int32_t t, int i, Shape *shape) {
   const int32_t *corner = work->corner[t];
   int32_t c = corner[i], a = corner[(i + 1) % 3], b = corner[(i + 2) % 3];
   double m[3];
-  for (int k = 0; k < 3; k++)
-    m[k] = (work->metric[a][k] + work->metric[b][k] + work->metric[c][k]) / 3;
+  for (int k = 0; k < 3; k++) m[k] = (work->metric[a][k] + work->metric[b][k] + work->metric[c][k]) / 3;
   double det = m[0] * m[2] - m[1] * m[1];
-  if (!(det > 1e-12 * m[0] * m[2]))
-    return 0;
+  if (!(det > 1e-12 * m[0] * m[2])) return 0;
   double root = sqrt(det), e[2], f[2];
   for (int k = 0; k < 2; k++) {
     e[k] = work->uv[b][k] - work->uv[a][k];
@@ -116,8 +110,7 @@ static int shape_of(const CwPatchWork *work, int32_t t, int i, Shape *shape) {
   double x = dot / length, y = root * (e[0] * f[1] - e[1] * f[0]) / length;
   shape->apex[0] = x - 0.5 * length;
   shape->apex[1] = y;
-  if (!(y > 1e-12 * length))
-    return 0;
+  if (!(y > 1e-12 * length)) return 0;
   shape->centre = (x * x + y * y - length * x) / (2 * y);
   shape->radius2 = shape->centre * shape->centre + 0.25 * length * length;
   return 1;
@@ -130,8 +123,7 @@ static double mean_size(const CwPatchWork *work, int32_t t) {
 
 static int is_done(const CwPatchWork *work, int32_t t) {
   Shape shape;
-  if (!shape_of(work, t, 0, &shape))
-    return 1;
+  if (!shape_of(work, t, 0, &shape)) return 1;
   double limit = done_radius * mean_size(work, t);
   return shape.radius2 <= limit * limit;
 }
@@ -143,10 +135,8 @@ static CwStatus push_edges(const CwPatchWork *work, Front *front, int32_t t) {
   for (int i = 0; i < 3; i++) {
     int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3], n = work->neighbour[t][i];
     int given = work->given[t] >> i & 1;
-    if (!done && (given || is_done(work, n)))
-      CW_TRY(push(front, t, a, b));
-    if (done && !given && !is_done(work, n))
-      CW_TRY(push(front, n, b, a));
+    if (!done && (given || is_done(work, n))) CW_TRY(push(front, t, a, b));
+    if (done && !given && !is_done(work, n)) CW_TRY(push(front, n, b, a));
   }
 done:
   return status;
@@ -155,8 +145,7 @@ done:
 // Where the next point on edge i of t belongs; 0 where there is no room for one.
 static int place_point(const CwPatchWork *work, int32_t t, int i, double uv[2]) {
   Shape shape;
-  if (!shape_of(work, t, i, &shape) || shape.centre <= 0)
-    return 0;
+  if (!shape_of(work, t, i, &shape) || shape.centre <= 0) return 0;
   int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
   double size = 0.5 * (work->size[a] + work->size[b]);
   double half = 0.5 * shape.length, q = shape.centre;
@@ -172,23 +161,19 @@ static int place_point(const CwPatchWork *work, int32_t t, int i, double uv[2]) 
     uv[k] = middle[k] + height * shape.square[k];
   }
   // The metric may change over the triangle: measure once, and step again. The surface is not asked outside.
-  if (cw_patch_find(work, uv, t) < 0)
-    return 0;
+  if (cw_patch_find(work, uv, t) < 0) return 0;
   work->input->surface(work->input->surface_context, uv, x, NULL, NULL);
-  for (int k = 0; k < 3; k++)
-    foot[k] = 0.5 * (work->x[a][k] + work->x[b][k]);
+  for (int k = 0; k < 3; k++) foot[k] = 0.5 * (work->x[a][k] + work->x[b][k]);
   double reached = sqrt(cw_patch_distance2(x, foot)), ratio = reached > 0 ? height / reached : 1;
   ratio = fmin(fmax(ratio, 0.5), 2);
   if (fabs(ratio - 1) > 0.05)
-    for (int k = 0; k < 2; k++)
-      uv[k] = middle[k] + ratio * height * shape.square[k];
+    for (int k = 0; k < 2; k++) uv[k] = middle[k] + ratio * height * shape.square[k];
   return 1;
 }
 
 static double size_cap(const CwPatchWork *work, int32_t t) {
   double cap = INFINITY;
-  for (int i = 0; i < 3; i++)
-    cap = fmin(cap, work->size[work->corner[t][i]]);
+  for (int i = 0; i < 3; i++) cap = fmin(cap, work->size[work->corner[t][i]]);
   return cap;
 }
 
@@ -197,18 +182,14 @@ CwStatus cw_patch_front(CwPatchWork *work) {
   Front front = {0};
   Entry entry;
   double uv[2];
-  for (int32_t p = 0; p < work->point_count; p++)
-    CW_TRY(set_row(&front, p, 0));
-  for (int32_t t = 0; t < work->triangle_count; t++)
-    CW_TRY(push_edges(work, &front, t));
+  for (int32_t p = 0; p < work->point_count; p++) CW_TRY(set_row(&front, p, 0));
+  for (int32_t t = 0; t < work->triangle_count; t++) CW_TRY(push_edges(work, &front, t));
   while (pop(&front, &entry)) {
     int32_t t = entry.t, a = entry.a, b = entry.b;
     int i = 0;
     // The triangle may have changed since.
-    while (i < 3 && !(work->corner[t][(i + 1) % 3] == a && work->corner[t][(i + 2) % 3] == b))
-      i++;
-    if (i == 3 || is_done(work, t) || !place_point(work, t, i, uv))
-      continue;
+    while (i < 3 && !(work->corner[t][(i + 1) % 3] == a && work->corner[t][(i + 2) % 3] == b)) i++;
+    if (i == 3 || is_done(work, t) || !place_point(work, t, i, uv)) continue;
     double cap = fmin(work->size[a], work->size[b]);
     cap += growth * cap;
     status = cw_patch_insert(work, uv, t, least_room, cap);
@@ -217,22 +198,17 @@ CwStatus cw_patch_front(CwPatchWork *work) {
       continue;
     }
     CW_TRY(status);
-    CW_TRY(set_row(&front, work->point_count - 1,
-                   1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
-    for (int32_t k = 0; k < work->rim_count; k++)
-      CW_TRY(push_edges(work, &front, work->fresh[k]));
+    CW_TRY(set_row(&front, work->point_count - 1, 1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
+    for (int32_t k = 0; k < work->rim_count; k++) CW_TRY(push_edges(work, &front, work->fresh[k]));
   }
   // What the fronts left open between them: the centres of circles.
   for (int32_t t = 0; t < work->triangle_count; t++) {
     Shape shape;
-    if (is_done(work, t) || !shape_of(work, t, 0, &shape))
-      continue;
+    if (is_done(work, t) || !shape_of(work, t, 0, &shape)) continue;
     int32_t a = work->corner[t][1], b = work->corner[t][2];
-    for (int k = 0; k < 2; k++)
-      uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]) + shape.centre * shape.square[k];
+    for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]) + shape.centre * shape.square[k];
     status = cw_patch_insert(work, uv, t, least_room, size_cap(work, t) * (1 + 2 * growth));
-    if (status != CW_RETRY)
-      CW_TRY(status);
+    if (status != CW_RETRY) CW_TRY(status);
     status = CW_OK;
   }
 done:

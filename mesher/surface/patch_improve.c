@@ -22,23 +22,20 @@ typedef struct {
 
 // The worst quality of the ring with p at uv, x. Negative where a triangle would be turned in (u,v) or p
 // would come nearer to a given edge than 0.4 of its size and nearer than `height` (the least one now).
-static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, const double uv[2],
-                           const double x[3], const double normal[3]) {
+static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, const double uv[2], const double x[3],
+                           const double normal[3]) {
   double worst = 1;
   for (int k = 0; k < r->count; k++) {
     int32_t a = r->ring[k], b = r->ring[(k + 1) % r->count], t = r->triangle[k];
-    if (!(cw_patch_cross(work->uv[a], work->uv[b], uv) > 0))
-      return -1;
+    if (!(cw_patch_cross(work->uv[a], work->uv[b], uv) > 0)) return -1;
     double quality = cw_patch_quality_at(x, work->x[a], work->x[b], normal);
-    if (quality < worst)
-      worst = quality;
+    if (quality < worst) worst = quality;
     if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1) {
       // Height over the edge from the area, which the quality holds.
       double l = cw_patch_distance2(work->x[a], work->x[b]);
       double sum = l + cw_patch_distance2(x, work->x[a]) + cw_patch_distance2(x, work->x[b]);
       double height = quality * sum / (2 * sqrt(3) * sqrt(l)), limit = least_height * work->size[p];
-      if (height < limit && quality > 0)
-        worst = fmin(worst, 0.5 * height / limit);
+      if (height < limit && quality > 0) worst = fmin(worst, 0.5 * height / limit);
     }
   }
   return worst;
@@ -49,8 +46,7 @@ static double ring_quality(const CwPatchWork *work, const Ring *r, int32_t p, co
 static int try_move(CwPatchWork *work, const Ring *r, int32_t p, const double step[3], double least) {
   const double *m = work->metric[p];
   double det = m[0] * m[2] - m[1] * m[1], f[2] = {0, 0}, uv[2], x[3], xu[3], xv[3], n[3];
-  if (!(det > 1e-12 * m[0] * m[2]))
-    return 0;
+  if (!(det > 1e-12 * m[0] * m[2])) return 0;
   for (int k = 0; k < 3; k++) {
     f[0] += step[k] * work->xu[p][k];
     f[1] += step[k] * work->xv[p][k];
@@ -58,14 +54,12 @@ static int try_move(CwPatchWork *work, const Ring *r, int32_t p, const double st
   uv[0] = work->uv[p][0] + (m[2] * f[0] - m[1] * f[1]) / det;
   uv[1] = work->uv[p][1] + (m[0] * f[1] - m[1] * f[0]) / det;
   for (int k = 0; k < r->count; k++)
-    if (!(cw_patch_cross(work->uv[r->ring[k]], work->uv[r->ring[(k + 1) % r->count]], uv) > 0))
-      return 0;
+    if (!(cw_patch_cross(work->uv[r->ring[k]], work->uv[r->ring[(k + 1) % r->count]], uv) > 0)) return 0;
   work->input->surface(work->input->surface_context, uv, x, xu, xv);
   n[0] = xu[1] * xv[2] - xu[2] * xv[1];
   n[1] = xu[2] * xv[0] - xu[0] * xv[2];
   n[2] = xu[0] * xv[1] - xu[1] * xv[0];
-  if (ring_quality(work, r, p, uv, x, n) <= least)
-    return 0;
+  if (ring_quality(work, r, p, uv, x, n) <= least) return 0;
   memcpy(work->uv[p], uv, sizeof uv);
   memcpy(work->x[p], x, sizeof x);
   memcpy(work->xu[p], xu, sizeof xu);
@@ -86,59 +80,48 @@ static void smooth_point(CwPatchWork *work, int32_t p) {
   Ring r;
   double step[3] = {0, 0, 0}, n[3];
   r.count = cw_patch_ring(work, p, r.triangle, r.ring);
-  if (!r.count)
-    return;
+  if (!r.count) return;
   for (int k = 0; k < r.count; k++)
-    for (int c = 0; c < 3; c++)
-      step[c] += (work->x[r.ring[k]][c] - work->x[p][c]) / r.count;
+    for (int c = 0; c < 3; c++) step[c] += (work->x[r.ring[k]][c] - work->x[p][c]) / r.count;
   // A point that stands well is left alone: most do, and evaluating the surface is what costs.
   double still = 0.01 * work->size[p];
-  if (step[0] * step[0] + step[1] * step[1] + step[2] * step[2] < still * still)
-    return;
+  if (step[0] * step[0] + step[1] * step[1] + step[2] * step[2] < still * still) return;
   cw_patch_normal(work, p, n);
   // A loss of the worst triangle is allowed where it stays good.
   double least = fmin(ring_quality(work, &r, p, work->uv[p], work->x[p], n), 0.7);
   for (int attempt = 0; attempt < 2; attempt++) {
-    if (try_move(work, &r, p, step, least))
-      return;
-    for (int c = 0; c < 3; c++)
-      step[c] *= 0.4;
+    if (try_move(work, &r, p, step, least)) return;
+    for (int c = 0; c < 3; c++) step[c] *= 0.4;
   }
 }
 
 static void smooth(CwPatchWork *work) {
   for (int32_t p = work->given_count; p < work->point_count; p++)
-    if (work->point_triangle[p] >= 0)
-      smooth_point(work, p);
+    if (work->point_triangle[p] >= 0) smooth_point(work, p);
 }
 
 static CwStatus split_long(CwPatchWork *work) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
   for (int32_t t = 0; t < count; t++) {
-    if (work->corner[t][0] < 0)
-      continue;
+    if (work->corner[t][0] < 0) continue;
     // The longest edge only: splitting the others would make needles.
     int longest = -1;
     double most = 0;
     for (int i = 0; i < 3; i++) {
-      double d =
-          cw_patch_distance2(work->x[work->corner[t][(i + 1) % 3]], work->x[work->corner[t][(i + 2) % 3]]);
+      double d = cw_patch_distance2(work->x[work->corner[t][(i + 1) % 3]], work->x[work->corner[t][(i + 2) % 3]]);
       if (d > most) {
         most = d;
         longest = i;
       }
     }
-    if (longest < 0 || work->given[t] >> longest & 1)
-      continue;
+    if (longest < 0 || work->given[t] >> longest & 1) continue;
     int32_t a = work->corner[t][(longest + 1) % 3], b = work->corner[t][(longest + 2) % 3];
     double size = edge_size(work, a, b);
-    if (most < long_edge * long_edge * size * size)
-      continue;
+    if (most < long_edge * long_edge * size * size) continue;
     double uv[2] = {0.5 * (work->uv[a][0] + work->uv[b][0]), 0.5 * (work->uv[a][1] + work->uv[b][1])};
     status = cw_patch_insert(work, uv, t, 0.55, size * 1.1);
-    if (status == CW_RETRY)
-      status = CW_OK;
+    if (status == CW_RETRY) status = CW_OK;
     CW_TRY(status);
   }
 done:
@@ -155,8 +138,7 @@ static double height_over(const CwPatchWork *work, int32_t p, int32_t a, int32_t
 // Free points too near to another point or a given edge, and those with so few triangles that these are wide.
 static void remove_crowded(CwPatchWork *work) {
   for (int32_t p = work->given_count; p < work->point_count; p++) {
-    if (work->point_triangle[p] < 0)
-      continue;
+    if (work->point_triangle[p] < 0) continue;
     Ring r;
     r.count = cw_patch_ring(work, p, r.triangle, r.ring);
     int crowded = r.count <= 4;
@@ -167,8 +149,7 @@ static void remove_crowded(CwPatchWork *work) {
       if (work->given[t] >> cw_patch_corner_of(work->corner[t], p) & 1)
         crowded |= height_over(work, p, a, b) < least_height * work->size[p];
     }
-    if (crowded && r.count)
-      cw_patch_remove(work, p, 0.45, 1.5);
+    if (crowded && r.count) cw_patch_remove(work, p, 0.45, 1.5);
   }
 }
 
@@ -180,19 +161,16 @@ static void find_excess(const CwPatchWork *work, double *turn, int32_t *excess) 
   }
   for (int32_t t = 0; t < work->triangle_count; t++) {
     const int32_t *c = work->corner[t];
-    if (c[0] < 0)
-      continue;
+    if (c[0] < 0) continue;
     for (int i = 0; i < 3; i++) {
       excess[c[i]]++;
-      if (cw_patch_is_free(work, c[i]))
-        continue;
+      if (cw_patch_is_free(work, c[i])) continue;
       const double *x = work->x[c[i]], *y = work->x[c[(i + 1) % 3]], *z = work->x[c[(i + 2) % 3]];
       double b = cw_patch_distance2(x, y), d = cw_patch_distance2(x, z), a = cw_patch_distance2(y, z);
       turn[c[i]] += acos(fmax(-1, fmin(1, (b + d - a) / (2 * sqrt(b * d)))));
     }
   }
-  for (int32_t p = 0; p < work->given_count; p++)
-    excess[p] -= (int32_t)fmax(1, round(turn[p] / (M_PI / 3)));
+  for (int32_t p = 0; p < work->given_count; p++) excess[p] -= (int32_t)fmax(1, round(turn[p] / (M_PI / 3)));
 }
 
 // An edge b c to be turned into a d: corner a of its triangle and d of the one across.
@@ -220,17 +198,13 @@ static CwStatus even_out(CwPatchWork *work) {
   CW_NEW(turn, work->point_count);
   find_excess(work, turn, excess);
   for (int32_t t = 0; t < work->triangle_count; t++) {
-    if (work->corner[t][0] < 0)
-      continue;
+    if (work->corner[t][0] < 0) continue;
     for (int i = 0; i < 3; i++) {
-      if (work->given[t] >> i & 1)
-        continue;
+      if (work->given[t] >> i & 1) continue;
       Flip flip = flip_of(work, t, i);
       // Half the change of the sum of squares.
-      if (excess[flip.a] + excess[flip.d] - excess[flip.b] - excess[flip.c] + 2 >= 0)
-        continue;
-      if (flipped_quality(work, &flip) < 0.5 || !cw_patch_flip(work, t, i))
-        continue;
+      if (excess[flip.a] + excess[flip.d] - excess[flip.b] - excess[flip.c] + 2 >= 0) continue;
+      if (flipped_quality(work, &flip) < 0.5 || !cw_patch_flip(work, t, i)) continue;
       excess[flip.a]++;
       excess[flip.d]++;
       excess[flip.b]--;
@@ -252,8 +226,7 @@ static int flip_best(CwPatchWork *work, int32_t t) {
   int best = -1;
   double gain = 1e-3, own = triangle_quality(work, t);
   for (int i = 0; i < 3; i++) {
-    if (work->given[t] >> i & 1)
-      continue;
+    if (work->given[t] >> i & 1) continue;
     Flip flip = flip_of(work, t, i);
     double then = flipped_quality(work, &flip);
     double now = fmin(own, triangle_quality(work, work->neighbour[t][i]));
@@ -273,8 +246,7 @@ static int climb(CwPatchWork *work, int32_t p) {
   Ring r;
   int moved = 0;
   r.count = cw_patch_ring(work, p, r.triangle, r.ring);
-  if (!r.count)
-    return 0;
+  if (!r.count) return 0;
   for (double step = 0.2 * work->size[p]; step > 0.02 * work->size[p]; step *= 0.5)
     for (int k = 0; k < 6; k++) {
       double n[3], first[3], second[3], move[3], nn = 0, ff = 0;
@@ -283,8 +255,7 @@ static int climb(CwPatchWork *work, int32_t p) {
         nn += n[c] * n[c];
         ff += work->xu[p][c] * work->xu[p][c];
       }
-      if (!(nn > 0 && ff > 0))
-        return moved;
+      if (!(nn > 0 && ff > 0)) return moved;
       for (int c = 0; c < 3; c++) {
         first[c] = work->xu[p][c] / sqrt(ff);
         n[c] /= sqrt(nn);
@@ -292,8 +263,7 @@ static int climb(CwPatchWork *work, int32_t p) {
       second[0] = n[1] * first[2] - n[2] * first[1];
       second[1] = n[2] * first[0] - n[0] * first[2];
       second[2] = n[0] * first[1] - n[1] * first[0];
-      for (int c = 0; c < 3; c++)
-        move[c] = step * (direction[k][0] * first[c] + direction[k][1] * second[c]);
+      for (int c = 0; c < 3; c++) move[c] = step * (direction[k][0] * first[c] + direction[k][1] * second[c]);
       cw_patch_normal(work, p, n);
       moved += try_move(work, &r, p, move, ring_quality(work, &r, p, work->uv[p], work->x[p], n) + 1e-3);
     }
@@ -305,13 +275,11 @@ static int climb(CwPatchWork *work, int32_t p) {
 static int64_t mend_worst(CwPatchWork *work, double bound) {
   int64_t changes = 0;
   for (int32_t t = 0; t < work->triangle_count; t++) {
-    if (work->corner[t][0] < 0 || triangle_quality(work, t) >= bound)
-      continue;
+    if (work->corner[t][0] < 0 || triangle_quality(work, t) >= bound) continue;
     int done = flip_best(work, t);
     for (int i = 0; i < 3 && !done; i++) {
       int32_t p = work->corner[t][i];
-      if (!cw_patch_is_free(work, p))
-        continue;
+      if (!cw_patch_is_free(work, p)) continue;
       Ring r;
       double n[3];
       r.count = cw_patch_ring(work, p, r.triangle, r.ring);
@@ -319,8 +287,7 @@ static int64_t mend_worst(CwPatchWork *work, double bound) {
       double now = ring_quality(work, &r, p, work->uv[p], work->x[p], n);
       // Its own triangle counts too: the gain must be there.
       done = r.count && cw_patch_remove(work, p, fmax(now, 0) + 0.05, 1.5);
-      if (!done)
-        done = climb(work, p);
+      if (!done) done = climb(work, p);
     }
     changes += done;
   }
@@ -336,15 +303,13 @@ CwStatus cw_patch_improve(CwPatchWork *work) {
     CW_TRY(split_long(work));
     cw_patch_delaunay(work, 1);
     // The last sweep keeps what is best for the angles.
-    if (sweep + 1 < SWEEPS)
-      CW_TRY(even_out(work));
+    if (sweep + 1 < SWEEPS) CW_TRY(even_out(work));
     smooth(work);
     smooth(work);
   }
   cw_patch_delaunay(work, 1);
   for (int mend = 0; mend < MENDS; mend++)
-    if (!mend_worst(work, 0.8))
-      break;
+    if (!mend_worst(work, 0.8)) break;
 done:
   return status;
 }

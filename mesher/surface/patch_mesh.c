@@ -28,8 +28,7 @@ static CwStatus take_result(const CwPatchWork *work, int32_t component_count, Cw
   CW_NEW(number, work->point_count);
   for (int32_t p = 0; p < work->point_count; p++)
     number[p] = p < work->given_count || work->point_triangle[p] >= 0 ? mesh->point_count++ : -1;
-  for (int32_t t = 0; t < work->triangle_count; t++)
-    mesh->triangle_count += work->corner[t][0] >= 0;
+  for (int32_t t = 0; t < work->triangle_count; t++) mesh->triangle_count += work->corner[t][0] >= 0;
   CW_NEW(mesh->uv, mesh->point_count);
   CW_NEW(mesh->x, mesh->point_count);
   CW_NEW(mesh->triangle, mesh->triangle_count);
@@ -42,14 +41,11 @@ static CwStatus take_result(const CwPatchWork *work, int32_t component_count, Cw
     }
   for (int32_t t = 0, n = 0; t < work->triangle_count; t++) {
     const int32_t *c = work->corner[t];
-    if (c[0] < 0)
-      continue;
-    for (int i = 0; i < 3; i++)
-      mesh->triangle[n][i] = number[c[i]];
+    if (c[0] < 0) continue;
+    for (int i = 0; i < 3; i++) mesh->triangle[n][i] = number[c[i]];
     mesh->component[n] = work->component[t];
     if (cw_patch_quality(work, c[0], c[1], c[2]) <= 0 && mesh->folded_count++ == 0)
-      for (int k = 0; k < 3; k++)
-        mesh->folded_at[k] = (work->x[c[0]][k] + work->x[c[1]][k] + work->x[c[2]][k]) / 3;
+      for (int k = 0; k < 3; k++) mesh->folded_at[k] = (work->x[c[0]][k] + work->x[c[1]][k] + work->x[c[2]][k]) / 3;
     n++;
   }
 done:
@@ -76,8 +72,7 @@ CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh) {
 done:
   cw_patch_work_close(&work);
   cw_cdt_free(&cdt);
-  if (status != CW_OK)
-    cw_patch_mesh_free(mesh);
+  if (status != CW_OK) cw_patch_mesh_free(mesh);
   return status;
 }
 

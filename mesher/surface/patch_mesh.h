@@ -40,8 +40,8 @@ typedef struct {
   int32_t point_count, triangle_count;
   double (*uv)[2], (*x)[3]; // the given points first, in their order
   int32_t (*triangle)[3];   // counter-clockwise in (u,v)
-  int32_t *component; // of each triangle: pieces that the given edges cut the patch into, numbered from 0
-                      // by the smallest given points on them
+  int32_t *component;       // of each triangle: pieces that the given edges cut the patch into, numbered from 0
+                            // by the smallest given points on them
   int32_t component_count;
   // Triangles whose normal in space is against xu x xv: 0 unless the given points force them (a boundary much
   // coarser than the curvature). `folded_at`: the middle of the first one. The caller judges whether it can

@@ -13,8 +13,8 @@ typedef struct {
   double (*uv)[2], (*x)[3];
   int32_t (*edge)[2];
   uint8_t *boundary;
-  int32_t *local;      // of each node of the caller, -1: not in the patch
-  int32_t node_count;  // of the caller
+  int32_t *local;     // of each node of the caller, -1: not in the patch
+  int32_t node_count; // of the caller
 } CwPatchOutline;
 
 CwStatus cw_outline_start(CwPatchOutline *outline, int32_t node_count);

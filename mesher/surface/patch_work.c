@@ -5,20 +5,17 @@
 #include <string.h>
 
 // Grows an array to `room` items; the old one stays valid when memory is out.
-#define GROW(pointer, room)                                                                                  \
-  do {                                                                                                       \
-    void *grown = realloc((pointer), (size_t)(room) * sizeof *(pointer));                                    \
-    CW_REQUIRE(grown, CW_ERR_MEMORY, "patch %s: out of memory for %d items", work->input->name,              \
-               (int)(room));                                                                                 \
-    (pointer) = grown;                                                                                       \
+#define GROW(pointer, room)                                                                                            \
+  do {                                                                                                                 \
+    void *grown = realloc((pointer), (size_t)(room) * sizeof *(pointer));                                              \
+    CW_REQUIRE(grown, CW_ERR_MEMORY, "patch %s: out of memory for %d items", work->input->name, (int)(room));          \
+    (pointer) = grown;                                                                                                 \
   } while (0)
 
 static CwStatus grow_points(CwPatchWork *work, int32_t room) {
   CwStatus status = CW_OK;
-  if (room <= work->point_room)
-    goto done;
-  if (room < 2 * work->point_room)
-    room = 2 * work->point_room;
+  if (room <= work->point_room) goto done;
+  if (room < 2 * work->point_room) room = 2 * work->point_room;
   GROW(work->uv, room);
   GROW(work->x, room);
   GROW(work->xu, room);
@@ -34,10 +31,8 @@ done:
 
 static CwStatus grow_triangles(CwPatchWork *work, int32_t room) {
   CwStatus status = CW_OK;
-  if (room <= work->triangle_room)
-    goto done;
-  if (room < 2 * work->triangle_room)
-    room = 2 * work->triangle_room;
+  if (room <= work->triangle_room) goto done;
+  if (room < 2 * work->triangle_room) room = 2 * work->triangle_room;
   GROW(work->corner, room);
   GROW(work->neighbour, room);
   GROW(work->given, room);
@@ -51,8 +46,7 @@ done:
 
 static CwStatus grow_cavity(CwPatchWork *work, int32_t room) {
   CwStatus status = CW_OK;
-  if (room <= work->cavity_room)
-    goto done;
+  if (room <= work->cavity_room) goto done;
   room *= 2;
   GROW(work->cavity, room);
   GROW(work->rim, room);
@@ -102,13 +96,11 @@ CwStatus cw_patch_work_open(const CwPatchInput *input, const CwCdt *cdt, CwPatch
     memcpy(work->neighbour[t], cdt->neighbour[t], sizeof work->neighbour[t]);
     work->given[t] = cdt->given[t];
     work->component[t] = cdt->component[t];
-    for (int i = 0; i < 3; i++)
-      work->point_triangle[work->corner[t][i]] = t;
+    for (int i = 0; i < 3; i++) work->point_triangle[work->corner[t][i]] = t;
   }
 done:
   free(edges);
-  if (status != CW_OK)
-    cw_patch_work_close(work);
+  if (status != CW_OK) cw_patch_work_close(work);
   return status;
 }
 
@@ -145,8 +137,7 @@ double cw_patch_quality_at(const double a[3], const double b[3], const double c[
   n[1] = e[2] * f[0] - e[0] * f[2];
   n[2] = e[0] * f[1] - e[1] * f[0];
   double area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] < 0)
-    area = -area;
+  if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] < 0) area = -area;
   return l > 0 ? 2 * sqrt(3) * area / l : 0;
 }
 
@@ -154,11 +145,9 @@ double cw_patch_quality(const CwPatchWork *work, int32_t a, int32_t b, int32_t c
   double n[3], m[3];
   cw_patch_normal(work, a, n);
   cw_patch_normal(work, b, m);
-  for (int k = 0; k < 3; k++)
-    n[k] += m[k];
+  for (int k = 0; k < 3; k++) n[k] += m[k];
   cw_patch_normal(work, c, m);
-  for (int k = 0; k < 3; k++)
-    n[k] += m[k];
+  for (int k = 0; k < 3; k++) n[k] += m[k];
   return cw_patch_quality_at(work->x[a], work->x[b], work->x[c], n);
 }
 
@@ -175,8 +164,7 @@ static void set_triangle(CwPatchWork *work, int32_t t, int32_t a, int32_t b, int
 static int edge_from(const CwPatchWork *work, int32_t t, int32_t a, int32_t b) {
   const int32_t *c = work->corner[t];
   for (int i = 0; i < 3; i++)
-    if (c[(i + 1) % 3] == a && c[(i + 2) % 3] == b)
-      return i;
+    if (c[(i + 1) % 3] == a && c[(i + 2) % 3] == b) return i;
   return -1;
 }
 
@@ -192,18 +180,15 @@ int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t t) {
     int out = -1;
     double worst = 0;
     for (int i = 0; i < 3; i++) {
-      if (work->neighbour[t][i] == from && from >= 0)
-        continue;
+      if (work->neighbour[t][i] == from && from >= 0) continue;
       double cross = cw_patch_cross(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], uv);
       if (cross < worst) {
         worst = cross;
         out = i;
       }
     }
-    if (out < 0)
-      return t;
-    if (work->given[t] >> out & 1)
-      return -1;
+    if (out < 0) return t;
+    if (work->given[t] >> out & 1) return -1;
     from = t;
     t = work->neighbour[t][out];
   }
@@ -239,16 +224,14 @@ static CwStatus collect_cavity(CwPatchWork *work, const double p[2], const doubl
   start_marks(work);
   work->cavity_count = seeds;
   work->rim_count = 0;
-  for (int k = 0; k < seeds; k++)
-    work->mark[work->cavity[k]] = work->marker;
+  for (int k = 0; k < seeds; k++) work->mark[work->cavity[k]] = work->marker;
   for (int32_t k = 0; k < work->cavity_count; k++) {
     int32_t t = work->cavity[k];
     CW_TRY(grow_cavity(work, work->cavity_count + work->rim_count + 4));
     for (int i = 0; i < 3; i++) {
       int32_t n = work->neighbour[t][i];
       int given = work->given[t] >> i & 1;
-      if (!given && work->mark[n] == work->marker)
-        continue;
+      if (!given && work->mark[n] == work->marker) continue;
       if (grow && !given && in_circle(work, work->corner[n], p, m)) {
         work->mark[n] = work->marker;
         work->cavity[work->cavity_count++] = n;
@@ -264,8 +247,7 @@ static CwStatus collect_cavity(CwPatchWork *work, const double p[2], const doubl
   // A triangle that came in late may have been taken for rim before.
   int32_t kept = 0;
   for (int32_t k = 0; k < work->rim_count; k++) {
-    if (!work->rim_given[k] && work->mark[work->rim[k][2]] == work->marker)
-      continue;
+    if (!work->rim_given[k] && work->mark[work->rim[k][2]] == work->marker) continue;
     memmove(work->rim[kept], work->rim[k], sizeof work->rim[k]);
     work->rim_given[kept++] = work->rim_given[k];
   }
@@ -277,34 +259,28 @@ done:
 // Whether each rim edge sees p with an area that is not lost in rounding, and the cavity has no point inside.
 static int cavity_is_star(const CwPatchWork *work, const double p[2], const double m[3]) {
   double root = sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0));
-  if (work->rim_count != work->cavity_count + 2)
-    return 0;
+  if (work->rim_count != work->cavity_count + 2) return 0;
   for (int32_t k = 0; k < work->rim_count; k++) {
     const double *a = work->uv[work->rim[k][0]], *b = work->uv[work->rim[k][1]];
     double u = b[0] - a[0], v = b[1] - a[1];
-    if (!(root * cw_patch_cross(a, b, p) > 1e-6 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v)))
-      return 0;
+    if (!(root * cw_patch_cross(a, b, p) > 1e-6 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v))) return 0;
   }
   return 1;
 }
 
-static int cavity_has_room(const CwPatchWork *work, const double uv[2], const double m[3], double size,
-                           double least) {
+static int cavity_has_room(const CwPatchWork *work, const double uv[2], const double m[3], double size, double least) {
   double root = sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0));
   for (int32_t k = 0; k < work->rim_count; k++) {
     const double *a = work->uv[work->rim[k][0]], *b = work->uv[work->rim[k][1]];
     double u = a[0] - uv[0], v = a[1] - uv[1];
     // Beside finer given edges the spacing of these counts.
     double near = fmin(size, 0.5 * (size + work->size[work->rim[k][0]]));
-    if (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v < least * least * near * near)
-      return 0;
-    if (!work->rim_given[k])
-      continue;
+    if (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v < least * least * near * near) return 0;
+    if (!work->rim_given[k]) continue;
     u = b[0] - a[0];
     v = b[1] - a[1];
     double length = sqrt(m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v);
-    if (root * cw_patch_cross(a, b, uv) < 0.4 * near * length)
-      return 0;
+    if (root * cw_patch_cross(a, b, uv) < 0.4 * near * length) return 0;
   }
   return 1;
 }
@@ -331,8 +307,7 @@ static CwStatus fill_cavity(CwPatchWork *work, int32_t p) {
     work->given[t] = work->rim_given[k];
     work->neighbour[t][0] = out;
     work->point_fresh[a] = t;
-    if (out >= 0)
-      work->neighbour[out][edge_from(work, out, b, a)] = t;
+    if (out >= 0) work->neighbour[out][edge_from(work, out, b, a)] = t;
   }
   for (int32_t k = 0; k < work->rim_count; k++) {
     int32_t t = work->fresh[k], next = work->point_fresh[work->rim[k][1]];
@@ -351,8 +326,7 @@ static CwStatus collect_least_cavity(CwPatchWork *work, const double p[2], const
   int flat = 0, seeds = 1;
   for (int i = 0; i < 3; i++) {
     cross[i] = cw_patch_cross(work->uv[c[(i + 1) % 3]], work->uv[c[(i + 2) % 3]], p);
-    if (cross[i] < cross[flat])
-      flat = i;
+    if (cross[i] < cross[flat]) flat = i;
   }
   work->cavity[0] = t;
   if (cross[flat] < 0.05 * (cross[0] + cross[1] + cross[2]) && !(work->given[t] >> flat & 1))
@@ -375,8 +349,7 @@ CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, do
   const double *m = work->metric[p];
   work->cavity[0] = t;
   CW_TRY(collect_cavity(work, uv, m, 1, 1));
-  if (!cavity_is_star(work, uv, m))
-    CW_TRY(collect_least_cavity(work, uv, m, t));
+  if (!cavity_is_star(work, uv, m)) CW_TRY(collect_least_cavity(work, uv, m, t));
   if (!cavity_is_star(work, uv, m) || !cavity_has_room(work, uv, m, work->size[p], least)) {
     status = CW_RETRY;
     goto done;
@@ -388,26 +361,22 @@ done:
 }
 
 int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
-  if (work->given[t] >> i & 1)
-    return 0;
+  if (work->given[t] >> i & 1) return 0;
   int32_t n = work->neighbour[t][i];
   int32_t a = work->corner[t][i], b = work->corner[t][(i + 1) % 3], c = work->corner[t][(i + 2) % 3];
   int j = edge_from(work, n, c, b);
   int32_t d = work->corner[n][j];
   double left = cw_patch_cross(work->uv[a], work->uv[b], work->uv[d]);
   double right = cw_patch_cross(work->uv[a], work->uv[d], work->uv[c]);
-  if (!(left > 1e-9 * (left + right)) || !(right > 1e-9 * (left + right)))
-    return 0;
+  if (!(left > 1e-9 * (left + right)) || !(right > 1e-9 * (left + right))) return 0;
   // Corners a b c and d c b become a b d and a d c.
   int32_t ab = work->neighbour[t][(i + 2) % 3], ca = work->neighbour[t][(i + 1) % 3];
   int32_t bd = work->neighbour[n][(j + 1) % 3], dc = work->neighbour[n][(j + 2) % 3];
   int ab_given = work->given[t] >> (i + 2) % 3 & 1, ca_given = work->given[t] >> (i + 1) % 3 & 1;
   int bd_given = work->given[n] >> (j + 1) % 3 & 1, dc_given = work->given[n] >> (j + 2) % 3 & 1;
   int32_t component = work->component[t];
-  if (bd >= 0)
-    work->neighbour[bd][edge_from(work, bd, d, b)] = t;
-  if (ca >= 0)
-    work->neighbour[ca][edge_from(work, ca, a, c)] = n;
+  if (bd >= 0) work->neighbour[bd][edge_from(work, bd, d, b)] = t;
+  if (ca >= 0) work->neighbour[ca][edge_from(work, ca, a, c)] = n;
   set_triangle(work, t, a, b, d, component);
   set_triangle(work, n, a, d, c, component);
   join(work, t, 0, bd, bd_given);
@@ -419,13 +388,11 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i) {
   return 1;
 }
 
-int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING],
-                  int32_t ring[CW_PATCH_RING]) {
+int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING], int32_t ring[CW_PATCH_RING]) {
   int count = 0;
   int32_t t = work->point_triangle[p], first = t;
   do {
-    if (count == CW_PATCH_RING)
-      return 0;
+    if (count == CW_PATCH_RING) return 0;
     int i = cw_patch_corner_of(work->corner[t], p);
     triangles[count] = t;
     ring[count++] = work->corner[t][(i + 1) % 3];
@@ -443,12 +410,10 @@ static double quality_drawn(const CwPatchWork *work, int count, const int32_t *r
     double u = work->uv[b][0] - work->uv[a][0], v = work->uv[b][1] - work->uv[a][1];
     const double *m = work->metric[q];
     double area = cw_patch_cross(work->uv[q], work->uv[a], work->uv[b]);
-    if (!(area * sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0)) >
-          1e-4 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v)))
+    if (!(area * sqrt(fmax(m[0] * m[2] - m[1] * m[1], 0)) > 1e-4 * (m[0] * u * u + 2 * m[1] * u * v + m[2] * v * v)))
       return -1;
     double limit = 0.5 * most * (work->size[q] + work->size[a]);
-    if (k > 1 && cw_patch_distance2(work->x[q], work->x[a]) > limit * limit)
-      return -1;
+    if (k > 1 && cw_patch_distance2(work->x[q], work->x[a]) > limit * limit) return -1;
     worst = fmin(worst, cw_patch_quality(work, q, a, b));
   }
   return worst;
@@ -457,8 +422,7 @@ static double quality_drawn(const CwPatchWork *work, int count, const int32_t *r
 int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double most) {
   int32_t triangles[CW_PATCH_RING], ring[CW_PATCH_RING];
   int count = cw_patch_ring(work, p, triangles, ring), best = -1;
-  if (count < 3)
-    return 0;
+  if (count < 3) return 0;
   for (int w = 0; w < count; w++) {
     double quality = quality_drawn(work, count, ring, w, most);
     if (quality > least_quality) {
@@ -466,8 +430,7 @@ int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double m
       best = w;
     }
   }
-  if (best < 0)
-    return 0;
+  if (best < 0) return 0;
   int32_t q = ring[best];
   // Triangle `best` (p, q, r) and the one before it (p, s, q) go; what lies across their outer edges joins
   // the next ones.
@@ -479,8 +442,7 @@ int cw_patch_remove(CwPatchWork *work, int32_t p, double least_quality, double m
     int32_t r = work->corner[gone][3 - i - j];
     // The edge of `in` between p and r takes over the edge between q and r.
     int e = side ? edge_from(work, in, r, p) : edge_from(work, in, p, r);
-    if (out >= 0)
-      work->neighbour[out][side ? edge_from(work, out, q, r) : edge_from(work, out, r, q)] = in;
+    if (out >= 0) work->neighbour[out][side ? edge_from(work, out, q, r) : edge_from(work, out, r, q)] = in;
     join(work, in, e, out, given);
     work->point_triangle[r] = in;
     work->point_triangle[q] = in;
@@ -504,8 +466,7 @@ static double angle_margin(const CwPatchWork *work, int32_t t, int i, int on_cho
   double sin_a, sin_d, cos_a, cos_d;
   if (on_chords) {
     const double *xa = work->x[a], *xb = work->x[b], *xc = work->x[c], *xd = work->x[d];
-    double ab2 = cw_patch_distance2(xa, xb), ac2 = cw_patch_distance2(xa, xc),
-           bc2 = cw_patch_distance2(xb, xc);
+    double ab2 = cw_patch_distance2(xa, xb), ac2 = cw_patch_distance2(xa, xc), bc2 = cw_patch_distance2(xb, xc);
     double db2 = cw_patch_distance2(xd, xb), dc2 = cw_patch_distance2(xd, xc);
     cos_a = 0.5 * (ab2 + ac2 - bc2);
     cos_d = 0.5 * (db2 + dc2 - bc2);
@@ -545,8 +506,7 @@ int64_t cw_patch_delaunay(CwPatchWork *work, int on_chords) {
   for (int pass = 0; pass < 40 && flips; pass++) {
     flips = 0;
     for (int32_t t = 0; t < work->triangle_count; t++) {
-      if (work->corner[t][0] < 0)
-        continue;
+      if (work->corner[t][0] < 0) continue;
       for (int i = 0; i < 3; i++)
         if (!(work->given[t] >> i & 1) && (pass > 0 || work->neighbour[t][i] > t) &&
             angle_margin(work, t, i, on_chords) < -1e-6 && !(on_chords && flip_folds(work, t, i)))

@@ -26,8 +26,8 @@ typedef struct {
   double (*uv)[2], (*x)[3];
   double (*xu)[3], (*xv)[3]; // derivatives of the map
   double (*metric)[3];       // first fundamental form: xu.xu, xu.xv, xv.xv
-  double *size; // wanted edge length at the point: the field, held down by nearby short given edges
-  int32_t *point_triangle;               // one triangle at the point; -1: none (a removed point)
+  double *size;              // wanted edge length at the point: the field, held down by nearby short given edges
+  int32_t *point_triangle;   // one triangle at the point; -1: none (a removed point)
   int32_t triangle_count, triangle_room; // slots
   int32_t (*corner)[3];                  // corner[t][0] < 0: a free slot, the next one in neighbour[t][0]
   int32_t (*neighbour)[3];               // across edge i; -1: outside
@@ -64,8 +64,7 @@ int cw_patch_flip(CwPatchWork *work, int32_t t, int i);
 
 // Triangles and neighbours around a free point, counter-clockwise: triangle k has the corners p, ring[k],
 // ring[k+1]. Returns their number, 0 where there are more than CW_PATCH_RING.
-int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING],
-                  int32_t ring[CW_PATCH_RING]);
+int cw_patch_ring(const CwPatchWork *work, int32_t p, int32_t triangles[CW_PATCH_RING], int32_t ring[CW_PATCH_RING]);
 
 // Draws free point p into a neighbour, the one that leaves the best worst triangle, if that is better than
 // `least_quality` and no new edge is longer than `most` times the mean size of its ends. Returns whether it

@@ -5,12 +5,10 @@
 #include <string.h>
 
 // Faces by the CGNS standard (SIDS 3.3), outward, ended by -1.
-static const signed char tetrahedron_faces[4][4] = {
-    {0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
+static const signed char tetrahedron_faces[4][4] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
 static const signed char pyramid_faces[5][4] = {
     {0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
-static const signed char prism_faces[5][4] = {
-    {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}, {0, 2, 1, -1}, {3, 4, 5, -1}};
+static const signed char prism_faces[5][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}, {0, 2, 1, -1}, {3, 4, 5, -1}};
 
 const signed char (*cw_cell_face_table(int node_count))[4] {
   return node_count == 4 ? tetrahedron_faces : node_count == 5 ? pyramid_faces : prism_faces;
@@ -21,8 +19,7 @@ int cw_cell_face(const CwRegionData *region, int32_t cell, int face, int32_t nod
   const int32_t *n = cw_cell_nodes(region, cell, &count);
   const signed char *f = cw_cell_face_table(count)[face];
   int i = 0;
-  for (; i < 4 && f[i] >= 0; ++i)
-    nodes[i] = n[f[i]];
+  for (; i < 4 && f[i] >= 0; ++i) nodes[i] = n[f[i]];
   return i;
 }
 
@@ -40,8 +37,7 @@ static inline void add_triangle(const double a[3], const double b[3], const doub
 static void face_mean(const double (*points)[3], const int32_t *nodes, int count, double mean[3]) {
   for (int k = 0; k < 3; ++k) {
     mean[k] = 0;
-    for (int i = 0; i < count; ++i)
-      mean[k] += points[nodes[i]][k];
+    for (int i = 0; i < count; ++i) mean[k] += points[nodes[i]][k];
     mean[k] /= count;
   }
 }
@@ -54,8 +50,7 @@ void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, do
   }
   double mean[3];
   face_mean(points, nodes, count, mean);
-  for (int i = 0; i < count; ++i)
-    add_triangle(points[nodes[i]], points[nodes[(i + 1) % count]], mean, area);
+  for (int i = 0; i < count; ++i) add_triangle(points[nodes[i]], points[nodes[(i + 1) % count]], mean, area);
 }
 
 void cw_cell_centre(const CwRegionData *region, int32_t cell, double centre[3]) {
@@ -78,8 +73,7 @@ static inline double six_volumes(const double o[3], const double a[3], const dou
 double cw_cell_volume(int count, const double *const *x) {
   const double *o = x[0];
   double six = 0;
-  if (count == 4)
-    return six_volumes(o, x[1], x[2], x[3]) / 6;
+  if (count == 4) return six_volumes(o, x[1], x[2], x[3]) / 6;
   const signed char(*face)[4] = cw_cell_face_table(count);
   for (int f = 0; f < CW_CELL_FACES; ++f) {
     const double *a = x[face[f][0]], *b = x[face[f][1]], *c = x[face[f][2]];
@@ -113,15 +107,13 @@ static void face_centre(const double *const *x, const signed char face[4], doubl
   const double u[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]}, v[3] = {d[0] - b[0], d[1] - b[1], d[2] - b[2]};
   cross(u, v, twice);
   if (face[3] < 0) {
-    for (int k = 0; k < 3; ++k)
-      centre[k] = (a[k] + b[k] + c[k]) / 3;
+    for (int k = 0; k < 3; ++k) centre[k] = (a[k] + b[k] + c[k]) / 3;
     return;
   }
   double area = 0, moment[3] = {0}, to[4][3];
   for (int k = 0; k < 3; ++k) {
     centre[k] = (a[k] + b[k] + c[k] + d[k]) / 4;
-    for (int i = 0; i < 4; ++i)
-      to[i][k] = x[face[i]][k] - centre[k];
+    for (int i = 0; i < 4; ++i) to[i][k] = x[face[i]][k] - centre[k];
   }
   for (int i = 0; i < 4; ++i) {
     const double *from = to[i], *next = to[(i + 1) % 4];
@@ -129,33 +121,26 @@ static void face_centre(const double *const *x, const signed char face[4], doubl
     cross(from, next, normal);
     double one = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     area += one;
-    for (int k = 0; k < 3; ++k)
-      moment[k] += one * (from[k] + next[k]);
+    for (int k = 0; k < 3; ++k) moment[k] += one * (from[k] + next[k]);
   }
-  for (int k = 0; k < 3; ++k)
-    centre[k] += moment[k] / (3 * area);
+  for (int k = 0; k < 3; ++k) centre[k] += moment[k] / (3 * area);
 }
 
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]) {
   double centre[CW_CELL_FACES][3], twice[CW_CELL_FACES][3], apex[3] = {0}, volume = 0, moment[3] = {0};
   if (count == 4) {
-    for (int k = 0; k < 3; ++k)
-      centroid[k] = (x[0][k] + x[1][k] + x[2][k] + x[3][k]) / 4;
+    for (int k = 0; k < 3; ++k) centroid[k] = (x[0][k] + x[1][k] + x[2][k] + x[3][k]) / 4;
     return;
   }
   for (int f = 0; f < CW_CELL_FACES; ++f) {
     face_centre(x, cw_cell_face_table(count)[f], centre[f], twice[f]);
-    for (int k = 0; k < 3; ++k)
-      apex[k] += centre[f][k] / CW_CELL_FACES;
+    for (int k = 0; k < 3; ++k) apex[k] += centre[f][k] / CW_CELL_FACES;
   }
   for (int f = 0; f < CW_CELL_FACES; ++f) {
     double one = 0;
-    for (int k = 0; k < 3; ++k)
-      one += twice[f][k] * (centre[f][k] - apex[k]);
+    for (int k = 0; k < 3; ++k) one += twice[f][k] * (centre[f][k] - apex[k]);
     volume += one;
-    for (int k = 0; k < 3; ++k)
-      moment[k] += one * (centre[f][k] - apex[k]);
+    for (int k = 0; k < 3; ++k) moment[k] += one * (centre[f][k] - apex[k]);
   }
-  for (int k = 0; k < 3; ++k)
-    centroid[k] = apex[k] + 0.75 * moment[k] / volume;
+  for (int k = 0; k < 3; ++k) centroid[k] = apex[k] + 0.75 * moment[k] / volume;
 }

@@ -11,12 +11,10 @@ enum { CW_CELL_FACES = 5 }; // the most a cell has
 // or 6.
 static inline const int32_t *cw_cell_nodes(const CwRegionData *region, int32_t cell, int *count) {
   *count = 4;
-  if (cell < region->tetrahedron_count)
-    return region->tetrahedra[cell];
+  if (cell < region->tetrahedron_count) return region->tetrahedra[cell];
   cell -= region->tetrahedron_count;
   *count = 5;
-  if (cell < region->pyramid_count)
-    return region->pyramids[cell];
+  if (cell < region->pyramid_count) return region->pyramids[cell];
   *count = 6;
   return region->prisms[cell - region->pyramid_count];
 }
@@ -35,17 +33,16 @@ void cw_face_area(const double (*points)[3], const int32_t *nodes, int count, do
 // takes them: volumes of cells add up to the volume enclosed, without gaps.
 double cw_cell_volume(int count, const double *const *x);
 
-// Centroid of such a cell of positive volume, m, as OpenFOAM reckons it (primitiveMesh::makeCellCentresAndVols), so that
-// what is measured with it is what checkMesh says: pyramids from the mean of the face centres to the faces, weighed by
-// volume. That is the true centroid where the faces are flat.
+// Centroid of such a cell of positive volume, m, as OpenFOAM reckons it (primitiveMesh::makeCellCentresAndVols), so
+// that what is measured with it is what checkMesh says: pyramids from the mean of the face centres to the faces,
+// weighed by volume. That is the true centroid where the faces are flat.
 void cw_cell_centroid(int count, const double *const *x, double centroid[3]);
 
 // The places of the nodes of a cell; returns their number.
 static inline int cw_cell_points(const CwRegionData *region, int32_t cell, const double *x[6]) {
   int count;
   const int32_t *nodes = cw_cell_nodes(region, cell, &count);
-  for (int i = 0; i < count; ++i)
-    x[i] = region->points[nodes[i]];
+  for (int i = 0; i < count; ++i) x[i] = region->points[nodes[i]];
   return count;
 }
 

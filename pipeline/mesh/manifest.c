@@ -15,8 +15,7 @@ static const char *const first_domains[] = {"rotor", "stator"};
 enum { LONGEST_PATCH_NAME = 22, LONGEST_DOMAIN_NAME = 14 }; // "_to_" stands between two domains
 
 void cw_mesh_free(CwMesh *mesh) {
-  for (int i = 0; mesh->regions && i < mesh->region_count; ++i)
-    free(mesh->regions[i].path);
+  for (int i = 0; mesh->regions && i < mesh->region_count; ++i) free(mesh->regions[i].path);
   free(mesh->regions);
   free(mesh->patches);
   memset(mesh, 0, sizeof *mesh);
@@ -24,35 +23,32 @@ void cw_mesh_free(CwMesh *mesh) {
 
 int cw_mesh_patch_find(const CwMesh *mesh, const char *name) {
   for (int i = 0; i < mesh->patch_count; ++i)
-    if (strcmp(mesh->patches[i].name, name) == 0)
-      return i;
+    if (strcmp(mesh->patches[i].name, name) == 0) return i;
   return -1;
 }
 
 int cw_mesh_end(const CwMesh *mesh, CwPatchKind kind) {
   for (int i = 0; i < mesh->patch_count; ++i)
-    if (mesh->patches[i].kind == kind)
-      return i;
+    if (mesh->patches[i].kind == kind) return i;
   return -1;
 }
 
 int cw_mesh_interface_of(const CwMesh *mesh, int patch, int *side) {
   for (int i = 0; i < mesh->interface_count; ++i)
     for (*side = 0; *side < 2; ++*side)
-      if (mesh->interfaces[i].patch[*side] == patch)
-        return i;
+      if (mesh->interfaces[i].patch[*side] == patch) return i;
   return -1;
 }
 
 // Reads a count. `where` says which object of the manifest it stands in.
-static CwStatus read_count(const json_t *object, const char *key, int64_t most, const char *file,
-                           const char *where, int64_t *value) {
+static CwStatus read_count(const json_t *object, const char *key, int64_t most, const char *file, const char *where,
+                           int64_t *value) {
   CwStatus status = CW_OK;
   const json_t *item = json_object_get(object, key);
   CW_REQUIRE(json_is_integer(item), CW_ERR_INPUT, "%s: %s: '%s' must be a whole number", file, where, key);
   *value = json_integer_value(item);
-  CW_REQUIRE(*value >= 0 && *value <= most, CW_ERR_INPUT, "%s: %s: '%s' is %lld; allowed 0 to %lld", file,
-             where, key, (long long)*value, (long long)most);
+  CW_REQUIRE(*value >= 0 && *value <= most, CW_ERR_INPUT, "%s: %s: '%s' is %lld; allowed 0 to %lld", file, where, key,
+             (long long)*value, (long long)most);
 done:
   return status;
 }
@@ -65,17 +61,15 @@ static CwStatus read_patch(CwMesh *mesh, int domain, const json_t *item, const c
   CW_REQUIRE(name && kind, CW_ERR_INPUT, "%s: domain %s: patch %d needs 'name' and 'kind'", file,
              mesh->domains[domain].name, mesh->patch_count - mesh->domains[domain].first_patch + 1);
   CW_REQUIRE(name[0] && strlen(name) <= LONGEST_PATCH_NAME &&
-                 strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
-                     strlen(name),
+                 strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == strlen(name),
              CW_ERR_INPUT, "%s: domain %s: patch name '%s'; allowed are 1 to %d letters, digits and _", file,
              mesh->domains[domain].name, name, LONGEST_PATCH_NAME);
   CW_REQUIRE(cw_mesh_patch_find(mesh, name) < 0, CW_ERR_INPUT, "%s: patch '%s' is named twice", file, name);
   static const char *const kinds[] = {"wall", "inlet", "outlet", "interface"};
   int k = 0;
-  while (k < 4 && strcmp(kinds[k], kind) != 0)
-    ++k;
-  CW_REQUIRE(k < 4, CW_ERR_INPUT, "%s: patch '%s': kind '%s'; allowed are wall, inlet, outlet, interface",
-             file, name, kind);
+  while (k < 4 && strcmp(kinds[k], kind) != 0) ++k;
+  CW_REQUIRE(k < 4, CW_ERR_INPUT, "%s: patch '%s': kind '%s'; allowed are wall, inlet, outlet, interface", file, name,
+             kind);
   snprintf(patch->name, sizeof patch->name, "%s", name);
   patch->kind = (CwPatchKind)k;
   patch->domain = domain;
@@ -85,8 +79,7 @@ done:
   return status;
 }
 
-static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, const char *run,
-                                 const char *file) {
+static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, const char *run, const char *file) {
   CwStatus status = CW_OK;
   CwMeshDomain *d = &mesh->domains[domain];
   CwMeshRegion *region = &mesh->regions[mesh->region_count];
@@ -94,12 +87,10 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
   char where[80];
   int64_t index = 0, number = 0;
   snprintf(where, sizeof where, "domain %s, region %d", d->name, d->region_count + 1);
-  CW_REQUIRE(name && name[0] && !strchr(name, '/'), CW_ERR_INPUT, "%s: %s: 'file' must be a file name", file,
-             where);
+  CW_REQUIRE(name && name[0] && !strchr(name, '/'), CW_ERR_INPUT, "%s: %s: 'file' must be a file name", file, where);
   CW_TRY(read_count(item, "region", INT32_MAX, file, where, &index));
   CW_REQUIRE(index == d->region_count + 1, CW_ERR_INPUT,
-             "%s: %s: 'region' is %lld; regions must stand in order 1, 2, 3, ...", file, where,
-             (long long)index);
+             "%s: %s: 'region' is %lld; regions must stand in order 1, 2, 3, ...", file, where, (long long)index);
   region->domain = domain;
   region->region = (int)index;
   CW_TRY(read_count(item, "number", INT32_MAX, file, where, &number));
@@ -113,9 +104,8 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
   CW_TRY(read_count(item, "triangles", INT32_MAX / 16, file, where, &region->triangles));
   CW_TRY(read_count(item, "quads", INT32_MAX / 16, file, where, &region->quads));
   CW_REQUIRE(region->points - region->own_points <= d->shared_points, CW_ERR_INPUT,
-             "%s: %s: %lld points less %lld own ones leave more than the %lld 'shared_points' of the domain",
-             file, where, (long long)region->points, (long long)region->own_points,
-             (long long)d->shared_points);
+             "%s: %s: %lld points less %lld own ones leave more than the %lld 'shared_points' of the domain", file,
+             where, (long long)region->points, (long long)region->own_points, (long long)d->shared_points);
   CW_REQUIRE(asprintf(&region->path, "%s/mesh/%s", run, name) >= 0, CW_ERR_MEMORY, "out of memory");
   ++mesh->region_count;
   ++d->region_count;
@@ -137,11 +127,11 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
              domain > CW_MESH_STATOR ? "named" : first_domains[domain], name ? name : "");
   CW_REQUIRE(name[0] && strlen(name) <= LONGEST_DOMAIN_NAME &&
                  strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") == strlen(name),
-             CW_ERR_INPUT, "%s: domain %d is named '%s'; allowed are 1 to %d small letters, digits and _",
-             file, domain + 1, name, LONGEST_DOMAIN_NAME);
+             CW_ERR_INPUT, "%s: domain %d is named '%s'; allowed are 1 to %d small letters, digits and _", file,
+             domain + 1, name, LONGEST_DOMAIN_NAME);
   for (int other = 0; other < domain; ++other)
-    CW_REQUIRE(strcmp(name, mesh->domains[other].name) != 0, CW_ERR_INPUT, "%s: domain '%s' is named twice",
-               file, name);
+    CW_REQUIRE(strcmp(name, mesh->domains[other].name) != 0, CW_ERR_INPUT, "%s: domain '%s' is named twice", file,
+               name);
   for (size_t k = 0; k <= strlen(name); ++k) {
     d->name[k] = name[k];
     d->zone[k] = (char)toupper((unsigned char)name[k]);
@@ -152,9 +142,8 @@ static CwStatus read_domain(CwMesh *mesh, int domain, const json_t *item, const 
   CW_TRY(read_count(item, "shared_points", INT32_MAX / 3, file, name, &d->shared_points));
   CW_REQUIRE(json_array_size(patches) > 0 && json_array_size(regions) > 0, CW_ERR_INPUT,
              "%s: domain %s: 'patches' and 'regions' must be lists with at least one entry", file, name);
-  CW_REQUIRE(json_array_size(patches) <= CW_PATCHES_MOST, CW_ERR_INPUT,
-             "%s: domain %s: %zu patches; allowed 1 to %d", file, name, json_array_size(patches),
-             CW_PATCHES_MOST);
+  CW_REQUIRE(json_array_size(patches) <= CW_PATCHES_MOST, CW_ERR_INPUT, "%s: domain %s: %zu patches; allowed 1 to %d",
+             file, name, json_array_size(patches), CW_PATCHES_MOST);
   d->first_patch = mesh->patch_count;
   json_array_foreach(patches, i, line) {
     CW_TRY(read_patch(mesh, domain, line, file));
@@ -172,8 +161,7 @@ static CwStatus check_ends(const CwMesh *mesh, const char *file) {
   static const CwPatchKind ends[] = {CW_KIND_INLET, CW_KIND_OUTLET};
   for (int e = 0; e < 2; ++e) {
     int count = 0;
-    for (int p = 0; p < mesh->patch_count; ++p)
-      count += mesh->patches[p].kind == ends[e];
+    for (int p = 0; p < mesh->patch_count; ++p) count += mesh->patches[p].kind == ends[e];
     CW_REQUIRE(count == 1, CW_ERR_INPUT, "%s: %d patches of kind %s; there must be one", file, count,
                e ? "outlet" : "inlet");
   }
@@ -200,17 +188,16 @@ static CwStatus read_interfaces(CwMesh *mesh, const json_t *list, const char *fi
                  "%s: interface %zu: patch '%s' is a side of another one", file, i + 1, name);
     }
     int domain[2] = {mesh->patches[found.patch[0]].domain, mesh->patches[found.patch[1]].domain};
-    CW_REQUIRE(domain[0] != domain[1], CW_ERR_INPUT, "%s: interface %zu has both sides in domain %s", file,
-               i + 1, mesh->domains[domain[0]].name);
+    CW_REQUIRE(domain[0] != domain[1], CW_ERR_INPUT, "%s: interface %zu has both sides in domain %s", file, i + 1,
+               mesh->domains[domain[0]].name);
     CW_REQUIRE(i > 0 || (domain[0] == CW_MESH_ROTOR && domain[1] == CW_MESH_STATOR), CW_ERR_INPUT,
                "%s: interface 1 must be between rotor and stator", file);
     mesh->interfaces[mesh->interface_count++] = found;
   }
   for (int p = 0; p < mesh->patch_count; ++p) {
     int side;
-    CW_REQUIRE(mesh->patches[p].kind != CW_KIND_INTERFACE || cw_mesh_interface_of(mesh, p, &side) >= 0,
-               CW_ERR_INPUT, "%s: patch '%s' of kind interface has no other side in 'interfaces'", file,
-               mesh->patches[p].name);
+    CW_REQUIRE(mesh->patches[p].kind != CW_KIND_INTERFACE || cw_mesh_interface_of(mesh, p, &side) >= 0, CW_ERR_INPUT,
+               "%s: patch '%s' of kind interface has no other side in 'interfaces'", file, mesh->patches[p].name);
   }
 done:
   return status;

@@ -7,13 +7,7 @@
 
 #include "pipeline/status.h"
 
-enum {
-  CW_MESH_NAME_SIZE = 33,
-  CW_MESH_ROTOR = 0,
-  CW_MESH_STATOR = 1,
-  CW_DOMAINS_MOST = 8,
-  CW_PATCHES_MOST = 64
-};
+enum { CW_MESH_NAME_SIZE = 33, CW_MESH_ROTOR = 0, CW_MESH_STATOR = 1, CW_DOMAINS_MOST = 8, CW_PATCHES_MOST = 64 };
 
 typedef enum { CW_KIND_WALL, CW_KIND_INLET, CW_KIND_OUTLET, CW_KIND_INTERFACE } CwPatchKind;
 

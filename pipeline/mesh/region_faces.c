@@ -34,12 +34,10 @@ typedef struct {
 int cw_face_loop(const int64_t *nodes, int count, int order[4]) {
   int first = 0;
   for (int i = 1; i < count; ++i)
-    if (nodes[i] < nodes[first])
-      first = i;
+    if (nodes[i] < nodes[first]) first = i;
   int64_t next = nodes[(first + 1) % count], last = nodes[(first + count - 1) % count];
   int reversed = last < next;
-  for (int i = 0; i < count; ++i)
-    order[i] = (first + (reversed ? count - i : i)) % count;
+  for (int i = 0; i < count; ++i) order[i] = (first + (reversed ? count - i : i)) % count;
   return reversed;
 }
 
@@ -52,8 +50,7 @@ void cw_region_faces_free(CwRegionFaces *faces) {
 
 // The nodes of a side; returns 3 or 4.
 static int side_nodes(const CwRegionData *data, int32_t ref, int32_t nodes[4]) {
-  if (ref >= 0)
-    return cw_cell_face(data, ref / CW_CELL_FACES, ref % CW_CELL_FACES, nodes);
+  if (ref >= 0) return cw_cell_face(data, ref / CW_CELL_FACES, ref % CW_CELL_FACES, nodes);
   int32_t place = -1 - ref;
   int count = place < data->triangle_count ? 3 : 4;
   memcpy(nodes, count == 3 ? data->triangles[place] : data->quads[place - data->triangle_count],
@@ -105,8 +102,7 @@ static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
   int count = side_nodes(data, ref, nodes);
   double centre[3] = {0};
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < count; ++i)
-      centre[k] += 1e3 * data->points[nodes[i]][k] / count;
+    for (int i = 0; i < count; ++i) centre[k] += 1e3 * data->points[nodes[i]][k] / count;
   int32_t cell = ref >= 0     ? ref / CW_CELL_FACES
                  : count == 3 ? data->triangle_cell[place]
                               : data->quad_cell[place - data->triangle_count];
@@ -118,8 +114,7 @@ static CwStatus fail_at_face(const Match *m, int32_t ref, const char *what) {
 static inline void add_side(const int32_t *nodes, int count, int32_t ref, int32_t end, int64_t *start, Side *sides) {
   Side side;
   for (int i = 0; i < count; ++i)
-    if (nodes[i] >= end)
-      return;
+    if (nodes[i] >= end) return;
   int32_t least = side_make(nodes, count, ref, &side);
   if (sides)
     sides[start[least]++] = side;
@@ -140,8 +135,7 @@ static inline void add_tetrahedron(const int32_t *n, int32_t ref, int32_t end, i
   uint64_t b = u < v ? u : v, c = u < v ? v : u;
   int32_t least = (int32_t)(a >> 2), second = (int32_t)(b >> 2);
   int whole = (int32_t)(d >> 2) < end;
-  if ((int32_t)(c >> 2) >= end)
-    return;
+  if ((int32_t)(c >> 2) >= end) return;
   if (!sides) {
     start[least + 1] += whole ? 3 : 1;
     start[second + 1] += whole;
@@ -163,8 +157,7 @@ static inline void add_tetrahedron(const int32_t *n, int32_t ref, int32_t end, i
 
 // Every side with all its nodes below `end`, in the order of the cells but for the boundary faces, which stand before.
 static void add_sides(const CwRegionData *data, int32_t end, int64_t *start, Side *sides) {
-  for (int32_t i = 0; i < data->triangle_count; ++i)
-    add_side(data->triangles[i], 3, -1 - i, end, start, sides);
+  for (int32_t i = 0; i < data->triangle_count; ++i) add_side(data->triangles[i], 3, -1 - i, end, start, sides);
   for (int32_t i = 0; i < data->quad_count; ++i)
     add_side(data->quads[i], 4, -1 - data->triangle_count - i, end, start, sides);
   for (int32_t cell = 0; cell < data->tetrahedron_count; ++cell)
@@ -172,10 +165,8 @@ static void add_sides(const CwRegionData *data, int32_t end, int64_t *start, Sid
   for (int32_t cell = data->tetrahedron_count, cells = cw_region_cell_count(data); cell < cells; ++cell) {
     int corners, below = 0;
     const int32_t *of_cell = cw_cell_nodes(data, cell, &corners);
-    for (int i = 0; i < corners; ++i)
-      below += of_cell[i] < end;
-    if (below < 3)
-      continue;
+    for (int i = 0; i < corners; ++i) below += of_cell[i] < end;
+    if (below < 3) continue;
     const signed char(*face)[4] = cw_cell_face_table(corners);
     for (int f = 0; f < CW_CELL_FACES; ++f) {
       int count = face[f][3] < 0 ? 3 : 4;
@@ -194,8 +185,7 @@ static CwStatus take_boundary_face(const Match *m, const Side *bound, const Side
   const CwRegionData *data = m->data;
   int32_t place = -1 - bound->ref;
   int is_quad = place >= data->triangle_count;
-  if (is_quad)
-    place -= data->triangle_count;
+  if (is_quad) place -= data->triangle_count;
   int32_t said = is_quad ? data->quad_cell[place] : data->triangle_cell[place];
   if (bound->key != of_cell->key)
     CW_TRY(fail_at_face(m, of_cell->ref, "is listed as boundary with its normal into the domain"));
@@ -212,12 +202,9 @@ done:
 // Two sides of one face; boundary faces come first.
 static inline CwStatus take_pair(const Match *m, const Side *first, const Side *second) {
   CwRegionFaces *faces = m->faces;
-  if (second->ref < 0)
-    return fail_at_face(m, first->ref, "is listed as boundary more than once");
-  if (first->ref < 0)
-    return take_boundary_face(m, first, second);
-  if (first->key == second->key)
-    return fail_at_face(m, first->ref, "has both of its cells on one side");
+  if (second->ref < 0) return fail_at_face(m, first->ref, "is listed as boundary more than once");
+  if (first->ref < 0) return take_boundary_face(m, first, second);
+  if (first->key == second->key) return fail_at_face(m, first->ref, "has both of its cells on one side");
   if (faces) {
     faces->across[first->ref] = second->ref / CW_CELL_FACES;
     faces->across[second->ref] = first->ref / CW_CELL_FACES;
@@ -230,8 +217,7 @@ static inline CwStatus take_pair(const Match *m, const Side *first, const Side *
 static CwStatus take_single(Match *m, const Side *side) {
   CwStatus status = CW_OK;
   int32_t nodes[4];
-  if (side->ref < 0)
-    CW_TRY(fail_at_face(m, side->ref, "is listed as boundary but is no face of a cell"));
+  if (side->ref < 0) CW_TRY(fail_at_face(m, side->ref, "is listed as boundary but is no face of a cell"));
   for (int i = 0, count = side_nodes(m->data, side->ref, nodes); i < count; ++i)
     if (nodes[i] >= m->data->shared_count)
       CW_TRY(fail_at_face(m, side->ref, "is open: not listed as boundary and not on a dividing plane"));
@@ -247,8 +233,7 @@ done:
 // Bits of the table for so many sides: at least two places for each.
 static int table_bits(int64_t count) {
   int bits = 1;
-  while (count > (int64_t)1 << (bits - 1))
-    ++bits;
+  while (count > (int64_t)1 << (bits - 1)) ++bits;
   return bits;
 }
 
@@ -261,16 +246,14 @@ static CwStatus match_bucket(Match *m, const Side *side, int32_t count) {
   for (int32_t i = 0; i < count; ++i) {
     uint64_t hash = ((side[i].key >> 1) ^ (uint64_t)(uint32_t)side[i].opposite << 16) * 0x9e3779b97f4a7c15u;
     uint32_t at = (uint32_t)(hash >> (64 - bits));
-    while (m->slot[at] >= 0 && !same_face(&side[m->slot[at]], &side[i]))
-      at = (at + 1) & mask;
+    while (m->slot[at] >= 0 && !same_face(&side[m->slot[at]], &side[i])) at = (at + 1) & mask;
     int32_t first = m->slot[at];
     m->met[i] = first >= 0;
     if (first < 0) {
       m->slot[at] = i;
       continue;
     }
-    if (m->met[first])
-      CW_TRY(fail_at_face(m, side[i].ref, "belongs to more than two cells or boundary faces"));
+    if (m->met[first]) CW_TRY(fail_at_face(m, side[i].ref, "belongs to more than two cells or boundary faces"));
     m->met[first] = 1;
     alone -= 2;
     CW_TRY(take_pair(m, &side[first], &side[i]));
@@ -301,8 +284,7 @@ static CwStatus match_all(Match *m) {
   CW_NEW_UNSET(m->sides, m->start[m->end]);
   CW_NEW_UNSET(m->slot, (size_t)1 << table_bits(most));
   CW_NEW_UNSET(m->met, most);
-  if (!m->faces)
-    CW_NEW_UNSET(m->open, m->start[m->end]);
+  if (!m->faces) CW_NEW_UNSET(m->open, m->start[m->end]);
   add_sides(data, m->end, m->start, m->sides); // leaves start[p] at the end of bucket p
   for (int64_t first = 0, p = 0; p < m->end; first = m->start[p++])
     CW_TRY(match_bucket(m, m->sides + first, (int32_t)(m->start[p] - first)));
@@ -337,8 +319,7 @@ CwStatus cw_region_open_faces(const char *name, CwStatus fault, const CwRegionDa
                               int32_t **open, int32_t *count) {
   Match m = {.name = name, .fault = fault, .data = data, .end = only_shared ? data->shared_count : data->point_count};
   CwStatus status = match_all(&m);
-  if (status == CW_OK)
-    qsort(m.open, (size_t)m.open_count, sizeof *m.open, compare_refs);
+  if (status == CW_OK) qsort(m.open, (size_t)m.open_count, sizeof *m.open, compare_refs);
   *open = m.open;
   *count = m.open_count;
   return status;

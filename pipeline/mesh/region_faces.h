@@ -10,7 +10,7 @@
 enum { CW_ACROSS_NO_FACE = -1, CW_ACROSS_PATCH = -2, CW_ACROSS_OPEN = -3 };
 
 typedef struct {
-  int32_t *across; // CW_CELL_FACES entries a cell: the cell of this region across, or a CW_ACROSS_ value
+  int32_t *across;        // CW_CELL_FACES entries a cell: the cell of this region across, or a CW_ACROSS_ value
   int32_t *triangle_face; // for each boundary triangle CW_CELL_FACES * cell + face of the cell it lies on
   int32_t *quad_face;     // the same for each boundary quadrilateral
   int32_t open_count;

@@ -9,8 +9,8 @@
 typedef enum { REAL, INDEX, WIDE } Kind;
 
 // The arrays, in the order of the file. Those of one column have one dimension.
-#define ARRAY(name, part, kind, columns, count)                                                              \
-  {#name, part, kind, columns, offsetof(CwRegionData, count), offsetof(CwRegionData, name)}
+#define ARRAY(name, part, kind, columns, count)                                                                        \
+  { #name, part, kind, columns, offsetof(CwRegionData, count), offsetof(CwRegionData, name) }
 static const struct {
   const char *name;
   CwRegionPart part; // the least that has it
@@ -67,10 +67,8 @@ CwStatus cw_region_items_integer(hid_t file, const char *path, const char *name,
   CW_REQUIRE(H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, H5T_NATIVE_INT32, value) >= 0, CW_ERR_INPUT,
              "%s: attribute '%s' must be one integer", path, name);
 done:
-  if (space >= 0)
-    H5Sclose(space);
-  if (attribute >= 0)
-    H5Aclose(attribute);
+  if (space >= 0) H5Sclose(space);
+  if (attribute >= 0) H5Aclose(attribute);
   return status;
 }
 
@@ -81,8 +79,7 @@ CwStatus cw_region_items_text(hid_t file, const char *path, const char *name, ch
   CW_REQUIRE(attribute >= 0, CW_ERR_INPUT, "%s: attribute '%s' is missing", path, name);
   CW_REQUIRE(H5Tget_class(type) == H5T_STRING, CW_ERR_INPUT, "%s: attribute '%s' must be a string", path, name);
   int fixed = H5Tis_variable_str(type) <= 0;
-  if (fixed)
-    CW_NEW(found, H5Tget_size(type) + 1);
+  if (fixed) CW_NEW(found, H5Tget_size(type) + 1);
   CW_REQUIRE(H5Aread(attribute, type, fixed ? (void *)found : (void *)&found) >= 0 && found, CW_ERR_IO,
              "%s: attribute '%s' cannot be read", path, name);
   CW_REQUIRE(strlen(found) < size, CW_ERR_INPUT, "%s: attribute '%s' has %zu characters; at most %zu are allowed", path,
@@ -90,10 +87,8 @@ CwStatus cw_region_items_text(hid_t file, const char *path, const char *name, ch
   memcpy(text, found, strlen(found) + 1);
 done:
   free(found);
-  if (type >= 0)
-    H5Tclose(type);
-  if (attribute >= 0)
-    H5Aclose(attribute);
+  if (type >= 0) H5Tclose(type);
+  if (attribute >= 0) H5Aclose(attribute);
   return status;
 }
 
@@ -126,10 +121,8 @@ static CwStatus read_array(hid_t file, const char *path, int which, int32_t *row
     CW_REQUIRE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *into) >= 0, CW_ERR_IO,
                "%s: dataset '%s' cannot be read: the file is damaged or cut short", path, name);
 done:
-  if (space >= 0)
-    H5Sclose(space);
-  if (set >= 0)
-    H5Dclose(set);
+  if (space >= 0) H5Sclose(space);
+  if (set >= 0) H5Dclose(set);
   return status;
 }
 
@@ -164,10 +157,8 @@ CwStatus cw_region_items_write(hid_t file, const CwRegionData *data) {
     set = space = -1;
   }
 done:
-  if (set >= 0)
-    H5Dclose(set);
-  if (space >= 0)
-    H5Sclose(space);
+  if (set >= 0) H5Dclose(set);
+  if (space >= 0) H5Sclose(space);
   H5Pclose(properties);
   return status;
 }
@@ -177,10 +168,8 @@ static CwStatus check_indices(const char *path, const char *name, const int32_t 
   CwStatus status = CW_OK;
   // All at once first: the highest bit tells whether one is negative or beyond the last.
   uint32_t outside = 0, last = (uint32_t)limit - 1;
-  for (int64_t i = 0; i < count && limit > 0; ++i)
-    outside |= (uint32_t)index[i] | (last - (uint32_t)index[i]);
-  if (count == 0 || (limit > 0 && outside >> 31 == 0))
-    return CW_OK;
+  for (int64_t i = 0; i < count && limit > 0; ++i) outside |= (uint32_t)index[i] | (last - (uint32_t)index[i]);
+  if (count == 0 || (limit > 0 && outside >> 31 == 0)) return CW_OK;
   for (int64_t i = 0; i < count; ++i)
     CW_REQUIRE(index[i] >= 0 && index[i] < limit, CW_ERR_INPUT, "%s: dataset '%s': entry %lld is %d; allowed 0 to %lld",
                path, name, (long long)i, index[i], (long long)limit - 1);
@@ -199,8 +188,7 @@ CwStatus cw_region_items_check(const char *path, CwRegionPart part, int64_t patc
   CW_TRY(check_indices(path, "triangle_patch", r->triangle_patch, r->triangle_count, patches));
   CW_TRY(check_indices(path, "quads", *r->quads, 4 * (int64_t)r->quad_count, r->point_count));
   CW_TRY(check_indices(path, "quad_patch", r->quad_patch, r->quad_count, patches));
-  if (part == CW_REGION_SURFACE)
-    goto done;
+  if (part == CW_REGION_SURFACE) goto done;
   CW_REQUIRE(r->shared_count <= r->point_count, CW_ERR_INPUT, "%s: dataset 'shared_id' has %d rows, 'points' only %d",
              path, r->shared_count, r->point_count);
   for (int32_t i = 0; i < r->shared_count; ++i)

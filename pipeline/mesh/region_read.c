@@ -48,7 +48,6 @@ CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, 
   CW_TRY(cw_region_items_read(file, path, part, r));
   CW_TRY(cw_region_items_check(path, part, domain->patch_count, domain->shared_points, r));
 done:
-  if (file >= 0)
-    H5Fclose(file);
+  if (file >= 0) H5Fclose(file);
   return status;
 }

@@ -8,19 +8,16 @@ static double along(const double a[3], const double b[3]) {
 }
 
 static void cross(const double a[3], const double b[3], double c[3]) {
-  for (int i = 0; i < 3; i++)
-    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+  for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 static void unit(double a[3]) {
   double length = sqrt(along(a, a));
-  for (int i = 0; i < 3; i++)
-    a[i] /= length;
+  for (int i = 0; i < 3; i++) a[i] /= length;
 }
 
 void cw_camera_turn(CwCamera *camera, const double towards[3], const double up[3]) {
-  for (int i = 0; i < 3; i++)
-    camera->towards[i] = towards[i];
+  for (int i = 0; i < 3; i++) camera->towards[i] = towards[i];
   unit(camera->towards);
   cross(up, camera->towards, camera->right);
   unit(camera->right);
@@ -45,10 +42,8 @@ void cw_camera_reach(const CwCamera *camera, const double x[3], CwCameraReach *r
 
 void cw_camera_fit(CwCamera *camera, const CwCameraReach *reach, double margin) {
   double middle[2] = {0.5 * (reach->least[0] + reach->most[0]), 0.5 * (reach->least[1] + reach->most[1])};
-  for (int i = 0; i < 3; i++)
-    camera->centre[i] = middle[0] * camera->right[i] + middle[1] * camera->up[i];
+  for (int i = 0; i < 3; i++) camera->centre[i] = middle[0] * camera->right[i] + middle[1] * camera->up[i];
   camera->metres_per_pixel = fmax((reach->most[0] - reach->least[0]) / (camera->width - 2 * margin),
                                   (reach->most[1] - reach->least[1]) / (camera->height - 2 * margin));
-  if (!(camera->metres_per_pixel > 0))
-    camera->metres_per_pixel = 1e-3;
+  if (!(camera->metres_per_pixel > 0)) camera->metres_per_pixel = 1e-3;
 }

@@ -23,10 +23,8 @@ static int without_doubles(int corners, double polygon[CW_CUT_CORNERS][2]) {
     size = fmax(size, hypot(polygon[k][0] - polygon[0][0], polygon[k][1] - polygon[0][1]));
   for (int k = 0; k < corners; k++) {
     const double *before = polygon[kept ? kept - 1 : 0], *first = polygon[0], *here = polygon[k];
-    if (kept && hypot(here[0] - before[0], here[1] - before[1]) <= 1e-9 * size)
-      continue;
-    if (kept && hypot(here[0] - first[0], here[1] - first[1]) <= 1e-9 * size)
-      continue;
+    if (kept && hypot(here[0] - before[0], here[1] - before[1]) <= 1e-9 * size) continue;
+    if (kept && hypot(here[0] - first[0], here[1] - first[1]) <= 1e-9 * size) continue;
     polygon[kept][0] = here[0];
     polygon[kept++][1] = here[1];
   }
@@ -40,11 +38,9 @@ int cw_cut_cell(const CwCutPlane *plane, int count, const double *const *x, cons
   double middle[2] = {0, 0}, angle[CW_CUT_CORNERS];
   for (int e = 0; e < edges; e++) {
     int a = edge[e][0], b = edge[e][1];
-    if ((s[a] >= 0) == (s[b] >= 0))
-      continue;
+    if ((s[a] >= 0) == (s[b] >= 0)) continue;
     double t = s[a] / (s[a] - s[b]), point[3];
-    for (int i = 0; i < 3; i++)
-      point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
+    for (int i = 0; i < 3; i++) point[i] = x[a][i] + t * (x[b][i] - x[a][i]) - plane->origin[i];
     polygon[corners][0] = along(point, plane->u);
     polygon[corners][1] = along(point, plane->v);
     middle[0] += polygon[corners][0];

@@ -22,8 +22,7 @@ static char *group(const char *plain, char text[CW_FORMAT_SIZE]) {
     int gap = i > 0 && (whole - i) % 3 == 0 && whole > 4;
     used += (size_t)snprintf(text + used, CW_FORMAT_SIZE - used, "%s%c", gap ? NARROW_SPACE : "", plain[i]);
   }
-  if (used < CW_FORMAT_SIZE)
-    snprintf(text + used, CW_FORMAT_SIZE - used, "%s", plain + whole);
+  if (used < CW_FORMAT_SIZE) snprintf(text + used, CW_FORMAT_SIZE - used, "%s", plain + whole);
   return text;
 }
 
@@ -35,24 +34,20 @@ char *cw_format_count(int64_t count, char text[CW_FORMAT_SIZE]) {
 
 // 1.004 x 10 to the power of -6, with raised digits.
 static char *scientific(double value, int significant, char text[CW_FORMAT_SIZE]) {
-  static const char *const raised[] = {"\342\201\260", "\302\271",     "\302\262",     "\302\263",
-                                       "\342\201\264", "\342\201\265", "\342\201\266", "\342\201\267",
-                                       "\342\201\270", "\342\201\271"};
+  static const char *const raised[] = {"\342\201\260", "\302\271",     "\302\262",     "\302\263",     "\342\201\264",
+                                       "\342\201\265", "\342\201\266", "\342\201\267", "\342\201\270", "\342\201\271"};
   char plain[64], power[16];
   snprintf(plain, sizeof plain, "%.*e", significant - 1, fabs(value));
   char *mark = strchr(plain, 'e'), *end = mark;
   snprintf(power, sizeof power, "%ld", strtol(mark + 1, NULL, 10));
   if (memchr(plain, '.', (size_t)(end - plain))) {
-    while (end[-1] == '0')
-      end--;
-    if (end[-1] == '.')
-      end--;
+    while (end[-1] == '0') end--;
+    if (end[-1] == '.') end--;
   }
   size_t used = (size_t)snprintf(text, CW_FORMAT_SIZE, "%s%.*s" NARROW_SPACE "\303\227" NARROW_SPACE "10",
                                  value < 0 ? MINUS : "", (int)(end - plain), plain);
   for (const char *c = power; *c && used < CW_FORMAT_SIZE; c++)
-    used += (size_t)snprintf(text + used, CW_FORMAT_SIZE - used, "%s",
-                             *c == '-' ? "\342\201\273" : raised[*c - '0']);
+    used += (size_t)snprintf(text + used, CW_FORMAT_SIZE - used, "%s", *c == '-' ? "\342\201\273" : raised[*c - '0']);
   return text;
 }
 
@@ -62,22 +57,18 @@ char *cw_format_number(double value, int significant, char text[CW_FORMAT_SIZE])
     snprintf(text, CW_FORMAT_SIZE, DASH);
     return text;
   }
-  if (value == 0)
-    return strcpy(text, "0");
+  if (value == 0) return strcpy(text, "0");
   // The power of ten of the value as it will be rounded.
   snprintf(plain, sizeof plain, "%.*e", significant - 1, value);
   int power = 0;
   sscanf(strchr(plain, 'e') + 1, "%d", &power);
-  if (power >= 15 || power < -4)
-    return scientific(value, significant, text);
+  if (power >= 15 || power < -4) return scientific(value, significant, text);
   int decimals = significant - 1 - power;
   snprintf(plain, sizeof plain, "%.*f", decimals > 0 ? decimals : 0, value);
   if (strchr(plain, '.')) { // 74.000 says no more than 74
     char *end = plain + strlen(plain);
-    while (end[-1] == '0')
-      *--end = '\0';
-    if (end[-1] == '.')
-      *--end = '\0';
+    while (end[-1] == '0') *--end = '\0';
+    if (end[-1] == '.') *--end = '\0';
   }
   return group(plain, text);
 }
@@ -94,12 +85,10 @@ char *cw_format_si(double value, int significant, char text[CW_FORMAT_SIZE]) {
     snprintf(plain, sizeof plain, "%.*e", significant - 1, fabs(value));
     double rounded = 0;
     sscanf(plain, "%lf", &rounded);
-    for (at = 0; at < 6 && rounded < prefixes[at].scale * (1 - 1e-12); at++)
-      continue;
+    for (at = 0; at < 6 && rounded < prefixes[at].scale * (1 - 1e-12); at++) continue;
   }
   cw_format_number(value / prefixes[at].scale, significant, number);
-  snprintf(text, CW_FORMAT_SIZE, "%.40s%s%s", number, *prefixes[at].prefix ? NARROW_SPACE : "",
-           prefixes[at].prefix);
+  snprintf(text, CW_FORMAT_SIZE, "%.40s%s%s", number, *prefixes[at].prefix ? NARROW_SPACE : "", prefixes[at].prefix);
   return text;
 }
 
@@ -140,8 +129,7 @@ char *cw_format_percent(double share, char text[CW_FORMAT_SIZE]) {
   } else {
     int decimals = fabs(percent) < 1 || (percent > 99.5 && percent < 100) ? 2 : 1;
     // Rounding must not say that all or nothing is meant.
-    if (share < 1)
-      percent = fmin(percent, 99.99);
+    if (share < 1) percent = fmin(percent, 99.99);
     snprintf(text, CW_FORMAT_SIZE, "%.*f %%", decimals, percent);
   }
   return text;

@@ -30,15 +30,13 @@ static void escaped(FILE *page, char c) {
 }
 
 void cw_html_text(FILE *page, const char *text) {
-  for (; *text; text++)
-    escaped(page, *text);
+  for (; *text; text++) escaped(page, *text);
 }
 
 void cw_html_label(FILE *page, const char *key) {
   if (!strncmp(key, "y_plus", 6)) {
     fputs("y<sup>+</sup>", page);
-    for (key += 6; *key; key++)
-      escaped(page, *key == '_' ? ' ' : *key);
+    for (key += 6; *key; key++) escaped(page, *key == '_' ? ' ' : *key);
     return;
   }
   // Names and abbreviations, which keys have in small letters.
@@ -47,14 +45,12 @@ void cw_html_label(FILE *page, const char *key) {
     int starts = c == key || c[-1] == '_';
     for (size_t k = 0; starts && k < sizeof words / sizeof *words; k++) {
       size_t length = strlen(words[k]);
-      if (strncasecmp(c, words[k], length) || (c[length] && c[length] != '_'))
-        continue;
+      if (strncasecmp(c, words[k], length) || (c[length] && c[length] != '_')) continue;
       fputs(!strcmp(words[k], "Guelich") ? "G&uuml;lich" : words[k], page);
       c += length;
       break;
     }
-    if (!*c)
-      break;
+    if (!*c) break;
     escaped(page, *c == '_' ? ' ' : c == key ? (char)toupper((unsigned char)*c) : *c);
   }
 }
@@ -63,10 +59,8 @@ void cw_html_base64(FILE *page, const unsigned char *bytes, size_t size) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t i = 0; i < size; i += 3) {
     unsigned long three = (unsigned long)bytes[i] << 16;
-    if (i + 1 < size)
-      three |= (unsigned long)bytes[i + 1] << 8;
-    if (i + 2 < size)
-      three |= bytes[i + 2];
+    if (i + 1 < size) three |= (unsigned long)bytes[i + 1] << 8;
+    if (i + 2 < size) three |= bytes[i + 2];
     fputc(digits[three >> 18], page);
     fputc(digits[(three >> 12) & 63], page);
     fputc(i + 1 < size ? digits[(three >> 6) & 63] : '=', page);
@@ -86,8 +80,8 @@ CwStatus cw_html_svg_file(FILE *page, const char *path) {
   long size = 0;
   FILE *file = fopen(path, "r");
   CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
-  CW_REQUIRE(fseek(file, 0, SEEK_END) == 0 && (size = ftell(file)) >= 0 && fseek(file, 0, SEEK_SET) == 0,
-             CW_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+  CW_REQUIRE(fseek(file, 0, SEEK_END) == 0 && (size = ftell(file)) >= 0 && fseek(file, 0, SEEK_SET) == 0, CW_ERR_IO,
+             "%s: cannot be read: %s", path, strerror(errno));
   CW_NEW(text, size + 1);
   CW_REQUIRE(fread(text, 1, (size_t)size, file) == (size_t)size, CW_ERR_IO, "%s: cannot be read: %s", path,
              strerror(errno));
@@ -98,8 +92,7 @@ CwStatus cw_html_svg_file(FILE *page, const char *path) {
   fwrite(start, 1, (size_t)(end - start) + strlen("</svg>"), page);
   fputc('\n', page);
 done:
-  if (file)
-    fclose(file);
+  if (file) fclose(file);
   free(text);
   return status;
 }

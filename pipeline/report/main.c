@@ -50,8 +50,7 @@ int main(int argc, char **argv) {
   CwCase table;
   CwRecord *record = NULL;
   CW_TRY(cw_stage_begin(argc, argv, &usage, 1, &args, &table));
-  if (args.finished)
-    goto done;
+  if (args.finished) goto done;
   CW_TRY(cw_record_start("report", &record));
   CW_TRY(report(&args, &table, record));
 done:;

@@ -80,8 +80,7 @@ static CwStatus geometry_pictures(FILE *page, const CwReportData *data) {
 }
 
 static CwStatus surface_pictures(FILE *page, const CwReportData *data) {
-  fputs("<p>Close views of the wall faces with their edges; every node lies on the exact surface.</p>\n",
-        page);
+  fputs("<p>Close views of the wall faces with their edges; every node lies on the exact surface.</p>\n", page);
   cw_page_picture_list(page, data, CW_SECTION_SURFACE);
   return CW_OK;
 }
@@ -175,8 +174,7 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
     cells += region->tetrahedra + region->prisms + region->pyramids;
   }
   for (int s = 0; s < CW_STAGES; s++) {
-    if (!data->record[s])
-      continue;
+    if (!data->record[s]) continue;
     seconds += cw_json_real(data->record[s], "seconds");
     memory = fmax(memory, cw_json_real(data->record[s], "peak_memory_bytes"));
   }
@@ -189,30 +187,29 @@ CwStatus cw_page_title(FILE *page, const CwReportData *data) {
   fprintf(page, "Q&#8239;=&#8239;%s&#8239;m&sup3;/h, ",
           cw_format_number(table->operating_point.flow_rate * 3600, 4, text));
   fprintf(page, "H&#8239;=&#8239;%s&#8239;m ", cw_format_number(table->operating_point.head, 4, text));
-  fprintf(page, "at %s&#8239;rpm.</p>\n",
-          cw_format_number(table->operating_point.speed * 30 / M_PI, 5, text));
+  fprintf(page, "at %s&#8239;rpm.</p>\n", cw_format_number(table->operating_point.speed * 30 / M_PI, 5, text));
   fputs("<div class=\"tiles\">\n", page);
   snprintf(label, sizeof label, "cells; %s asked, %+.2f&#8239;%%", cw_format_count(asked, more),
            asked ? 100 * ((double)cells / (double)asked - 1) : 0);
   tile(page, cw_format_count(cells, text), "", label);
-  snprintf(label, sizeof label, "tetrahedra, %s of all cells",
-           cw_format_percent((double)tets / (double)cells, more));
+  snprintf(label, sizeof label, "tetrahedra, %s of all cells", cw_format_percent((double)tets / (double)cells, more));
   tile(page, cw_format_count(tets, text), "", label);
-  snprintf(label, sizeof label, "prisms, %s of all cells",
-           cw_format_percent((double)prisms / (double)cells, more));
+  snprintf(label, sizeof label, "prisms, %s of all cells", cw_format_percent((double)prisms / (double)cells, more));
   tile(page, cw_format_count(prisms, text), "", label);
   size_t used = 0, named = (size_t)snprintf(label, sizeof label, "regions of ");
   for (int d = 0, last = data->mesh.domain_count - 1; d <= last && used < sizeof text && named < sizeof label; d++) {
     used += (size_t)snprintf(text + used, sizeof text - used, d ? " + %d" : "%d", data->mesh.domains[d].region_count);
-    named += (size_t)snprintf(label + named, sizeof label - named, "%s%s", d == 0 ? "" : d == last ? " and " : ", ",
+    named += (size_t)snprintf(label + named, sizeof label - named, "%s%s",
+                              d == 0      ? ""
+                              : d == last ? " and "
+                                          : ", ",
                               data->mesh.domains[d].name);
   }
   tile(page, text, "", label);
   snprintf(label, sizeof label, "predicted head; %s&#8239;m asked",
            cw_format_number(table->operating_point.head, 4, more));
   tile(page, cw_format_number(cw_json_real(data->design, "predicted_head_m"), 4, text), "m", label);
-  snprintf(label, sizeof label, "whole run%s",
-           data->record[2] ? ", geometry to export" : ", not exported yet");
+  snprintf(label, sizeof label, "whole run%s", data->record[2] ? ", geometry to export" : ", not exported yet");
   tile(page, cw_format_seconds(seconds, text), "", label);
   int64_t ranks = json_integer_value(json_object_get(results, "ranks"));
   snprintf(label, sizeof label, "cells/s of the mesher on %lld rank%s; %s of the whole run", (long long)ranks,
@@ -233,8 +230,7 @@ CwStatus cw_page_write(FILE *page, const CwReportData *data) {
   cw_html_text(page, data->table->name);
   fprintf(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<nav><b>Cutwater report</b>\n", style);
   fputs("<a href=\"#top\">Overview</a>\n", page);
-  for (int k = 0; k < PARTS; k++)
-    fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
+  for (int k = 0; k < PARTS; k++) fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
   fputs("</nav>\n<main id=\"top\">\n", page);
   CW_TRY(cw_page_title(page, data));
   for (int k = 0; k < PARTS; k++) {

@@ -17,24 +17,22 @@ static CwStatus read_record(const char *run, const CwCase *table, int stage, jso
   json_t *value;
   snprintf(path, sizeof path, "%s/%s/record.json", run, cw_report_stage[stage]);
   if (!strcmp(cw_report_stage[stage], "export")) {
-    if (access(path, F_OK) != 0)
-      goto done; // not exported yet
+    if (access(path, F_OK) != 0) goto done; // not exported yet
     CW_TRY(cw_case_origin_check(table, run, "export"));
   }
   CW_TRY(cw_json_read(path, record));
   CW_TRY(cw_json_text(*record, path, "stage", &name));
-  CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path,
-             name, cw_report_stage[stage]);
-  CW_REQUIRE(cw_json_real(*record, "seconds") >= 0, CW_ERR_INPUT, "%s: 'seconds' must be a number from 0",
-             path);
+  CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path, name,
+             cw_report_stage[stage]);
+  CW_REQUIRE(cw_json_real(*record, "seconds") >= 0, CW_ERR_INPUT, "%s: 'seconds' must be a number from 0", path);
   CW_REQUIRE(cw_json_real(*record, "peak_memory_bytes") >= 0, CW_ERR_INPUT,
              "%s: 'peak_memory_bytes' must be a number from 0", path);
   CW_TRY(cw_json_array(*record, path, "steps", &value));
   for (size_t k = 0; k < json_array_size(value); k++) {
     json_t *step = json_array_get(value, k);
     CW_TRY(cw_json_text(step, path, "name", &name));
-    CW_REQUIRE(cw_json_real(step, "seconds") >= 0, CW_ERR_INPUT,
-               "%s: 'seconds' of step '%s' must be a number from 0", path, name);
+    CW_REQUIRE(cw_json_real(step, "seconds") >= 0, CW_ERR_INPUT, "%s: 'seconds' of step '%s' must be a number from 0",
+               path, name);
   }
   CW_TRY(cw_json_array(*record, path, "warnings", &value));
   CW_TRY(cw_json_object(*record, path, "results", &value));
@@ -48,8 +46,7 @@ static CwStatus require_export_of_mesh(const CwReportData *data) {
   char where[4096];
   int64_t exported, meshed = 0;
   json_t *results;
-  if (!data->record[2])
-    goto done;
+  if (!data->record[2]) goto done;
   snprintf(where, sizeof where, "%s/export/record.json", data->run);
   CW_TRY(cw_json_object(data->record[2], where, "results", &results));
   CW_TRY(cw_json_count(results, where, "cells", &exported));
@@ -70,8 +67,7 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   CW_REQUIRE(data->run, CW_ERR_MEMORY, "out of memory: a path");
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   CW_TRY(cw_json_read(path, &data->design));
-  for (int s = 0; s < CW_STAGES; s++)
-    CW_TRY(read_record(run, table, s, &data->record[s]));
+  for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, table, s, &data->record[s]));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
   CW_TRY(require_export_of_mesh(data));
 done:
@@ -81,8 +77,7 @@ done:
 void cw_report_data_free(CwReportData *data) {
   free(data->run);
   json_decref(data->design);
-  for (int s = 0; s < CW_STAGES; s++)
-    json_decref(data->record[s]);
+  for (int s = 0; s < CW_STAGES; s++) json_decref(data->record[s]);
   cw_mesh_free(&data->mesh);
   cw_report_pictures_free(&data->pictures);
   *data = (CwReportData){0};
@@ -97,8 +92,7 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes) {
   double leading = fmax(cw_json_real(data->design, "leading_edge_radius_hub_m"),
                         cw_json_real(data->design, "leading_edge_radius_shroud_m"));
   snprintf(path, sizeof path, "%s/geometry/design.json", data->run);
-  for (int i = 0; i < 4; i++)
-    CW_TRY(cw_json_positive(data->design, path, keys[i], &value[i]));
+  for (int i = 0; i < 4; i++) CW_TRY(cw_json_positive(data->design, path, keys[i], &value[i]));
   *sizes = (CwPumpSizes){.blade_count = (int)value[0] + (splitters > 0 ? (int)splitters : 0),
                          .leading_radius = leading > 0 ? 1.1 * leading : INFINITY,
                          .outlet_radius = 0.5 * value[1],
@@ -124,8 +118,8 @@ CwStatus cw_page_mesh_domain(const CwReportData *data, int d, json_t **domain) {
   CW_TRY(cw_json_array(results, where, "domains", &domains));
   *domain = json_array_get(domains, (size_t)d);
   CW_TRY(cw_json_text(*domain, where, "name", &name));
-  CW_REQUIRE(!strcmp(name, data->mesh.domains[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'",
-             where, d + 1, name, data->mesh.domains[d].name);
+  CW_REQUIRE(!strcmp(name, data->mesh.domains[d].name), CW_ERR_INPUT, "%s: domain %d is '%s'; it must be '%s'", where,
+             d + 1, name, data->mesh.domains[d].name);
 done:
   return status;
 }

@@ -19,8 +19,7 @@ static const char *unit_text(const char *suffix) {
   } pretty[] = {{"m3_per_h", "m&sup3;/h"}, {"kg_per_m3", "kg/m&sup3;"}, {"m2_per_s", "m&sup2;/s"},
                 {"deg", "&deg;"},          {"mm2", "mm&sup2;"},         {"um", "&micro;m"}};
   for (size_t k = 0; k < sizeof pretty / sizeof *pretty; k++) {
-    if (!strcmp(suffix, pretty[k].suffix))
-      return pretty[k].text;
+    if (!strcmp(suffix, pretty[k].suffix)) return pretty[k].text;
   }
   const CwUnit *unit = cw_unit_find(suffix);
   return unit ? unit->text : "";
@@ -30,15 +29,13 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
   size_t length;
   const char *origin = "case file";
-  if (key->type == CW_KEY_NAME)
-    return;
+  if (key->type == CW_KEY_NAME) return;
   cw_unit_of_key(key->key, &length);
   snprintf(stem, sizeof stem, "%.*s", (int)length, key->key);
   double value = cw_case_key_value(key, table);
   if (key->presence == CW_KEY_COMPUTED && (isnan(value) || value == key->fallback))
     return; // left open: stands among the derived dimensions, or follows from others
-  if (key->presence == CW_KEY_DEFAULT && value == key->fallback)
-    origin = "default";
+  if (key->presence == CW_KEY_DEFAULT && value == key->fallback) origin = "default";
   cw_quantity_start(page, stem);
   if (key->type == CW_KEY_CHOICE) {
     fputs("<td class=\"n\">", page);
@@ -60,11 +57,9 @@ CwStatus cw_page_input(FILE *page, const CwReportData *data) {
         page);
   for (size_t k = 0; k < cw_case_key_count; k++) {
     const CwCaseKey *key = &cw_case_keys[k];
-    if (!*key->section)
-      continue;
+    if (!*key->section) continue;
     if (!section || strcmp(section, key->section)) {
-      if (section)
-        fputs("</table>\n", page);
+      if (section) fputs("</table>\n", page);
       section = key->section;
       fputs("<table><tr class=\"s\"><td colspan=\"5\">", page);
       cw_html_label(page, section);
@@ -93,11 +88,9 @@ static void design_rows(FILE *page, json_t *object, json_t *sources) {
   json_t *value;
   char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
   json_object_foreach(object, key, value) {
-    if (!json_is_number(value))
-      continue;
+    if (!json_is_number(value)) continue;
     for (size_t k = 0; sources && k < sizeof parts / sizeof *parts; k++) {
-      if (!strcmp(key, parts[k].key))
-        fprintf(page, "<tr class=\"s\"><td colspan=\"5\">%s</td></tr>\n", parts[k].title);
+      if (!strcmp(key, parts[k].key)) fprintf(page, "<tr class=\"s\"><td colspan=\"5\">%s</td></tr>\n", parts[k].title);
     }
     const CwQuantityUnit *unit = cw_quantity_unit(key);
     double real = json_number_value(value) * unit->scale;
@@ -118,16 +111,13 @@ static void design_rows(FILE *page, json_t *object, json_t *sources) {
 }
 
 CwStatus cw_page_design(FILE *page, const CwReportData *data) {
-  json_t *sources = json_object_get(data->design, "sources"),
-         *measured = json_object_get(data->design, "measured");
-  fputs(
-      "<p>Every dimension and figure of the hydraulic design with the correlation it comes from.</p>\n"
-      "<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th><th>Unit</th><th>Source</th></tr>\n",
-      page);
+  json_t *sources = json_object_get(data->design, "sources"), *measured = json_object_get(data->design, "measured");
+  fputs("<p>Every dimension and figure of the hydraulic design with the correlation it comes from.</p>\n"
+        "<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th><th>Unit</th><th>Source</th></tr>\n",
+        page);
   design_rows(page, data->design, json_is_object(sources) ? sources : NULL);
   fputs("</table>\n", page);
-  if (!json_is_object(measured))
-    return CW_OK;
+  if (!json_is_object(measured)) return CW_OK;
   fputs("<h3>Measured on the solids as built</h3>\n<table><tr><th>Quantity</th><th></th><th class=\"n "
         "p\">Value</th>"
         "<th>Unit</th></tr>\n",
@@ -138,8 +128,7 @@ CwStatus cw_page_design(FILE *page, const CwReportData *data) {
   char number[CW_FORMAT_SIZE];
   json_object_foreach(measured, key, value) {
     double angle = cw_json_real(value, "angle_deg");
-    if (isnan(angle))
-      continue;
+    if (isnan(angle)) continue;
     cw_quantity_start(page, key);
     cw_html_number_cell(page, cw_format_number(angle, 5, number));
     fputs("<td>&deg;</td></tr>\n", page);
@@ -160,8 +149,7 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
   snprintf(folder, sizeof folder, "%s/geometry", data->run);
   int count = scandir(folder, &entry, is_svg, alphasort);
   CW_REQUIRE(count >= 0, CW_ERR_IO, "%s: cannot be read: %s", folder, strerror(errno));
-  if (count == 0)
-    fputs("<p>The geometry stage left no drawings.</p>\n", page);
+  if (count == 0) fputs("<p>The geometry stage left no drawings.</p>\n", page);
   fputs("<div class=\"grid\">\n", page);
   for (int k = 0; k < count; k++) {
     snprintf(path, sizeof path, "%s/%s", folder, entry[k]->d_name);
@@ -174,8 +162,7 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
   }
   fputs("</div>\n", page);
 done:
-  for (int k = 0; k < count; k++)
-    free(entry[k]);
+  for (int k = 0; k < count; k++) free(entry[k]);
   free(entry);
   return status;
 }

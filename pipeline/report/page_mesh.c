@@ -40,8 +40,8 @@ static void domain_heads(FILE *page, const CwReportData *data, const char *class
   }
 }
 
-static void figure_row(FILE *page, const CwReportData *data, const char *label, const char *unit,
-                       json_t *const *domain, const char *key, double scale, int significant) {
+static void figure_row(FILE *page, const CwReportData *data, const char *label, const char *unit, json_t *const *domain,
+                       const char *key, double scale, int significant) {
   fprintf(page, "<tr><td>%s</td>", label);
   for (int d = 0; d < data->mesh.domain_count; d++)
     number_cell(page, cw_json_real(domain[d], key) * scale, significant);
@@ -49,24 +49,21 @@ static void figure_row(FILE *page, const CwReportData *data, const char *label, 
 }
 
 // The same of an object of the domain.
-static void inner_row(FILE *page, const CwReportData *data, const char *label, const char *unit,
-                      json_t *const *domain, const char *object, const char *key, int significant) {
+static void inner_row(FILE *page, const CwReportData *data, const char *label, const char *unit, json_t *const *domain,
+                      const char *object, const char *key, int significant) {
   json_t *inner[DOMAINS_MOST];
-  for (int d = 0; d < data->mesh.domain_count; d++)
-    inner[d] = json_object_get(domain[d], object);
+  for (int d = 0; d < data->mesh.domain_count; d++) inner[d] = json_object_get(domain[d], object);
   figure_row(page, data, label, unit, inner, key, 1, significant);
 }
 
 static CwStatus all_domains(const CwReportData *data, json_t **domain) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < data->mesh.domain_count; d++)
-    CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
+  for (int d = 0; d < data->mesh.domain_count; d++) CW_TRY(cw_page_mesh_domain(data, d, &domain[d]));
 done:
   return status;
 }
 
-static void count_row(FILE *page, const CwReportData *data, const char *row, const char *label,
-                      const int64_t *count) {
+static void count_row(FILE *page, const CwReportData *data, const char *row, const char *label, const int64_t *count) {
   int64_t all = 0;
   fprintf(page, "%s<td>%s</td>", row, label);
   for (int d = 0; d < data->mesh.domain_count; d++) {
@@ -101,12 +98,10 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
       int64_t count;
       memcpy(&count, (const char *)region + rows[k].member, sizeof count);
       sum[region->domain] += count;
-      if (k < 3)
-        cells[region->domain] += count;
+      if (k < 3) cells[region->domain] += count;
     }
     count_row(page, data, "<tr>", rows[k].label, sum);
-    if (k == 2)
-      count_row(page, data, "<tr class=\"t\">", "Cells", cells);
+    if (k == 2) count_row(page, data, "<tr class=\"t\">", "Cells", cells);
   }
   for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);
@@ -200,10 +195,9 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   json_t *domain[DOMAINS_MOST];
   CW_TRY(all_domains(data, domain));
-  fputs(
-      "<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
-      "colours; the mesh is the same for any number of ranks.</p>\n",
-      page);
+  fputs("<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
+        "colours; the mesh is the same for any number of ranks.</p>\n",
+        page);
   cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
   fputs("<h3>Balance</h3>\n<div class=\"grid\">\n", page);
   for (int d = 0; d < data->mesh.domain_count; d++) {
@@ -235,8 +229,7 @@ static CwStatus shares(const CwReportData *data, json_t *domain, const char *key
     share[k] = json_number_value(json_array_get(array, (size_t)k));
     sum += share[k];
   }
-  for (int k = 0; k < count; k++)
-    share[k] = sum > 0 ? 100 * share[k] / sum : NAN;
+  for (int k = 0; k < count; k++) share[k] = sum > 0 ? 100 * share[k] / sum : NAN;
 done:
   return status;
 }
@@ -275,8 +268,7 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   figure_row(page, data, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
   json_t *exported = json_object_get(data->record[2], "results");
   if (exported) {
-    for (int d = 0; d < domains; d++)
-      domain[d] = json_object_get(exported, data->mesh.domains[d].name);
+    for (int d = 0; d < domains; d++) domain[d] = json_object_get(exported, data->mesh.domains[d].name);
     figure_row(page, data, "All cells: greatest non-orthogonality", "&deg;, by the exporter", domain,
                "greatest_non_orthogonality_deg", 1, 4);
     figure_row(page, data, "All cells: mean non-orthogonality", "&deg;, by the exporter", domain,
@@ -286,8 +278,7 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
   CwPlotSeries series[DOMAINS_MOST + 1];
   for (int d = 0; d < domains; d++)
     series[d] = (CwPlotSeries){data->mesh.domains[d].name, cw_domain_colour(d, 0), aspect[d]};
-  series[domains] =
-      (CwPlotSeries){"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper};
+  series[domains] = (CwPlotSeries){"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper};
   cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
                                   .category_axis = "longest edge over shortest edge",
                                   .label = aspect_label,
@@ -306,8 +297,7 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
     snprintf(label[k], sizeof label[k], "%d\342\200\223%d", 10 * k, 10 * k + 10);
     labels[k] = label[k];
   }
-  for (int d = 0; d < domains; d++)
-    series[d].value = dihedral[d];
+  for (int d = 0; d < domains; d++) series[d].value = dihedral[d];
   cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
                                   .category_axis = "least dihedral angle, degrees",
                                   .label = labels,
@@ -324,8 +314,7 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
     snprintf(label[k], sizeof label[k], k % 4 == 0 ? "%.1f" : "", k / 20.0);
     labels[k] = label[k];
   }
-  for (int d = 0; d < domains; d++)
-    series[d].value = jacobian[d];
+  for (int d = 0; d < domains; d++) series[d].value = jacobian[d];
   cw_plot_columns(page, &(CwPlot){.axis = "% of the prisms",
                                   .category_axis = "scaled Jacobian, from",
                                   .label = labels,
@@ -341,8 +330,8 @@ done:
   return status;
 }
 
-static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces",
-                                           "thinned_by_gradation_faces", "thinned_by_repair_faces"};
+static const char *const coverage_key[] = {"full_thickness_faces", "thinned_by_gap_faces", "thinned_by_gradation_faces",
+                                           "thinned_by_repair_faces"};
 
 static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *const *list) {
   CwStatus status = CW_OK;
@@ -354,8 +343,7 @@ static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *con
   const char **label = NULL;
   char(*words)[64] = NULL;
   CwPlotSeries series[4];
-  for (int d = 0; d < data->mesh.domain_count; d++)
-    count += json_array_size(list[d]);
+  for (int d = 0; d < data->mesh.domain_count; d++) count += json_array_size(list[d]);
   CW_NEW(label, count);
   CW_NEW(words, count);
   for (int s = 0; s < 4; s++) {
@@ -368,12 +356,10 @@ static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *con
     json_array_foreach(list[d], k, patch) {
       const char *name = json_string_value(json_object_get(patch, "patch"));
       double faces = cw_json_real(patch, "wall_faces");
-      for (int s = 0; s < 4; s++)
-        share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
+      for (int s = 0; s < 4; s++) share[s][row] = faces > 0 ? 100 * cw_json_real(patch, coverage_key[s]) / faces : 0;
       snprintf(words[row], sizeof words[row], "%s", name ? name : "");
       for (char *c = words[row]; *c; c++) {
-        if (*c == '_')
-          *c = ' ';
+        if (*c == '_') *c = ' ';
       }
       label[row] = words[row];
       row++;
@@ -388,8 +374,7 @@ static CwStatus coverage_chart(FILE *page, const CwReportData *data, json_t *con
                  .width = 980};
   cw_plot_bars(page, &plot);
 done:
-  for (int s = 0; s < 4; s++)
-    free(share[s]);
+  for (int s = 0; s < 4; s++) free(share[s]);
   free(label);
   free(words);
   return status;
@@ -406,8 +391,7 @@ static void thickness_cells(FILE *page, json_t *patch, double faces) {
   share_cell(page, cw_json_real(patch, coverage_key[0]), faces);
   number_cell(page, cw_json_real(patch, "mean_thickness_m") * 1e3, 3);
   number_cell(page, cw_json_real(patch, "least_thickness_m") * 1e3, 3);
-  for (int s = 1; s < 4; s++)
-    count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
+  for (int s = 1; s < 4; s++) count_cell(page, json_integer_value(json_object_get(patch, coverage_key[s])));
 }
 
 // The first layer against its target, the last against the tetrahedra.
@@ -417,8 +401,7 @@ static void height_cells(FILE *page, json_t *patch, double faces) {
   double reach = cw_json_real(patch, "last_layer_within_reach_faces");
   number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
   share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
-  for (int s = 0; s < 3; s++)
-    count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
+  for (int s = 0; s < 3; s++) count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
   share_cell(page, cw_json_real(patch, "last_layer_fair_faces"), faces);
   share_cell(page, reach, faces);
   share_cell(page, cw_json_real(patch, "last_layer_within_reach_fair_faces"), reach);
@@ -457,22 +440,20 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       met += fmax(cw_json_real(json_array_get(list[d], k), "first_height_met_faces"), 0);
     }
   }
-  fprintf(
-      page,
-      "<p>%d layers with a growth ratio of at most %s on every wall face. The first height comes from the "
-      "y<sup>+</sup> target of the wall; ",
-      data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
+  fprintf(page,
+          "<p>%d layers with a growth ratio of at most %s on every wall face. The first height comes from the "
+          "y<sup>+</sup> target of the wall; ",
+          data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
   fprintf(page, "it is met within 10&#8239;%% on %s of the wall faces.</p>\n<figure>",
           cw_format_percent(met / all, text));
   CW_TRY(coverage_chart(page, data, list));
-  fputs(
-      "<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
-      "why the "
-      "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
-      "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
-      "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th>"
-      "<th class=\"n\"><br>repair</th></tr>\n",
-      page);
+  fputs("<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
+        "why the "
+        "others are thinner.</figcaption></figure>\n<table><tr><th>Patch</th><th class=\"n\">Wall faces</th>"
+        "<th class=\"n\">Full<br>thickness</th><th class=\"n p\">Thickness,<br>mean, mm</th>"
+        "<th class=\"n p\">least, mm</th><th class=\"n\">Thinned by<br>gap</th><th class=\"n\"><br>gradation</th>"
+        "<th class=\"n\"><br>repair</th></tr>\n",
+        page);
   layer_rows(page, data, list, 8, thickness_cells);
   fputs("</table>\n<p>The last layer is fair where it is 0.5 to 1.5 times as high as the tetrahedron on it. That is in "
         "reach where the first height, number of layers and growth ratio of the case allow it and no gap forbids "

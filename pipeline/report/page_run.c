@@ -56,8 +56,7 @@ static void object_table(FILE *page, json_t *array) {
     fprintf(page, "<th%s>", json_is_number(member) ? " class=\"n\"" : "");
     cw_quantity_stem(key, stem);
     cw_html_label(page, stem);
-    if (*cw_quantity_unit(key)->unit)
-      fprintf(page, ", %s", cw_quantity_unit(key)->unit);
+    if (*cw_quantity_unit(key)->unit) fprintf(page, ", %s", cw_quantity_unit(key)->unit);
     fputs("</th>", page);
   }
   fputs("</tr>\n", page);
@@ -81,8 +80,7 @@ static void value_table(FILE *page, json_t *object) {
   char stem[CW_STEM_SIZE];
   fputs("<table class=\"plain\">", page);
   json_object_foreach(object, key, value) {
-    if (!is_plain(value))
-      continue;
+    if (!is_plain(value)) continue;
     cw_quantity_stem(key, stem);
     fputs("<tr><td>", page);
     cw_html_label(page, stem);
@@ -99,8 +97,7 @@ static void result_tables(FILE *page, json_t *results) {
   value_table(page, results);
   fputs("<div class=\"grid\">\n", page);
   json_object_foreach(results, key, value) {
-    if (is_plain(value) || (json_is_array(value) && !is_table(value)))
-      continue;
+    if (is_plain(value) || (json_is_array(value) && !is_table(value))) continue;
     fprintf(page, "<div%s>", json_is_array(value) ? " class=\"wide\"" : "");
     heading(page, key);
     if (is_table(value))
@@ -148,8 +145,7 @@ static size_t gather_steps(const CwReportData *data, Step *step) {
       const char *unit = json_string_value(json_object_get(item, "unit"));
       char seconds[CW_FORMAT_SIZE], items[CW_FORMAT_SIZE];
       size_t at = first;
-      while (at < count && strcmp(step[at].name, name))
-        at++;
+      while (at < count && strcmp(step[at].name, name)) at++;
       if (at == count) {
         step[count++] = (Step){.name = name, .seconds = {NAN, NAN, NAN}};
         step[at].seconds[s] = 0;
@@ -179,16 +175,14 @@ CwStatus cw_page_times(FILE *page, const CwReportData *data) {
   char text[CW_FORMAT_SIZE];
   size_t most = 0, count;
   CwPlotSeries series[CW_STAGES];
-  for (int s = 0; s < CW_STAGES; s++)
-    most += json_array_size(json_object_get(data->record[s], "steps"));
+  for (int s = 0; s < CW_STAGES; s++) most += json_array_size(json_object_get(data->record[s], "steps"));
   CW_NEW(step, most);
   CW_NEW(label, most);
   CW_NEW(note, most);
   count = gather_steps(data, step);
   for (int s = 0; s < CW_STAGES; s++) {
     CW_NEW(value[s], count);
-    for (size_t k = 0; k < count; k++)
-      value[s][k] = step[k].seconds[s];
+    for (size_t k = 0; k < count; k++) value[s][k] = step[k].seconds[s];
     series[s] = (CwPlotSeries){cw_report_stage[s], colours[s], value[s]};
   }
   for (size_t k = 0; k < count; k++) {
@@ -200,23 +194,17 @@ CwStatus cw_page_times(FILE *page, const CwReportData *data) {
         page);
   for (int s = 0; s < CW_STAGES; s++) {
     if (!data->record[s]) {
-      fprintf(page, "<tr><td>%s</td><td class=\"n\">not run</td><td></td><td></td></tr>\n",
-              cw_report_stage[s]);
+      fprintf(page, "<tr><td>%s</td><td class=\"n\">not run</td><td></td><td></td></tr>\n", cw_report_stage[s]);
       continue;
     }
     double seconds = cw_json_real(data->record[s], "seconds");
     sum += seconds;
-    fprintf(page, "<tr><td>%s</td><td class=\"n\">%s</td>", cw_report_stage[s],
-            cw_format_seconds(seconds, text));
-    fprintf(page, "<td class=\"n\">%s</td>",
-            cw_format_bytes(cw_json_real(data->record[s], "peak_memory_bytes"), text));
-    fprintf(page, "<td class=\"n\">%zu</td></tr>\n",
-            json_array_size(json_object_get(data->record[s], "warnings")));
+    fprintf(page, "<tr><td>%s</td><td class=\"n\">%s</td>", cw_report_stage[s], cw_format_seconds(seconds, text));
+    fprintf(page, "<td class=\"n\">%s</td>", cw_format_bytes(cw_json_real(data->record[s], "peak_memory_bytes"), text));
+    fprintf(page, "<td class=\"n\">%zu</td></tr>\n", json_array_size(json_object_get(data->record[s], "warnings")));
   }
-  fprintf(
-      page,
-      "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n<figure>",
-      cw_format_seconds(sum, text));
+  fprintf(page, "<tr class=\"t\"><td>together</td><td class=\"n\">%s</td><td></td><td></td></tr>\n</table>\n<figure>",
+          cw_format_seconds(sum, text));
   cw_plot_bars(page, &(CwPlot){.axis = "seconds",
                                .label = label,
                                .count = (int)count,
@@ -232,8 +220,7 @@ done:
   free(step);
   free(label);
   free(note);
-  for (int s = 0; s < CW_STAGES; s++)
-    free(value[s]);
+  for (int s = 0; s < CW_STAGES; s++) free(value[s]);
   return status;
 }
 
@@ -250,7 +237,6 @@ CwStatus cw_page_warnings(FILE *page, const CwReportData *data) {
       count++;
     }
   }
-  if (!count)
-    fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
+  if (!count) fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
   return CW_OK;
 }

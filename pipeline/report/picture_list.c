@@ -27,9 +27,8 @@ const CwPictureSpec cw_picture_list[] = {
     // 1
     {.section = CW_SECTION_GEOMETRY,
      .title = "Rotor from the suction side",
-     .caption =
-         "Along the axis; shroud, suction pipe, inlet and interface taken off. White: the metal of the "
-         "blades.",
+     .caption = "Along the axis; shroud, suction pipe, inlet and interface taken off. White: the metal of the "
+                "blades.",
      .width = 760,
      .height = 640,
      .sees = CW_SEES_ROTOR,
@@ -195,9 +194,8 @@ const CwPictureSpec cw_picture_list[] = {
     // 14
     {.section = CW_SECTION_CUT,
      .title = "Cut z = 0",
-     .caption =
-         "The middle plane of the impeller's outlet, seen from the suction side; blades, hub and casing are "
-         "white.",
+     .caption = "The middle plane of the impeller's outlet, seen from the suction side; blades, hub and casing are "
+                "white.",
      .wide = 1,
      .width = 1560,
      .height = 1010,
@@ -290,8 +288,7 @@ uint32_t cw_patch_colour(const char *name, int index) {
                {"stator_to_discharge", 0xa8d5ba},
                {"discharge_to_stator", 0xa8d5ba}};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-    if (!strcmp(name, known[k].name))
-      return known[k].colour;
+    if (!strcmp(name, known[k].name)) return known[k].colour;
   }
   return cw_region_colour(index);
 }
@@ -310,12 +307,8 @@ uint32_t cw_region_colour(int index) {
          most = index % 2 ? 0.82 : 0.9;
   uint32_t colour = 0;
   for (int c = 0; c < 3; c++) {
-    double offset = fabs(fmod(hue + (c == 0   ? 0
-                                     : c == 1 ? 4
-                                              : 2),
-                              6) -
-                         3) -
-                    1; // 0 to 1 between the corners of the hue
+    double offset = fabs(fmod(hue + (c == 0 ? 0 : c == 1 ? 4 : 2),
+                              6) - 3) - 1; // 0 to 1 between the corners of the hue
     double value = least + (most - least) * fmin(fmax(offset, 0), 1);
     colour |= (uint32_t)(255 * value + 0.5) << (16 - 8 * c);
   }

@@ -34,8 +34,7 @@ static int sees(const CwPictureSpec *spec, int d) {
 
 static void mark_hidden(const CwMesh *mesh, Drawing *drawing) {
   char name[80];
-  if (!drawing->spec->hidden)
-    return;
+  if (!drawing->spec->hidden) return;
   for (int p = 0; p < mesh->patch_count; p++) {
     const CwMeshPatch *patch = &mesh->patches[p];
     snprintf(name, sizeof name, "|%s|", patch->name);
@@ -72,8 +71,7 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
   case CW_TARGET_ALL:
     break;
   case CW_TARGET_PLACE:
-    if (!cw_survey_place(survey, spec->place, middle))
-      drawing->lacking = "the mesh has no such patch";
+    if (!cw_survey_place(survey, spec->place, middle)) drawing->lacking = "the mesh has no such patch";
     if (spec->plane == CW_PLANE_NONE) {
       turn_with(middle, spec->towards, towards);
       turn_with(middle, spec->up, up);
@@ -81,8 +79,7 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
     break;
   case CW_TARGET_SHROUD:
     radius = 0.43 * survey->sizes.outlet_radius;
-    if (!cw_survey_shroud(survey, radius, &z))
-      drawing->lacking = "the mesh has no shroud";
+    if (!cw_survey_shroud(survey, radius, &z)) drawing->lacking = "the mesh has no shroud";
     // fall through
   case CW_TARGET_NECK:
     memcpy(middle, (double[3]){radius * cos(azimuth), radius * sin(azimuth), z}, sizeof middle);
@@ -103,8 +100,7 @@ static void aim(const CwSurvey *survey, Drawing *drawing) {
       return;
     }
     for (int side = -1; side <= 1; side += 2) {
-      cw_camera_reach(camera,
-                      (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
+      cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_least},
                       &drawing->reach);
       cw_camera_reach(camera, (double[3]){side * radius * cos(azimuth), side * radius * sin(azimuth), z_most},
                       &drawing->reach);
@@ -122,19 +118,15 @@ static Face face_at(const CwRegionData *cells, int32_t index) {
   Face face = {.count = index < cells->triangle_count ? 3 : 4};
   const int32_t *corner = face.count == 3 ? cells->triangles[index] : cells->quads[index - cells->triangle_count];
   face.patch = face.count == 3 ? cells->triangle_patch[index] : cells->quad_patch[index - cells->triangle_count];
-  for (int k = 0; k < face.count; k++)
-    face.x[k] = cells->points[corner[k]];
+  for (int k = 0; k < face.count; k++) face.x[k] = cells->points[corner[k]];
   return face;
 }
 
 static int face_shown(const Drawing *drawing, int d, const Face *face) {
-  if (drawing->hidden[d][face->patch])
-    return 0;
-  if (!drawing->spec->upper_half || d == CW_MESH_ROTOR)
-    return 1;
+  if (drawing->hidden[d][face->patch]) return 0;
+  if (!drawing->spec->upper_half || d == CW_MESH_ROTOR) return 1;
   double z = 0;
-  for (int k = 0; k < face->count; k++)
-    z = fmax(z, face->x[k][2]);
+  for (int k = 0; k < face->count; k++) z = fmax(z, face->x[k][2]);
   return z > 0;
 }
 
@@ -143,26 +135,20 @@ static int upper_part(const Face *face, double part[5][3]) {
   int count = 0;
   for (int k = 0; k < face->count; k++) {
     const double *a = face->x[k], *b = face->x[(k + 1) % face->count];
-    if (a[2] >= 0)
-      memcpy(part[count++], a, sizeof part[0]);
-    if ((a[2] >= 0) == (b[2] >= 0) || count == 5)
-      continue;
-    for (int i = 0; i < 3; i++)
-      part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
+    if (a[2] >= 0) memcpy(part[count++], a, sizeof part[0]);
+    if ((a[2] >= 0) == (b[2] >= 0) || count == 5) continue;
+    for (int i = 0; i < 3; i++) part[count][i] = a[i] + a[2] / (a[2] - b[2]) * (b[i] - a[i]);
     count++;
   }
   return count;
 }
 
 static void reach_faces(Drawing *drawing, int d, const CwRegionData *cells) {
-  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL)
-    return;
+  if (drawing->spec->target != CW_TARGET_ALL || drawing->spec->plane == CW_PLANE_MERIDIONAL) return;
   for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
     Face face = face_at(cells, f);
-    if (!face_shown(drawing, d, &face))
-      continue;
-    for (int k = 0; k < face.count; k++)
-      cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
+    if (!face_shown(drawing, d, &face)) continue;
+    for (int k = 0; k < face.count; k++) cw_camera_reach(&drawing->camera, face.x[k], &drawing->reach);
   }
 }
 
@@ -176,15 +162,12 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
     v[i] = face->x[face->count - 1][i] - face->x[face->count - 3][i];
   }
   if (face->count == 3) {
-    for (int i = 0; i < 3; i++)
-      v[i] = face->x[2][i] - face->x[0][i];
+    for (int i = 0; i < 3; i++) v[i] = face->x[2][i] - face->x[0][i];
   }
-  for (int i = 0; i < 3; i++)
-    n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  for (int i = 0; i < 3; i++) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   *outside = 0;
-  if (!(length > 0))
-    return 1;
+  if (!(length > 0)) return 1;
   for (int i = 0; i < 3; i++) {
     facing[0] += n[i] * camera->right[i] / length;
     facing[1] += n[i] * camera->up[i] / length;
@@ -192,8 +175,7 @@ static double light_of(const CwCamera *camera, const Face *face, int *outside) {
   }
   *outside = facing[2] > 0;
   double sign = facing[2] < 0 ? -1 : 1, cosine = 0;
-  for (int i = 0; i < 3; i++)
-    cosine += sign * facing[i] * light[i];
+  for (int i = 0; i < 3; i++) cosine += sign * facing[i] * light[i];
   return 0.5 + 0.56 * fmax(cosine, 0);
 }
 
@@ -203,24 +185,19 @@ static void draw_faces(Drawing *drawing, const CwMesh *mesh, int region, const C
   const CwMeshPatch *patch = &mesh->patches[mesh->domains[d].first_patch];
   for (int32_t f = 0; f < cells->triangle_count + cells->quad_count; f++) {
     Face face = face_at(cells, f);
-    if (!face_shown(drawing, d, &face))
-      continue;
+    if (!face_shown(drawing, d, &face)) continue;
     double p[5][3], part[5][3];
     int corners = face.count, outside;
     double light = light_of(&drawing->camera, &face, &outside);
     if (spec->upper_half && d == CW_MESH_STATOR)
       corners = upper_part(&face, part);
     else
-      for (int k = 0; k < corners; k++)
-        memcpy(part[k], face.x[k], sizeof part[k]);
-    for (int k = 0; k < corners; k++)
-      cw_camera_project(&drawing->camera, part[k], p[k]);
-    uint32_t colour = spec->colour == CW_COLOUR_REGION
-                          ? cw_region_colour(region)
-                          : cw_patch_colour(patch[face.patch].name, face.patch);
+      for (int k = 0; k < corners; k++) memcpy(part[k], face.x[k], sizeof part[k]);
+    for (int k = 0; k < corners; k++) cw_camera_project(&drawing->camera, part[k], p[k]);
+    uint32_t colour = spec->colour == CW_COLOUR_REGION ? cw_region_colour(region)
+                                                       : cw_patch_colour(patch[face.patch].name, face.patch);
     int group = 1 + (spec->colour == CW_COLOUR_REGION ? region % 60000 : d * PATCHES + face.patch);
-    if (spec->hollow_white && outside && d == CW_MESH_ROTOR)
-      group = METAL;
+    if (spec->hollow_white && outside && d == CW_MESH_ROTOR) group = METAL;
     CwPaint paint = {.colour = cw_render_shade(colour, light),
                      .group = (uint16_t)group,
                      .edge_colour = ink,
@@ -239,10 +216,8 @@ static void draw_cut_cell(Drawing *drawing, const CwRegionData *cells, const dou
     s[k] = distance[corner[k]];
     above += s[k] >= 0;
   }
-  if (above == 0 || above == count)
-    return;
-  for (int k = 0; k < count; k++)
-    x[k] = cells->points[corner[k]];
+  if (above == 0 || above == count) return;
+  for (int k = 0; k < count; k++) x[k] = cells->points[corner[k]];
   int corners = cw_cut_cell(&drawing->plane, count, x, s, polygon);
   const CwCamera *camera = &drawing->camera;
   double centre[2] = {0, 0}, area = 0;
@@ -274,8 +249,7 @@ static CwStatus draw_cut(Drawing *drawing, int d, const CwRegionData *cells) {
   CwStatus status = CW_OK;
   double *distance = NULL;
   CW_NEW(distance, cells->point_count);
-  for (int32_t i = 0; i < cells->point_count; i++)
-    distance[i] = cw_cut_distance(&drawing->plane, cells->points[i]);
+  for (int32_t i = 0; i < cells->point_count; i++) distance[i] = cw_cut_distance(&drawing->plane, cells->points[i]);
   for (int32_t c = 0; c < cells->tetrahedron_count; c++)
     draw_cut_cell(drawing, cells, distance, 4, cells->tetrahedra[c], cw_domain_colour(d, 2), d + 1);
   for (int32_t c = 0; c < cells->pyramid_count; c++)
@@ -292,21 +266,18 @@ static void mark_seen(Drawing *drawing) {
   size_t samples = (size_t)drawing->canvas.columns * (size_t)drawing->canvas.rows;
   for (size_t i = 0; i < samples; i++) {
     int group = drawing->canvas.group[i] - 1;
-    if (group >= 0 && group < CW_DOMAINS_MOST * PATCHES)
-      drawing->seen[group / PATCHES][group % PATCHES] = 1;
+    if (group >= 0 && group < CW_DOMAINS_MOST * PATCHES) drawing->seen[group / PATCHES][group % PATCHES] = 1;
   }
 }
 
 static void add_legend(CwReportPicture *picture, const char *label, uint32_t colour) {
   for (int k = 0; k < picture->legend_count; k++) {
-    if (!strcmp(picture->legend[k].label, label))
-      return;
+    if (!strcmp(picture->legend[k].label, label)) return;
   }
   CwLegendItem *item = &picture->legend[picture->legend_count++];
   snprintf(item->label, sizeof item->label, "%s", label);
   for (char *c = item->label; *c; c++) {
-    if (*c == '_')
-      *c = ' ';
+    if (*c == '_') *c = ' ';
   }
   item->colour = colour;
 }
@@ -314,29 +285,24 @@ static void add_legend(CwReportPicture *picture, const char *label, uint32_t col
 static void make_legend(const CwMesh *mesh, const Drawing *drawing, CwReportPicture *picture) {
   static const char *const kind[] = {"prisms", "tetrahedra"};
   int pyramids = 0;
-  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0)
-    return;
+  if (drawing->spec->colour == CW_COLOUR_REGION || drawing->spec->inset_of >= 0) return;
   if (drawing->spec->colour == CW_COLOUR_CUT) {
     for (int d = 0; d < mesh->domain_count; d++) {
-      if (!sees(drawing->spec, d))
-        continue;
+      if (!sees(drawing->spec, d)) continue;
       for (int k = 1; k >= 0; k--) {
         char label[40];
         snprintf(label, sizeof label, "%.20s %s", mesh->domains[d].name, kind[k]);
         add_legend(picture, label, cw_domain_colour(d, k + 1));
       }
     }
-    for (int r = 0; r < mesh->region_count; r++)
-      pyramids |= mesh->regions[r].pyramids > 0;
-    if (pyramids)
-      add_legend(picture, "pyramids", pyramid_colour);
+    for (int r = 0; r < mesh->region_count; r++) pyramids |= mesh->regions[r].pyramids > 0;
+    if (pyramids) add_legend(picture, "pyramids", pyramid_colour);
     return;
   }
   for (int d = 0; d < mesh->domain_count; d++) {
     for (int p = 0; p < mesh->domains[d].patch_count; p++) {
       const char *name = mesh->patches[mesh->domains[d].first_patch + p].name;
-      if (drawing->seen[d][p])
-        add_legend(picture, name, cw_patch_colour(name, p));
+      if (drawing->seen[d][p]) add_legend(picture, name, cw_patch_colour(name, p));
     }
   }
 }
@@ -347,8 +313,7 @@ static void annotate(const Drawing *drawings, int index, CwAnnotation *annotatio
   const CwCamera *camera = &drawing->camera;
   annotation->metres_per_pixel = camera->metres_per_pixel;
   annotation->axis_count = 3;
-  for (int i = 0; i < 3; i++)
-    annotation->axis[i] = (CwTriadAxis){names[i], {camera->right[i], -camera->up[i]}};
+  for (int i = 0; i < 3; i++) annotation->axis[i] = (CwTriadAxis){names[i], {camera->right[i], -camera->up[i]}};
   if (drawing->spec->plane == CW_PLANE_MERIDIONAL) {
     annotation->axis_count = 2;
     annotation->axis[0] = (CwTriadAxis){"r", {1, 0}};
@@ -357,12 +322,11 @@ static void annotate(const Drawing *drawings, int index, CwAnnotation *annotatio
   for (int k = 0; k < cw_picture_list_count; k++) {
     const CwCamera *inset = &drawings[k].camera;
     double at[3], share = inset->metres_per_pixel / camera->metres_per_pixel;
-    if (drawings[k].spec->inset_of != index || drawings[k].lacking)
-      continue;
+    if (drawings[k].spec->inset_of != index || drawings[k].lacking) continue;
     cw_camera_project(camera, inset->centre, at);
     double width = inset->width * share, height = inset->height * share;
-    annotation->frame[annotation->frame_count++] = (CwInsetFrame){
-        drawings[k].spec->inset_name, at[0] - 0.5 * width, at[1] - 0.5 * height, width, height};
+    annotation->frame[annotation->frame_count++] =
+        (CwInsetFrame){drawings[k].spec->inset_name, at[0] - 0.5 * width, at[1] - 0.5 * height, width, height};
   }
 }
 
@@ -371,8 +335,7 @@ static CwStatus finish(const CwMesh *mesh, Drawing *drawings, int index, CwRepor
   Drawing *drawing = &drawings[index];
   CwAnnotation annotation = {0};
   picture->lacking = drawing->lacking;
-  if (drawing->lacking)
-    goto done;
+  if (drawing->lacking) goto done;
   cw_render_erase(&drawing->canvas, METAL, background);
   if (drawing->spec->plane == CW_PLANE_NONE && !drawing->spec->edges)
     cw_render_occlusion(&drawing->canvas, 14, drawing->camera.metres_per_pixel);
@@ -393,8 +356,7 @@ static CwStatus survey_all(const CwMesh *mesh, Drawing *drawings, CwSurvey *surv
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_SURFACE, &cells));
     cw_survey_add(survey, mesh, &cells);
     for (int k = 0; k < cw_picture_list_count; k++) {
-      if (sees(drawings[k].spec, cells.domain))
-        reach_faces(&drawings[k], cells.domain, &cells);
+      if (sees(drawings[k].spec, cells.domain)) reach_faces(&drawings[k], cells.domain, &cells);
     }
     cw_mesh_region_free(&cells);
   }
@@ -410,8 +372,7 @@ static CwStatus draw_all(const CwMesh *mesh, Drawing *drawings) {
   for (int r = 0; r < mesh->region_count; r++) {
     CW_TRY(cw_mesh_region_read(mesh, r, CW_REGION_WHOLE, &cells));
     for (int k = 0; k < cw_picture_list_count; k++) {
-      if (!sees(drawings[k].spec, cells.domain) || drawings[k].lacking)
-        continue;
+      if (!sees(drawings[k].spec, cells.domain) || drawings[k].lacking) continue;
       if (drawings[k].spec->plane == CW_PLANE_NONE)
         draw_faces(&drawings[k], mesh, r, &cells);
       else
@@ -426,8 +387,7 @@ done:
   return status;
 }
 
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes,
-                                 CwReportPictures *pictures) {
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures) {
   CwStatus status = CW_OK;
   Drawing *drawings = NULL;
   CwSurvey *survey = NULL;
@@ -455,8 +415,7 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes,
         drawings[k].lacking = "the mesh has no such faces";
     }
     if (!drawings[k].lacking)
-      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE,
-                             &drawings[k].canvas));
+      CW_TRY(cw_render_start(spec->width, spec->height, background, spec->plane == CW_PLANE_NONE, &drawings[k].canvas));
   }
   CW_TRY(draw_all(mesh, drawings));
   for (int k = 0; k < cw_picture_list_count; k++) {
@@ -472,16 +431,14 @@ CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes,
     CW_TRY(finish(mesh, drawings, k, picture));
   }
 done:
-  for (int k = 0; drawings && k < cw_picture_list_count; k++)
-    cw_render_free(&drawings[k].canvas);
+  for (int k = 0; drawings && k < cw_picture_list_count; k++) cw_render_free(&drawings[k].canvas);
   free(drawings);
   free(survey);
   return status;
 }
 
 void cw_report_pictures_free(CwReportPictures *pictures) {
-  for (int k = 0; k < pictures->count; k++)
-    cw_png_free(&pictures->picture[k].png);
+  for (int k = 0; k < pictures->count; k++) cw_png_free(&pictures->picture[k].png);
   free(pictures->picture);
   *pictures = (CwReportPictures){0};
 }

@@ -38,8 +38,7 @@ typedef struct {
 } CwReportPictures;
 
 // Reads every region twice and draws. Free with cw_report_pictures_free, also after a failure.
-CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes,
-                                 CwReportPictures *pictures);
+CwStatus cw_report_pictures_draw(const CwMesh *mesh, const CwPumpSizes *sizes, CwReportPictures *pictures);
 void cw_report_pictures_free(CwReportPictures *pictures);
 
 #endif

@@ -9,8 +9,7 @@
 static const double key_height = 26, tick_gap = 6;
 
 double cw_plot_step(double most) {
-  if (!(most > 0) || !isfinite(most))
-    return 1;
+  if (!(most > 0) || !isfinite(most)) return 1;
   double power = pow(10, floor(log10(most)));
   double first = most / power; // 1 to 10
   return first < 2 ? 0.2 * power : first < 5 ? 0.5 * power : power;
@@ -23,13 +22,12 @@ static void text(FILE *page, double x, double y, const char *anchor, const char 
 }
 
 static void line(FILE *page, double x0, double y0, double x1, double y1, const char *class) {
-  fprintf(page, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"%s\"/>\n", x0, y0, x1, y1,
-          class);
+  fprintf(page, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"%s\"/>\n", x0, y0, x1, y1, class);
 }
 
 static void box(FILE *page, double x, double y, double width, double height, uint32_t colour) {
-  fprintf(page, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#%06x\"/>\n", x, y, width,
-          height, (unsigned)colour);
+  fprintf(page, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#%06x\"/>\n", x, y, width, height,
+          (unsigned)colour);
 }
 
 static void tick_text(double value, double step, char *words, size_t size) {
@@ -39,23 +37,20 @@ static void tick_text(double value, double step, char *words, size_t size) {
 
 static double letters(const char *words) { // width in letters: UTF-8 continuation bytes are none
   double count = 0;
-  for (; *words; words++)
-    count += (*words & 0xC0) != 0x80;
+  for (; *words; words++) count += (*words & 0xC0) != 0x80;
   return count;
 }
 
 static double begin(FILE *page, const CwPlot *plot, double height) {
   double x = 0;
   int named = 0;
-  for (int s = 0; s < plot->series_count; s++)
-    named |= plot->series[s].name != NULL;
+  for (int s = 0; s < plot->series_count; s++) named |= plot->series[s].name != NULL;
   fprintf(page,
           "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %.0f\" width=\"%d\" "
           "height=\"%.0f\" role=\"img\">\n",
           plot->width, height + (named ? key_height : 0), plot->width, height + (named ? key_height : 0));
   for (int s = 0; s < plot->series_count; s++) {
-    if (!plot->series[s].name)
-      continue;
+    if (!plot->series[s].name) continue;
     box(page, x, 4, 12, 12, plot->series[s].colour);
     text(page, x + 18, 14.5, "start", "k", plot->series[s].name);
     x += 18 + 7.2 * letters(plot->series[s].name) + 22;
@@ -69,8 +64,7 @@ static double largest(const CwPlot *plot, int stacked) {
     double sum = 0;
     for (int s = 0; s < plot->series_count; s++) {
       double value = plot->series[s].value[c];
-      if (isnan(value))
-        continue;
+      if (isnan(value)) continue;
       sum = stacked ? sum + value : fmax(sum, value);
     }
     most = fmax(most, sum);
@@ -96,11 +90,9 @@ void cw_plot_columns(FILE *page, const CwPlot *plot) {
     double x = left + pitch * (c + 0.5 * (1 - share));
     for (int s = 0; s < plot->series_count; s++, x += column) {
       double value = plot->series[s].value[c], height = body * value / limit;
-      if (!isfinite(value))
-        continue;
+      if (!isfinite(value)) continue;
       box(page, x + 0.5, top + body - height, fmax(column - 1, 0.5), height, plot->series[s].colour);
-      if (plot->decimals < 0 || value == 0)
-        continue;
+      if (plot->decimals < 0 || value == 0) continue;
       double least = pow(10, -plot->decimals);
       snprintf(words, sizeof words, value < 0.5 * least ? "<%.*f" : "%.*f", plot->decimals,
                value < 0.5 * least ? least : value);
@@ -109,8 +101,7 @@ void cw_plot_columns(FILE *page, const CwPlot *plot) {
     }
     text(page, left + pitch * (c + 0.5), top + body + 17, "middle", "t", plot->label[c]);
   }
-  if (plot->category_axis)
-    text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->category_axis);
+  if (plot->category_axis) text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->category_axis);
   fprintf(page, "<text transform=\"translate(12 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"x\">",
           top + 0.5 * body);
   cw_html_text(page, plot->axis);
@@ -122,8 +113,7 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
   double left = 40, right = 16;
   for (int c = 0; c < plot->count; c++) {
     left = fmax(left, 7.0 * letters(plot->label[c]) + 14);
-    if (plot->note)
-      right = fmax(right, 6.8 * letters(plot->note[c]) + 14);
+    if (plot->note) right = fmax(right, 6.8 * letters(plot->note[c]) + 14);
   }
   double body = row * plot->count, top = begin(page, plot, body + below), width = plot->width - left - right;
   double most = plot->limit > 0 ? plot->limit : largest(plot, 1), step = cw_plot_step(most);
@@ -136,20 +126,17 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
     text(page, x, top + body + 15, "middle", "t", words);
   }
   if (plot->mark > 0)
-    line(page, left + width * plot->mark / limit, top - 2, left + width * plot->mark / limit, top + body,
-         "m");
+    line(page, left + width * plot->mark / limit, top - 2, left + width * plot->mark / limit, top + body, "m");
   for (int c = 0; c < plot->count; c++) {
     double x = left, y = top + row * c + 0.5 * (row - thick);
     for (int s = 0; s < plot->series_count; s++) {
       double value = plot->series[s].value[c];
-      if (!isfinite(value))
-        continue;
+      if (!isfinite(value)) continue;
       box(page, x, y, width * value / limit, thick, plot->series[s].colour);
       x += width * value / limit;
     }
     text(page, left - tick_gap, y + 11, "end", "c", plot->label[c]);
-    if (plot->note)
-      text(page, x + 5, y + 11, "start", "v", plot->note[c]);
+    if (plot->note) text(page, x + 5, y + 11, "start", "v", plot->note[c]);
   }
   text(page, left + 0.5 * width, top + body + 36, "middle", "x", plot->axis);
   fputs("</svg>\n", page);

@@ -65,8 +65,7 @@ const CwQuantityUnit *cw_quantity_unit(const char *key) {
   static const CwQuantityUnit none = {"", "", 1};
   for (size_t k = 0; k < sizeof units / sizeof *units; k++) {
     size_t size = strlen(units[k].end), length = strlen(key);
-    if (length >= size && !strcmp(key + length - size, units[k].end))
-      return &units[k];
+    if (length >= size && !strcmp(key + length - size, units[k].end)) return &units[k];
   }
   return &none;
 }
@@ -80,8 +79,7 @@ void cw_quantity_stem(const char *key, char stem[CW_STEM_SIZE]) {
 static void symbol_cell(FILE *page, const char *stem) {
   fputs("<td class=\"q\">", page);
   for (size_t k = 0; k < sizeof symbols / sizeof *symbols; k++) {
-    if (!strcmp(stem, symbols[k].key))
-      fputs(symbols[k].symbol, page);
+    if (!strcmp(stem, symbols[k].key)) fputs(symbols[k].symbol, page);
   }
   fputs("</td>", page);
 }

@@ -7,23 +7,18 @@
 
 CwStatus cw_render_start(int width, int height, uint32_t background, int depth_buffer, CwCanvas *canvas) {
   CwStatus status = CW_OK;
-  *canvas = (CwCanvas){.width = width,
-                       .height = height,
-                       .columns = width * CW_RENDER_SAMPLES,
-                       .rows = height * CW_RENDER_SAMPLES};
+  *canvas = (CwCanvas){
+      .width = width, .height = height, .columns = width * CW_RENDER_SAMPLES, .rows = height * CW_RENDER_SAMPLES};
   size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
   CW_NEW(canvas->colour, samples);
   CW_NEW(canvas->group, samples);
-  for (size_t i = 0; i < samples; i++)
-    canvas->colour[i] = background;
+  for (size_t i = 0; i < samples; i++) canvas->colour[i] = background;
   if (depth_buffer) {
     CW_NEW(canvas->depth, samples);
-    for (size_t i = 0; i < samples; i++)
-      canvas->depth[i] = -INFINITY;
+    for (size_t i = 0; i < samples; i++) canvas->depth[i] = -INFINITY;
   }
 done:
-  if (status != CW_OK)
-    cw_render_free(canvas);
+  if (status != CW_OK) cw_render_free(canvas);
   return status;
 }
 
@@ -66,16 +61,13 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
   for (int k = 0; k < 3; k++) {
     x[k] = p[k][0] * CW_RENDER_SAMPLES;
     y[k] = p[k][1] * CW_RENDER_SAMPLES;
-    if (!isfinite(x[k]) || !isfinite(y[k]))
-      return;
+    if (!isfinite(x[k]) || !isfinite(y[k])) return;
   }
   double left = fmin(fmin(x[0], x[1]), x[2]), right = fmax(fmax(x[0], x[1]), x[2]);
   double top = fmin(fmin(y[0], y[1]), y[2]), bottom = fmax(fmax(y[0], y[1]), y[2]);
-  if (right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows)
-    return;
+  if (right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows) return;
   double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-  if (area == 0)
-    return;
+  if (area == 0) return;
   // Sample (i, j) has its centre at (i + 0.5, j + 0.5).
   int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
   int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
@@ -93,22 +85,18 @@ void cw_render_triangle(CwCanvas *canvas, const double p[3][3], const CwPaint *p
   double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
   for (int j = up; j <= down; j++) {
     double w[3];
-    for (int k = 0; k < 3; k++)
-      w[k] = at[k] + gy[k] * (j - up);
+    for (int k = 0; k < 3; k++) w[k] = at[k] + gy[k] * (j - up);
     size_t place = (size_t)j * (size_t)canvas->columns + (size_t)first;
     for (int i = first; i <= last; i++, place++, w[0] += gx[0], w[1] += gx[1], w[2] += gx[2]) {
-      if (w[0] < -1e-9 || w[1] < -1e-9 || w[2] < -1e-9)
-        continue;
+      if (w[0] < -1e-9 || w[1] < -1e-9 || w[2] < -1e-9) continue;
       if (canvas->depth) {
         float depth = (float)(w[0] * p[0][2] + w[1] * p[1][2] + w[2] * p[2][2]);
-        if (depth < canvas->depth[place])
-          continue;
+        if (depth < canvas->depth[place]) continue;
         canvas->depth[place] = depth;
       }
       double line = 0;
       for (int k = 0; k < 3; k++) {
-        if (paint->edges & (1u << ((k + 1) % 3)))
-          line = fmax(line, half + 0.5 - w[k] * reach[k]);
+        if (paint->edges & (1u << ((k + 1) % 3))) line = fmax(line, half + 0.5 - w[k] * reach[k]);
       }
       put(canvas, place, line, paint);
     }
@@ -123,8 +111,7 @@ static void flat_polygon(CwCanvas *canvas, const double (*p)[3], int count, cons
   int edges = 0;
   for (int k = 0; k < count; k++) {
     const double *a = p[k], *b = p[(k + 1) % count];
-    if (!isfinite(a[0]) || !isfinite(a[1]))
-      return;
+    if (!isfinite(a[0]) || !isfinite(a[1])) return;
     area += (a[0] - p[0][0]) * (b[1] - p[0][1]) - (b[0] - p[0][0]) * (a[1] - p[0][1]);
   }
   for (int k = 0; k < count; k++) {
@@ -134,15 +121,13 @@ static void flat_polygon(CwCanvas *canvas, const double (*p)[3], int count, cons
     right = fmax(right, a[0] * CW_RENDER_SAMPLES);
     top = fmin(top, a[1] * CW_RENDER_SAMPLES);
     bottom = fmax(bottom, a[1] * CW_RENDER_SAMPLES);
-    if (fabs(length) < 1e-4)
-      continue;
+    if (fabs(length) < 1e-4) continue;
     x[edges] = a[0] * CW_RENDER_SAMPLES;
     y[edges] = a[1] * CW_RENDER_SAMPLES;
     nx[edges] = -dy / length;
     ny[edges++] = dx / length;
   }
-  if (area == 0 || right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows)
-    return;
+  if (area == 0 || right < 0 || bottom < 0 || left > canvas->columns || top > canvas->rows) return;
   int first = (int)fmax(ceil(left - 0.5), 0), last = (int)fmin(floor(right - 0.5), canvas->columns - 1);
   int up = (int)fmax(ceil(top - 0.5), 0), down = (int)fmin(floor(bottom - 0.5), canvas->rows - 1);
   double half = 0.5 * paint->edge_width * CW_RENDER_SAMPLES;
@@ -151,8 +136,7 @@ static void flat_polygon(CwCanvas *canvas, const double (*p)[3], int count, cons
       double nearest = INFINITY;
       for (int k = 0; k < edges && nearest >= -1e-6; k++)
         nearest = fmin(nearest, nx[k] * (i + 0.5 - x[k]) + ny[k] * (j + 0.5 - y[k]));
-      if (nearest >= -1e-6)
-        put(canvas, (size_t)j * (size_t)canvas->columns + (size_t)i, half + 0.5 - nearest, paint);
+      if (nearest >= -1e-6) put(canvas, (size_t)j * (size_t)canvas->columns + (size_t)i, half + 0.5 - nearest, paint);
     }
   }
 }
@@ -176,10 +160,8 @@ void cw_render_polygon(CwCanvas *canvas, const double (*p)[3], int count, const 
 // A step in depth is a bend of the depth along a line of samples, so that slanted faces have none.
 static int steps(const float *depth, size_t place, size_t stride, double step) {
   double before = depth[place - stride], here = depth[place], behind = depth[place + stride];
-  if (isinf(here))
-    return 0;
-  if (isinf(before) || isinf(behind))
-    return 1;
+  if (isinf(here)) return 0;
+  if (isinf(before) || isinf(behind)) return 1;
   return 2 * here - before - behind > step;
 }
 
@@ -193,8 +175,7 @@ void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step) {
                              group != canvas->group[place - 1] || group != canvas->group[place - columns]);
       if (canvas->depth && !border)
         border = steps(canvas->depth, place, 1, step) || steps(canvas->depth, place, columns, step);
-      if (border)
-        canvas->colour[place] = mix(canvas->colour[place], colour, 0.75);
+      if (border) canvas->colour[place] = mix(canvas->colour[place], colour, 0.75);
     }
   }
 }
@@ -209,43 +190,35 @@ static double hollow(const CwCanvas *canvas, long i, long j, double radius, doub
     double share = (ring + 1.0) / RINGS, length = radius * share, weight = 1.2 - share;
     for (int k = 0; k < DIRECTIONS; k++) {
       double angle = M_PI * (k + turn[ring]) / DIRECTIONS;
-      long du = lround(length * CW_RENDER_SAMPLES * cos(angle)),
-           dv = lround(length * CW_RENDER_SAMPLES * sin(angle));
+      long du = lround(length * CW_RENDER_SAMPLES * cos(angle)), dv = lround(length * CW_RENDER_SAMPLES * sin(angle));
       long u = i + du, v = j + dv, across_u = i - du, across_v = j - dv;
       weights += weight;
-      if (fmin(u, across_u) < 0 || fmin(v, across_v) < 0 || fmax(u, across_u) >= columns ||
-          fmax(v, across_v) >= rows)
+      if (fmin(u, across_u) < 0 || fmin(v, across_v) < 0 || fmax(u, across_u) >= columns || fmax(v, across_v) >= rows)
         continue;
       double there = canvas->depth[v * columns + u], across = canvas->depth[across_v * columns + across_u];
-      if (isinf(there) || isinf(across))
-        continue;
+      if (isinf(there) || isinf(across)) continue;
       // The mean of two opposite samples: a slanted plane has no hollow. What stands far above is another
       // thing.
       double rise = (0.5 * (there + across) - here) / (unit * length);
-      if (rise > 0)
-        sum += weight * fmin(rise, 1) / (1 + pow(rise / 4, 2));
+      if (rise > 0) sum += weight * fmin(rise, 1) / (1 + pow(rise / 4, 2));
     }
   }
   return sum / weights;
 }
 
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
-  if (!canvas->depth)
-    return;
+  if (!canvas->depth) return;
   for (long j = 0; j < canvas->height; j++) {
     for (long i = 0; i < canvas->width; i++) {
       // One value a pixel, at the nearest of its samples that shows something.
       for (int s = 0; s < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; s++) {
-        long u = i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES,
-             v = j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES;
-        if (isinf(canvas->depth[v * canvas->columns + u]))
-          continue;
+        long u = i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES, v = j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES;
+        if (isinf(canvas->depth[v * canvas->columns + u])) continue;
         double factor = 1 - 0.8 * hollow(canvas, u, v, radius, unit);
         for (int t = s; t < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; t++) {
           size_t place = (size_t)(j * CW_RENDER_SAMPLES + t / CW_RENDER_SAMPLES) * (size_t)canvas->columns +
                          (size_t)(i * CW_RENDER_SAMPLES + t % CW_RENDER_SAMPLES);
-          if (!isinf(canvas->depth[place]))
-            canvas->colour[place] = cw_render_shade(canvas->colour[place], factor);
+          if (!isinf(canvas->depth[place])) canvas->colour[place] = cw_render_shade(canvas->colour[place], factor);
         }
         break;
       }
@@ -256,12 +229,10 @@ void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
 void cw_render_erase(CwCanvas *canvas, uint16_t group, uint32_t background) {
   size_t samples = (size_t)canvas->columns * (size_t)canvas->rows;
   for (size_t i = 0; i < samples; i++) {
-    if (canvas->group[i] != group)
-      continue;
+    if (canvas->group[i] != group) continue;
     canvas->colour[i] = background;
     canvas->group[i] = 0;
-    if (canvas->depth)
-      canvas->depth[i] = -INFINITY;
+    if (canvas->depth) canvas->depth[i] = -INFINITY;
   }
 }
 

@@ -24,12 +24,10 @@ static void average(const CwCanvas *canvas, unsigned char *pixels, int stride) {
       for (int s = 0; s < samples; s++) {
         size_t place = (size_t)(j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES) * (size_t)canvas->columns +
                        (size_t)(i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES);
-        for (int c = 0; c < 3; c++)
-          sum[c] += (canvas->colour[place] >> (8 * c)) & 255;
+        for (int c = 0; c < 3; c++) sum[c] += (canvas->colour[place] >> (8 * c)) & 255;
       }
       row[i] = 0;
-      for (int c = 0; c < 3; c++)
-        row[i] |= ((sum[c] + samples / 2) / samples) << (8 * c);
+      for (int c = 0; c < 3; c++) row[i] |= ((sum[c] + samples / 2) / samples) << (8 * c);
     }
   }
 }
@@ -83,8 +81,7 @@ static void triad(cairo_t *cr, const CwCanvas *canvas, const CwAnnotation *annot
   for (int k = 0; k < annotation->axis_count; k++) {
     const CwTriadAxis *axis = &annotation->axis[k];
     double length = hypot(axis->direction[0], axis->direction[1]);
-    if (length < 0.08)
-      continue; // along the view
+    if (length < 0.08) continue; // along the view
     double dx = axis->direction[0] * size, dy = axis->direction[1] * size, ux = dx / (length * size),
            uy = dy / (length * size);
     for (int pass = 0; pass < 2; pass++) {
@@ -127,8 +124,7 @@ static void frames(cairo_t *cr, const CwAnnotation *annotation) {
 static cairo_status_t append(void *closure, const unsigned char *bytes, unsigned length) {
   CwPng *png = closure;
   unsigned char *grown = realloc(png->bytes, png->size + length);
-  if (!grown)
-    return CAIRO_STATUS_NO_MEMORY;
+  if (!grown) return CAIRO_STATUS_NO_MEMORY;
   memcpy(grown + png->size, bytes, length);
   png->bytes = grown;
   png->size += length;
@@ -140,9 +136,8 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, canvas->width, canvas->height);
   cairo_t *cr = NULL;
   *png = (CwPng){0};
-  CW_REQUIRE(cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS, CW_ERR_LIBRARY,
-             "cairo: a picture of %d x %d: %s", canvas->width, canvas->height,
-             cairo_status_to_string(cairo_surface_status(surface)));
+  CW_REQUIRE(cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS, CW_ERR_LIBRARY, "cairo: a picture of %d x %d: %s",
+             canvas->width, canvas->height, cairo_status_to_string(cairo_surface_status(surface)));
   cairo_surface_flush(surface);
   average(canvas, cairo_image_surface_get_data(surface), cairo_image_surface_get_stride(surface));
   cairo_surface_mark_dirty(surface);
@@ -150,8 +145,7 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, 13);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  if (annotation && annotation->metres_per_pixel > 0)
-    scale_bar(cr, canvas, annotation->metres_per_pixel);
+  if (annotation && annotation->metres_per_pixel > 0) scale_bar(cr, canvas, annotation->metres_per_pixel);
   if (annotation) {
     triad(cr, canvas, annotation);
     frames(cr, annotation);
@@ -161,11 +155,9 @@ CwStatus cw_render_png(const CwCanvas *canvas, const CwAnnotation *annotation, C
   CW_REQUIRE(written == CAIRO_STATUS_SUCCESS, CW_ERR_LIBRARY, "cairo: a picture cannot be written: %s",
              cairo_status_to_string(written));
 done:
-  if (cr)
-    cairo_destroy(cr);
+  if (cr) cairo_destroy(cr);
   cairo_surface_destroy(surface);
-  if (status != CW_OK)
-    cw_png_free(png);
+  if (status != CW_OK) cw_png_free(png);
   return status;
 }
 

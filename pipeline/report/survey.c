@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const place_patch[CW_PLACE_COUNT] = {"blade_leading_edge", "blade_trailing_edge",
-                                                        "tongue"};
+static const char *const place_patch[CW_PLACE_COUNT] = {"blade_leading_edge", "blade_trailing_edge", "tongue"};
 
 void cw_survey_start(CwSurvey *survey, const CwPumpSizes *sizes) {
   memset(survey, 0, sizeof *survey);
@@ -44,27 +43,22 @@ void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cel
   // Patches of a region are counted from the first one of its domain; those of another domain get a number no face has.
   int first = mesh->domains[cells->domain].first_patch, shroud = cw_mesh_patch_find(mesh, "shroud") - first;
   int patch[CW_PLACE_COUNT];
-  for (int k = 0; k < CW_PLACE_COUNT; k++)
-    patch[k] = cw_mesh_patch_find(mesh, place_patch[k]) - first;
+  for (int k = 0; k < CW_PLACE_COUNT; k++) patch[k] = cw_mesh_patch_find(mesh, place_patch[k]) - first;
   for (int32_t t = 0; t < cells->triangle_count; t++) {
     const double *a = cells->points[cells->triangles[t][0]], *b = cells->points[cells->triangles[t][1]],
                  *c = cells->points[cells->triangles[t][2]];
     double middle[3], area = face_area(a, b, c);
-    for (int i = 0; i < 3; i++)
-      middle[i] = (a[i] + b[i] + c[i]) / 3;
+    for (int i = 0; i < 3; i++) middle[i] = (a[i] + b[i] + c[i]) / 3;
     add_point(survey, a);
     add_point(survey, b);
     add_point(survey, c);
     add_point(survey, middle);
     for (int k = 0; k < CW_PLACE_COUNT; k++) {
-      if (patch[k] != cells->triangle_patch[t])
-        continue;
-      if (k == CW_PLACE_LEADING_EDGE && hypot(middle[0], middle[1]) > survey->sizes.leading_radius)
-        continue;
+      if (patch[k] != cells->triangle_patch[t]) continue;
+      if (k == CW_PLACE_LEADING_EDGE && hypot(middle[0], middle[1]) > survey->sizes.leading_radius) continue;
       double *sum = survey->place_sum[k][bin_of(atan2(middle[1], middle[0]))];
       sum[0] += area;
-      for (int i = 0; i < 3; i++)
-        sum[1 + i] += area * middle[i];
+      for (int i = 0; i < 3; i++) sum[1 + i] += area * middle[i];
     }
     int bin = (int)(hypot(middle[0], middle[1]) / survey->sizes.outlet_radius * CW_SURVEY_RADII);
     if (shroud == cells->triangle_patch[t] && bin < CW_SURVEY_RADII) {
@@ -73,8 +67,7 @@ void cw_survey_add(CwSurvey *survey, const CwMesh *mesh, const CwRegionData *cel
     }
   }
   for (int32_t q = 0; q < cells->quad_count; q++) {
-    for (int k = 0; k < 4; k++)
-      add_point(survey, cells->points[cells->quads[q][k]]);
+    for (int k = 0; k < 4; k++) add_point(survey, cells->points[cells->quads[q][k]]);
   }
 }
 
@@ -82,21 +75,16 @@ int cw_survey_place(const CwSurvey *survey, CwPlace place, double middle[3]) {
   const double(*sum)[4] = survey->place_sum[place];
   int most = 0;
   for (int k = 1; k < CW_SURVEY_BINS; k++) {
-    if (sum[k][0] > sum[most][0])
-      most = k;
+    if (sum[k][0] > sum[most][0]) most = k;
   }
-  if (!(sum[most][0] > 0))
-    return 0;
+  if (!(sum[most][0] > 0)) return 0;
   // What lies within half a pitch belongs to the same blade.
-  int reach =
-      place == CW_PLACE_TONGUE ? CW_SURVEY_BINS / 6 : CW_SURVEY_BINS / (2 * survey->sizes.blade_count);
+  int reach = place == CW_PLACE_TONGUE ? CW_SURVEY_BINS / 6 : CW_SURVEY_BINS / (2 * survey->sizes.blade_count);
   double total[4] = {0};
   for (int k = most - reach; k <= most + reach; k++) {
-    for (int i = 0; i < 4; i++)
-      total[i] += sum[(k + CW_SURVEY_BINS) % CW_SURVEY_BINS][i];
+    for (int i = 0; i < 4; i++) total[i] += sum[(k + CW_SURVEY_BINS) % CW_SURVEY_BINS][i];
   }
-  for (int i = 0; i < 3; i++)
-    middle[i] = total[1 + i] / total[0];
+  for (int i = 0; i < 3; i++) middle[i] = total[1 + i] / total[0];
   return 1;
 }
 
@@ -111,8 +99,7 @@ static double reach_at(const CwSurvey *survey, double azimuth) {
 double cw_survey_meridional_azimuth(const CwSurvey *survey) {
   double edge[3], best = 0, best_reach = INFINITY;
   int blades = survey->sizes.blade_count;
-  if (!cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, edge))
-    return 0;
+  if (!cw_survey_place(survey, CW_PLACE_TRAILING_EDGE, edge)) return 0;
   for (int k = 0; k < blades; k++) {
     double azimuth = atan2(edge[1], edge[0]) + (2 * k + 1) * M_PI / blades;
     double reach = fmax(reach_at(survey, azimuth), reach_at(survey, azimuth + M_PI));
@@ -144,12 +131,10 @@ int cw_survey_shroud(const CwSurvey *survey, double radius, double *z) {
   int bin = (int)(radius / survey->sizes.outlet_radius * CW_SURVEY_RADII);
   double area = 0, sum = 0;
   for (int k = bin - 2; k <= bin + 2; k++) {
-    if (k < 0 || k >= CW_SURVEY_RADII)
-      continue;
+    if (k < 0 || k >= CW_SURVEY_RADII) continue;
     area += survey->shroud_sum[k][0];
     sum += survey->shroud_sum[k][1];
   }
-  if (area > 0)
-    *z = sum / area;
+  if (area > 0) *z = sum / area;
   return area > 0;
 }

@@ -40,8 +40,7 @@ double cw_survey_meridional_azimuth(const CwSurvey *survey);
 
 // Reach of the boundary in that plane on both sides of the axis: largest radius, least and greatest z.
 // Returns 0 where there is none.
-int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *radius, double *z_least,
-                               double *z_most);
+int cw_survey_meridional_reach(const CwSurvey *survey, double azimuth, double *radius, double *z_least, double *z_most);
 
 // z of the shroud at `radius`. Returns 0 where there is none.
 int cw_survey_shroud(const CwSurvey *survey, double radius, double *z);

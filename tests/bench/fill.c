@@ -42,8 +42,7 @@ static void *take(size_t count, size_t size) {
 }
 
 static void check(CwStatus status) {
-  if (status == CW_OK)
-    return;
+  if (status == CW_OK) return;
   fprintf(stderr, "%s\n", status == CW_RETRY ? "the boundary was not recovered" : cw_fail_message());
   exit(status == CW_RETRY ? 1 : (int)status);
 }
@@ -54,34 +53,29 @@ enum { BLADES = 6 };
 static void write_surface(const char *path, const Mesh *mesh, const int32_t *shell_end) {
   int shell = 1;
   FILE *file = fopen(path, "w");
-  if (!file)
-    perror(path), exit(4);
+  if (!file) perror(path), exit(4);
   fprintf(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", mesh->point_count);
   for (int32_t p = 0; p < mesh->point_count; p++)
     fprintf(file, "%d %.17g %.17g %.17g\n", p + 1, mesh->x[p][0], mesh->x[p][1], mesh->x[p][2]);
   fprintf(file, "$EndNodes\n$Elements\n%d\n", mesh->triangle_count);
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
-    if (t == shell_end[shell - 1])
-      shell++;
+    if (t == shell_end[shell - 1]) shell++;
     fprintf(file, "%d 2 2 1 %d %d %d %d\n", t + 1, shell, mesh->triangle[t][0] + 1, mesh->triangle[t][1] + 1,
             mesh->triangle[t][2] + 1);
   }
   fprintf(file, "$EndElements\n");
-  if (fclose(file))
-    perror(path), exit(4);
+  if (fclose(file)) perror(path), exit(4);
 }
 
 static void read_mesh(const char *path, Mesh *mesh) {
   char line[512];
   int32_t items, number, *name = NULL, names = 0;
   FILE *file = fopen(path, "r");
-  if (!file)
-    perror(path), exit(4);
+  if (!file) perror(path), exit(4);
   memset(mesh, 0, sizeof *mesh);
   while (fgets(line, sizeof line, file)) {
     if (!strncmp(line, "$Nodes", 6)) {
-      if (fscanf(file, "%d", &mesh->point_count) != 1)
-        break;
+      if (fscanf(file, "%d", &mesh->point_count) != 1) break;
       mesh->x = take((size_t)mesh->point_count, sizeof *mesh->x);
       name = take(16 * (size_t)mesh->point_count + 1024, sizeof *name);
       names = 16 * mesh->point_count + 1024;
@@ -92,24 +86,19 @@ static void read_mesh(const char *path, Mesh *mesh) {
         name[number] = p;
       }
     } else if (!strncmp(line, "$Elements", 9)) {
-      if (fscanf(file, "%d\n", &items) != 1)
-        break;
+      if (fscanf(file, "%d\n", &items) != 1) break;
       mesh->triangle = take((size_t)items, sizeof *mesh->triangle);
       mesh->tetrahedron = take((size_t)items, sizeof *mesh->tetrahedron);
       for (int32_t e = 0; e < items && fgets(line, sizeof line, file); e++) {
         int kind, tags, at = 0, more;
-        if (sscanf(line, "%d %d %d%n", &number, &kind, &tags, &at) != 3)
-          continue;
-        for (int k = 0; k < tags; k++, at += more)
-          sscanf(line + at, "%*d%n", &more);
+        if (sscanf(line, "%d %d %d%n", &number, &kind, &tags, &at) != 3) continue;
+        for (int k = 0; k < tags; k++, at += more) sscanf(line + at, "%*d%n", &more);
         int32_t p[4];
         if (kind == 2 && sscanf(line + at, "%d %d %d", p, p + 1, p + 2) == 3) {
-          for (int k = 0; k < 3; k++)
-            mesh->triangle[mesh->triangle_count][k] = name[p[k]];
+          for (int k = 0; k < 3; k++) mesh->triangle[mesh->triangle_count][k] = name[p[k]];
           mesh->triangle_count++;
         } else if (kind == 4 && sscanf(line + at, "%d %d %d %d", p, p + 1, p + 2, p + 3) == 4) {
-          for (int k = 0; k < 4; k++)
-            mesh->tetrahedron[mesh->tetrahedron_count][k] = name[p[k]];
+          for (int k = 0; k < 4; k++) mesh->tetrahedron[mesh->tetrahedron_count][k] = name[p[k]];
           mesh->tetrahedron_count++;
         }
       }
@@ -126,10 +115,8 @@ static void add_torus(Mesh *mesh, double great, double small, double edge) {
   int32_t base = mesh->point_count;
   size_t points = (size_t)base + (size_t)(rows * columns), triangles = (size_t)mesh->triangle_count;
   mesh->x = realloc(mesh->x, points * sizeof *mesh->x);
-  mesh->triangle =
-      realloc(mesh->triangle, (triangles + 2 * (size_t)(rows * columns)) * sizeof *mesh->triangle);
-  if (!mesh->x || !mesh->triangle)
-    exit(5);
+  mesh->triangle = realloc(mesh->triangle, (triangles + 2 * (size_t)(rows * columns)) * sizeof *mesh->triangle);
+  if (!mesh->x || !mesh->triangle) exit(5);
   for (int r = 0; r < rows; r++) {
     for (int c = 0; c < columns; c++) {
       double u = 6.283185307179586 * (c + 0.5 * (r % 2)) / columns, v = 6.283185307179586 * r / rows;
@@ -154,15 +141,13 @@ static void add_blade(Mesh *mesh, double great, double turn, double edge) {
   static const double half[3] = {0.018, 0.013, 0.006}; // chord, span, thickness
   Surface ball = {0};
   int level = 0;
-  while (level < 5 && 1.05 * 0.015 / (1 << level) > edge)
-    level++;
+  while (level < 5 && 1.05 * 0.015 / (1 << level) > edge) level++;
   surface_add_sphere(&ball, (double[3]){0, 0, 0}, 1.0, level, 0);
   int32_t base = mesh->point_count;
   mesh->x = realloc(mesh->x, (size_t)(base + ball.point_count) * sizeof *mesh->x);
   mesh->triangle =
       realloc(mesh->triangle, (size_t)(mesh->triangle_count + ball.triangle_count) * sizeof *mesh->triangle);
-  if (!mesh->x || !mesh->triangle)
-    exit(5);
+  if (!mesh->x || !mesh->triangle) exit(5);
   for (int32_t p = 0; p < ball.point_count; p++) {
     double c = half[0] * ball.x[p][0], r = half[1] * ball.x[p][1], n = half[2] * ball.x[p][2];
     double round = c * cos(0.61) - n * sin(0.61), up = c * sin(0.61) + n * cos(0.61);
@@ -185,15 +170,14 @@ static void region_surface(const char *path, Mesh *mesh) {
   check(cw_region_read(path, &region));
   int32_t(*neighbour)[4] = take((size_t)region.tetrahedron_count, sizeof *neighbour);
   int32_t *number = take((size_t)region.point_count, sizeof *number);
-  check(cw_tet_neighbours(region.point_count, region.tetrahedron_count,
-                          (const int32_t(*)[4])region.tetrahedron, neighbour));
+  check(cw_tet_neighbours(region.point_count, region.tetrahedron_count, (const int32_t(*)[4])region.tetrahedron,
+                          neighbour));
   memset(mesh, 0, sizeof *mesh);
   mesh->x = take((size_t)region.point_count, sizeof *mesh->x);
   mesh->triangle = take(4 * (size_t)region.tetrahedron_count, sizeof *mesh->triangle);
   for (int32_t t = 0; t < region.tetrahedron_count; t++) {
     for (int i = 0; i < 4; i++) {
-      if (neighbour[t][i] >= 0)
-        continue;
+      if (neighbour[t][i] >= 0) continue;
       int32_t *made = mesh->triangle[mesh->triangle_count++];
       for (int k = 0; k < 3; k++) {
         int32_t p = region.tetrahedron[t][face[i][k]];
@@ -241,8 +225,7 @@ static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
   check(cw_size_grid_make(low, high, mean, 2000000, grid));
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     double x[3] = {0, 0, 0};
-    for (int k = 0; k < 9; k++)
-      x[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3.0;
+    for (int k = 0; k < 9; k++) x[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3.0;
     cw_size_grid_seed(grid, x, length[t]);
   }
   check(cw_size_grid_spread(grid, growth, NULL));
@@ -278,22 +261,18 @@ static void write_sizes(const char *path, const Mesh *mesh, const CwSizeGrid *gr
   double low[3], high[3], step = 0.0;
   int nodes[3];
   find_box(mesh, low, high);
-  for (int i = 0; i < 3; i++)
-    step = fmax(step, (high[i] - low[i]) / (NODES - 1));
+  for (int i = 0; i < 3; i++) step = fmax(step, (high[i] - low[i]) / (NODES - 1));
   FILE *file = fopen(path, "w");
-  if (!file)
-    perror(path), exit(4);
-  for (int i = 0; i < 3; i++)
-    nodes[i] = 2 + (int)((high[i] - low[i]) / step);
-  fprintf(file, "%.17g %.17g %.17g\n%.17g %.17g %.17g\n%d %d %d\n", low[0], low[1], low[2], step, step, step,
-          nodes[0], nodes[1], nodes[2]);
+  if (!file) perror(path), exit(4);
+  for (int i = 0; i < 3; i++) nodes[i] = 2 + (int)((high[i] - low[i]) / step);
+  fprintf(file, "%.17g %.17g %.17g\n%.17g %.17g %.17g\n%d %d %d\n", low[0], low[1], low[2], step, step, step, nodes[0],
+          nodes[1], nodes[2]);
   for (int k = 0; k < nodes[0] * nodes[1] * nodes[2]; k++) {
     const double x[3] = {low[0] + step * (k / (nodes[1] * nodes[2])), low[1] + step * (k / nodes[2] % nodes[1]),
                          low[2] + step * (k % nodes[2])};
     fprintf(file, "%.6g\n", scale * size_at(grid, x));
   }
-  if (fclose(file))
-    perror(path), exit(4);
+  if (fclose(file)) perror(path), exit(4);
 }
 
 // Of this process and of those that ended, as TetGen's.
@@ -315,10 +294,8 @@ static double peak(void) {
 static double resident(void) {
   long pages = 0;
   FILE *file = fopen("/proc/self/statm", "r");
-  if (file && fscanf(file, "%*d %ld", &pages) != 1)
-    pages = 0;
-  if (file)
-    fclose(file);
+  if (file && fscanf(file, "%*d %ld", &pages) != 1) pages = 0;
+  if (file) fclose(file);
   return (double)pages * (double)sysconf(_SC_PAGESIZE);
 }
 
@@ -328,8 +305,7 @@ static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const 
     CwTetShape shape;
     double squares = 0.0;
     const double *corner[4];
-    for (int i = 0; i < 4; i++)
-      corner[i] = x[tetrahedron[t][i]];
+    for (int i = 0; i < 4; i++) corner[i] = x[tetrahedron[t][i]];
     if (cw_tet_volume6(corner[0], corner[1], corner[2], corner[3]) < 0.0) {
       const double *swap = corner[0];
       corner[0] = corner[1];
@@ -340,8 +316,7 @@ static void print_quality(int32_t count, const int32_t (*tetrahedron)[4], const 
     most = fmax(most, shape.edge_longest / shape.edge_shortest);
     least = fmin(least, shape.dihedral_least);
     for (int i = 0; i < 4; i++) {
-      for (int j = 0; j < i; j++)
-        squares += distance(corner[i], corner[j]) * distance(corner[i], corner[j]);
+      for (int j = 0; j < i; j++) squares += distance(corner[i], corner[j]) * distance(corner[i], corner[j]);
     }
     // A. Liu and B. Joe, On the shape of tetrahedra from bisection, Math. Comp. 63 (1994): 1 is regular.
     ratio += 12.0 * cbrt(9.0 * shape.volume * shape.volume) / squares / count;
@@ -366,10 +341,8 @@ static void add_shape(Shapes *shapes, const double *corner[4]) {
   cw_tet_shape(corner, &shape);
   double aspect = shape.edge_longest / shape.edge_shortest;
   int class = 0;
-  while (class < 7 && aspect > limit[class])
-    class ++;
-  if (shapes->count++ == 0)
-    shapes->dihedral_least = 180.0, shapes->ratio_least = 1.0;
+  while (class < 7 && aspect > limit[class]) class ++;
+  if (shapes->count++ == 0) shapes->dihedral_least = 180.0, shapes->ratio_least = 1.0;
   shapes->aspect_class[class]++;
   shapes->aspect_sum += aspect;
   shapes->aspect_most = fmax(shapes->aspect_most, aspect);
@@ -408,8 +381,7 @@ static void print_shapes(int count, char **path) {
     } else {
       Mesh mesh = {0};
       read_mesh(path[k], &mesh);
-      add_shapes(shapes, mesh.tetrahedron_count, (const int32_t(*)[4])mesh.tetrahedron,
-                 (const double(*)[3])mesh.x, 0);
+      add_shapes(shapes, mesh.tetrahedron_count, (const int32_t(*)[4])mesh.tetrahedron, (const double(*)[3])mesh.x, 0);
       free(mesh.x);
       free(mesh.triangle);
       free(mesh.tetrahedron);
@@ -419,8 +391,7 @@ static void print_shapes(int count, char **path) {
     const Shapes *s = &shapes[k];
     double number = s->count ? (double)s->count : 1.0;
     printf("%s %lld", name[k], (long long)s->count);
-    for (int c = 0; c < 8; c++)
-      printf(" %lld", (long long)s->aspect_class[c]);
+    for (int c = 0; c < 8; c++) printf(" %lld", (long long)s->aspect_class[c]);
     printf(" %.4f %.3f %.2f %.2f %.5f %.4f\n", s->aspect_sum / number, s->aspect_most, s->dihedral_least,
            s->dihedral_greatest, s->ratio_sum / number, s->ratio_least);
   }
@@ -471,16 +442,14 @@ int main(int argc, char **argv) {
     double before = resident(), start = seconds();
     check(argv[1][0] == 'k' ? cw_kernel_fill(&input, &fill) : cw_fill(&input, &fill));
     double used = seconds() - start, bytes = peak() - before;
-    printf("%d %d %.3f %.0f %.0f ", mesh.triangle_count, fill.tetrahedron_count, used,
-           fill.tetrahedron_count / used, bytes / fill.tetrahedron_count);
+    printf("%d %d %.3f %.0f %.0f ", mesh.triangle_count, fill.tetrahedron_count, used, fill.tetrahedron_count / used,
+           bytes / fill.tetrahedron_count);
     print_quality(fill.tetrahedron_count, (const int32_t(*)[4])fill.tetrahedron, (const double(*)[3])fill.x);
     cw_fill_free(&fill);
     cw_size_grid_free(&grid);
   } else {
-    fprintf(
-        stderr,
-        "use: fill ring EDGE_LENGTH SURFACE | region REGION.h5 SURFACE | kernel|tetgen SURFACE GROWTH | "
-        "quality MESH | shape FILE ...\n");
+    fprintf(stderr, "use: fill ring EDGE_LENGTH SURFACE | region REGION.h5 SURFACE | kernel|tetgen SURFACE GROWTH | "
+                    "quality MESH | shape FILE ...\n");
     return 2;
   }
   free(mesh.x);

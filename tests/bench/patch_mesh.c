@@ -16,16 +16,13 @@ typedef struct {
 
 static void plane_at(const void *context, const double uv[2], double x[3], double xu[3], double xv[3]) {
   x[0] = uv[0], x[1] = uv[1], x[2] = 0;
-  if (xu)
-    xu[0] = 1, xu[1] = xu[2] = 0;
-  if (xv)
-    xv[1] = 1, xv[0] = xv[2] = 0;
+  if (xu) xu[0] = 1, xu[1] = xu[2] = 0;
+  if (xv) xv[1] = 1, xv[0] = xv[2] = 0;
 }
 
 static double length_at(const void *context, const double x[3]) {
   const Field *field = context;
-  if (!field->graded)
-    return field->length;
+  if (!field->graded) return field->length;
   return fmin(0.05, field->length + 0.2 * fabs(hypot(x[0] - 0.5, x[1] - 0.5) - 0.3));
 }
 
@@ -40,15 +37,13 @@ static int compare(const void *a, const void *b) {
 }
 
 int main(int argc, char **argv) {
-  if (argc != 3)
-    return fprintf(stderr, "use: patch_mesh EDGE_LENGTH GRADED\n"), 2;
+  if (argc != 3) return fprintf(stderr, "use: patch_mesh EDGE_LENGTH GRADED\n"), 2;
   Field field = {atof(argv[1]), atoi(argv[2])};
   int side = field.graded ? 20 : (int)round(1 / field.length), count = 4 * side;
   double(*uv)[2] = calloc((size_t)count, sizeof *uv), (*x)[3] = calloc((size_t)count, sizeof *x);
   int32_t(*edge)[2] = calloc((size_t)count, sizeof *edge);
   uint8_t *boundary = calloc((size_t)count, 1);
-  if (!uv || !x || !edge || !boundary)
-    return 5;
+  if (!uv || !x || !edge || !boundary) return 5;
   for (int k = 0; k < count; k++) {
     double t = (double)(k % side) / side;
     const double at[4][2] = {{t, 0}, {1, t}, {1 - t, 1}, {0, 1 - t}};
@@ -72,8 +67,7 @@ int main(int argc, char **argv) {
   double start = now();
   CwStatus status = cw_patch_mesh(&input, &mesh);
   double seconds = now() - start;
-  if (status != CW_OK)
-    return fprintf(stderr, "%s\n", cw_fail_message()), (int)status;
+  if (status != CW_OK) return fprintf(stderr, "%s\n", cw_fail_message()), (int)status;
   double *angle = calloc((size_t)mesh.triangle_count, sizeof *angle), mean = 0;
   for (int32_t t = 0; angle && t < mesh.triangle_count; t++) {
     angle[t] = 180;
@@ -87,8 +81,8 @@ int main(int argc, char **argv) {
   }
   if (angle) {
     qsort(angle, (size_t)mesh.triangle_count, sizeof *angle, compare);
-    printf("%-24s %9d %12.0f %6.1f %6.1f %6.1f\n", "cutwater", mesh.triangle_count,
-           mesh.triangle_count / seconds, angle[0], angle[mesh.triangle_count / 100], mean);
+    printf("%-24s %9d %12.0f %6.1f %6.1f %6.1f\n", "cutwater", mesh.triangle_count, mesh.triangle_count / seconds,
+           angle[0], angle[mesh.triangle_count / 100], mean);
   }
   free(angle);
   cw_patch_mesh_free(&mesh);

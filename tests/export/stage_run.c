@@ -16,8 +16,7 @@ int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump) {
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
   setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
-  if (!mkdtemp(folder))
-    return -1;
+  if (!mkdtemp(folder)) return -1;
   snprintf(run, sizeof run, "%s/run", folder);
   return synthetic_run_write(run, pump);
 }
@@ -33,12 +32,10 @@ int stage_shell(char *output, const char *format, ...) {
   va_start(arguments, format);
   int length = vsnprintf(command, sizeof command - 10, format, arguments);
   va_end(arguments);
-  if (length < 0 || (size_t)length >= sizeof command - 10)
-    return -1;
+  if (length < 0 || (size_t)length >= sizeof command - 10) return -1;
   snprintf(command + length, sizeof command - (size_t)length, " 2>&1");
   FILE *pipe = popen(command, "r");
-  if (!pipe)
-    return -1;
+  if (!pipe) return -1;
   size_t used = fread(output, 1, STAGE_OUTPUT_SIZE - 1, pipe);
   output[used] = '\0';
   char rest[4096];
@@ -51,8 +48,7 @@ int stage_shell(char *output, const char *format, ...) {
 int stage_export(const char *run, int ranks, char *output) {
   // One rank without mpirun, which has words of its own for a failed run.
   char launch[40] = "";
-  if (ranks > 1)
-    snprintf(launch, sizeof launch, "mpirun -q -n %d ", ranks);
+  if (ranks > 1) snprintf(launch, sizeof launch, "mpirun -q -n %d ", ranks);
   return stage_shell(output, "%s'%s/cutwater-export' --case '%s/cases/paper/case.yaml' --run '%s'", launch,
                      CUTWATER_BIN_DIR, CUTWATER_SOURCE_DIR, run);
 }

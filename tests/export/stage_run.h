@@ -7,7 +7,8 @@
 
 enum { STAGE_OUTPUT_SIZE = 1 << 18, STAGE_PATH_SIZE = 400 };
 
-// Makes a folder for the files of a test, with the meshed toy pump in its `run`; its path in `folder`. Returns 0, or -1.
+// Makes a folder for the files of a test, with the meshed toy pump in its `run`; its path in `folder`. Returns 0, or
+// -1.
 int stage_run_make(char folder[STAGE_PATH_SIZE], const SyntheticPump *pump);
 void stage_folder_remove(const char *folder);
 

@@ -60,12 +60,11 @@ typedef struct {
 } Region;
 
 SyntheticPump synthetic_pump(void) {
-  return (SyntheticPump){
-      .bottom = -4e-3,
-      .top = 4e-3,
-      .rotor = {.inner = 0.05, .outer = 0.101, .radial = 8, .around = 72, .axial = 4, .regions = 3},
-      .stator = {.inner = 0.101, .outer = 0.13, .radial = 6, .around = 90, .axial = 5, .regions = 2},
-      .blades = 6};
+  return (SyntheticPump){.bottom = -4e-3,
+                         .top = 4e-3,
+                         .rotor = {.inner = 0.05, .outer = 0.101, .radial = 8, .around = 72, .axial = 4, .regions = 3},
+                         .stator = {.inner = 0.101, .outer = 0.13, .radial = 6, .around = 90, .axial = 5, .regions = 2},
+                         .blades = 6};
 }
 
 static int node_at(const Domain *d, int i, int j, int k) {
@@ -76,8 +75,7 @@ static int node_at(const Domain *d, int i, int j, int k) {
 
 static void place(const Domain *d, int node, double x[3]) {
   const SyntheticAnnulus *a = d->annulus;
-  int i = node % (a->radial + 1), j = node / (a->radial + 1) % a->around,
-      k = node / (a->radial + 1) / a->around;
+  int i = node % (a->radial + 1), j = node / (a->radial + 1) % a->around, k = node / (a->radial + 1) / a->around;
   double r = a->inner + (a->outer - a->inner) * i / a->radial;
   double angle = 2 * M_PI * j / a->around + (d->is_rotor ? 0 : 0.013);
   double height = d->pump->top - d->pump->bottom, skin = 0.1 * height;
@@ -86,8 +84,7 @@ static void place(const Domain *d, int node, double x[3]) {
   x[1] = r * sin(angle);
   x[2] = d->pump->bottom + z;
   // The ends are met exactly.
-  if (k == a->axial)
-    x[2] = d->pump->top;
+  if (k == a->axial) x[2] = d->pump->top;
 }
 
 static int blade_begin(const Domain *d) {
@@ -100,8 +97,7 @@ static int blade_end(const Domain *d) {
 
 static int is_cell(const Domain *d, int i, int j, int k) {
   const SyntheticAnnulus *a = d->annulus;
-  if (i < 0 || i >= a->radial || k < 0 || k >= a->axial)
-    return 0;
+  if (i < 0 || i >= a->radial || k < 0 || k >= a->axial) return 0;
   j = (j % a->around + a->around) % a->around;
   return !(d->is_rotor && i >= blade_begin(d) && i < blade_end(d) && j % (a->around / d->pump->blades) == 2);
 }
@@ -112,8 +108,7 @@ static int region_of(const Domain *d, int j) {
 
 static int find_patch(const Domain *d, const char *name) {
   for (int p = 0; p < d->patch_count; ++p)
-    if (strcmp(d->patches[p].name, name) == 0)
-      return p;
+    if (strcmp(d->patches[p].name, name) == 0) return p;
   abort();
 }
 
@@ -122,18 +117,13 @@ static int patch_of(const Domain *d, int i, int j, int axis, int up) {
   const SyntheticAnnulus *a = d->annulus;
   if (!d->is_rotor) {
     static const char *const flat[] = {"neck", "step", "volute", "tongue", "diffuser", "discharge"};
-    if (axis == 0)
-      return find_patch(d, up ? "outlet" : "stator_interface");
+    if (axis == 0) return find_patch(d, up ? "outlet" : "stator_interface");
     return find_patch(d, flat[i * COUNT(flat) / a->radial]);
   }
-  if (axis == 0 && i == (up ? a->radial - 1 : 0))
-    return find_patch(d, up ? "rotor_interface" : "inlet");
-  if (axis == 0)
-    return find_patch(d, up ? "blade_leading_edge" : "blade_trailing_edge");
-  if (axis == 1)
-    return find_patch(d, up ? "blade_suction" : "blade_pressure");
-  if (i == 0)
-    return find_patch(d, up ? "suction_pipe" : "hub_nut");
+  if (axis == 0 && i == (up ? a->radial - 1 : 0)) return find_patch(d, up ? "rotor_interface" : "inlet");
+  if (axis == 0) return find_patch(d, up ? "blade_leading_edge" : "blade_trailing_edge");
+  if (axis == 1) return find_patch(d, up ? "blade_suction" : "blade_pressure");
+  if (i == 0) return find_patch(d, up ? "suction_pipe" : "hub_nut");
   (void)j;
   return find_patch(d, up ? "shroud" : "hub");
 }
@@ -153,8 +143,7 @@ static double dot_cross(const double *a, const double *b, const double *c, const
     v[k] = c[k] - a[k];
     w[k] = to[k] - a[k];
   }
-  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-         w[2] * (u[0] * v[1] - u[1] * v[0]);
+  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
 }
 
 static double tetrahedron_volume(const Region *r, int a, int b, int c, int e) {
@@ -180,17 +169,13 @@ static void add_boundary(Region *r, const int32_t *cells, int first, int count, 
     int found = 0;
     double centre[3] = {0};
     for (int n = 0; n < nodes; ++n)
-      for (int k = 0; k < 3; ++k)
-        centre[k] += r->points[cell[n]][k] / nodes;
+      for (int k = 0; k < 3; ++k) centre[k] += r->points[cell[n]][k] / nodes;
     for (int m = 0; m < corner_count; ++m)
-      for (int n = 0; n < nodes; ++n)
-        found += cell[n] == corners[m];
-    if (found < corner_count)
-      continue;
+      for (int n = 0; n < nodes; ++n) found += cell[n] == corners[m];
+    if (found < corner_count) continue;
     int inward = dot_cross(r->points[corners[0]], r->points[corners[1]], r->points[corners[2]], centre) > 0;
     int32_t *out = corner_count == 3 ? r->triangles[r->triangle_count] : r->quads[r->quad_count];
-    for (int m = 0; m < corner_count; ++m)
-      out[m] = corners[inward ? corner_count - 1 - m : m];
+    for (int m = 0; m < corner_count; ++m) out[m] = corners[inward ? corner_count - 1 - m : m];
     int32_t number = cell_code(nodes, c);
     if (corner_count == 3) {
       r->triangle_patch[r->triangle_count] = patch;
@@ -215,8 +200,7 @@ static void add_cell_with_middle(Domain *d, Region *r, int i, int j, int k) {
   memset(r->points[middle], 0, sizeof *r->points);
   for (int b = 0; b < 8; ++b) {
     v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
-    for (int x = 0; x < 3; ++x)
-      r->points[middle][x] += r->points[v[b]][x] / 8;
+    for (int x = 0; x < 3; ++x) r->points[middle][x] += r->points[v[b]][x] / 8;
   }
   for (int side = 0; side < 6; ++side) {
     int axis = side / 2, up = side % 2;
@@ -227,27 +211,22 @@ static void add_cell_with_middle(Domain *d, Region *r, int i, int j, int k) {
       c[1] = c[3];
       c[3] = swap;
     }
-    d->volume +=
-        tetrahedron_volume(r, c[0], c[1], c[2], middle) + tetrahedron_volume(r, c[0], c[2], c[3], middle);
+    d->volume += tetrahedron_volume(r, c[0], c[1], c[2], middle) + tetrahedron_volume(r, c[0], c[2], c[3], middle);
     if (axis == 2 && up) {
-      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[1], c[2], middle},
-             4 * sizeof(int32_t));
-      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[2], c[3], middle},
-             4 * sizeof(int32_t));
+      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[1], c[2], middle}, 4 * sizeof(int32_t));
+      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[2], c[3], middle}, 4 * sizeof(int32_t));
       continue;
     }
     int place_of_type = r->pyramid_count++;
     memcpy(r->pyramids[place_of_type], (int32_t[]){c[0], c[1], c[2], c[3], middle}, 5 * sizeof(int32_t));
-    if (axis == 2)
-      add_boundary(r, *r->pyramids, place_of_type, 1, 5, c, 4, patch_of(d, i, j, axis, up));
+    if (axis == 2) add_boundary(r, *r->pyramids, place_of_type, 1, 5, c, 4, patch_of(d, i, j, axis, up));
   }
 }
 
 static void add_cell(Domain *d, Region *r, int i, int j, int k) {
   int is_prism = k == 0 || k == d->annulus->axial - 1;
   int v[8], first;
-  for (int b = 0; b < 8; ++b)
-    v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
+  for (int b = 0; b < 8; ++b) v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
   if (is_prism) {
     const int base[2][3] = {{0, 1, 3}, {0, 3, 2}};
     first = r->prism_count;
@@ -284,8 +263,7 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
   for (int axis = 0; axis < 3; ++axis)
     for (int up = 0; up < 2; ++up) {
       int step = up ? 1 : -1;
-      if (is_cell(d, i + (axis == 0) * step, j + (axis == 1) * step, k + (axis == 2) * step))
-        continue;
+      if (is_cell(d, i + (axis == 0) * step, j + (axis == 1) * step, k + (axis == 2) * step)) continue;
       int patch = patch_of(d, i, j, axis, up);
       int s = axis == 0 ? 2 : 1, t = axis == 2 ? 2 : 4, o = up ? 1 << axis : 0;
       int corners[4] = {v[o], v[o + s], v[o + s + t], v[o + t]};
@@ -331,8 +309,7 @@ static void put_text(hid_t file, const char *name, const char *value) {
 
 static int write_region_file(const char *path, const Domain *d, int region, const Region *r) {
   hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (file < 0)
-    return -1;
+  if (file < 0) return -1;
   put_number(file, "format", 1);
   put_number(file, "region", region + 1);
   put_number(file, "number", region + 1);
@@ -357,11 +334,9 @@ static int write_region_file(const char *path, const Domain *d, int region, cons
 static void number_shared(Domain *d) {
   const SyntheticAnnulus *a = d->annulus;
   d->shared = malloc((size_t)d->node_count * sizeof *d->shared);
-  for (int n = 0; n < d->node_count; ++n)
-    d->shared[n] = -1;
+  for (int n = 0; n < d->node_count; ++n) d->shared[n] = -1;
   for (int j = 0; j < a->around; ++j) {
-    if (a->regions == 1 || region_of(d, j) == region_of(d, (j + a->around - 1) % a->around))
-      continue;
+    if (a->regions == 1 || region_of(d, j) == region_of(d, (j + a->around - 1) % a->around)) continue;
     for (int k = 0; k <= a->axial; ++k)
       for (int i = 0; i <= a->radial; ++i)
         for (int side = -1; side < 1 && d->shared[node_at(d, i, j, k)] < 0; ++side)
@@ -388,15 +363,13 @@ static json_t *write_region(const char *run, Domain *d, int region) {
   r.quad_patch = malloc(6 * cells * sizeof *r.quad_patch);
   r.quad_cell = malloc(6 * cells * sizeof *r.quad_cell);
   r.local = malloc((size_t)d->node_count * sizeof *r.local);
-  for (int n = 0; n < d->node_count; ++n)
-    r.local[n] = -1;
+  for (int n = 0; n < d->node_count; ++n) r.local[n] = -1;
   // Shared points first: those of the planes that bound this region and are used by its cells.
   for (int pass = 0; pass < 2; ++pass) {
     for (int j = 0; j < a->around; ++j)
       for (int k = 0; k < a->axial && region_of(d, j) == region; ++k)
         for (int i = 0; i < a->radial; ++i) {
-          if (!is_cell(d, i, j, k))
-            continue;
+          if (!is_cell(d, i, j, k)) continue;
           if (pass && has_middle(d, i, j, k)) {
             add_cell_with_middle(d, &r, i, j, k);
             continue;
@@ -414,20 +387,17 @@ static json_t *write_region(const char *run, Domain *d, int region) {
           }
         }
   }
-  for (int t = 0; t < r.triangle_count; ++t)
-    r.triangle_cell[t] = cell_number(&r, r.triangle_cell[t]);
-  for (int q = 0; q < r.quad_count; ++q)
-    r.quad_cell[q] = cell_number(&r, r.quad_cell[q]);
+  for (int t = 0; t < r.triangle_count; ++t) r.triangle_cell[t] = cell_number(&r, r.triangle_cell[t]);
+  for (int q = 0; q < r.quad_count; ++q) r.quad_cell[q] = cell_number(&r, r.quad_cell[q]);
   char path[4000], name[40];
   snprintf(name, sizeof name, "%s-%04d.h5", d->name, region + 1);
   snprintf(path, sizeof path, "%s/mesh/%s", run, name);
   json_t *line = NULL;
   if (write_region_file(path, d, region, &r) == 0)
-    line =
-        json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1,
-                  "number", region + 1, "points", r.point_count, "own_points", r.point_count - r.shared_count,
-                  "tetrahedra", r.tetrahedron_count, "pyramids", r.pyramid_count, "prisms", r.prism_count,
-                  "triangles", r.triangle_count, "quads", r.quad_count);
+    line = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1, "number",
+                     region + 1, "points", r.point_count, "own_points", r.point_count - r.shared_count, "tetrahedra",
+                     r.tetrahedron_count, "pyramids", r.pyramid_count, "prisms", r.prism_count, "triangles",
+                     r.triangle_count, "quads", r.quad_count);
   else
     fprintf(stderr, "%s: cannot be written\n", path);
   free(r.points);
@@ -456,8 +426,7 @@ static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_r
   number_shared(&d);
   json_t *patches = json_array(), *regions = json_array();
   for (int p = 0; p < d.patch_count; ++p)
-    json_array_append_new(patches,
-                          json_pack("{s:s, s:s}", "name", d.patches[p].name, "kind", d.patches[p].kind));
+    json_array_append_new(patches, json_pack("{s:s, s:s}", "name", d.patches[p].name, "kind", d.patches[p].kind));
   int failed = 0;
   for (int r = 0; r < d.annulus->regions && !failed; ++r)
     failed = json_array_append_new(regions, write_region(run, &d, r));
@@ -475,8 +444,7 @@ static json_t *write_domain(const char *run, const SyntheticPump *pump, int is_r
 static int write_record(const char *run, const char *stage) {
   char path[4000];
   CwCase table;
-  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK)
-    return -1;
+  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK) return -1;
   json_t *root = json_pack("{s:o}", "case", cw_case_origin(&table));
   snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
   const int failed = json_dump_file(root, path, JSON_INDENT(1));
@@ -497,14 +465,14 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
     json_decref(stator);
     return -1;
   }
-  json_t *root = json_pack("{s:i, s:[o, o], s:[[s, s]]}", "format", 1, "domains", rotor, stator, "interfaces", "rotor_interface", "stator_interface");
+  json_t *root = json_pack("{s:i, s:[o, o], s:[[s, s]]}", "format", 1, "domains", rotor, stator, "interfaces",
+                           "rotor_interface", "stator_interface");
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
-  root =
-      json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
-                "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s",
-                7.0, "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0);
+  root = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "interface_radius_m", pump->rotor.outer,
+                   "impeller_tip_speed_m_per_s", 15.2, "relative_speed_m_per_s", 7.8, "volute_speed_m_per_s", 7.0,
+                   "suction_speed_m_per_s", 1.6, "discharge_speed_m_per_s", 3.5, "predicted_head_m", 12.0);
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   failed |= json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);

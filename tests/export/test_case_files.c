@@ -33,14 +33,12 @@ static void export_with(const char *edit) {
                          "cd '%s' && sed '%s' '%s/cases/paper/case.yaml' > case.yaml && "
                          "'%s/cutwater-export' --case case.yaml --run run",
                          folder, edit, CUTWATER_SOURCE_DIR, CUTWATER_BIN_DIR);
-  if (code)
-    fail_msg("%s", output);
+  if (code) fail_msg("%s", output);
 }
 
 static void expect(const char *name, const char *words) {
   assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", folder, name), 0);
-  if (!strstr(output, words))
-    fail_msg("no '%s' in %s:\n%s", words, name, output);
+  if (!strstr(output, words)) fail_msg("no '%s' in %s:\n%s", words, name, output);
 }
 
 static void the_paper_in_cfx(void **state) {
@@ -85,15 +83,13 @@ static void resolved_walls_take_k_omega(void **state) {
 static void find_block(const char *file, const char *head, const char *end) {
   assert_int_equal(stage_shell(output, "cat '%s/run/export/%s'", folder, file), 0);
   char *from = strstr(output, head), *to = from ? strstr(from, end) : NULL;
-  if (!to)
-    fail_msg("no '%s' in %s:\n%s", head, file, output);
+  if (!to) fail_msg("no '%s' in %s:\n%s", head, file, output);
   to[strlen(end)] = '\0';
   memmove(output, from, strlen(from) + 1);
 }
 
 static void expect_in_block(const char *words) {
-  if (!strstr(output, words))
-    fail_msg("no '%s' in:\n%s", words, output);
+  if (!strstr(output, words)) fail_msg("no '%s' in:\n%s", words, output);
 }
 
 // A ring-shaped suction zone stands still; of its walls the shaft turns with the impeller, the pipe does not.
@@ -122,8 +118,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
                  .patch_count = PATCHES,
                  .patches = patches};
   CwPatchPart parts[PATCHES];
-  for (int p = 0; p < PATCHES; ++p)
-    parts[p] = (CwPatchPart){.triangles = 1, .area = 1, .vector = {0, 0, 1}};
+  for (int p = 0; p < PATCHES; ++p) parts[p] = (CwPatchPart){.triangles = 1, .area = 1, .vector = {0, 0, 1}};
   CwAssembly assembly = {.mesh = &mesh, .patches = parts};
   CwDesign design = {.relative_speed = 9, .suction_speed = 2};
   CwCase table = {.name = "shaft", .operating_point = {.speed = 100, .flow_rate = 0.01, .head = 10}};

@@ -43,11 +43,9 @@ static int open_export(void **state) {
   char path[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
   pump.pyramids = 1;
-  if (stage_run_make(folder, &pump))
-    return -1;
+  if (stage_run_make(folder, &pump)) return -1;
   snprintf(path, sizeof path, "%s/run", folder);
-  if (stage_export(path, 2, output))
-    return -1;
+  if (stage_export(path, 2, output)) return -1;
   snprintf(path, sizeof path, "%s/run/export/pump.cgns", folder);
   return cg_open(path, CG_MODE_READ, &file);
 }
@@ -60,8 +58,7 @@ static int close_export(void **state) {
 }
 
 static void node_place(const Zone *z, cgsize_t node, double x[3]) {
-  for (int k = 0; k < 3; ++k)
-    x[k] = z->x[k][node - 1];
+  for (int k = 0; k < 3; ++k) x[k] = z->x[k][node - 1];
 }
 
 // Area vector by the cross product of the diagonals, or of two edges; the shapes here have flat faces.
@@ -103,20 +100,17 @@ static void add_cell(Zone *z, const cgsize_t *n, int count) {
   for (int i = 0; i < count; ++i) {
     double x[3];
     node_place(z, n[i], x);
-    for (int k = 0; k < 3; ++k)
-      centre[k] += x[k] / count;
+    for (int k = 0; k < 3; ++k) centre[k] += x[k] / count;
   }
   for (int f = 0; f < (count == 4 ? 4 : 5); ++f) {
     const int *face = count == 4 ? tetrahedron[f] : count == 5 ? pyramid[f] : prism[f];
     cgsize_t nodes[4];
     int corners = face[3] ? 4 : 3;
     double x[3];
-    for (int i = 0; i < corners; ++i)
-      nodes[i] = n[face[i] - 1];
+    for (int i = 0; i < corners; ++i) nodes[i] = n[face[i] - 1];
     add_side(z, nodes, corners, 0);
     node_place(z, nodes[0], x);
-    for (int k = 0; k < 3; ++k)
-      volume += z->sides[z->side_count - 1].area[k] * (x[k] - centre[k]) / 3;
+    for (int k = 0; k < 3; ++k) volume += z->sides[z->side_count - 1].area[k] * (x[k] - centre[k]) / 3;
   }
   z->volume += volume;
   z->least_volume = fmin(z->least_volume, volume);
@@ -142,12 +136,10 @@ static void zone_read(int number, Zone *z) {
       ElementType_t type;
       cgsize_t first, last, size;
       int boundary, parents, nodes;
-      assert_int_equal(cg_section_read(file, 1, number, s, name, &type, &first, &last, &boundary, &parents),
-                       0);
+      assert_int_equal(cg_section_read(file, 1, number, s, name, &type, &first, &last, &boundary, &parents), 0);
       assert_int_equal(first, next); // no gap, no overlap
       next = last + 1;
-      if (!pass)
-        continue;
+      if (!pass) continue;
       cg_npe(type, &nodes);
       cg_ElementDataSize(file, 1, number, s, &size);
       assert_int_equal(size, (last - first + 1) * nodes);
@@ -176,8 +168,7 @@ static void zone_read(int number, Zone *z) {
 }
 
 static void zone_free(Zone *z) {
-  for (int k = 0; k < 3; ++k)
-    free(z->x[k]);
+  for (int k = 0; k < 3; ++k) free(z->x[k]);
   free(z->sides);
   free(z->boundary_nodes);
 }
@@ -194,8 +185,8 @@ static void cells_are_positive_and_fill_the_solid(void **state) {
   for (int number = 1; number <= 2; ++number) {
     Zone z;
     zone_read(number, &z);
-    double solid = json_number_value(json_object_get(
-        json_array_get(json_object_get(manifest, "domains"), (size_t)number - 1), "solid_volume_m3"));
+    double solid = json_number_value(
+        json_object_get(json_array_get(json_object_get(manifest, "domains"), (size_t)number - 1), "solid_volume_m3"));
     assert_true(z.least_volume > 0);
     // Every ninth of the 90 cells around the stator holds five; the rotor's section is left out.
     assert_int_equal(z.pyramids, number == 1 ? 0 : 50);
@@ -220,8 +211,7 @@ static void every_face_has_two_sides(void **state) {
       int same_way = a->is_boundary != b->is_boundary;
       assert_false(a->is_boundary && b->is_boundary);
       double area = sqrt(a->area[0] * a->area[0] + a->area[1] * a->area[1] + a->area[2] * a->area[2]);
-      for (int k = 0; k < 3; ++k)
-        assert_true(fabs(a->area[k] - (same_way ? b->area[k] : -b->area[k])) < 1e-9 * area);
+      for (int k = 0; k < 3; ++k) assert_true(fabs(a->area[k] - (same_way ? b->area[k] : -b->area[k])) < 1e-9 * area);
     }
     zone_free(&z);
   }
@@ -245,9 +235,8 @@ static void every_boundary_element_has_one_condition(void **state) {
       DataType_t normal_type;
       cgsize_t count, normals, range[2];
       int normal_index[3], sets;
-      assert_int_equal(cg_boco_info(file, 1, number, c, name, &type, &set, &count, normal_index, &normals,
-                                    &normal_type, &sets),
-                       0);
+      assert_int_equal(
+          cg_boco_info(file, 1, number, c, name, &type, &set, &count, normal_index, &normals, &normal_type, &sets), 0);
       assert_int_equal(type, FamilySpecified);
       assert_int_equal(set, PointRange);
       assert_int_equal(cg_boco_read(file, 1, number, c, range, NULL), 0);
@@ -256,11 +245,9 @@ static void every_boundary_element_has_one_condition(void **state) {
       assert_int_equal(cg_goto(file, 1, "Zone_t", number, "ZoneBC_t", 1, "BC_t", c, "end"), 0);
       assert_int_equal(cg_famname_read(family), 0);
       assert_string_equal(family, name);
-      for (cgsize_t e = range[0]; e <= range[1]; ++e)
-        ++hits[e];
+      for (cgsize_t e = range[0]; e <= range[1]; ++e) ++hits[e];
     }
-    for (cgsize_t e = 1; e <= z.elements; ++e)
-      assert_int_equal(hits[e], e > z.cells);
+    for (cgsize_t e = 1; e <= z.elements; ++e) assert_int_equal(hits[e], e > z.cells);
     free(hits);
     zone_free(&z);
   }
@@ -282,8 +269,8 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
     cgsize_t count, donor_count, range[2];
     assert_int_equal(cg_nconns(file, 1, side + 1, &connections), 0);
     assert_int_equal(connections, 1);
-    assert_int_equal(cg_conn_info(file, 1, side + 1, 1, name, &location, &type, &set, &count, donor_zone,
-                                  &donor_type, &donor_set, &data_type, &donor_count),
+    assert_int_equal(cg_conn_info(file, 1, side + 1, 1, name, &location, &type, &set, &count, donor_zone, &donor_type,
+                                  &donor_set, &data_type, &donor_count),
                      0);
     assert_int_equal(type, Abutting);
     assert_int_equal(location, FaceCenter);
@@ -293,8 +280,8 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
     double *place = malloc(2 * (size_t)donor_count * sizeof *place);
     assert_int_equal(cg_conn_read(file, 1, side + 1, 1, range, data_type, donors), 0);
     assert_int_equal(range[1] - range[0] + 1, donor_count);
-    assert_int_equal(
-        cg_goto(file, 1, "Zone_t", side + 1, "ZoneGridConnectivity_t", 1, "GridConnectivity_t", 1, "end"), 0);
+    assert_int_equal(cg_goto(file, 1, "Zone_t", side + 1, "ZoneGridConnectivity_t", 1, "GridConnectivity_t", 1, "end"),
+                     0);
     assert_int_equal(cg_array_read(1, place), 0);
     double area = 0;
     for (cgsize_t i = 0; i < donor_count; ++i) {
@@ -302,19 +289,16 @@ static void the_interface_is_whole_and_lies_on_its_donors(void **state) {
       const cgsize_t *n = here->boundary_nodes + 4 * (range[0] + i - here->cells - 1);
       const cgsize_t *d = there->boundary_nodes + 4 * (donors[i] - there->cells - 1);
       double r = place[2 * i], s = place[2 * i + 1], centre[3] = {0}, over[3] = {0}, x[3], vector[3];
-      const double weights3[] = {1 - r - s, r, s},
-                   weights4[] = {(1 - r) * (1 - s), r * (1 - s), r * s, (1 - r) * s};
+      const double weights3[] = {1 - r - s, r, s}, weights4[] = {(1 - r) * (1 - s), r * (1 - s), r * s, (1 - r) * s};
       int corners = n[3] ? 4 : 3, donor_corners = d[3] ? 4 : 3;
       for (int c = 0; c < corners; ++c) {
         node_place(here, n[c], x);
         assert_float_equal(hypot(x[0], x[1]), 0.101, 1e-12);
-        for (int k = 0; k < 3; ++k)
-          centre[k] += x[k] / corners;
+        for (int k = 0; k < 3; ++k) centre[k] += x[k] / corners;
       }
       for (int c = 0; c < donor_corners; ++c) {
         node_place(there, d[c], x);
-        for (int k = 0; k < 3; ++k)
-          over[k] += (donor_corners == 3 ? weights3[c] : weights4[c]) * x[k];
+        for (int k = 0; k < 3; ++k) over[k] += (donor_corners == 3 ? weights3[c] : weights4[c]) * x[k];
       }
       // Both lie on chords of the same circle: apart by less than the two sagittas, 0.1 mm each.
       assert_true(hypot(hypot(centre[0] - over[0], centre[1] - over[1]), centre[2] - over[2]) < 2e-4);
@@ -342,8 +326,7 @@ static void rotation_and_units_are_there(void **state) {
   cg_goto(file, 1, "Zone_t", 1, "end");
   assert_int_equal(cg_rotating_read(rate, centre), 0);
   assert_float_equal(rate[2], 1450 * M_PI / 30, 1e-4);
-  assert_float_equal(fabs(rate[0]) + fabs(rate[1]) + fabs(centre[0]) + fabs(centre[1]) + fabs(centre[2]), 0,
-                     0);
+  assert_float_equal(fabs(rate[0]) + fabs(rate[1]) + fabs(centre[0]) + fabs(centre[1]) + fabs(centre[2]), 0, 0);
   cg_goto(file, 1, "Zone_t", 2, "end");
   assert_int_equal(cg_rotating_read(rate, centre), CG_NODE_NOT_FOUND);
   cg_goto(file, 1, "end");

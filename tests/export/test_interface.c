@@ -29,8 +29,7 @@ static int64_t make_ring(int around, int along, int triangles, double turn, CwIn
         CwInterfaceFace *face = &(*faces)[count];
         face->place = count++;
         face->count = triangles ? 3 : 4;
-        for (int c = 0; c < face->count; ++c)
-          memcpy(face->nodes[c], corner[pick[t][c]], sizeof corner[0]);
+        for (int c = 0; c < face->count; ++c) memcpy(face->nodes[c], corner[pick[t][c]], sizeof corner[0]);
       }
     }
   return count;
@@ -92,8 +91,7 @@ static void every_centre_lies_where_its_donor_says(void **state) {
       double place[2], x[3] = {0};
       place_in(&p.assembly.interface[0][1 - d][interface.donor[d][i]], interface.place[d][i], place);
       for (int c = 0; c < face->count; ++c)
-        for (int k = 0; k < 3; ++k)
-          x[k] += face->nodes[c][k] / face->count;
+        for (int k = 0; k < 3; ++k) x[k] += face->nodes[c][k] / face->count;
       assert_float_equal(place[1], x[2], 1e-12);
       // The centre of a triangle is off the mean of the angles by a third order of its width.
       assert_true(fabs(remainder(place[0] - atan2(x[1], x[0]), 2 * M_PI)) < 2e-4);
@@ -110,8 +108,7 @@ static void a_radial_gap_is_told(void **state) {
   make_pair(&p);
   for (int64_t i = 0; i < 350; ++i)
     for (int c = 0; c < 4; ++c)
-      for (int k = 0; k < 2; ++k)
-        p.assembly.interface[0][1][i].nodes[c][k] *= 1.01;
+      for (int k = 0; k < 2; ++k) p.assembly.interface[0][1][i].nodes[c][k] *= 1.01;
   assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "patch 'stator_interface'"));
   assert_non_null(strstr(cw_fail_message(), "has the radius 101 mm; the interface has 100 mm"));
@@ -125,8 +122,7 @@ static void different_ends_are_told(void **state) {
   CwInterface interface = {0};
   make_pair(&p);
   for (int64_t i = 0; i < 350; ++i)
-    for (int c = 0; c < 4; ++c)
-      p.assembly.interface[0][1][i].nodes[c][2] += 1e-3;
+    for (int c = 0; c < 4; ++c) p.assembly.interface[0][1][i].nodes[c][2] += 1e-3;
   assert_int_equal(cw_interface_make(&p.assembly, 0, RADIUS, &interface), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "from z = -10 to 10 mm on patch 'rotor_interface', but from -9 to 11 mm"));
   cw_interface_free(&interface);
@@ -167,8 +163,7 @@ static void make_discs(Pair *p) {
 }
 
 static void free_discs(Pair *p) {
-  for (int side = 0; side < 2; ++side)
-    free(p->assembly.interface[1][side]);
+  for (int side = 0; side < 2; ++side) free(p->assembly.interface[1][side]);
   free_pair(p);
 }
 

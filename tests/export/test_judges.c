@@ -17,8 +17,7 @@ static int make_export(void **state) {
   (void)state;
   char run[STAGE_PATH_SIZE + 10];
   SyntheticPump pump = synthetic_pump();
-  if (stage_run_make(folder, &pump))
-    return -1;
+  if (stage_run_make(folder, &pump)) return -1;
   snprintf(run, sizeof run, "%s/run", folder);
   return stage_export(run, 2, output);
 }
@@ -31,12 +30,10 @@ static int remove_export(void **state) {
 
 static void cgnscheck_has_nothing_to_say(void **state) {
   (void)state;
-  if (!stage_has_program("cgnscheck"))
-    skip();
+  if (!stage_has_program("cgnscheck")) skip();
   assert_int_equal(stage_shell(output, "cgnscheck '%s/run/export/pump.cgns'", folder), 0);
   // It ends with 0 whatever it finds.
-  if (strstr(output, "ERROR") || strstr(output, "WARNING"))
-    fail_msg("%s", output);
+  if (strstr(output, "ERROR") || strstr(output, "WARNING")) fail_msg("%s", output);
   assert_non_null(strstr(output, "\"ROTOR\""));
   assert_non_null(strstr(output, "\"STATOR\""));
   assert_non_null(strstr(output, "rotor_to_stator"));
@@ -45,23 +42,18 @@ static void cgnscheck_has_nothing_to_say(void **state) {
 // The number that follows `words`, the last time they stand in the output.
 static double number_after(const char *words) {
   const char *found = NULL, *at = output;
-  while ((at = strstr(at, words)))
-    found = at += strlen(words);
-  if (!found)
-    fail_msg("no '%s' in: %s", words, output);
+  while ((at = strstr(at, words))) found = at += strlen(words);
+  if (!found) fail_msg("no '%s' in: %s", words, output);
   return strtod(found, NULL);
 }
 
 static void checkmesh_finds_a_sound_mesh(void **state) {
   (void)state;
-  if (!stage_has_program("checkMesh"))
-    skip();
-  stage_shell(
-      output,
-      "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
-      folder, folder, folder);
-  if (!strstr(output, "Mesh OK") || strstr(output, "***") || strstr(output, "Failed"))
-    fail_msg("%s", output);
+  if (!stage_has_program("checkMesh")) skip();
+  stage_shell(output,
+              "cp -r '%s/run/export/openfoam' '%s/check' && cd '%s/check' && checkMesh -allGeometry -allTopology",
+              folder, folder, folder);
+  if (!strstr(output, "Mesh OK") || strstr(output, "***") || strstr(output, "Failed")) fail_msg("%s", output);
   assert_non_null(strstr(output, "Upper triangular ordering OK"));
 }
 
@@ -70,23 +62,20 @@ static void checkmesh_takes_pyramids(void **state) {
   (void)state;
   char run[STAGE_PATH_SIZE + 40];
   SyntheticPump pump = synthetic_pump();
-  if (!stage_has_program("checkMesh"))
-    skip();
+  if (!stage_has_program("checkMesh")) skip();
   snprintf(run, sizeof run, "%s/pyramids", folder);
   pump.pyramids = 1;
   assert_int_equal(synthetic_run_write(run, &pump), 0);
   assert_int_equal(stage_export(run, 2, output), 0);
   stage_shell(output, "cd '%s/export/openfoam' && checkMesh", run);
-  if (!strstr(output, "Mesh OK"))
-    fail_msg("%s", output);
+  if (!strstr(output, "Mesh OK")) fail_msg("%s", output);
   assert_float_equal(number_after("pyramids:"), 50, 0);
 }
 
 // Weights are the area of the other side over each face, by its own area.
 static void interface_weights_are_about_one(void **state) {
   (void)state;
-  if (!stage_has_program("checkMesh"))
-    skip();
+  if (!stage_has_program("checkMesh")) skip();
   stage_shell(output, "cd '%s/run/export/openfoam' && checkMesh -allGeometry | grep weights", folder);
   for (int side = 0; side < 2; ++side) {
     char words[60];
@@ -99,18 +88,13 @@ static void interface_weights_are_about_one(void **state) {
 
 static void steady_run_starts_and_reports(void **state) {
   (void)state;
-  if (!stage_has_program("simpleFoam"))
-    skip();
-  int code = stage_shell(
-      output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run", folder,
-      folder, folder);
-  if (code || strstr(output, "FOAM FATAL"))
-    fail_msg("%s", output);
-  code = stage_shell(output,
-                     "cd '%s/steady' && sed -i 's/endTime  .*/endTime 100;/' system/controlDict && ./Allrun",
+  if (!stage_has_program("simpleFoam")) skip();
+  int code = stage_shell(output, "cp -r '%s/run/export/openfoam' '%s/steady' && cd '%s/steady' && simpleFoam -dry-run",
+                         folder, folder, folder);
+  if (code || strstr(output, "FOAM FATAL")) fail_msg("%s", output);
+  code = stage_shell(output, "cd '%s/steady' && sed -i 's/endTime  .*/endTime 100;/' system/controlDict && ./Allrun",
                      folder);
-  if (code)
-    fail_msg("%s", output);
+  if (code) fail_msg("%s", output);
   // The toy pump has straight radial blades: it lifts the water, and takes more power than it gives.
   double head = number_after("\nhead "), torque = number_after("shaft torque"),
          efficiency = number_after("hydraulic efficiency"), in = number_after("flow                 in");
@@ -127,17 +111,14 @@ static void steady_run_starts_and_reports(void **state) {
 
 static void transient_run_starts_from_the_steady_one(void **state) {
   (void)state;
-  if (!stage_has_program("pimpleFoam"))
-    skip();
-  int code =
-      stage_shell(output,
-                  "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
-                  "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' "
-                  "../system/functions && "
-                  "./Allrun && grep -c '^Time = ' log.pimpleFoam",
-                  folder);
-  if (code)
-    fail_msg("%s", output);
+  if (!stage_has_program("pimpleFoam")) skip();
+  int code = stage_shell(output,
+                         "cd '%s/steady/transient' && sed -i 's/endTime  .*/endTime 3.5e-4;/; s/writeInterval .*/"
+                         "writeInterval 3;/' system/controlDict && sed -i 's/Interval  *10;/Interval 1;/' "
+                         "../system/functions && "
+                         "./Allrun && grep -c '^Time = ' log.pimpleFoam",
+                         folder);
+  if (code) fail_msg("%s", output);
   assert_non_null(strstr(output, "starts from iteration 100 of the steady run"));
   assert_float_equal(number_after("out "), 25.0 / 3600, 1e-8);
   assert_true(number_after("\nhead ") > 3);
@@ -145,12 +126,9 @@ static void transient_run_starts_from_the_steady_one(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cgnscheck_has_nothing_to_say),
-      cmocka_unit_test(checkmesh_finds_a_sound_mesh),
-      cmocka_unit_test(checkmesh_takes_pyramids),
-      cmocka_unit_test(interface_weights_are_about_one),
-      cmocka_unit_test(steady_run_starts_and_reports),
-      cmocka_unit_test(transient_run_starts_from_the_steady_one),
+      cmocka_unit_test(cgnscheck_has_nothing_to_say),  cmocka_unit_test(checkmesh_finds_a_sound_mesh),
+      cmocka_unit_test(checkmesh_takes_pyramids),      cmocka_unit_test(interface_weights_are_about_one),
+      cmocka_unit_test(steady_run_starts_and_reports), cmocka_unit_test(transient_run_starts_from_the_steady_one),
   };
   return cmocka_run_group_tests(tests, make_export, remove_export);
 }

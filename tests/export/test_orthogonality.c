@@ -13,8 +13,13 @@ static void two_cells(const double tip[3], CwOrthogonality *o) {
   double points[7][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, 0, -2}, {3, 0, -2}, {0, 3, -2}};
   int32_t tetrahedra[][4] = {{0, 1, 2, 3}}, prisms[][6] = {{4, 5, 6, 0, 1, 2}};
   memcpy(points[3], tip, sizeof points[3]);
-  CwRegionData data = {.points = points, .point_count = 7, .shared_count = 7, .tetrahedra = tetrahedra,
-                       .tetrahedron_count = 1, .prisms = prisms, .prism_count = 1};
+  CwRegionData data = {.points = points,
+                       .point_count = 7,
+                       .shared_count = 7,
+                       .tetrahedra = tetrahedra,
+                       .tetrahedron_count = 1,
+                       .prisms = prisms,
+                       .prism_count = 1};
   CwRegionFaces faces = {0};
   assert_int_equal(cw_region_faces("rotor", CW_ERR_INPUT, &data, &faces), CW_OK);
   cw_orthogonality_start(o);

@@ -53,8 +53,7 @@ static void fails_with(const char *words) {
   CwRegionFaces faces = {0};
   CwRegionFigures figures;
   assert_int_equal(cw_region_check(&assembly, 0, &data, &faces, &figures), CW_ERR_INPUT);
-  if (!strstr(cw_fail_message(), words))
-    fail_msg("unexpected message: %s", cw_fail_message());
+  if (!strstr(cw_fail_message(), words)) fail_msg("unexpected message: %s", cw_fail_message());
   cw_region_faces_free(&faces);
 }
 

@@ -43,8 +43,7 @@ static void any_number_of_ranks_gives_the_same_bytes(void **state) {
     copy_run("more", more);
     assert_int_equal(stage_export(more, ranks, output), 0);
     int differs = stage_shell(output, "diff -r --exclude=record.json '%s/export' '%s/export'", one, more);
-    if (differs)
-      fail_msg("%d ranks: %s", ranks, output);
+    if (differs) fail_msg("%d ranks: %s", ranks, output);
   }
   // Nothing but the results is left.
   assert_int_equal(stage_shell(output, "ls -A '%s/export'", one), 0);
@@ -58,8 +57,7 @@ static void a_second_export_replaces_the_first(void **state) {
   assert_int_equal(stage_export(run, 1, output), 0);
   assert_int_equal(stage_shell(output, "touch '%s/export/openfoam/left-over'", run), 0);
   assert_int_equal(stage_export(run, 1, output), 0);
-  assert_int_equal(
-      stage_shell(output, "find '%s/export' -name left-over -o -name '*.old' -o -name '.part'", run), 0);
+  assert_int_equal(stage_shell(output, "find '%s/export' -name left-over -o -name '*.old' -o -name '.part'", run), 0);
   assert_string_equal(output, "");
   // A failed run leaves the earlier files as they were, without a record that would call them new.
   stage_shell(output, "rm '%s/mesh/rotor-0003.h5'", run);
@@ -73,11 +71,9 @@ static void expect_error_on(const char *run, int ranks, const char *words) {
   char left[STAGE_PATH_SIZE + 60];
   int errors = 0;
   assert_int_not_equal(stage_export(run, ranks, output), 0);
-  for (const char *at = output; (at = strstr(at, "error:")); ++at)
-    ++errors;
+  for (const char *at = output; (at = strstr(at, "error:")); ++at) ++errors;
   const char *last = strstr(output, "cutwater-export: error:");
-  if (!last || !strstr(last, words) || errors != 1 ||
-      (ranks == 1 && strchr(last, '\n') != output + strlen(output) - 1))
+  if (!last || !strstr(last, words) || errors != 1 || (ranks == 1 && strchr(last, '\n') != output + strlen(output) - 1))
     fail_msg("%d ranks, wanted one line with '%s', got: %s", ranks, words, output);
   snprintf(left, sizeof left, "%s/export", run);
   assert_int_equal(access(left, F_OK), -1);
@@ -130,17 +126,14 @@ static void a_manifest_that_does_not_fit_is_told(void **state) {
   static const struct {
     const char *edit, *words;
   } cases[] = {
-      {"0,/\"tetrahedra\": [0-9]*/s//\"tetrahedra\": 17/",
-       "dataset 'tetrahedra' has 2184 rows; it must have 17"},
+      {"0,/\"tetrahedra\": [0-9]*/s//\"tetrahedra\": 17/", "dataset 'tetrahedra' has 2184 rows; it must have 17"},
       {"0,/\"shared_points\": [0-9]*/s//\"shared_points\": 3/", "leave more than the 3 'shared_points'"},
       {"s/\"region\": 2/\"region\": 3/", "regions must stand in order 1, 2, 3, ..."},
       {"s/rotor-0001.h5/rotor-0002.h5/", "rotor-0002.h5: attribute 'region' is 2; it must be 1"},
-      {"s/stator-0001.h5/rotor-0001.h5/",
-       "rotor-0001.h5: attribute 'domain' is 'rotor'; it must be 'stator'"},
+      {"s/stator-0001.h5/rotor-0001.h5/", "rotor-0001.h5: attribute 'domain' is 'rotor'; it must be 'stator'"},
       {"s/\"format\": 1/\"format\": 9/", "'format' must be 1"},
       {"s/\"kind\": \"outlet\"/\"kind\": \"exit\"/", "patch 'outlet': kind 'exit'; allowed are wall, inlet"},
-      {"s/\"kind\": \"outlet\"/\"kind\": \"wall\"/",
-       "0 patches of kind outlet; there must be one"},
+      {"s/\"kind\": \"outlet\"/\"kind\": \"wall\"/", "0 patches of kind outlet; there must be one"},
       {"s/^ *\"rotor_interface\",/\"hub\",/", "interface 1: 'hub' is no patch of kind interface"},
       {"s/\"interfaces\"/\"faces\"/", "'interfaces' must list 1 to 8 pairs of patches"},
       {"s/\"name\": \"tongue\"/\"name\": \"volute\"/", "patch 'volute' is named twice"},
@@ -186,10 +179,8 @@ static void a_broken_mesh_is_told_with_its_place(void **state) {
   move_point(run, "rotor-0001.h5", 0, 2, -4.0001e-3);
   expect_error(run, "differs between regions by 0.0001 mm");
   copy_run("bad", run);
-  stage_shell(
-      output,
-      "sed -i 's/\"interface_radius_m\": 0.101/\"interface_radius_m\": 0.102/' '%s/geometry/design.json'",
-      run);
+  stage_shell(output,
+              "sed -i 's/\"interface_radius_m\": 0.101/\"interface_radius_m\": 0.102/' '%s/geometry/design.json'", run);
   expect_error(run, "mm has the radius 101 mm; the interface has 102 mm");
 }
 

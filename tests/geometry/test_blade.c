@@ -17,14 +17,12 @@ static CwBladeSection section;
 
 static int setup(void **state) {
   CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
-         cw_hydraulic_design(&table, &design) || cw_meridian_make(&design, &meridian) ||
-         cw_blade_section(&design, &meridian, 0.5, &section);
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
+         cw_meridian_make(&design, &meridian) || cw_blade_section(&design, &meridian, 0.5, &section);
 }
 
 static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // A logarithmic spiral wraps by the integral of dm/r over tan beta: the integral by chords.
@@ -60,8 +58,8 @@ static void thickness(void **state) {
     const CwBladePoint p = cw_blade_side(&section, CW_BLADE_PRESSURE, q),
                        s = cw_blade_side(&section, CW_BLADE_SUCTION, q);
     near_to(p.q, q, 1e-12);
-    near_to((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)),
-            2 * cw_blade_half_thickness(&section, q), 1e-12);
+    near_to((p.theta - s.theta) * x[0] * sin(cw_blade_beta(&section, q)), 2 * cw_blade_half_thickness(&section, q),
+            1e-12);
   }
   near_to(cw_blade_half_thickness(&section, section.nose), design.leading_edge_thickness / 2, 1e-12);
   near_to(cw_blade_half_thickness(&section, 0.45), design.blade_thickness / 2, 1e-12);
@@ -113,8 +111,7 @@ static void clearance(void **state) {
       cw_meridian_blade_point(&meridian, wall, i / 1000.0, x, NULL);
       const double width = 2 * M_PI / 6 * x[0] * sin(cw_blade_beta(&on, i / 1000.0));
       least = fmin(least, width);
-      if (i >= 400)
-        behind = fmin(behind, width);
+      if (i >= 400) behind = fmin(behind, width);
     }
   }
   assert_int_equal(cw_blade_clearance(&thin, &meridian, &found), CW_OK);
@@ -132,7 +129,7 @@ static void clearance(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(spiral), cmocka_unit_test(wrap_closes), cmocka_unit_test(thickness),
-      cmocka_unit_test(nose),   cmocka_unit_test(bevel),   cmocka_unit_test(clearance),
+      cmocka_unit_test(nose),   cmocka_unit_test(bevel),       cmocka_unit_test(clearance),
   };
   return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -22,8 +22,7 @@ static int remarked(const CwDesign *design, const char *words) {
   CwDesignRemarks remarks;
   cw_design_check(design, &remarks);
   for (int i = 0; i < remarks.count; i++)
-    if (strstr(remarks.text[i], words))
-      return 1;
+    if (strstr(remarks.text[i], words)) return 1;
   return 0;
 }
 
@@ -43,8 +42,7 @@ static void paper_remarks(void **state) {
 static void far_off_values_are_remarked(void **state) {
   CwDesign design = paper();
   design.outlet_diameter = 0.25;
-  assert_true(
-      remarked(&design, "impeller outlet D2 is 250 mm; Guelich's correlation gives 182.2, Guan's 178"));
+  assert_true(remarked(&design, "impeller outlet D2 is 250 mm; Guelich's correlation gives 182.2, Guan's 178"));
   design.warn_share = 0.5;
   assert_false(remarked(&design, "impeller outlet D2 is"));
   design = paper();
@@ -59,7 +57,6 @@ static void far_off_values_are_remarked(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks),
-                                     cmocka_unit_test(far_off_values_are_remarked)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(far_off_values_are_remarked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,21 +13,18 @@
 
 static double number(const json_t *root, const char *key) {
   const json_t *value = json_object_get(root, key);
-  if (!json_is_number(value))
-    fail_msg("no number %s", key);
+  if (!json_is_number(value)) fail_msg("no number %s", key);
   return json_number_value(value);
 }
 
 // The keys that other stages read, with their units.
 static void keys_of_the_format(void **state) {
-  static const char *const keys[] = {
-      "impeller_tip_speed_m_per_s", "relative_speed_m_per_s",  "volute_speed_m_per_s",
-      "suction_speed_m_per_s",      "discharge_speed_m_per_s", "interface_radius_m",
-      "predicted_head_m",           "rotor_volume_m3",         "stator_volume_m3"};
+  static const char *const keys[] = {"impeller_tip_speed_m_per_s", "relative_speed_m_per_s",  "volute_speed_m_per_s",
+                                     "suction_speed_m_per_s",      "discharge_speed_m_per_s", "interface_radius_m",
+                                     "predicted_head_m",           "rotor_volume_m3",         "stator_volume_m3"};
   CwCase table;
   CwDesign design;
-  CwMeasuredPump measured = {
-      .solid = {{.volume = 5e-4}, {.volume = 7e-4}}, .rotor.wrap_angle = 71 * M_PI / 180};
+  CwMeasuredPump measured = {.solid = {{.volume = 5e-4}, {.volume = 7e-4}}, .rotor.wrap_angle = 71 * M_PI / 180};
   assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
   assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
   assert_int_equal(cw_design_file_write(&design, &measured, "design-file-test.json"), CW_OK);
@@ -35,8 +32,7 @@ static void keys_of_the_format(void **state) {
   json_t *root = json_load_file("design-file-test.json", 0, &error);
   unlink("design-file-test.json");
   assert_non_null(root);
-  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-    assert_true(number(root, keys[i]) > 0);
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) assert_true(number(root, keys[i]) > 0);
   assert_true(fabs(number(root, "wrap_angle_deg") - 71) < 1e-9);
   assert_true(fabs(number(root, "outlet_diameter_m") - 0.2) < 1e-12);
   assert_true(number(root, "rotor_volume_m3") == 5e-4);

@@ -21,14 +21,12 @@ static CwCase paper(void) {
 }
 
 static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 static CwDesign design_of(const CwCase *table) {
   CwDesign design;
-  if (cw_hydraulic_design(table, &design) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_hydraulic_design(table, &design) != CW_OK) fail_msg("%s", cw_fail_message());
   return design;
 }
 
@@ -52,16 +50,14 @@ static void paper_values_by_hand(void **state) {
   near_to(design.hydraulic_efficiency, 0.8331, 2e-4);
   near_to(design.discharge_diameter, 0.050, 1e-12);
   assert_string_equal(design.source[CW_DESIGN_outlet_diameter], "case");
-  for (int i = 0; i < CW_DESIGN_COUNT; i++)
-    assert_non_null(design.source[i]);
+  for (int i = 0; i < CW_DESIGN_COUNT; i++) assert_non_null(design.source[i]);
 }
 
 // The triangle closes: w = (u2 - c_u2, c_m2), head = eta u2 c_u2 / g, blade angles in their allowed range.
 static void velocity_triangles_close(void **state) {
   const CwCase table = paper();
   const CwDesign d = design_of(&table);
-  near_to(d.outlet_relative_speed * cos(d.outlet_flow_angle) + d.outlet_swirl_speed, d.impeller_tip_speed,
-          1e-12);
+  near_to(d.outlet_relative_speed * cos(d.outlet_flow_angle) + d.outlet_swirl_speed, d.impeller_tip_speed, 1e-12);
   near_to(d.outlet_absolute_speed * sin(d.outlet_absolute_angle), d.outlet_meridional_speed, 1e-12);
   near_to(d.predicted_head, d.hydraulic_efficiency * 15.18436 * d.outlet_swirl_speed / 9.80665, 1e-4);
   near_to(d.head_residual, d.predicted_head - 10, 1e-12);
@@ -139,8 +135,7 @@ static void duty_point_is_enough(void **state) {
   assert_true(design.outlet_blade_angle > 18 * degree && design.outlet_blade_angle < 32 * degree);
   near_to(design.incidence, 4 * degree, 1e-9);
   assert_string_not_equal(design.source[CW_DESIGN_outlet_diameter], "case");
-  for (int i = 0; i < CW_DESIGN_COUNT; i++)
-    assert_non_null(design.source[i]);
+  for (int i = 0; i < CW_DESIGN_COUNT; i++) assert_non_null(design.source[i]);
   table.design.correlations = CW_CORRELATIONS_GUAN;
   design = design_of(&table);
   near_to(design.predicted_head, 10, 1e-6);

@@ -15,13 +15,12 @@ static CwMeridian meridian;
 
 static int setup(void **state) {
   CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
-         cw_hydraulic_design(&table, &design) || cw_meridian_make(&design, &meridian);
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
+         cw_meridian_make(&design, &meridian);
 }
 
 static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // Against the sum of a million chords.
@@ -71,8 +70,7 @@ static void areas(void **state) {
 static void curvature(void **state) {
   const double k = 0.5522847498;
   const CwMeridianCurve quarter = {.pole = {{0, 3}, {3 * k, 3}, {3, 3 * k}, {3, 0}}};
-  for (double t = 0; t <= 1; t += 0.1)
-    near_to(cw_meridian_curvature(&quarter, t), 1.0 / 3, 0.01);
+  for (double t = 0; t <= 1; t += 0.1) near_to(cw_meridian_curvature(&quarter, t), 1.0 / 3, 0.01);
   near_to(cw_meridian_bend_radius(&quarter), 3, 0.08);
 }
 
@@ -87,8 +85,7 @@ static void volume(void **state) {
     const CwMeridianCurve *curve[2] = {&meridian.hub, &meridian.shroud};
     double z[2] = {meridian.nut_end_z, meridian.inlet_z};
     for (int w = 0; w < 2; w++) {
-      if (r <= curve[w]->pole[0][0])
-        continue;
+      if (r <= curve[w]->pole[0][0]) continue;
       double a = 0, b = 1;
       for (int k = 0; k < 40; k++) {
         cw_meridian_point(curve[w], 0.5 * (a + b), x, NULL);
@@ -119,12 +116,9 @@ static void misplaced_leading_edge_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(arc_length),
-      cmocka_unit_test(ends_of_the_blade),
-      cmocka_unit_test(areas),
-      cmocka_unit_test(curvature),
-      cmocka_unit_test(volume),
-      cmocka_unit_test(misplaced_leading_edge_is_refused),
+      cmocka_unit_test(arc_length), cmocka_unit_test(ends_of_the_blade),
+      cmocka_unit_test(areas),      cmocka_unit_test(curvature),
+      cmocka_unit_test(volume),     cmocka_unit_test(misplaced_leading_edge_is_refused),
   };
   return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -13,8 +13,7 @@
 enum { COUNT = 33 };
 
 static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // A straight line from (r, z) to (r, z) as a cubic.
@@ -95,8 +94,7 @@ static void paper(void **state) {
       cosine[wall] = (dx[0] * across[0] + dx[1] * across[1]) / (hypot(dx[0], dx[1]) * width);
     }
     near_to(cosine[0], -cosine[1], 2e-3);
-    for (int k = 0; k < 100; k++)
-      sum += 2 * M_PI * (s->hub[0] + across[0] * (k + 0.5) / 100) * width / 100;
+    for (int k = 0; k < 100; k++) sum += 2 * M_PI * (s->hub[0] + across[0] * (k + 0.5) / 100) * width / 100;
     near_to(s->area, sum, 1e-12);
   }
 }
@@ -125,8 +123,12 @@ static void reversal(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(straight_annulus), cmocka_unit_test(parallel_disks), cmocka_unit_test(wedge),
-      cmocka_unit_test(paper),            cmocka_unit_test(line_at_a_radius), cmocka_unit_test(reversal),
+      cmocka_unit_test(straight_annulus),
+      cmocka_unit_test(parallel_disks),
+      cmocka_unit_test(wedge),
+      cmocka_unit_test(paper),
+      cmocka_unit_test(line_at_a_radius),
+      cmocka_unit_test(reversal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,8 +82,7 @@ static void bends_least(void **state) {
     other.hub_pole_radial = share[0];
     other.shroud_pole_axial = share[1];
     other.shroud_pole_radial = share[2];
-    if (reversal_of(&other) > 0)
-      continue;
+    if (reversal_of(&other) > 0) continue;
     monotone++;
     if (bending_of(&other, share) < 0.99 * least)
       fail_msg("shares %.2f %.2f %.2f bend less: %.4g, found %.4g", share[0], share[1], share[2],
@@ -94,11 +93,14 @@ static void bends_least(void **state) {
 
 static void size_does_not_matter(void **state) {
   CwDesign large = paper_design;
-  double *length[] = {&large.inlet_diameter, &large.outlet_diameter, &large.outlet_width,
-                      &large.hub_diameter,   &large.axial_length,    &large.interface_radius,
+  double *length[] = {&large.inlet_diameter,
+                      &large.outlet_diameter,
+                      &large.outlet_width,
+                      &large.hub_diameter,
+                      &large.axial_length,
+                      &large.interface_radius,
                       &large.leading_edge_radius_shroud};
-  for (size_t i = 0; i < sizeof length / sizeof *length; i++)
-    *length[i] *= 8;
+  for (size_t i = 0; i < sizeof length / sizeof *length; i++) *length[i] *= 8;
   large.hub_pole_radial = NAN;
   cw_meridian_shape(&paper.impeller, &large);
   assert_true(large.hub_pole_radial == paper_design.hub_pole_radial);

@@ -28,12 +28,10 @@ static char *slurp(const char *path) {
 }
 
 // Each picture is whole, has no undefined number and no point outside its sheet.
-static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design,
-                  const char *words) {
+static void check(CwStatus (*draw)(const CwDesign *, const char *), const CwDesign *design, const char *words) {
   char path[64];
   snprintf(path, sizeof path, "picture-test-%ld.svg", (long)getpid());
-  if (draw(design, path) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (draw(design, path) != CW_OK) fail_msg("%s", cw_fail_message());
   char *text = slurp(path);
   unlink(path);
   assert_int_equal(strncmp(text, "<svg ", 5), 0);

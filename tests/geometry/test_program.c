@@ -14,8 +14,8 @@ static char folder[] = "geometry-program-XXXXXX";
 
 static int run(const char *case_file, const char *name) {
   char command[600];
-  snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages",
-           CUTWATER_BIN_DIR, case_file, folder, name, folder);
+  snprintf(command, sizeof command, "%s/cutwater-geometry --case '%s' --run %s/%s 2> %s/messages", CUTWATER_BIN_DIR,
+           case_file, folder, name, folder);
   const int code = system(command);
   return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
 }
@@ -36,8 +36,7 @@ static int messages_have(const char *words) {
   snprintf(path, sizeof path, "%s/messages", folder);
   FILE *file = fopen(path, "r");
   assert_non_null(file);
-  while (fgets(line, sizeof line, file))
-    found |= strstr(line, words) != NULL;
+  while (fgets(line, sizeof line, file)) found |= strstr(line, words) != NULL;
   fclose(file);
   return found;
 }
@@ -56,8 +55,7 @@ static void files_are_written_and_the_same_each_time(void **state) {
   assert_true(messages_have("predicted head"));
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "b"), 0);
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", folder, names[i], folder,
-             names[i]);
+    snprintf(command, sizeof command, "cmp %s/a/geometry/%s %s/b/geometry/%s", folder, names[i], folder, names[i]);
     assert_int_equal(system(command), 0);
   }
   // These and record.json.

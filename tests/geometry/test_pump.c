@@ -23,9 +23,8 @@ static CwSolid *rotor, *stator;
 
 static int setup(void **state) {
   CwCase table;
-  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) ||
-         cw_hydraulic_design(&table, &design) || cw_rotor_build(&design, &rotor) ||
-         cw_stator_build(&design.volute, &stator);
+  return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
+         cw_rotor_build(&design, &rotor) || cw_stator_build(&design.volute, &stator);
 }
 
 static int teardown(void **state) {
@@ -35,8 +34,7 @@ static int teardown(void **state) {
 }
 
 static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
+  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // D3 = 204 mm, b3 = 12 mm, and one and the same cylinder r = 101 mm, |z| <= 4 mm on both sides.
@@ -61,16 +59,14 @@ static void both_solids_survive_step(void **state) {
   for (int i = 0; i < 2; i++) {
     CwSolid *again = NULL;
     CwMeasuredSolid before, after;
-    if (cw_step_read("pump-test.step", cw_solid_domain(solids[i]), &again) != CW_OK)
-      fail_msg("%s", cw_fail_message());
+    if (cw_step_read("pump-test.step", cw_solid_domain(solids[i]), &again) != CW_OK) fail_msg("%s", cw_fail_message());
     assert_int_equal(cw_measure_solid(solids[i], &before), CW_OK);
     assert_int_equal(cw_measure_solid(again, &after), CW_OK);
     assert_true(after.valid);
     near_to(after.volume / before.volume, 1, 1e-6);
     assert_int_equal(after.face_count, before.face_count);
     int named = 0;
-    for (int face = 0; face < cw_solid_face_count(again); face++)
-      named += cw_solid_face_patch(again, face)[0] != 0;
+    for (int face = 0; face < cw_solid_face_count(again); face++) named += cw_solid_face_patch(again, face)[0] != 0;
     assert_int_equal(named, after.face_count);
     cw_solid_free(&again);
   }

@@ -36,8 +36,7 @@ static CwPump build(const CwCase &table, CwDesign *design) {
   CwPump pump = {};
   assert_int_equal(cw_hydraulic_design(&table, design), CW_OK);
   assert_int_equal(cw_pump_pipe_stubs(&table, design, &stubs), CW_OK);
-  if (cw_pump_build(&table, design, &stubs, &pump) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_pump_build(&table, design, &stubs, &pump) != CW_OK) fail_msg("%s", cw_fail_message());
   return pump;
 }
 
@@ -52,14 +51,12 @@ static CwMeasuredSolid measure(const CwSolid *solid) {
 static std::vector<gp_Pnt> outline(const CwSolid *solid, const char *patch, const char *kind) {
   std::vector<gp_Pnt> points;
   for (const CwSolidFace &face : solid->faces) {
-    if (face.patch != patch)
-      continue;
+    if (face.patch != patch) continue;
     assert_string_equal(face.kind.c_str(), kind);
     for (TopExp_Explorer at(face.face, TopAbs_EDGE); at.More(); at.Next()) {
       double first, last;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(at.Current()), first, last);
-      for (double s : {0.0, 0.5, 1.0})
-        points.push_back(curve->Value(first + s * (last - first)));
+      for (double s : {0.0, 0.5, 1.0}) points.push_back(curve->Value(first + s * (last - first)));
     }
   }
   assert_false(points.empty());
@@ -71,8 +68,7 @@ static void same_outline(const CwSolid *a, const char *patch_a, const CwSolid *b
   assert_int_equal(p.size(), q.size());
   for (const gp_Pnt &point : p) {
     double least = HUGE_VAL;
-    for (const gp_Pnt &other : q)
-      least = std::fmin(least, point.Distance(other));
+    for (const gp_Pnt &other : q) least = std::fmin(least, point.Distance(other));
     assert_true(least < 1e-9);
   }
 }
@@ -99,8 +95,8 @@ static void check_zones(CwCase table) {
   }
   // The whole pipes: length times section.
   const double d1 = design.inlet_diameter, dn = design.discharge_diameter;
-  assert_float_equal(measure(zones.solid[3]).volume,
-                     M_PI / 4 * dn * dn * (design.discharge_pipe_length - 0.25 * dn), 1e-9 * dn);
+  assert_float_equal(measure(zones.solid[3]).volume, M_PI / 4 * dn * dn * (design.discharge_pipe_length - 0.25 * dn),
+                     1e-9 * dn);
   assert_true(measure(zones.solid[2]).volume <
               M_PI / 4 * d1 * d1 * (design.suction_pipe_length - 0.25 * d1) * 1.000001);
   for (int i = 0; i < 3; i++) {
@@ -108,11 +104,9 @@ static void check_zones(CwCase table) {
     int found[2] = {-1, -1};
     for (int d = 0; d < zones.count; d++)
       for (int s = 0; s < 2; s++)
-        if (!std::strcmp(cw_solid_domain(zones.solid[d]), between->domain[s]))
-          found[s] = d;
+        if (!std::strcmp(cw_solid_domain(zones.solid[d]), between->domain[s])) found[s] = d;
     assert_true(found[0] >= 0 && found[1] >= 0);
-    if (i > 0)
-      same_outline(zones.solid[found[0]], between->patch[0], zones.solid[found[1]], between->patch[1]);
+    if (i > 0) same_outline(zones.solid[found[0]], between->patch[0], zones.solid[found[1]], between->patch[1]);
   }
   outline(zones.solid[2], "inlet", "inlet");
   outline(zones.solid[3], "outlet", "outlet");
@@ -163,11 +157,9 @@ static void a_shaft_makes_a_ring(void **) {
     table.impeller.through_shaft_diameter = share * 0.024;
     check_zones(table);
     CwPump pump = build(table, &design);
-    if (cw_pump_measure(&design, &pump, &measured) != CW_OK)
-      fail_msg("%s", cw_fail_message());
+    if (cw_pump_measure(&design, &pump, &measured) != CW_OK) fail_msg("%s", cw_fail_message());
     int core = 0;
-    for (const CwSolidFace &face : pump.solid[2]->faces)
-      core += face.patch == "hub_shaft_pipe" && face.kind == "wall";
+    for (const CwSolidFace &face : pump.solid[2]->faces) core += face.patch == "hub_shaft_pipe" && face.kind == "wall";
     assert_int_equal(core, design.blade_count);
     const double length = design.suction_pipe_length - pump.stubs.suction;
     const double ring = M_PI / 4 * (std::pow(design.inlet_diameter, 2) - std::pow(design.through_shaft_diameter, 2));
@@ -182,10 +174,8 @@ static void all_domains_are_sound(void **) {
   CwDesign design;
   CwMeasuredPump measured;
   CwPump pump = build(table, &design);
-  if (cw_pump_measure(&design, &pump, &measured) != CW_OK)
-    fail_msg("%s", cw_fail_message());
-  for (int i = 0; i < pump.count; i++)
-    assert_true(measured.solid[i].volume > 0 && measured.solid[i].valid);
+  if (cw_pump_measure(&design, &pump, &measured) != CW_OK) fail_msg("%s", cw_fail_message());
+  for (int i = 0; i < pump.count; i++) assert_true(measured.solid[i].volume > 0 && measured.solid[i].valid);
   cw_pump_free(&pump);
 }
 

@@ -59,14 +59,10 @@ static void draw_options(uint64_t *state, CwCase *table) {
   impeller->rotation = chance(state, 0.3) ? CW_ROTATION_CLOCKWISE : CW_ROTATION_COUNTER_CLOCKWISE;
   impeller->trailing_edge = (CwTrailingEdge)(chance(state, 0.4) ? 0 : (int)draw(state, 0, 4));
   impeller->blade_form = chance(state, 0.15) ? CW_BLADE_CYLINDRICAL : CW_BLADE_TWISTED;
-  if (chance(state, 0.7))
-    impeller->blade_count = (int)draw(state, 3, 10);
-  if (chance(state, 0.3))
-    impeller->lean_angle = draw(state, -12, 12) * degree;
-  if (chance(state, 0.5))
-    impeller->leading_edge_ratio = draw(state, 1, 4);
-  if (chance(state, 0.5))
-    impeller->thickest_at = draw(state, 0.3, 0.6);
+  if (chance(state, 0.7)) impeller->blade_count = (int)draw(state, 3, 10);
+  if (chance(state, 0.3)) impeller->lean_angle = draw(state, -12, 12) * degree;
+  if (chance(state, 0.5)) impeller->leading_edge_ratio = draw(state, 1, 4);
+  if (chance(state, 0.5)) impeller->thickest_at = draw(state, 0.3, 0.6);
   if (chance(state, 0.25)) {
     impeller->splitter_start = draw(state, 0.3, 0.6);
     impeller->splitter_position = draw(state, 0.42, 0.58);
@@ -89,14 +85,10 @@ static double room_beside(const CwDesign *design) {
 // Gives some dimensions near those of the computed design, and one of the priorities.
 static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *table) {
   CwImpellerTable *impeller = &table->impeller;
-  if (chance(state, 0.5))
-    impeller->outlet_width = design->outlet_width * draw(state, 0.9, 1.1);
-  if (chance(state, 0.5))
-    impeller->inlet_diameter = design->inlet_diameter * draw(state, 0.95, 1.05);
-  if (chance(state, 0.5))
-    impeller->hub_diameter = design->hub_diameter * draw(state, 0.9, 1.2);
-  if (chance(state, 0.3))
-    impeller->blade_thickness = design->blade_thickness * draw(state, 0.8, 1.2);
+  if (chance(state, 0.5)) impeller->outlet_width = design->outlet_width * draw(state, 0.9, 1.1);
+  if (chance(state, 0.5)) impeller->inlet_diameter = design->inlet_diameter * draw(state, 0.95, 1.05);
+  if (chance(state, 0.5)) impeller->hub_diameter = design->hub_diameter * draw(state, 0.9, 1.2);
+  if (chance(state, 0.3)) impeller->blade_thickness = design->blade_thickness * draw(state, 0.8, 1.2);
   const double choice = draw(state, 0, 1);
   // Shafts and fillets as the pump's size has them.
   if (chance(state, 0.25))
@@ -123,18 +115,15 @@ static void draw_dimensions(uint64_t *state, const CwDesign *design, CwCase *tab
 // Pipes as zones of their own, from a sequence apart.
 static void draw_zones(uint64_t *state, CwCase *table) {
   const int suction = chance(state, 0.3), discharge = chance(state, 0.3);
-  if (suction)
-    table->impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
-  if (discharge)
-    table->volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
+  if (suction) table->impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
+  if (discharge) table->volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
 }
 
 static int build(const CwCase *table, CwDesign *design) {
   CwPump pump = {0};
   CwPipeStubs stubs;
   CwMeasuredPump measured;
-  const int fine = cw_hydraulic_design(table, design) == CW_OK &&
-                   cw_pump_pipe_stubs(table, design, &stubs) == CW_OK &&
+  const int fine = cw_hydraulic_design(table, design) == CW_OK && cw_pump_pipe_stubs(table, design, &stubs) == CW_OK &&
                    cw_pump_build(table, design, &stubs, &pump) == CW_OK &&
                    cw_pump_measure(design, &pump, &measured) == CW_OK;
   cw_pump_free(&pump);
@@ -160,8 +149,7 @@ static void random_pumps(void **state_) {
       state = before;
     cw_fail_clear();
     draw_zones(&zone_state, &table);
-    if (i + 1 < first_pump)
-      continue;
+    if (i + 1 < first_pump) continue;
     const int fine = build(&table, &design);
     longest = fmax(longest, cw_seconds() - start);
     built += fine;
@@ -174,23 +162,21 @@ static void random_pumps(void **state_) {
                     "%d, form %d, fillet %.2f, shaft %.1f mm: %s\n",
                     i + 1, design.specific_speed_ns, design.flow_rate * 3600, design.head, design.blade_count,
                     design.splitter_start > 0 ? " with splitters" : "", design.wrap_angle / degree,
-                    design.outlet_diameter * 1e3, design.outlet_width * 1e3, design.trailing_edge,
-                    design.blade_form, design.root_fillet_radius * 1e3, design.through_shaft_diameter * 1e3, message);
+                    design.outlet_diameter * 1e3, design.outlet_width * 1e3, design.trailing_edge, design.blade_form,
+                    design.root_fillet_radius * 1e3, design.through_shaft_diameter * 1e3, message);
       cw_fail_clear();
     }
   }
-  print_message("%d of %d random pumps are valid (%.1f %%), %.2f s each, the longest %.2f s\n", built,
-                pump_count, 100.0 * built / pump_count, (cw_seconds() - begin) / pump_count, longest);
+  print_message("%d of %d random pumps are valid (%.1f %%), %.2f s each, the longest %.2f s\n", built, pump_count,
+                100.0 * built / pump_count, (cw_seconds() - begin) / pump_count, longest);
   assert_int_equal(unsound, 0);
   assert_int_equal(built + lines, pump_count);
   assert_true(pump_count - built <= fmax(1, 0.03 * pump_count)); // one of a few is no sign
 }
 
 int main(int argc, char **argv) {
-  if (argc > 1)
-    last_pump = atoi(argv[1]);
-  if (argc > 2)
-    first_pump = atoi(argv[2]);
+  if (argc > 1) last_pump = atoi(argv[1]);
+  if (argc > 2) first_pump = atoi(argv[2]);
   const struct CMUnitTest tests[] = {cmocka_unit_test(random_pumps)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

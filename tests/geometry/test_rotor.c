@@ -126,8 +126,7 @@ static int faces_of_patch(const CwSolid *solid, const char *patch) {
 // Each kind of trailing edge: faces a blade, and the outlet diameter that is met. A bevel takes material off
 // the blunt edge, and a sharp edge more: the fluid grows.
 static void trailing_edges(void **state) {
-  static const int faces[] = {
-      [CW_EDGE_BEVELLED] = 2, [CW_EDGE_BLUNT] = 1, [CW_EDGE_ROUNDED] = 1, [CW_EDGE_SHARP] = 1};
+  static const int faces[] = {[CW_EDGE_BEVELLED] = 2, [CW_EDGE_BLUNT] = 1, [CW_EDGE_ROUNDED] = 1, [CW_EDGE_SHARP] = 1};
   double volume[4];
   for (int edge = CW_EDGE_BEVELLED; edge <= CW_EDGE_SHARP; edge++) {
     CwCase table = paper();

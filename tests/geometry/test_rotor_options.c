@@ -84,14 +84,10 @@ static void fillets_go_with_every_option(void **state) {
     CwMeasuredRotor measured;
     double expected;
     table.impeller.root_fillet_radius = 1.5e-3;
-    if (i < 4)
-      table.impeller.trailing_edge = (CwTrailingEdge)i;
-    if (i == 4)
-      table.impeller.splitter_start = 0.4;
-    if (i == 5)
-      table.impeller.lean_angle = 10 * degree;
-    if (i == 6)
-      table.impeller.rotation = CW_ROTATION_CLOCKWISE;
+    if (i < 4) table.impeller.trailing_edge = (CwTrailingEdge)i;
+    if (i == 4) table.impeller.splitter_start = 0.4;
+    if (i == 5) table.impeller.lean_angle = 10 * degree;
+    if (i == 6) table.impeller.rotation = CW_ROTATION_CLOCKWISE;
     const CwDesign design = design_of(&table);
     measure(&design, &solid, &measured);
     assert_true(measured.kink.angle < 1.5 * degree);

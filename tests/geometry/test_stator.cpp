@@ -112,11 +112,9 @@ static void patches(void **) {
   for (int i = 0; i < cw_solid_face_count(stator); i++) {
     count[cw_solid_face_patch(stator, i)]++;
     names.insert(cw_solid_face_name(stator, i));
-    assert_string_equal(cw_solid_face_kind(stator, i),
-                        expected.at(cw_solid_face_patch(stator, i)).second.c_str());
+    assert_string_equal(cw_solid_face_kind(stator, i), expected.at(cw_solid_face_patch(stator, i)).second.c_str());
   }
-  for (const auto &patch : expected)
-    assert_int_equal(count[patch.first], patch.second.first);
+  for (const auto &patch : expected) assert_int_equal(count[patch.first], patch.second.first);
   assert_int_equal(names.size(), 51);
   assert_string_equal(cw_solid_domain(stator), "stator");
 }
@@ -124,8 +122,7 @@ static void patches(void **) {
 // The outlet is a disk across +y at the end of the pipe.
 static void outlet(void **) {
   for (const CwSolidFace &face : stator->faces) {
-    if (face.patch != "outlet")
-      continue;
+    if (face.patch != "outlet") continue;
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(face.face, properties);
     near_to(properties.Mass(), M_PI * 625, 1e-3);
@@ -144,21 +141,17 @@ static double spiral_volume(const CwVolute &volute) {
   double r3 = volute.input.base_diameter / 2, step = 0.4 * mm, sum = 0;
   auto height = [&](double r, double phi) {
     CwVoluteSection s = cw_volute_section(&volute, phi);
-    if (r < s.kink_radius)
-      return cw_volute_half_width(&volute, r);
+    if (r < s.kink_radius) return cw_volute_half_width(&volute, r);
     double inside = s.arc_radius * s.arc_radius - std::pow(r - s.arc_centre, 2);
     return inside > 0 ? s.flat + std::sqrt(inside) : 0;
   };
   for (double x = -0.2 + step / 2; x < 0.2; x += step)
     for (double y = -0.2 + step / 2; y < 0.2; y += step) {
       double r = std::hypot(x, y), phi = std::atan2(y, x);
-      if (r < r3 || r > 0.19)
-        continue;
-      if (phi < 0)
-        phi += 2 * M_PI;
+      if (r < r3 || r > 0.19) continue;
+      if (phi < 0) phi += 2 * M_PI;
       double first = height(r, phi);
-      if (x > 0 && y > 0 && y < volute.throat_y && x > volute.inner_wall_x)
-        first = height(r, phi + 2 * M_PI);
+      if (x > 0 && y > 0 && y < volute.throat_y && x > volute.inner_wall_x) first = height(r, phi + 2 * M_PI);
       sum += 2 * first * step * step;
     }
   return sum;
@@ -170,12 +163,9 @@ static double diffuser_volume(const CwVolute &volute, const CwSolid *stator) {
   enum { STEPS = 100 };
   double sum = 0;
   for (const CwSolidFace &face : stator->faces) {
-    if (face.patch != "diffuser")
-      continue;
+    if (face.patch != "diffuser") continue;
     Handle(Geom_Surface) surface = BRep_Tool::Surface(face.face);
-    auto at = [&](int i, int j) {
-      return gp_Vec(surface->Value(double(i) / STEPS, double(j) / STEPS).XYZ());
-    };
+    auto at = [&](int i, int j) { return gp_Vec(surface->Value(double(i) / STEPS, double(j) / STEPS).XYZ()); };
     double sign = face.face.Orientation() == TopAbs_REVERSED ? -1 : 1;
     for (int i = 0; i < STEPS; i++)
       for (int j = 0; j < STEPS; j++) {
@@ -216,10 +206,8 @@ static Side side_of(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) 
   BRep_Tool::CurveOnSurface(edge, face, first, last)->D1(t, uv, duv);
   BRep_Tool::Surface(face)->D1(uv.X(), uv.Y(), x, xu, xv);
   gp_Vec normal = xu.Crossed(xv).Normalized(), tangent = (xu * duv.X() + xv * duv.Y()).Normalized();
-  if (face.Orientation() == TopAbs_REVERSED)
-    normal.Reverse();
-  if (edge.Orientation() == TopAbs_REVERSED)
-    tangent.Reverse();
+  if (face.Orientation() == TopAbs_REVERSED) normal.Reverse();
+  if (edge.Orientation() == TopAbs_REVERSED) tangent.Reverse();
   return {normal, normal.Crossed(tangent)};
 }
 
@@ -229,8 +217,7 @@ static void creases(void **) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   TopExp::MapShapesAndAncestors(stator->solid, TopAbs_EDGE, TopAbs_FACE, faces_of);
   std::map<const TopoDS_TShape *, const CwSolidFace *> by_shape;
-  for (const CwSolidFace &face : stator->faces)
-    by_shape[face.face.TShape().get()] = &face;
+  for (const CwSolidFace &face : stator->faces) by_shape[face.face.TShape().get()] = &face;
   int smooth_edges = 0;
   for (int i = 1; i <= faces_of.Extent(); i++) {
     TopoDS_Edge uses[2];
@@ -238,32 +225,27 @@ static void creases(void **) {
                                    by_shape.at(faces_of(i).Last().TShape().get())};
     for (int k = 0; k < 2; k++)
       for (TopExp_Explorer explorer(faces[k]->face, TopAbs_EDGE); explorer.More(); explorer.Next())
-        if (explorer.Current().IsSame(faces_of.FindKey(i)))
-          uses[k] = TopoDS::Edge(explorer.Current());
+        if (explorer.Current().IsSame(faces_of.FindKey(i))) uses[k] = TopoDS::Edge(explorer.Current());
     double first, last, least = 360, largest = 0;
     Handle(Geom_Curve) curve = BRep_Tool::Curve(uses[0], first, last);
     for (int k = 0; k <= 60; k++) {
       double t = first + (last - first) * k / 60;
       Side a = side_of(uses[0], faces[0]->face, t), b = side_of(uses[1], faces[1]->face, t);
       double angle = a.into.Angle(b.into) / degree;
-      if (b.into.Dot(a.normal) >= 0)
-        angle = 360 - angle;
+      if (b.into.Dot(a.normal) >= 0) angle = 360 - angle;
       least = std::min(least, angle);
       largest = std::max(largest, angle);
     }
     if (least < 89.9 || largest > 270.1)
-      fail_msg("%s and %s meet at %.2f to %.2f deg", faces[0]->name.c_str(), faces[1]->name.c_str(), least,
-               largest);
+      fail_msg("%s and %s meet at %.2f to %.2f deg", faces[0]->name.c_str(), faces[1]->name.c_str(), least, largest);
     bool smooth = least > 179.5 && largest < 180.5;
     smooth_edges += smooth;
     std::set<std::string> pair = {faces[0]->patch, faces[1]->patch};
     // Nose to outer wall and to its own flank, throat to diffuser, diffuser to pipe.
-    if (pair == std::set<std::string>{"diffuser", "volute"} ||
-        pair == std::set<std::string>{"diffuser", "tongue"} ||
+    if (pair == std::set<std::string>{"diffuser", "volute"} || pair == std::set<std::string>{"diffuser", "tongue"} ||
         pair == std::set<std::string>{"diffuser", "discharge"} || pair == std::set<std::string>{"tongue"})
       if (!smooth)
-        fail_msg("%s and %s meet at %.3f to %.3f deg", faces[0]->name.c_str(), faces[1]->name.c_str(), least,
-                 largest);
+        fail_msg("%s and %s meet at %.3f to %.3f deg", faces[0]->name.c_str(), faces[1]->name.c_str(), least, largest);
   }
   // Rings: interface 5, neck 10, step 10; side walls 10; outer wall 4, nose 2, throat 4, diffuser to pipe 4,
   // pipe 4.
@@ -340,14 +322,12 @@ static void parameter_sets(void **) {
         CwVolute trial;
         CwSolid *solid = NULL;
         CwStatus status = cw_volute_design(&input, &trial);
-        if (status == CW_OK)
-          status = cw_stator_build(&trial, &solid);
+        if (status == CW_OK) status = cw_stator_build(&trial, &solid);
         sets++;
         if (status == CW_OK) {
           CwMeasuredSolid measured;
           assert_int_equal(cw_measure_solid(solid, &measured), CW_OK);
-          assert_true(measured.valid && measured.closed && measured.largest_tolerance < 1e-6 &&
-                      measured.volume > 0);
+          assert_true(measured.valid && measured.closed && measured.largest_tolerance < 1e-6 && measured.volume > 0);
           built++;
         } else {
           print_message("b2 %g b3 %g D3 %g K %g: %s\n", b2, b2 + wider, 200 * ratio, k, cw_fail_message());
@@ -365,14 +345,12 @@ static void parameter_sets(void **) {
 static void curvature(void **) {
   for (const CwSolidFace &face : stator->faces) {
     Handle(Geom_Surface) surface = BRep_Tool::Surface(face.face);
-    if (!surface->IsKind(STANDARD_TYPE(Geom_BSplineSurface)))
-      continue;
+    if (!surface->IsKind(STANDARD_TYPE(Geom_BSplineSurface))) continue;
     for (int i = 0; i <= 40; i++)
       for (int j = 0; j <= 80; j++) {
         GeomLProp_SLProps at(surface, i / 40.0, j / 80.0, 2, 1e-9);
         double largest = std::max(std::fabs(at.MaxCurvature()), std::fabs(at.MinCurvature()));
-        if (largest > 4 / 1.5)
-          fail_msg("%s bends with a radius of %.3f mm", face.name.c_str(), 1 / largest);
+        if (largest > 4 / 1.5) fail_msg("%s bends with a radius of %.3f mm", face.name.c_str(), 1 / largest);
       }
   }
 }

@@ -61,13 +61,11 @@ static CwVoluteInput draw() {
   in.throat_area = NAN;
   double slope = in.section == CW_SECTION_RECTANGLE ? 0 : std::tan(in.side_wall_angle);
   double height = 2 * area / (in.inlet_width + std::sqrt(in.inlet_width * in.inlet_width + 4 * slope * area));
-  bool corners =
-      in.section == CW_SECTION_RECTANGLE || (in.section == CW_SECTION_TRAPEZOID && uniform(0, 1) < 0.5);
+  bool corners = in.section == CW_SECTION_RECTANGLE || (in.section == CW_SECTION_TRAPEZOID && uniform(0, 1) < 0.5);
   in.corner_radius = corners ? std::max(0.5e-3, std::min(in.inlet_width, height) * uniform(0.1, 0.25)) : NAN;
   in.tongue_radius = std::max(0.2e-3, std::min(0.0075 * d2 * uniform(0.7, 1.3), height / 6));
   in.tongue_gap = in.tongue_angle = NAN;
-  in.least_tongue_gap =
-      std::max(0.0, d2 / 2 * (1.03 + 0.1 * nq / 40 + 0.07 * head / 1000) - in.base_diameter / 2);
+  in.least_tongue_gap = std::max(0.0, d2 / 2 * (1.03 + 0.1 * nq / 40 + 0.07 * head / 1000) - in.base_diameter / 2);
   in.diffuser_length = NAN;
   in.diffuser_angle = uniform(7, 11) * degree;
   in.outlet_diameter = NAN;
@@ -102,10 +100,8 @@ static void random_volutes(void **) {
     CwVolute volute;
     CwSolid *solid = NULL;
     CwStatus status = cw_volute_design(&in, &volute);
-    if (status == CW_OK)
-      status = cw_stator_build(&volute, &solid);
-    std::string kind =
-        std::string(section[in.section]) + (std::isnan(in.corner_radius) ? "" : " with corners");
+    if (status == CW_OK) status = cw_stator_build(&volute, &solid);
+    std::string kind = std::string(section[in.section]) + (std::isnan(in.corner_radius) ? "" : " with corners");
     kinds[kind].second++;
     if (status == CW_OK) {
       CwMeasuredSolid measured;
@@ -118,10 +114,9 @@ static void random_volutes(void **) {
       kinds[kind].first++;
       built++;
     } else {
-      print_message("%d: %s, law %d, D3 %.0f, b2 %.1f, b3 %.1f, corner %.1f mm, a %.0f deg: %s\n", i,
-                    kind.c_str(), in.area_law, 1e3 * in.base_diameter, 1e3 * in.neck_width,
-                    1e3 * in.inlet_width, 1e3 * in.corner_radius, in.side_wall_angle / degree,
-                    cw_fail_message());
+      print_message("%d: %s, law %d, D3 %.0f, b2 %.1f, b3 %.1f, corner %.1f mm, a %.0f deg: %s\n", i, kind.c_str(),
+                    in.area_law, 1e3 * in.base_diameter, 1e3 * in.neck_width, 1e3 * in.inlet_width,
+                    1e3 * in.corner_radius, in.side_wall_angle / degree, cw_fail_message());
       assert_true(std::strlen(cw_fail_message()) > 20 && !std::strchr(cw_fail_message(), '\n'));
       assert_true(status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY);
     }
@@ -134,8 +129,7 @@ static void random_volutes(void **) {
 }
 
 int main(int argc, char **argv) {
-  if (argc > 1)
-    draws = std::atoi(argv[1]);
+  if (argc > 1) draws = std::atoi(argv[1]);
   const CMUnitTest tests[] = {cmocka_unit_test(random_volutes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

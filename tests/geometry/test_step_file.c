@@ -57,8 +57,7 @@ static void assert_same_files(const char *a, const char *b) {
 
 static int count_patch(const CwSolid *solid, const char *patch) {
   int count = 0;
-  for (int i = 0; i < cw_solid_face_count(solid); i++)
-    count += strcmp(cw_solid_face_patch(solid, i), patch) == 0;
+  for (int i = 0; i < cw_solid_face_count(solid); i++) count += strcmp(cw_solid_face_patch(solid, i), patch) == 0;
   return count;
 }
 
@@ -69,8 +68,7 @@ static void names_and_volume_survive(void **state) {
   char path[64];
   snprintf(path, sizeof path, "%s/pump.step", folder);
   assert_int_equal(cw_step_write(solids, 1, path), CW_OK);
-  if (cw_step_read(path, "rotor", &again) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_step_read(path, "rotor", &again) != CW_OK) fail_msg("%s", cw_fail_message());
   assert_int_equal(cw_measure_solid(rotor, &before), CW_OK);
   assert_int_equal(cw_measure_solid(again, &after), CW_OK);
   assert_true(after.valid);
@@ -111,8 +109,7 @@ static void faces_table(void **state) {
   size_t size;
   char *text = slurp(path, &size);
   int lines = 0;
-  for (size_t i = 0; i < size; i++)
-    lines += text[i] == '\n';
+  for (size_t i = 0; i < size; i++) lines += text[i] == '\n';
   assert_int_equal(lines, 63);
   assert_int_equal(strncmp(text, "domain,face,patch,kind,name\nrotor,1,hub,wall,hub_1\n", 51), 0);
   assert_non_null(strstr(text, ",rotor_interface,interface,rotor_interface_6\n"));

@@ -38,14 +38,12 @@ static CwVoluteInput paper(void) {
 }
 
 static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance))
-    fail_msg("%.12g is not %.12g within %.3g", value, expected, tolerance);
+  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.12g is not %.12g within %.3g", value, expected, tolerance);
 }
 
 static CwVolute designed(const CwVoluteInput *input) {
   CwVolute volute;
-  if (cw_volute_design(input, &volute) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_volute_design(input, &volute) != CW_OK) fail_msg("%s", cw_fail_message());
   return volute;
 }
 
@@ -71,8 +69,7 @@ static void section_by_strips(void **state) {
     double area = 0, integral = 0, step = (s.outer_radius - 0.102) / STRIPS;
     for (int i = 0; i < STRIPS; i++) {
       double r = 0.102 + (i + 0.5) * step, width = 0.012 + 2 * (r - 0.102) * tan(20 * degree);
-      if (r > s.kink_radius)
-        width = 2 * sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
+      if (r > s.kink_radius) width = 2 * sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
       area += width * step;
       integral += width * step / r;
     }
@@ -117,15 +114,13 @@ static void families_of_sections(void **state) {
         double r0 = hypot(before[0], before[1]), r1 = hypot(x[0], x[1]), dz = x[2] - before[2];
         area += 0.5 * (r0 + r1) * dz;
         integral += 0.5 * (log(r0) + log(r1)) * dz;
-        for (int j = 0; j < 3; j++)
-          before[j] = x[j];
+        for (int j = 0; j < 3; j++) before[j] = x[j];
       }
       // The rest of the way round, clockwise: along the side walls inward and across the base circle.
       double h = s.kink_height;
       area -= 0.102 * b3 + 2 * (h - b3 / 2) * (r + 0.102) / 2;
       integral -= log(0.102) * b3;
-      for (int i = 0; i < 2000; i++)
-        integral -= 2 * log(0.102 + (r - 0.102) * (i + 0.5) / 2000) * (h - b3 / 2) / 2000;
+      for (int i = 0; i < 2000; i++) integral -= 2 * log(0.102 + (r - 0.102) * (i + 0.5) / 2000) * (h - b3 / 2) / 2000;
       near_to(s.area, area, 1e-6 * s.area);
       near_to(s.integral, integral, 1e-6 * s.integral);
       double law = input.area_law == CW_AREA_LAW_VELOCITY ? s.area : s.integral;
@@ -135,12 +130,10 @@ static void families_of_sections(void **state) {
         cw_volute_wall_point(&volute, phi, k0, p, NULL, along);
         near_to(along[2] / hypot(along[0], along[1]), slope * cos(atan2(along[1], along[0]) - phi),
                 1e-9); // on along the side wall
-        if (kind < 2)
-          near_to(s.arc_radius, 4 * mm, 1e-15);
+        if (kind < 2) near_to(s.arc_radius, 4 * mm, 1e-15);
       }
     }
-    if (kind < 2)
-      near_to((volute.law_end - volute.law_start) * input.section_speed, input.flow_rate, 1e-12);
+    if (kind < 2) near_to((volute.law_end - volute.law_start) * input.section_speed, input.flow_rate, 1e-12);
     // The nose touches the outer wall from outside.
     double outer = cw_volute_section(&volute, volute.tip_angle).outer_radius;
     assert_true(volute.tip_radius <= outer && volute.tip_radius > outer - 1 * mm);
@@ -157,12 +150,10 @@ static void family_wall_derivatives(void **state) {
         cw_volute_wall_point(&volute, phi, psi, x, a, b);
         cw_volute_wall_point(&volute, phi + h, psi, ahead, NULL, NULL);
         cw_volute_wall_point(&volute, phi - h, psi, behind, NULL, NULL);
-        for (int i = 0; i < 3; i++)
-          near_to(a[i], (ahead[i] - behind[i]) / (2 * h), 2e-7);
+        for (int i = 0; i < 3; i++) near_to(a[i], (ahead[i] - behind[i]) / (2 * h), 2e-7);
         cw_volute_wall_point(&volute, phi, psi + h, ahead, NULL, NULL);
         cw_volute_wall_point(&volute, phi, psi - h, behind, NULL, NULL);
-        for (int i = 0; i < 3; i++)
-          near_to(b[i], (ahead[i] - behind[i]) / (2 * h), 2e-7);
+        for (int i = 0; i < 3; i++) near_to(b[i], (ahead[i] - behind[i]) / (2 * h), 2e-7);
       }
   }
 }
@@ -220,12 +211,10 @@ static void wall_derivatives(void **state) {
   cw_volute_wall_point(&volute, 1.2, 0.7, x, a, b);
   cw_volute_wall_point(&volute, 1.2 + h, 0.7, ahead, NULL, NULL);
   cw_volute_wall_point(&volute, 1.2 - h, 0.7, behind, NULL, NULL);
-  for (int i = 0; i < 3; i++)
-    near_to(a[i], (ahead[i] - behind[i]) / (2 * h), 1e-8);
+  for (int i = 0; i < 3; i++) near_to(a[i], (ahead[i] - behind[i]) / (2 * h), 1e-8);
   cw_volute_wall_point(&volute, 1.2, 0.7 + h, ahead, NULL, NULL);
   cw_volute_wall_point(&volute, 1.2, 0.7 - h, behind, NULL, NULL);
-  for (int i = 0; i < 3; i++)
-    near_to(b[i], (ahead[i] - behind[i]) / (2 * h), 1e-8);
+  for (int i = 0; i < 3; i++) near_to(b[i], (ahead[i] - behind[i]) / (2 * h), 1e-8);
 }
 
 // Without a given throat the spiral takes up Q for K; the throat is then near the area of the plain
@@ -250,8 +239,7 @@ static void throat_by_strips(void **state) {
     double x = volute.inner_wall_x + (i + 0.5) * step, r = hypot(x, volute.throat_y);
     CwVoluteSection s = cw_volute_section(&volute, 2 * M_PI + atan2(volute.throat_y, x));
     double height = 0.006 + (r - 0.102) * tan(20 * degree);
-    if (r > s.kink_radius)
-      height = sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
+    if (r > s.kink_radius) height = sqrt(fmax(0, pow(s.arc_radius, 2) - pow(r - s.arc_centre, 2)));
     area += 2 * height * step;
   }
   near_to(area, 905e-6, 2e-5 * 905e-6);
@@ -270,8 +258,7 @@ static void tongue_touches(void **state) {
     for (int k = 0; k < 20000; k++) { // points of the level line
       double phi = volute.start_angle - 0.05 + k * 2e-5;
       CwVoluteSection s = cw_volute_section(&volute, phi);
-      if (w > s.arc_radius)
-        continue;
+      if (w > s.arc_radius) continue;
       double r = s.arc_centre + sqrt(s.arc_radius * s.arc_radius - w * w);
       nearest = fmin(nearest, hypot(r * cos(phi) - centre_x, r * sin(phi) - y));
     }
@@ -279,10 +266,8 @@ static void tongue_touches(void **state) {
   }
   // Level curve and slope go on without a jump above the kink.
   double h = 1e-7, w = volute.side_level;
-  near_to((cw_volute_nose_y(&volute, w + h) - cw_volute_nose_y(&volute, w)) / h, volute.side_centre_slope,
-          0.01);
-  near_to((cw_volute_nose_y(&volute, w) - cw_volute_nose_y(&volute, w - h)) / h, volute.side_centre_slope,
-          0.01);
+  near_to((cw_volute_nose_y(&volute, w + h) - cw_volute_nose_y(&volute, w)) / h, volute.side_centre_slope, 0.01);
+  near_to((cw_volute_nose_y(&volute, w) - cw_volute_nose_y(&volute, w - h)) / h, volute.side_centre_slope, 0.01);
 }
 
 static void diffuser(void **state) {

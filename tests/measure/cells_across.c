@@ -17,7 +17,7 @@ static const double FACING = 0.9; // cosine between the ray and the wall it meet
 enum { RAYS = 1200 };             // a domain, about
 
 typedef struct {
-  int from, to;          // patches
+  int from, to;           // patches
   double a[3], b[3], gap; // ends and length, m
   int cells, tetrahedra;
 } Probe;
@@ -99,7 +99,8 @@ static int find_probes(const CwCad *cad, const CwBackground *background, const C
     if (cw_dot(n, away) < FACING) continue;
     Probe *made = &probe[count++];
     *made = (Probe){.from = cw_cad_face_patch(cad, background->face[t]),
-                    .to = cw_cad_face_patch(cad, background->face[hit]), .gap = gap};
+                    .to = cw_cad_face_patch(cad, background->face[hit]),
+                    .gap = gap};
     for (int k = 0; k < 3; k++) { // a little beyond both walls: the mesh has its own chords
       made->a[k] = centre[k] - 0.02 * gap * away[k];
       made->b[k] = centre[k] + 1.02 * gap * away[k];

@@ -236,8 +236,10 @@ static CwStatus draw(const Place *place, const CwDomainMesh *mesh, const Points 
   snprintf(path, sizeof path, "%s/layers_%s.svg", folder, place->name);
   FILE *file = fopen(path, "w");
   CW_REQUIRE(file, CW_ERR_IO, "%s: cannot be written", path);
-  fprintf(file, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" stroke=\"#303840\" "
-                "stroke-width=\"0.6\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n", PIXELS, PIXELS);
+  fprintf(file,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" stroke=\"#303840\" "
+          "stroke-width=\"0.6\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+          PIXELS, PIXELS);
   for (int32_t r = 0; r < mesh->region_count; r++) {
     const CwRegionMesh *region = &mesh->region[r];
     for (int32_t c = 0; c < region->tetrahedron_count; c++) {

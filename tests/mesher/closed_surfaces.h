@@ -22,8 +22,7 @@ static inline void surface_free(Surface *s) {
 
 static inline int32_t surface_point(Surface *s, const double p[3], int32_t search_from) {
   for (int32_t i = search_from; i < s->point_count; i++) {
-    if (fabs(s->x[i][0] - p[0]) + fabs(s->x[i][1] - p[1]) + fabs(s->x[i][2] - p[2]) < 1e-9)
-      return i;
+    if (fabs(s->x[i][0] - p[0]) + fabs(s->x[i][1] - p[1]) + fabs(s->x[i][2] - p[2]) < 1e-9) return i;
   }
   s->x = realloc(s->x, (size_t)(s->point_count + 1) * sizeof *s->x);
   memcpy(s->x[s->point_count], p, sizeof *s->x);
@@ -37,8 +36,7 @@ static inline void surface_triangle(Surface *s, int32_t a, int32_t b, int32_t c,
 }
 
 // A box with n[i] edges along axis i; each square has the same diagonal (cocircular points everywhere).
-static inline void surface_add_box(Surface *s, const double low[3], const double high[3], const int n[3],
-                                   int outward) {
+static inline void surface_add_box(Surface *s, const double low[3], const double high[3], const int n[3], int outward) {
   int32_t from = s->point_count;
   for (int axis = 0; axis < 3; axis++) {
     int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -62,12 +60,10 @@ static inline void surface_add_box(Surface *s, const double low[3], const double
 }
 
 // An icosahedron, each face cut into 4^level.
-static inline void surface_add_sphere(Surface *s, const double centre[3], double radius, int level,
-                                      int outward) {
-  static const int face[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                                  {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                  {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                                  {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+static inline void surface_add_sphere(Surface *s, const double centre[3], double radius, int level, int outward) {
+  static const int face[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                  {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   const double g = 0.5 * (1.0 + sqrt(5.0));
   const double corner[12][3] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
@@ -79,20 +75,16 @@ static inline void surface_add_sphere(Surface *s, const double centre[3], double
         int32_t at[4];
         for (int k = 0; k < 4; k++) { // (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)
           double a = (double)(i + (k & 1)) / n, b = (double)(j + (k >> 1)) / n, p[3], length = 0.0;
-          if (a + b > 1.0 + 1e-12)
-            continue;
+          if (a + b > 1.0 + 1e-12) continue;
           for (int c = 0; c < 3; c++) {
-            p[c] =
-                (1.0 - a - b) * corner[face[f][0]][c] + a * corner[face[f][1]][c] + b * corner[face[f][2]][c];
+            p[c] = (1.0 - a - b) * corner[face[f][0]][c] + a * corner[face[f][1]][c] + b * corner[face[f][2]][c];
             length += p[c] * p[c];
           }
-          for (int c = 0; c < 3; c++)
-            p[c] = centre[c] + radius * p[c] / sqrt(length);
+          for (int c = 0; c < 3; c++) p[c] = centre[c] + radius * p[c] / sqrt(length);
           at[k] = surface_point(s, p, from);
         }
         surface_triangle(s, at[0], at[1], at[2], outward);
-        if (i + j < n - 1)
-          surface_triangle(s, at[1], at[3], at[2], outward);
+        if (i + j < n - 1) surface_triangle(s, at[1], at[3], at[2], outward);
       }
     }
   }

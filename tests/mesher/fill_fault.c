@@ -25,8 +25,7 @@ static int compare_triples(const void *a, const void *b) {
 
 static void least_first(const int32_t p[3], int32_t out[3]) {
   int least = p[0] < p[1] ? (p[0] < p[2] ? 0 : 2) : (p[1] < p[2] ? 1 : 2);
-  for (int k = 0; k < 3; k++)
-    out[k] = p[(least + k) % 3];
+  for (int k = 0; k < 3; k++) out[k] = p[(least + k) % 3];
 }
 
 const char *fill_fault(const Surface *s, const CwFill *fill) {
@@ -39,8 +38,8 @@ const char *fill_fault(const Surface *s, const CwFill *fill) {
   long double six = 0.0, size = 0.0;
   if (fill->point_count < s->point_count || memcmp(fill->x, s->x, (size_t)s->point_count * sizeof *s->x))
     fault = "points of the boundary were changed";
-  else if (cw_tet_neighbours(fill->point_count, fill->tetrahedron_count,
-                             (const int32_t(*)[4])fill->tetrahedron, neighbour) != CW_OK)
+  else if (cw_tet_neighbours(fill->point_count, fill->tetrahedron_count, (const int32_t(*)[4])fill->tetrahedron,
+                             neighbour) != CW_OK)
     fault = "a face has more than two cells";
   for (int32_t t = 0; t < fill->tetrahedron_count && !fault; t++) {
     const int32_t *p = fill->tetrahedron[t];
@@ -50,12 +49,10 @@ const char *fill_fault(const Surface *s, const CwFill *fill) {
       used[p[i]] = 1;
       size = fmaxl(size, fabs(x[i][0]) + fabs(x[i][1]) + fabs(x[i][2]));
     }
-    if (cw_orient3d(x[0], x[1], x[2], x[3]) != 1)
-      fault = "a cell is not positive";
+    if (cw_orient3d(x[0], x[1], x[2], x[3]) != 1) fault = "a cell is not positive";
     six += cw_tet_volume6(x[0], x[1], x[2], x[3]);
     for (int i = 0; i < 4 && !fault; i++) {
-      if (neighbour[t][i] >= 0)
-        continue;
+      if (neighbour[t][i] >= 0) continue;
       if (opened == s->triangle_count) {
         fault = "more faces are open than given";
         break;
@@ -64,19 +61,15 @@ const char *fill_fault(const Surface *s, const CwFill *fill) {
       least_first(q, open[opened++]);
     }
   }
-  if (!fault && opened != s->triangle_count)
-    fault = "fewer faces are open than given";
-  for (int32_t t = 0; t < s->triangle_count && !fault; t++)
-    least_first(s->triangle[t], given[t]);
+  if (!fault && opened != s->triangle_count) fault = "fewer faces are open than given";
+  for (int32_t t = 0; t < s->triangle_count && !fault; t++) least_first(s->triangle[t], given[t]);
   if (!fault) {
     qsort(open, (size_t)opened, sizeof *open, compare_triples);
     qsort(given, (size_t)opened, sizeof *given, compare_triples);
-    if (memcmp(open, given, (size_t)opened * sizeof *open))
-      fault = "an open face is not the given triangle";
+    if (memcmp(open, given, (size_t)opened * sizeof *open)) fault = "an open face is not the given triangle";
   }
   for (int32_t p = 0; p < fill->point_count && !fault; p++) {
-    if (!used[p])
-      fault = "a point is in no cell";
+    if (!used[p]) fault = "a point is in no cell";
   }
   // surface_volume() goes from the origin: its rounding is that of the cube of the distance to it.
   double volume = surface_volume(s);

@@ -139,8 +139,7 @@ static void wedge_1(Surface *s, double *size) {
 static void void_wedge_5(Surface *s, double *size) { // a cut as sharp into the body
   const double a = 5 * PI / 180.0;
   double q[7][2] = {
-      {0, 0},   {0.04 * cos(a), 0.04 * sin(a)}, {0.04, 0.02}, {-0.02, 0.02}, {-0.02, -0.02}, {0.04, -0.02},
-      {0.04, 0}};
+      {0, 0}, {0.04 * cos(a), 0.04 * sin(a)}, {0.04, 0.02}, {-0.02, 0.02}, {-0.02, -0.02}, {0.04, -0.02}, {0.04, 0}};
   shape_extrude(s, 7, (const double(*)[2])q, *size = 0.005, 0.02, 4, 0.0, 1);
 }
 
@@ -153,8 +152,7 @@ static void needle(Surface *s, double *size) {
 static void needle_of_a_cone(Surface *s, double *size) {
   int n = 20;
   int32_t tip = shape_point(s, 0, 0, 0.1), foot = shape_point(s, 0, 0, 0), first = s->point_count;
-  for (int k = 0; k < n; k++)
-    shape_point(s, 0.002 * cos(2 * PI * k / n), 0.002 * sin(2 * PI * k / n), 0);
+  for (int k = 0; k < n; k++) shape_point(s, 0.002 * cos(2 * PI * k / n), 0.002 * sin(2 * PI * k / n), 0);
   for (int k = 0; k < n; k++) {
     surface_triangle(s, first + k, first + (k + 1) % n, tip, 1);
     surface_triangle(s, first + (k + 1) % n, first + k, foot, 1);
@@ -165,8 +163,7 @@ static void needle_of_a_cone(Surface *s, double *size) {
 static void spikes(Surface *s, double *size) {
   shape_ball(s, 0, 0, 0, 0.01, 2, 1);
   for (int32_t p = 0; p < s->point_count; p += 5) {
-    for (int i = 0; i < 3; i++)
-      s->x[p][i] *= 5.0;
+    for (int i = 0; i < 3; i++) s->x[p][i] *= 5.0;
   }
   *size = 0.003;
 }
@@ -174,8 +171,7 @@ static void spikes(Surface *s, double *size) {
 static void dents(Surface *s, double *size) {
   shape_ball(s, 0, 0, 0, 0.01, 2, 1);
   for (int32_t p = 0; p < s->point_count; p += 5) {
-    for (int i = 0; i < 3; i++)
-      s->x[p][i] *= 0.05;
+    for (int i = 0; i < 3; i++) s->x[p][i] *= 0.05;
   }
   *size = 0.003;
 }
@@ -194,8 +190,7 @@ static void many_voids(Surface *s, double *size) {
 }
 
 static void five_shells(Surface *s, double *size) {
-  for (int k = 0; k < 5; k++)
-    shape_ball(s, 0.0004 * k, 0, 0, 0.05 - 0.008 * k, k < 3 ? 3 : 2, k % 2 == 0);
+  for (int k = 0; k < 5; k++) shape_ball(s, 0.0004 * k, 0, 0, 0.05 - 0.008 * k, k < 3 ? 3 : 2, k % 2 == 0);
   *size = 0.01;
 }
 
@@ -318,8 +313,7 @@ static void sphere_of_turned_diagonals(Surface *s, double *size) {
 
 static void lens(Surface *s, double *size) {
   shape_ball(s, 0, 0, 0, 0.02, 3, 1);
-  for (int32_t p = 0; p < s->point_count; p++)
-    s->x[p][2] *= 0.05;
+  for (int32_t p = 0; p < s->point_count; p++) s->x[p][2] *= 0.05;
   *size = 0.003;
 }
 
@@ -344,17 +338,13 @@ static void add_touching_box(Surface *s, double x, double y, double z) {
     number[p] = -1;
     for (int32_t q = 0; q < before && number[p] < 0; q++) {
       double d = 0.0;
-      for (int i = 0; i < 3; i++)
-        d += fabs(s->x[q][i] - other.x[p][i]);
-      if (d < 1e-9)
-        number[p] = q;
+      for (int i = 0; i < 3; i++) d += fabs(s->x[q][i] - other.x[p][i]);
+      if (d < 1e-9) number[p] = q;
     }
-    if (number[p] < 0)
-      number[p] = shape_point(s, other.x[p][0], other.x[p][1], other.x[p][2]);
+    if (number[p] < 0) number[p] = shape_point(s, other.x[p][0], other.x[p][1], other.x[p][2]);
   }
   for (int32_t t = 0; t < other.triangle_count; t++)
-    surface_triangle(s, number[other.triangle[t][0]], number[other.triangle[t][1]],
-                     number[other.triangle[t][2]], 1);
+    surface_triangle(s, number[other.triangle[t][0]], number[other.triangle[t][1]], number[other.triangle[t][2]], 1);
   free(number);
   surface_free(&other);
 }
@@ -374,16 +364,14 @@ static void boxes_with_a_common_corner(Surface *s, double *size) {
 static void box_far_from_the_origin(Surface *s, double *size) {
   cube(s, size);
   for (int32_t p = 0; p < s->point_count; p++) {
-    for (int i = 0; i < 3; i++)
-      s->x[p][i] += 1000.0 * (i + 1);
+    for (int i = 0; i < 3; i++) s->x[p][i] += 1000.0 * (i + 1);
   }
 }
 
 static void warped_box(Surface *s, double *size) {
   uint64_t seed = 12;
   shape_box(s, 0, 0, 0, 0.04, 0.04, 0.04, 8, 8, 8, 1);
-  for (int32_t p = 0; p < 3 * s->point_count; p++)
-    s->x[p / 3][p % 3] += 0.0022 * (draw(&seed) - 0.5);
+  for (int32_t p = 0; p < 3 * s->point_count; p++) s->x[p / 3][p % 3] += 0.0022 * (draw(&seed) - 0.5);
   *size = 0.005;
 }
 

@@ -72,10 +72,8 @@ static void chazelle(Surface *s, double *size) {
     for (int k = 0; k < 3 * N + 2; k++) {
       int i = (k + 2) / 3, ridge = k > 0 && k < 3 * N + 1 && k % 3 == 2;
       double across = k == 0 ? 0 : k == 3 * N + 1 ? m : i + (k % 3 == 1 ? -width : k % 3 == 0 ? width : 0);
-      if (k > 0 && k < 3 * N + 1 && k % 3 == 0)
-        across = k / 3 + width;
-      if (ridge)
-        across = (k + 1) / 3;
+      if (k > 0 && k < 3 * N + 1 && k % 3 == 0) across = k / 3 + width;
+      if (ridge) across = (k + 1) / 3;
       double along = end ? m : 0, z = across * along;
       low[end][k] = shape_point(s, across, along, ridge ? z - near : deep);
       top[end][k] = shape_point(s, along, across, ridge ? z + near : high);

@@ -12,7 +12,8 @@ typedef struct {
   void (*make)(Surface *surface, double *size);
 } HardBoundary;
 
-#define HARD(name) {#name, name}
+#define HARD(name)                                                                                                     \
+  { #name, name }
 
 extern const HardBoundary hard_polyhedra[];
 extern const int hard_polyhedra_count;

@@ -35,26 +35,26 @@ static inline CwStatus case_make(Case *c) {
   surface_weld(&c->cap);
   int32_t n = c->wall.point_count, *guide_count = calloc(n, sizeof *guide_count);
   double *target = malloc(n * sizeof *target), *lowest = c->lowest > 0 ? malloc(n * sizeof *lowest) : NULL;
-  double (*guide_normal)[2][3] = calloc(n, sizeof *guide_normal);
+  double(*guide_normal)[2][3] = calloc(n, sizeof *guide_normal);
   for (int32_t v = 0; v < n; v++) {
     target[v] = c->target;
     if (lowest) lowest[v] = c->lowest;
     if (c->guide) guide_count[v] = c->guide(c->guide_context, c->wall.x[v], guide_normal[v]);
   }
   c->in = (CwLayerInput){.point_count = n,
-                         .x = (const double (*)[3])c->wall.x,
+                         .x = (const double(*)[3])c->wall.x,
                          .triangle_count = c->wall.triangle_count,
-                         .triangle = (const int32_t (*)[3])c->wall.triangle,
+                         .triangle = (const int32_t(*)[3])c->wall.triangle,
                          .target = target,
                          .least = lowest,
                          .guide_count = guide_count,
-                         .guide_normal = (const double (*)[2][3])guide_normal,
+                         .guide_normal = (const double(*)[2][3])guide_normal,
                          .snap = c->snap,
                          .snap_context = c,
                          .obstacle_point_count = c->cap.point_count,
-                         .obstacle_x = (const double (*)[3])c->cap.x,
+                         .obstacle_x = (const double(*)[3])c->cap.x,
                          .obstacle_triangle_count = c->cap.triangle_count,
-                         .obstacle_triangle = (const int32_t (*)[3])c->cap.triangle};
+                         .obstacle_triangle = (const int32_t(*)[3])c->cap.triangle};
   return cw_layers_make(&c->in, &c->out);
 }
 
@@ -102,8 +102,8 @@ static inline void case_check_prisms(const Case *c) {
 static inline void case_check_front(const Case *c) {
   int32_t n = c->wall.point_count, m = c->wall.triangle_count, caps = c->cap.triangle_count, count, (*pair)[2];
   int32_t points = 2 * n + c->cap.point_count;
-  double (*x)[3] = malloc(points * sizeof *x);
-  int32_t (*t)[3] = malloc((2 * (size_t)m + caps) * sizeof *t);
+  double(*x)[3] = malloc(points * sizeof *x);
+  int32_t(*t)[3] = malloc((2 * (size_t)m + caps) * sizeof *t);
   memcpy(x, c->out.front, n * sizeof *x);
   memcpy(x + n, c->wall.x, n * sizeof *x);
   if (caps) memcpy(x + 2 * n, c->cap.x, c->cap.point_count * sizeof *x);
@@ -111,8 +111,8 @@ static inline void case_check_front(const Case *c) {
     for (int i = 0; i < 3; i++) t[f][i] = c->wall.triangle[f][i], t[m + f][i] = n + c->wall.triangle[f][i];
   for (int32_t f = 0; f < caps; f++)
     for (int i = 0; i < 3; i++) t[2 * m + f][i] = 2 * n + c->cap.triangle[f][i];
-  assert_int_equal(cw_self_intersections(points, (const double (*)[3])x, 2 * m + caps, (const int32_t (*)[3])t, &count,
-                                         &pair), CW_OK);
+  assert_int_equal(
+      cw_self_intersections(points, (const double(*)[3])x, 2 * m + caps, (const int32_t(*)[3])t, &count, &pair), CW_OK);
   for (int32_t i = 0; i < count; i++) {
     assert_true(pair[i][1] >= 2 * m);
     if (pair[i][0] >= m) continue;
@@ -153,8 +153,7 @@ static inline void case_run(Case *c, const char *name) {
   for (int32_t v = 0; v < n && !c->snap; v++)
     for (int i = 0; i < c->in.guide_count[v]; i++) {
       double away = 0;
-      for (int k = 0; k < 3; k++)
-        away += (c->out.front[v][k] - c->wall.x[v][k]) * c->in.guide_normal[v][i][k];
+      for (int k = 0; k < 3; k++) away += (c->out.front[v][k] - c->wall.x[v][k]) * c->in.guide_normal[v][i][k];
       assert_true(fabs(away) < 1e-12);
     }
 }
@@ -192,7 +191,10 @@ static inline void case_picture(const Case *c, const char *path, const double o[
       if (ends != 2 || fabs(page[0][0]) > 1 || fabs(page[0][1]) > 1) continue;
       fprintf(file, "<path d=\"M%.2f %.2fL%.2f %.2f\" stroke=\"%s\" stroke-width=\"%s\"/>\n",
               PIXELS / 2 * (1 + page[0][0]), PIXELS / 2 * (1 - page[0][1]), PIXELS / 2 * (1 + page[1][0]),
-              PIXELS / 2 * (1 - page[1][1]), level == 0 ? "black" : level == LEVELS ? "#c03010" : "#90a8c8",
+              PIXELS / 2 * (1 - page[1][1]),
+              level == 0        ? "black"
+              : level == LEVELS ? "#c03010"
+                                : "#90a8c8",
               level % LEVELS ? "0.7" : "2");
     }
   fputs("</svg>\n", file);

@@ -15,8 +15,7 @@ typedef struct {
 
 static inline CwBackground octahedron(Octahedron *shape, int hollow) {
   for (int i = 0; i < 12; i++) {
-    for (int k = 0; k < 3; k++)
-      shape->x[i][k] = 0;
+    for (int k = 0; k < 3; k++) shape->x[i][k] = 0;
     shape->x[i][i % 6 / 2] = (i % 2 ? -1.0 : 1.0) * (i < 6 ? 1.0 : 0.25);
   }
   for (int t = 0; t < 16; t++) {

@@ -38,8 +38,7 @@ struct PlannedSolid {
     check(cw_size_seeds_start(cad, &background, &table, &relative, 2e-3, &seeds));
     for (size_t i = 0; i < seed.size(); i++) check(cw_size_seeds_part(seeds, (int)i, &seed[i], &bytes));
     cw_size_seeds_free(&seeds);
-    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block,
-                       &bytes));
+    check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block, &bytes));
     check(cw_size_unpack(&block, &size));
     for (void *one : seed) free(one);
     CwPlanOptions options = {3, &thickness, nullptr, 0, 12};

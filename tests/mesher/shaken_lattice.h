@@ -19,17 +19,14 @@ static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, doub
         skin |= k % 2 == 0 ? i[a] == 0 || i[a] == n : i[a] == 0 || i[a] == n - 1;
         within &= k % 2 == 0 || i[a] < n;
       }
-      if (!within || skin != (pass == 0))
-        continue;
+      if (!within || skin != (pass == 0)) continue;
       for (int a = 0; a < 3; a++) {
         state = state * 6364136223846793005u + 1442695040888963407u;
-        (*x)[count][a] =
-            i[a] + 0.5 * (k % 2) + (skin ? 1e-3 : shake) * ((double)(state >> 11) * 0x1p-52 - 1.0);
+        (*x)[count][a] = i[a] + 0.5 * (k % 2) + (skin ? 1e-3 : shake) * ((double)(state >> 11) * 0x1p-52 - 1.0);
       }
       count++;
     }
-    if (pass == 0)
-      *outside = count;
+    if (pass == 0) *outside = count;
   }
   return count;
 }

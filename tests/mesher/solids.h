@@ -30,18 +30,16 @@ extern "C" {
 }
 
 // cmocka's own comparison is in float.
-#define assert_near(value, wanted, tolerance)                                                                \
-  do {                                                                                                       \
-    double value_ = (value), wanted_ = (wanted);                                                             \
-    if (!(std::fabs(value_ - wanted_) <= (tolerance)))                                                       \
-      fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);                                             \
+#define assert_near(value, wanted, tolerance)                                                                          \
+  do {                                                                                                                 \
+    double value_ = (value), wanted_ = (wanted);                                                                       \
+    if (!(std::fabs(value_ - wanted_) <= (tolerance))) fail_msg("%s: %.17g, not %.17g", #value, value_, wanted_);      \
   } while (0)
 
 // Volume of the solid, m3, from all its faces.
 static inline double solid_volume(const CwCad *cad) {
   double volume = 0;
-  for (int f = 0; f < cw_cad_face_count(cad); f++)
-    volume += cw_cad_face_volume(cad, f);
+  for (int f = 0; f < cw_cad_face_count(cad); f++) volume += cw_cad_face_volume(cad, f);
   return volume;
 }
 
@@ -75,8 +73,7 @@ inline void write_text(const TemporaryFolder &folder, const char *text) {
   std::fclose(file);
 }
 
-inline void write_solid(const TemporaryFolder &folder, const TopoDS_Shape &solid,
-                        const PatchOfFace &patch_of) {
+inline void write_solid(const TemporaryFolder &folder, const TopoDS_Shape &solid, const PatchOfFace &patch_of) {
   assert_true(BRepTools::Write(solid, (std::string(folder.path) + "/part.brep").c_str()));
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid, TopAbs_FACE, faces);
@@ -92,8 +89,7 @@ inline CwCad *open_solid(const TopoDS_Shape &solid, const PatchOfFace &patch_of 
   TemporaryFolder folder;
   CwCad *cad = nullptr;
   write_solid(folder, solid, patch_of);
-  if (cw_cad_open(folder.path, "part", &cad) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_cad_open(folder.path, "part", &cad) != CW_OK) fail_msg("%s", cw_fail_message());
   return cad;
 }
 

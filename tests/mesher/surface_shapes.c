@@ -3,8 +3,8 @@
 
 static const double PI = 3.141592653589793;
 
-void shape_box(Surface *s, double lx, double ly, double lz, double hx, double hy, double hz, int nx, int ny,
-               int nz, int outward) {
+void shape_box(Surface *s, double lx, double ly, double lz, double hx, double hy, double hz, int nx, int ny, int nz,
+               int outward) {
   surface_add_box(s, (double[3]){lx, ly, lz}, (double[3]){hx, hy, hz}, (int[3]){nx, ny, nz}, outward);
 }
 
@@ -20,10 +20,8 @@ static void curve_frame(Curve curve, const void *context, double u, double t[3])
   double a[3], b[3], radius, length = 0.0;
   curve(context, u - 1e-5, a, &radius);
   curve(context, u + 1e-5, b, &radius);
-  for (int i = 0; i < 3; i++)
-    length += (b[i] - a[i]) * (b[i] - a[i]);
-  for (int i = 0; i < 3; i++)
-    t[i] = (b[i] - a[i]) / sqrt(length);
+  for (int i = 0; i < 3; i++) length += (b[i] - a[i]) * (b[i] - a[i]);
+  for (int i = 0; i < 3; i++) t[i] = (b[i] - a[i]) / sqrt(length);
 }
 
 void shape_tube(Surface *s, Curve curve, const void *context, int rows, int columns, int closed, double shift,
@@ -37,23 +35,18 @@ void shape_tube(Surface *s, Curve curve, const void *context, int rows, int colu
       curve(context, (double)c / columns, x, &radius);
       curve_frame(curve, context, (double)c / columns, t);
       if (c == 0) {
-        int least =
-            fabs(t[0]) < fabs(t[1]) ? (fabs(t[0]) < fabs(t[2]) ? 0 : 2) : (fabs(t[1]) < fabs(t[2]) ? 1 : 2);
+        int least = fabs(t[0]) < fabs(t[1]) ? (fabs(t[0]) < fabs(t[2]) ? 0 : 2) : (fabs(t[1]) < fabs(t[2]) ? 1 : 2);
         memset(v, 0, sizeof v);
         v[least] = 1.0;
       }
-      for (int i = 0; i < 3; i++)
-        dot += v[i] * t[i];
+      for (int i = 0; i < 3; i++) dot += v[i] * t[i];
       for (int i = 0; i < 3; i++) {
         v[i] -= dot * t[i];
         length += v[i] * v[i];
       }
-      for (int i = 0; i < 3; i++)
-        v[i] /= sqrt(length);
-      for (int i = 0; i < 3; i++)
-        w[i] = t[(i + 1) % 3] * v[(i + 2) % 3] - t[(i + 2) % 3] * v[(i + 1) % 3];
-      if (c == 0)
-        memcpy(first, v, sizeof first);
+      for (int i = 0; i < 3; i++) v[i] /= sqrt(length);
+      for (int i = 0; i < 3; i++) w[i] = t[(i + 1) % 3] * v[(i + 2) % 3] - t[(i + 2) % 3] * v[(i + 1) % 3];
+      if (c == 0) memcpy(first, v, sizeof first);
       if (c == stations && pass == 0) {
         double along = 0.0, across = 0.0;
         for (int i = 0; i < 3; i++) {
@@ -63,12 +56,10 @@ void shape_tube(Surface *s, Curve curve, const void *context, int rows, int colu
         last_turn = atan2(across, along);
         continue;
       }
-      if (closed && pass == 0)
-        continue;
+      if (closed && pass == 0) continue;
       for (int r = 0; r < rows; r++) {
         double a = 2.0 * PI * (r + shift * c) / rows + last_turn * c / columns;
-        shape_point(s, x[0] + radius * (cos(a) * v[0] + sin(a) * w[0]),
-                    x[1] + radius * (cos(a) * v[1] + sin(a) * w[1]),
+        shape_point(s, x[0] + radius * (cos(a) * v[0] + sin(a) * w[0]), x[1] + radius * (cos(a) * v[1] + sin(a) * w[1]),
                     x[2] + radius * (cos(a) * v[2] + sin(a) * w[2]));
       }
     }
@@ -76,10 +67,8 @@ void shape_tube(Surface *s, Curve curve, const void *context, int rows, int colu
   for (int c = 0; c < columns; c++) {
     for (int r = 0; r < rows; r++) {
       int turn = 0; // rows by which a closed, shifted tube meets itself later
-      if (closed && c + 1 == columns)
-        turn = (int)floor(shift * columns + 0.5);
-      int32_t a = base + c * rows + r, b = base + c * rows + (r + 1) % rows,
-              next = base + (c + 1) % stations * rows;
+      if (closed && c + 1 == columns) turn = (int)floor(shift * columns + 0.5);
+      int32_t a = base + c * rows + r, b = base + c * rows + (r + 1) % rows, next = base + (c + 1) % stations * rows;
       int32_t d = next + (r + turn) % rows, e = next + (r + 1 + turn) % rows;
       surface_triangle(s, a, b, e, outward);
       surface_triangle(s, a, e, d, outward);
@@ -118,8 +107,7 @@ static double area(const double *a, const double *b, const double *c) {
 
 int shape_ears(int n, const double (*p)[2], int (*triangle)[3]) {
   int *left = malloc((size_t)n * sizeof *left), count = 0;
-  for (int k = 0; k < n; k++)
-    left[k] = k;
+  for (int k = 0; k < n; k++) left[k] = k;
   for (; n >= 3; n--) {
     int best = -1;
     double most = 0.0;
@@ -128,23 +116,19 @@ int shape_ears(int n, const double (*p)[2], int (*triangle)[3]) {
       const double *a = p[at[0]], *b = p[at[1]], *c = p[at[2]];
       double twice = area(a, b, c), square = 0.0;
       for (int i = 0; i < 2; i++)
-        square +=
-            (b[i] - a[i]) * (b[i] - a[i]) + (c[i] - b[i]) * (c[i] - b[i]) + (a[i] - c[i]) * (a[i] - c[i]);
-      if (twice < 1e-9 * square || twice / square <= most)
-        continue;
+        square += (b[i] - a[i]) * (b[i] - a[i]) + (c[i] - b[i]) * (c[i] - b[i]) + (a[i] - c[i]) * (a[i] - c[i]);
+      if (twice < 1e-9 * square || twice / square <= most) continue;
       int holds = 0;
       for (int m = 0; m < n && !holds; m++) {
         const double *q = p[left[m]];
         holds = left[m] != at[0] && left[m] != at[1] && left[m] != at[2] && area(a, b, q) >= -1e-9 * square &&
                 area(b, c, q) >= -1e-9 * square && area(c, a, q) >= -1e-9 * square;
       }
-      if (holds)
-        continue;
+      if (holds) continue;
       best = k;
       most = twice / square;
     }
-    if (best < 0)
-      break;
+    if (best < 0) break;
     int *t = triangle[count++];
     t[0] = left[(best + n - 1) % n], t[1] = left[best], t[2] = left[(best + 1) % n];
     memmove(left + best, left + best + 1, (size_t)(n - 1 - best) * sizeof *left);
@@ -160,8 +144,7 @@ void shape_extrude(Surface *s, int corners, const double (*corner)[2], double ed
   for (int k = 0; k < corners; k++) {
     const double *a = corner[k], *b = corner[(k + 1) % corners];
     int pieces = (int)ceil(hypot(b[0] - a[0], b[1] - a[1]) / edge - 1e-9);
-    if (pieces < 1)
-      pieces = 1;
+    if (pieces < 1) pieces = 1;
     for (int i = 0; i < pieces; i++, n++) {
       p[n][0] = a[0] + (b[0] - a[0]) * i / pieces;
       p[n][1] = a[1] + (b[1] - a[1]) * i / pieces;
@@ -194,8 +177,7 @@ void shape_extrude(Surface *s, int corners, const double (*corner)[2], double ed
 static int32_t triangle_with(const Surface *s, int32_t a, int32_t b, int *third) {
   for (int32_t t = 0; t < s->triangle_count; t++) {
     for (int k = 0; k < 3; k++) {
-      if (s->triangle[t][k] != a || s->triangle[t][(k + 1) % 3] != b)
-        continue;
+      if (s->triangle[t][k] != a || s->triangle[t][(k + 1) % 3] != b) continue;
       *third = (k + 2) % 3;
       return t;
     }
@@ -207,15 +189,11 @@ int shape_turn_diagonals(Surface *s, uint64_t seed, int one_in) {
   uint8_t *done = calloc((size_t)s->triangle_count, 1);
   int turned = 0, at, unused;
   for (int32_t t = 0; t < s->triangle_count; t++) {
-    if (draw_below(&seed, one_in) || done[t])
-      continue;
-    int32_t a = s->triangle[t][0], b = s->triangle[t][1], c = s->triangle[t][2],
-            o = triangle_with(s, b, a, &at);
-    if (o < 0 || done[o])
-      continue;
+    if (draw_below(&seed, one_in) || done[t]) continue;
+    int32_t a = s->triangle[t][0], b = s->triangle[t][1], c = s->triangle[t][2], o = triangle_with(s, b, a, &at);
+    if (o < 0 || done[o]) continue;
     int32_t d = s->triangle[o][at];
-    if (c == d || triangle_with(s, c, d, &unused) >= 0 || triangle_with(s, d, c, &unused) >= 0)
-      continue;
+    if (c == d || triangle_with(s, c, d, &unused) >= 0 || triangle_with(s, d, c, &unused) >= 0) continue;
     done[t] = done[o] = 1;
     const int32_t one[3] = {a, d, c}, two[3] = {d, b, c};
     memcpy(s->triangle[t], one, sizeof one);
@@ -227,8 +205,7 @@ int shape_turn_diagonals(Surface *s, uint64_t seed, int one_in) {
 }
 
 void shape_refine(Surface *s, const double place[3], double least, double growth, int limit) {
-  const double p[3] = {place[0], place[1],
-                       place[2]}; // it may be a point of the surface, which moves in memory
+  const double p[3] = {place[0], place[1], place[2]}; // it may be a point of the surface, which moves in memory
   for (int again = 1; again && s->triangle_count < limit;) {
     again = 0;
     for (int32_t t = 0; t < s->triangle_count && s->triangle_count < limit; t++) {
@@ -244,13 +221,11 @@ void shape_refine(Surface *s, const double place[3], double least, double growth
           }
           far = fmin(far, hypot(hypot(p[0] - a[0], p[1] - a[1]), p[2] - a[2]));
         }
-        if (most <= least + growth * far)
-          break;
+        if (most <= least + growth * far) break;
         int32_t a = s->triangle[t][at], b = s->triangle[t][(at + 1) % 3], c = s->triangle[t][(at + 2) % 3];
         int32_t o = triangle_with(s, b, a, &third), d = s->triangle[o][third];
         double m[3];
-        for (int i = 0; i < 3; i++)
-          m[i] = 0.5 * (s->x[a][i] + s->x[b][i]);
+        for (int i = 0; i < 3; i++) m[i] = 0.5 * (s->x[a][i] + s->x[b][i]);
         int32_t n = shape_point(s, m[0], m[1], m[2]);
         const int32_t one[3] = {a, n, c}, two[3] = {b, n, d};
         memcpy(s->triangle[t], one, sizeof one);
@@ -264,8 +239,7 @@ void shape_refine(Surface *s, const double place[3], double least, double growth
 }
 
 void shape_scale(Surface *s, double x, double y, double z) {
-  for (int32_t p = 0; p < s->point_count; p++)
-    s->x[p][0] *= x, s->x[p][1] *= y, s->x[p][2] *= z;
+  for (int32_t p = 0; p < s->point_count; p++) s->x[p][0] *= x, s->x[p][1] *= y, s->x[p][2] *= z;
 }
 
 void shape_turn(Surface *s, double a, double b) {

@@ -19,8 +19,8 @@ static inline int draw_below(uint64_t *state, int below) {
 int32_t shape_point(Surface *s, double x, double y, double z);
 
 // A box between two corners with n edges along each axis; a sphere, its triangles divided `level` times.
-void shape_box(Surface *s, double lx, double ly, double lz, double hx, double hy, double hz, int nx, int ny,
-               int nz, int outward);
+void shape_box(Surface *s, double lx, double ly, double lz, double hx, double hy, double hz, int nx, int ny, int nz,
+               int outward);
 void shape_ball(Surface *s, double x, double y, double z, double radius, int level, int outward);
 
 // A point of a curve and the radius there, u from 0 to 1.

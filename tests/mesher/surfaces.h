@@ -58,7 +58,7 @@ static inline void surface_grid(Surface *s, SurfaceMap map, const void *context,
 }
 
 static inline void surface_bilinear(const void *context, double u, double v, double x[3]) {
-  const double (*p)[3] = context;
+  const double(*p)[3] = context;
   for (int k = 0; k < 3; k++)
     x[k] = (1 - u) * (1 - v) * p[0][k] + u * (1 - v) * p[1][k] + u * v * p[2][k] + (1 - u) * v * p[3][k];
 }

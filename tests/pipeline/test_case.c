@@ -78,8 +78,7 @@ static int is_refused(const char *expected) {
   cw_fail_clear();
   CwStatus status = cw_case_read(path, &table);
   snprintf(whole, sizeof whole, "%s:%s", path, expected);
-  int fine =
-      status == CW_ERR_INPUT && !strcmp(cw_fail_message(), whole) && !memcmp(&table, &before, sizeof table);
+  int fine = status == CW_ERR_INPUT && !strcmp(cw_fail_message(), whole) && !memcmp(&table, &before, sizeof table);
   if (!fine) print_error("expected %s\ngot %d %s\n", whole, status, cw_fail_message());
   return fine;
 }
@@ -126,7 +125,8 @@ static const BadCase bad_cases[] = {
     {8, "  blade_count: 6.5",
      "8:16: impeller.blade_count: 6.5 is not a whole number; allowed: a whole number from 3 to 9"},
     {20, "  cells: 2m",
-     "20:10: mesh.cells: 2m is not a whole number; allowed: a whole number from 10000 to 2000000000, as 500000, 500k or "
+     "20:10: mesh.cells: 2m is not a whole number; allowed: a whole number from 10000 to 2000000000, as 500000, 500k "
+     "or "
      "2M"},
     {11, "  outlet_width_mm: \"8\"",
      "11:20: impeller.outlet_width_mm: 8 is text, not a number (it stands in quotes); allowed: 0.5 to 1000 "
@@ -195,7 +195,8 @@ static const BadCase bad_cases[] = {
      "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 5000 mm"},
     {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2"},
     {17, "  layer_count: 0", "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
-    {20, "  cells: 9999", "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000, "
+    {20, "  cells: 9999",
+     "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000, "
      "as 500000, 500k or 2M"},
     // Missing.
     {1, "", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
@@ -349,8 +350,7 @@ static void whole_files_that_are_no_case(void **state) {
       {"~\n", "1:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
       {"\n- a\n- b\n", "2:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
       {"just words\n", "1:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
-      {"name: x\n",
-       "1:1: operating_point.flow_rate_m3_per_h: the key is missing; allowed: 0.1 to 100000 m3/h"},
+      {"name: x\n", "1:1: operating_point.flow_rate_m3_per_h: the key is missing; allowed: 0.1 to 100000 m3/h"},
       {"{}\n", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
   };
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
@@ -382,8 +382,7 @@ static void deep_nesting_is_refused(void **state) {
 static void files_that_cannot_be_read(void **state) {
   CwCase table;
   assert_int_equal(cw_case_read("/nowhere/case.yaml", &table), CW_ERR_IO);
-  assert_string_equal(cw_fail_message(),
-                      "/nowhere/case.yaml: the case file cannot be read: No such file or directory");
+  assert_string_equal(cw_fail_message(), "/nowhere/case.yaml: the case file cannot be read: No such file or directory");
   assert_int_equal(cw_case_read("/", &table), CW_ERR_IO);
   assert_string_equal(cw_fail_message(), "/: this is a folder; allowed: a case file in YAML");
 }
@@ -501,8 +500,7 @@ static void forms_that_yaml_allows(void **state) {
 
 static void case_of_the_paper_is_valid(void **state) {
   CwCase table;
-  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) != CW_OK) fail_msg("%s", cw_fail_message());
   assert_string_equal(table.name, "paper");
   assert_true(table.volute.base_diameter == 0.204);
   assert_true(fabs(table.walls.roughness - 25e-6) < 1e-18);

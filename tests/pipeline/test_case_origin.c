@@ -72,9 +72,11 @@ static void the_line_says_what_differs(void **state) {
   CwCase other = paper;
   other.impeller.outlet_diameter = 0.22;
   assert_int_equal(cw_case_origin_check(&other, run, "geometry"), CW_ERR_INPUT);
-  snprintf(wanted, sizeof wanted,
-           "%s/geometry: made with impeller.outlet_diameter_mm: 200, the case file has 220; allowed: the same pump, run "
-           "cutwater-geometry on this case file first", run);
+  snprintf(
+      wanted, sizeof wanted,
+      "%s/geometry: made with impeller.outlet_diameter_mm: 200, the case file has 220; allowed: the same pump, run "
+      "cutwater-geometry on this case file first",
+      run);
   assert_string_equal(cw_fail_message(), wanted);
   other.impeller.outlet_diameter = NAN;
   assert_int_equal(cw_case_origin_check(&other, run, "geometry"), CW_ERR_INPUT);

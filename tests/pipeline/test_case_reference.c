@@ -60,8 +60,7 @@ static void rows_are_sound(void **state) {
     if (key->type == CW_KEY_CHOICE || key->type == CW_KEY_NAME) continue;
     assert_true(key->least < key->most);
     if (key->presence == CW_KEY_DEFAULT) {
-      if (!(key->fallback >= key->least && key->fallback <= key->most))
-        fail_msg("%s: default out of range", path);
+      if (!(key->fallback >= key->least && key->fallback <= key->most)) fail_msg("%s: default out of range", path);
       assert_true(fabs(cw_case_key_value(key, &table) - key->fallback) <= 1e-12 * key->fallback);
     } else if (key->type == CW_KEY_REAL) {
       assert_true(isnan(cw_case_key_value(key, &table)));

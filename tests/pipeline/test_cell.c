@@ -27,8 +27,7 @@ static CwRegionData one_of_each(void) {
 }
 
 static void volumes_of_the_three_shapes(void **state) {
-  const double p[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0},
-                          {0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}};
+  const double p[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}};
   const double top[3] = {0.3, 0.4, 5};
   const double *prism[6] = {p[0], p[1], p[2], p[4], p[5], p[6]};
   const double *pyramid[5] = {p[0], p[1], p[2], p[3], top};
@@ -60,8 +59,7 @@ static void centroids_of_the_three_shapes(void **state) {
     const double *x[6];
     double centroid[3];
     cw_cell_centroid(cw_cell_points(&region, cell, x), x, centroid);
-    for (int k = 0; k < 3; ++k)
-      assert_float_equal(centroid[k], wanted[cell][k], 1e-15);
+    for (int k = 0; k < 3; ++k) assert_float_equal(centroid[k], wanted[cell][k], 1e-15);
   }
 }
 
@@ -87,8 +85,7 @@ static void faces_look_outward_and_close(void **state) {
       assert_true(out > 0);
     }
     assert_int_equal(found_triangles, triangles[cell]);
-    for (int k = 0; k < 3; ++k)
-      assert_float_equal(sum[k], 0, 1e-15);
+    for (int k = 0; k < 3; ++k) assert_float_equal(sum[k], 0, 1e-15);
   }
 }
 

@@ -197,15 +197,14 @@ static void progress_off_a_terminal_prints_few_plain_lines(void **state) {
   assert_int_equal(count(seen, "\n"), 2);
   // Half is done: the rate is 1000 a time spent, and as long again is left. The times depend on the machine.
   double spent = 0, rate = 0, left = 0;
-  assert_int_equal(
-      sscanf(seen, "cutwater-mesh: fill: 1000 of 2000 regions in %lf s, %lf regions/s, 50 %%, %lf s left\n",
-             &spent, &rate, &left),
-      3);
+  assert_int_equal(sscanf(seen,
+                          "cutwater-mesh: fill: 1000 of 2000 regions in %lf s, %lf regions/s, 50 %%, %lf s left\n",
+                          &spent, &rate, &left),
+                   3);
   assert_true(spent >= 5.1 && fabs(left - spent) < 0.11);
   assert_true(fabs(rate - 1000 / spent) < 0.02 * rate);
   const char *last = strchr(seen, '\n') + 1;
-  assert_int_equal(
-      sscanf(last, "cutwater-mesh: fill: 2000 of 2000 regions in %lf s, %lf regions/s", &spent, &rate), 2);
+  assert_int_equal(sscanf(last, "cutwater-mesh: fill: 2000 of 2000 regions in %lf s, %lf regions/s", &spent, &rate), 2);
   assert_true(spent >= 5.1 && fabs(rate - 2000 / spent) < 0.02 * rate);
   assert_null(strstr(last, "left"));
   assert_string_equal(copy, seen);
@@ -253,8 +252,7 @@ static void progress_on_a_terminal_rewrites_its_line(void **state) {
   cw_log_close();
   close(terminal); // then reading ends with an error when all has been read
   size_t length = 0;
-  for (ssize_t more; (more = read(master, seen + length, TEXT_SIZE - 1 - length)) > 0;)
-    length += (size_t)more;
+  for (ssize_t more; (more = read(master, seen + length, TEXT_SIZE - 1 - length)) > 0;) length += (size_t)more;
   assert_true(length > 0);
   seen[length] = '\0';
   close(master);

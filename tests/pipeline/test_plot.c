@@ -29,11 +29,10 @@ static int boxes(const char *text, const char *colour, double box[][4]) {
   for (const char *at = text; (at = strstr(at, "<rect ")); at++) {
     char fill[16];
     double b[4];
-    assert_int_equal(sscanf(at, "<rect x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\" fill=\"%7s", &b[0],
-                            &b[1], &b[2], &b[3], fill),
+    assert_int_equal(sscanf(at, "<rect x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\" fill=\"%7s", &b[0], &b[1],
+                            &b[2], &b[3], fill),
                      5);
-    if (!strcmp(fill, colour) && !(b[2] == 12 && b[3] == 12))
-      memcpy(box[count++], b, sizeof b);
+    if (!strcmp(fill, colour) && !(b[2] == 12 && b[3] == 12)) memcpy(box[count++], b, sizeof b);
   }
   return count;
 }
@@ -55,13 +54,8 @@ static void columns_are_as_high_as_their_values(void **state) {
   static const char *const label[] = {"a < b", "c"};
   const double first[] = {10, 35}, second[] = {20, NAN};
   const CwPlotSeries series[] = {{"first & last", 0x112233, first}, {"second", 0x445566, second}};
-  CwPlot plot = {.axis = "% of all",
-                 .label = label,
-                 .count = 2,
-                 .series = series,
-                 .series_count = 2,
-                 .decimals = 1,
-                 .width = 400};
+  CwPlot plot = {
+      .axis = "% of all", .label = label, .count = 2, .series = series, .series_count = 2, .decimals = 1, .width = 400};
   double box[8][4];
   char *text = drawn(cw_plot_columns, &plot);
   assert_int_equal(boxes(text, "#112233", box), 2);
@@ -105,8 +99,7 @@ static void bars_are_stacked_and_noted(void **state) {
   double at = 0;
   for (const char *line = text; (line = strstr(line, "<line ")); line++) {
     const char *class = strstr(line, "class=\"");
-    if (class && !strncmp(class, "class=\"m\"", 9))
-      at = atof(line + strlen("<line x1=\""));
+    if (class && !strncmp(class, "class=\"m\"", 9)) at = atof(line + strlen("<line x1=\""));
   }
   assert_near(at, p[1][0] + 0.75 * (p[1][2] + q[1][2]), 0.06);
   assert_non_null(strstr(text, ">60 s<"));

@@ -95,8 +95,7 @@ static void place_that_cannot_be_written_is_an_error(void **state) {
   snprintf(missing, sizeof missing, "%s/none/record.json", folder);
   assert_int_equal(cw_record_start("export", &record), CW_OK);
   assert_int_equal(cw_record_write(record, missing), CW_ERR_IO);
-  assert_non_null(
-      strstr(cw_fail_message(), "none/record.json: cannot be written: No such file or directory"));
+  assert_non_null(strstr(cw_fail_message(), "none/record.json: cannot be written: No such file or directory"));
   cw_record_free(record);
   cw_record_free(NULL);
 }

@@ -30,8 +30,7 @@ static void make(Region *r) {
   static const int32_t triangles[6][3] = {{0, 1, 5}, {0, 5, 2}, {5, 1, 2}, {3, 0, 2}, {1, 4, 2}, {4, 3, 2}};
   memset(r, 0, sizeof *r);
   memcpy(r->triangles, triangles, sizeof triangles);
-  for (int i = 0; i < 6; ++i)
-    r->triangle_cell[i] = i >= 3;
+  for (int i = 0; i < 6; ++i) r->triangle_cell[i] = i >= 3;
   memcpy(r->quads[0], (int32_t[]){3, 4, 1, 0}, sizeof r->quads[0]);
   r->quad_cell[0] = 1;
   r->data = (CwRegionData){.points = points,
@@ -75,8 +74,7 @@ static void neighbours_find_each_other(void **state) {
   assert_int_equal(faces.inner_quads, 0);
   assert_int_equal(faces.open_count, 0);
   int patch_faces = 0;
-  for (int i = 0; i < 2 * CW_CELL_FACES; ++i)
-    patch_faces += faces.across[i] == CW_ACROSS_PATCH;
+  for (int i = 0; i < 2 * CW_CELL_FACES; ++i) patch_faces += faces.across[i] == CW_ACROSS_PATCH;
   assert_int_equal(patch_faces, 7);
   assert_int_equal(faces.across[4], CW_ACROSS_NO_FACE); // a tetrahedron has four
   assert_int_equal(faces.quad_face[0], CW_CELL_FACES * 1 + 0);
@@ -149,11 +147,9 @@ static void loops_do_not_depend_on_the_start(void **state) {
     for (int way = 0; way < 2; ++way) {
       int64_t nodes[4];
       int order[4];
-      for (int i = 0; i < 4; ++i)
-        nodes[i] = wanted[(start + (way ? 4 - i : i)) % 4];
+      for (int i = 0; i < 4; ++i) nodes[i] = wanted[(start + (way ? 4 - i : i)) % 4];
       assert_int_equal(cw_face_loop(nodes, 4, order), way);
-      for (int i = 0; i < 4; ++i)
-        assert_int_equal(nodes[order[i]], wanted[i]);
+      for (int i = 0; i < 4; ++i) assert_int_equal(nodes[order[i]], wanted[i]);
     }
 }
 

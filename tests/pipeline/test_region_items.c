@@ -129,10 +129,8 @@ static void files_that_are_none_are_told(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_surface_comes_without_the_cells),
-      cmocka_unit_test(counts_that_are_asked_must_be_met),
-      cmocka_unit_test(shared_numbers_have_a_limit),
-      cmocka_unit_test(attributes_are_read_and_named),
+      cmocka_unit_test(the_surface_comes_without_the_cells), cmocka_unit_test(counts_that_are_asked_must_be_met),
+      cmocka_unit_test(shared_numbers_have_a_limit),         cmocka_unit_test(attributes_are_read_and_named),
       cmocka_unit_test(files_that_are_none_are_told),
   };
   return cmocka_run_group_tests(tests, make_file, remove_file);

@@ -21,8 +21,7 @@ static const CwPaint red = {.colour = RED, .group = 1}, blue = {.colour = BLUE, 
 
 static int count_colour(const CwCanvas *canvas, uint32_t colour) {
   int count = 0;
-  for (int i = 0; i < canvas->columns * canvas->rows; i++)
-    count += canvas->colour[i] == colour;
+  for (int i = 0; i < canvas->columns * canvas->rows; i++) count += canvas->colour[i] == colour;
   return count;
 }
 
@@ -57,15 +56,13 @@ static void neighbours_leave_no_gap_and_turn_does_not_matter(void **state) {
     cw_render_triangle(&canvas, p, &red);
   }
   for (double y = 6; y < 21; y += 0.5) {
-    for (double x = 6; x < 24; x += 0.5)
-      assert_int_equal(sample(&canvas, x, y), RED);
+    for (double x = 6; x < 24; x += 0.5) assert_int_equal(sample(&canvas, x, y), RED);
   }
   cw_render_free(&canvas);
 }
 
 static void nearer_triangle_wins_with_a_depth_buffer(void **state) {
-  const double near[3][3] = {{0, 0, 5}, {10, 0, 5}, {0, 10, 5}},
-               far[3][3] = {{0, 0, 1}, {10, 0, 1}, {0, 10, 1}};
+  const double near[3][3] = {{0, 0, 5}, {10, 0, 5}, {0, 10, 5}}, far[3][3] = {{0, 0, 1}, {10, 0, 1}, {0, 10, 1}};
   // Goes through the far one along the line x + y = 5.
   const double slant[3][3] = {{0, 0, -4}, {10, 0, 6}, {0, 10, 6}};
   for (int depth = 0; depth < 2; depth++) {
@@ -87,8 +84,7 @@ static void nearer_triangle_wins_with_a_depth_buffer(void **state) {
 
 static void only_the_asked_edges_are_drawn(void **state) {
   CwCanvas canvas;
-  CwPaint paint = {
-      .colour = RED, .edge_colour = BLACK, .group = 1, .edges = 1, .edge_width = 1, .edge_strength = 1};
+  CwPaint paint = {.colour = RED, .edge_colour = BLACK, .group = 1, .edges = 1, .edge_width = 1, .edge_strength = 1};
   const double p[3][3] = {{2, 2, 0}, {18, 2, 0}, {2, 18, 0}};
   assert_int_equal(cw_render_start(20, 20, WHITE, 0, &canvas), CW_OK);
   cw_render_triangle(&canvas, p, &paint);
@@ -102,8 +98,7 @@ static void only_the_asked_edges_are_drawn(void **state) {
   // A square drawn as a polygon has no diagonal.
   const double square[4][3] = {{2, 2, 0}, {18, 2, 0}, {18, 18, 0}, {2, 18, 0}};
   cw_render_polygon(&canvas, square, 4, &paint);
-  for (double t = 5; t < 16; t += 0.5)
-    assert_int_equal(sample(&canvas, t, t), RED);
+  for (double t = 5; t < 16; t += 0.5) assert_int_equal(sample(&canvas, t, t), RED);
   assert_int_equal(sample(&canvas, 10, 2), BLACK);
   assert_int_equal(sample(&canvas, 17.9, 10), BLACK);
   assert_int_equal(sample(&canvas, 10, 17.9), BLACK);
@@ -114,15 +109,12 @@ static void only_the_asked_edges_are_drawn(void **state) {
 // Corners that all but coincide take no line from the edges beside them.
 static void short_edges_keep_their_neighbours(void **state) {
   CwCanvas canvas;
-  const CwPaint paint = {
-      .colour = RED, .edge_colour = BLACK, .group = 1, .edge_width = 1, .edge_strength = 1};
-  const double p[6][3] = {{2, 2, 0},         {2 + 1e-7, 2, 0}, {18, 2, 0},
-                          {18, 2 + 1e-9, 0}, {18, 18, 0},      {2, 18, 0}};
+  const CwPaint paint = {.colour = RED, .edge_colour = BLACK, .group = 1, .edge_width = 1, .edge_strength = 1};
+  const double p[6][3] = {{2, 2, 0}, {2 + 1e-7, 2, 0}, {18, 2, 0}, {18, 2 + 1e-9, 0}, {18, 18, 0}, {2, 18, 0}};
   for (int turn = 0; turn < 6; turn++) {
     for (int back = 0; back < 2; back++) {
       double corner[6][3];
-      for (int k = 0; k < 6; k++)
-        memcpy(corner[k], p[((back ? 5 - k : k) + turn) % 6], sizeof corner[k]);
+      for (int k = 0; k < 6; k++) memcpy(corner[k], p[((back ? 5 - k : k) + turn) % 6], sizeof corner[k]);
       assert_int_equal(cw_render_start(20, 20, WHITE, 0, &canvas), CW_OK);
       cw_render_polygon(&canvas, (const double(*)[3])corner, 6, &paint);
       assert_int_equal(sample(&canvas, 10, 2), BLACK);
@@ -139,8 +131,7 @@ static void short_edges_keep_their_neighbours(void **state) {
 static void what_lies_outside_is_left_out(void **state) {
   CwCanvas canvas;
   assert_int_equal(cw_render_start(10, 10, WHITE, 1, &canvas), CW_OK);
-  const double beside[3][3] = {{20, 0, 0}, {30, 0, 0}, {20, 10, 0}},
-               line[3][3] = {{0, 0, 0}, {5, 5, 0}, {9, 9, 0}};
+  const double beside[3][3] = {{20, 0, 0}, {30, 0, 0}, {20, 10, 0}}, line[3][3] = {{0, 0, 0}, {5, 5, 0}, {9, 9, 0}};
   const double nan[3][3] = {{NAN, 0, 0}, {30, 0, 0}, {20, 10, 0}};
   const double around[3][3] = {{-1e6, -1e6, 0}, {3e6, -1e6, 0}, {-1e6, 3e6, 0}};
   cw_render_triangle(&canvas, beside, &red);
@@ -199,8 +190,7 @@ typedef struct {
 
 static cairo_status_t take(void *closure, unsigned char *into, unsigned length) {
   Stream *stream = closure;
-  if (stream->at + length > stream->png->size)
-    return CAIRO_STATUS_READ_ERROR;
+  if (stream->at + length > stream->png->size) return CAIRO_STATUS_READ_ERROR;
   memcpy(into, stream->png->bytes + stream->at, length);
   stream->at += length;
   return CAIRO_STATUS_SUCCESS;

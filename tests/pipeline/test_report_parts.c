@@ -34,8 +34,7 @@ static void numbers_read_well(void **state) {
   assert_string_equal(cw_format_number(-0.5, 3, text), MINUS "0.5");
   assert_string_equal(cw_format_number(123456.7, 3, text),
                       "123" GAP "457"); // no digit before the point is lost
-  assert_string_equal(cw_format_number(1.004e-6, 5, text),
-                      "1.004" GAP "\303\227" GAP "10\342\201\273\342\201\266");
+  assert_string_equal(cw_format_number(1.004e-6, 5, text), "1.004" GAP "\303\227" GAP "10\342\201\273\342\201\266");
   assert_string_equal(cw_format_number(9.9996, 4, text), "10");
   assert_string_equal(cw_format_number(NAN, 4, text), "\342\200\223");
   assert_string_equal(cw_format_si(301551, 3, text), "302" GAP "k");
@@ -70,8 +69,7 @@ static void html_is_escaped_and_encoded(void **state) {
   cw_html_label(page, "guelich");
   cw_html_number_cell(page, "12.87");
   cw_html_number_cell(page, "74");
-  for (size_t n = 0; n < 4; n++)
-    cw_html_base64(page, (const unsigned char *)"Man", n);
+  for (size_t n = 0; n < 4; n++) cw_html_base64(page, (const unsigned char *)"Man", n);
   cw_html_base64(page, (const unsigned char *)"\377\373\360", 3);
   fclose(page);
   assert_string_equal(text, "&lt;a &amp; &quot;b&quot;&gt;|outlet widthOutlet widthy<sup>+</sup> blade"
@@ -96,8 +94,7 @@ static CwStatus embed(const char *content, char **text) {
 
 static void drawings_are_embedded_alone(void **state) {
   char *text;
-  assert_int_equal(embed("<?xml version=\"1.0\"?>\n<svg width=\"3\"><rect/></svg>\n<!-- end -->", &text),
-                   CW_OK);
+  assert_int_equal(embed("<?xml version=\"1.0\"?>\n<svg width=\"3\"><rect/></svg>\n<!-- end -->", &text), CW_OK);
   assert_string_equal(text, "<svg width=\"3\"><rect/></svg>\n");
   free(text);
   static const char *const refused[] = {"", "<html></html>", "<svg width=\"3\"><rect/>",

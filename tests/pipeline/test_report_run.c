@@ -52,11 +52,9 @@ static char *read_text(const char *name) {
   size_t size = 0;
   path_in_run(name, path);
   FILE *file = fopen(path, "r");
-  if (!file)
-    return NULL;
+  if (!file) return NULL;
   FILE *copy = open_memstream(&text, &size);
-  for (int c = fgetc(file); c != EOF; c = fgetc(file))
-    fputc(c, copy);
+  for (int c = fgetc(file); c != EOF; c = fgetc(file)) fputc(c, copy);
   fclose(file);
   fclose(copy);
   return text;
@@ -80,8 +78,7 @@ static void dataset(hid_t file, const char *name, hid_t type, int rows, int colu
   hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, size, NULL);
   hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   assert_true(set >= 0);
-  if (rows)
-    assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+  if (rows) assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
   H5Dclose(set);
   H5Sclose(space);
 }
@@ -96,10 +93,8 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
     x[k][2] = k & 4 ? 0.004 : -0.004;
   }
   const int32_t prism[2][6] = {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 5, corner, 6}};
-  const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}},
-                triangle_patch[4] = {0, 0, 1, 1};
-  const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}},
-                quad_patch[4] = {3, 3, 3, 3};
+  const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}}, triangle_patch[4] = {0, 0, 1, 1};
+  const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}, quad_patch[4] = {3, 3, 3, 3};
   const int32_t triangle_cell[4] = {0, 1, 0, 1}, quad_cell[4] = {0, 1, 1, 0};
   const int format = 1, region = 1;
   char name[40], path[200];
@@ -159,17 +154,15 @@ static int make_run(void **state) {
                                      "\"outlet_diameter_m\":0.2,\"base_diameter_m\":0.204,"
                                      "\"outlet_blade_angle_deg\":39.116,\"throat_area_m2\":8.6647e-4,"
                                      "\"sources\":{\"throat_area_m2\":\"constant <K>\"}}");
-  write_record("geometry/record.json",
-             "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
-             "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
-             "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
+  write_record("geometry/record.json", "{\"stage\":\"geometry\",\"seconds\":2,\"peak_memory_bytes\":1048576,\"steps\":"
+                                       "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
+                                       "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
   write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
-  write_record("mesh/record.json",
-             "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
-             "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
-             "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
-             "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":[" DOMAIN(
-                 "rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
+  write_record("mesh/record.json", "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
+                                   "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
+                                   "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
+                                   "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":[" DOMAIN(
+                                       "rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
   write_text("mesh/manifest.json", MANIFEST);
   write_region("rotor", 0.03, 0.101, 7);
   write_region("stator", 0.101, 0.14, 7);
@@ -185,9 +178,8 @@ static int remove_run(void **state) {
 // Runs the program; returns its exit status and what it said.
 static int report(char said[4000]) {
   char command[600];
-  snprintf(command, sizeof command,
-           "LSAN_OPTIONS=print_suppressions=0 %s/cutwater-report --case %s --run %s 2>&1", CUTWATER_BIN_DIR,
-           CASE, run);
+  snprintf(command, sizeof command, "LSAN_OPTIONS=print_suppressions=0 %s/cutwater-report --case %s --run %s 2>&1",
+           CUTWATER_BIN_DIR, CASE, run);
   FILE *pipe = popen(command, "r");
   assert_non_null(pipe);
   size_t length = fread(said, 1, 3999, pipe);
@@ -200,8 +192,7 @@ static int report(char said[4000]) {
 static void fails(int code, const char *message) {
   char said[4000];
   int status = report(said);
-  if (status != code || !strstr(said, message))
-    fail_msg("exit status %d and: %s", status, said);
+  if (status != code || !strstr(said, message)) fail_msg("exit status %d and: %s", status, said);
   const char *error = strstr(said, "cutwater-report: error: "); // one line, the last
   assert_non_null(error);
   assert_ptr_equal(strchr(error, '\n'), said + strlen(said) - 1);
@@ -210,24 +201,21 @@ static void fails(int code, const char *message) {
 }
 
 static void holds(const char *page, const char *text) {
-  if (!strstr(page, text))
-    fail_msg("not in the page: %s", text);
+  if (!strstr(page, text)) fail_msg("not in the page: %s", text);
 }
 
 // Wherever `page` holds `start`, it goes on as `whole`; and it does so somewhere.
 static void every(const char *page, const char *start, const char *whole) {
   int count = 0;
   for (const char *at = page; (at = strstr(at, start)); at++, count++) {
-    if (strncmp(at, whole, strlen(whole)))
-      fail_msg("in the page: %.60s", at);
+    if (strncmp(at, whole, strlen(whole))) fail_msg("in the page: %.60s", at);
   }
   assert_true(count > 0);
 }
 
 static void page_tells_all_and_stands_alone(void **state) {
   char said[4000];
-  if (report(said) != 0)
-    fail_msg("%s", said);
+  if (report(said) != 0) fail_msg("%s", said);
   char *page = read_text("report/index.html");
   assert_non_null(page);
   assert_true(there("report/record.json"));
@@ -262,13 +250,11 @@ static void export_figures_are_shown(void **state) {
   char path[200];
   path_in_run("export", path);
   assert_int_equal(cw_make_directory(path), CW_OK);
-  write_record("export/record.json",
-             "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
-             "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
-             "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
-             "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
-  if (report(said) != 0)
-    fail_msg("%s", said);
+  write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
+                                     "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
+                                     "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
+                                     "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
+  if (report(said) != 0) fail_msg("%s", said);
   char *page = read_text("report/index.html");
   holds(page, "<tr><td>Volume</td><td class=\"n\">250</td><td>cm&sup3;</td></tr>");
   holds(page, "<h3>Patches</h3>");

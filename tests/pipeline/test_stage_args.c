@@ -41,8 +41,7 @@ static void options_are_read(void **state) {
   assert_false(args.finished);
   assert_null(args.options[0]);
   assert_null(args.options[1]);
-  assert_int_equal(read_line("--whole --verbose --cells 2M --run r --format cgns --case c", NULL, &args),
-                   CW_OK);
+  assert_int_equal(read_line("--whole --verbose --cells 2M --run r --format cgns --case c", NULL, &args), CW_OK);
   assert_int_equal(args.cells, 2000000);
   assert_true(args.verbose);
   assert_string_equal(args.options[0], "cgns");
@@ -131,8 +130,7 @@ static void help_and_version_are_answered(void **state) {
   assert_int_equal(read_line("--help", out, &args), CW_OK);
   assert_true(args.finished);
   fclose(out);
-  assert_non_null(
-      strstr(text, "usage: cutwater-export --case FILE --run DIR [OPTIONS]\nWrites the solver's files.\n"));
+  assert_non_null(strstr(text, "usage: cutwater-export --case FILE --run DIR [OPTIONS]\nWrites the solver's files.\n"));
   const char *const names[] = {"--case FILE ", "--run DIR ", "--cells N ", "--format NAME ",
                                "--whole ",     "--verbose ", "--version ", "--help "};
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i) assert_non_null(strstr(text, names[i]));

@@ -69,8 +69,7 @@ static void a_list_grows_by_doubling_and_keeps_its_items(void **state) {
   assert_int_equal(list_numbers(100000, &list, &space, &moves), CW_OK);
   assert_in_range(space, 100000, 400000);
   assert_in_range(moves, 1, 16);
-  for (int32_t i = 0; i < 100000; i++)
-    assert_int_equal(list[i], i);
+  for (int32_t i = 0; i < 100000; i++) assert_int_equal(list[i], i);
   free(list);
 }
 

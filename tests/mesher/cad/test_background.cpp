@@ -16,8 +16,7 @@ static const double radius = 0.005, height = 0.012;
 
 static CwBackground make(CwCad *cad, double deflection) {
   CwBackground background;
-  if (cw_background_make(cad, deflection, 0.2, &background) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_background_make(cad, deflection, 0.2, &background) != CW_OK) fail_msg("%s", cw_fail_message());
   return background;
 }
 
@@ -26,8 +25,7 @@ static CwBackground make(CwCad *cad, double deflection) {
 static void check_closed(const CwBackground *b) {
   std::map<std::pair<int32_t, int32_t>, int> directed;
   for (int32_t t = 0; t < b->triangle_count; t++) {
-    for (int k = 0; k < 3; k++)
-      directed[{b->triangle[t][k], b->triangle[t][(k + 1) % 3]}]++;
+    for (int k = 0; k < 3; k++) directed[{b->triangle[t][k], b->triangle[t][(k + 1) % 3]}]++;
   }
   for (const auto &item : directed) {
     assert_int_equal(item.second, 1);
@@ -132,8 +130,7 @@ static void faces_of_two_ranks_are_joined(void **state) {
   }
   cw_background_free(&a);
   cw_background_free(&b);
-  for (void *block : bytes)
-    free(block);
+  for (void *block : bytes) free(block);
   for (int rank = 0; rank < 2; rank++) {
     cw_tessellation_free(&tessellation[rank]);
     cw_cad_close(&cad[rank]);
@@ -150,12 +147,9 @@ static void senseless_deflection_is_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(box_is_closed_and_exact),
-      cmocka_unit_test(inside_out_file_still_has_normals_out),
-      cmocka_unit_test(cylinder_converges_from_inside),
-      cmocka_unit_test(two_runs_are_the_same),
-      cmocka_unit_test(faces_of_two_ranks_are_joined),
-      cmocka_unit_test(senseless_deflection_is_refused),
+      cmocka_unit_test(box_is_closed_and_exact),        cmocka_unit_test(inside_out_file_still_has_normals_out),
+      cmocka_unit_test(cylinder_converges_from_inside), cmocka_unit_test(two_runs_are_the_same),
+      cmocka_unit_test(faces_of_two_ranks_are_joined),  cmocka_unit_test(senseless_deflection_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

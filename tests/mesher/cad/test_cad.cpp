@@ -36,8 +36,7 @@ static void inner_uv(const CwCad *cad, int face, double uv[2]) {
     double t[2];
     cw_cad_edge_faces(cad, e, faces);
     cw_cad_edge_range(cad, e, t);
-    if (faces[0] != face && faces[1] != face)
-      continue;
+    if (faces[0] != face && faces[1] != face) continue;
     for (int end = 0; end < 2; end++) {
       double at[2];
       cw_cad_edge_uv(cad, e, face, t[end], at);
@@ -47,8 +46,7 @@ static void inner_uv(const CwCad *cad, int face, double uv[2]) {
       }
     }
   }
-  for (int k = 0; k < 2; k++)
-    uv[k] = 0.5 * (low[k] + high[k]);
+  for (int k = 0; k < 2; k++) uv[k] = 0.5 * (low[k] + high[k]);
 }
 
 static void box_has_its_parts_and_patches(void **state) {
@@ -67,8 +65,7 @@ static void box_has_its_parts_and_patches(void **state) {
   assert_int_equal(cw_cad_patch_kind(cad, !sides), CW_PATCH_INLET);
   assert_string_equal(cw_cad_face_name(cad, 2), "face_3");
   int on_sides = 0;
-  for (int f = 0; f < 6; f++)
-    on_sides += cw_cad_face_patch(cad, f) == sides;
+  for (int f = 0; f < 6; f++) on_sides += cw_cad_face_patch(cad, f) == sides;
   assert_int_equal(on_sides, 4);
 
   double low[3] = {1, 1, 1}, high[3] = {-1, -1, -1};
@@ -93,13 +90,10 @@ static void check_normals_point_out(CwCad *cad, const double inside[3]) {
     double uv[2], x[3], xu[3], xv[3];
     inner_uv(cad, f, uv);
     cw_cad_face_point(cad, f, uv, x, xu, xv);
-    double n[3] = {xu[1] * xv[2] - xu[2] * xv[1], xu[2] * xv[0] - xu[0] * xv[2],
-                   xu[0] * xv[1] - xu[1] * xv[0]};
+    double n[3] = {xu[1] * xv[2] - xu[2] * xv[1], xu[2] * xv[0] - xu[0] * xv[2], xu[0] * xv[1] - xu[1] * xv[0]};
     double outward = 0;
-    for (int k = 0; k < 3; k++)
-      outward += n[k] * (x[k] - inside[k]);
-    if (cw_cad_face_reversed(cad, f))
-      outward = -outward;
+    for (int k = 0; k < 3; k++) outward += n[k] * (x[k] - inside[k]);
+    if (cw_cad_face_reversed(cad, f)) outward = -outward;
     assert_true(outward > 0);
   }
 }
@@ -131,8 +125,7 @@ static void check_derivatives(const CwCad *cad) {
       behind[k] -= step;
       cw_cad_face_point(cad, f, ahead, xa, nullptr, nullptr);
       cw_cad_face_point(cad, f, behind, xb, nullptr, nullptr);
-      for (int d = 0; d < 3; d++)
-        assert_near(derivative[k][d], (xa[d] - xb[d]) / (2 * step), 1e-9);
+      for (int d = 0; d < 3; d++) assert_near(derivative[k][d], (xa[d] - xb[d]) / (2 * step), 1e-9);
     }
   }
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
@@ -142,8 +135,7 @@ static void check_derivatives(const CwCad *cad) {
     cw_cad_edge_point(cad, e, mid, x, xt);
     cw_cad_edge_point(cad, e, mid + step, xa, nullptr);
     cw_cad_edge_point(cad, e, mid - step, xb, nullptr);
-    for (int d = 0; d < 3; d++)
-      assert_near(xt[d], (xa[d] - xb[d]) / (2 * step), 1e-9);
+    for (int d = 0; d < 3; d++) assert_near(xt[d], (xa[d] - xb[d]) / (2 * step), 1e-9);
   }
 }
 
@@ -158,8 +150,7 @@ static void derivatives_match_differences(void **state) {
 
 static int curved_face(const CwCad *cad) {
   for (int f = 0; f < cw_cad_face_count(cad); f++) {
-    if (std::strcmp(cw_cad_patch_name(cad, cw_cad_face_patch(cad, f)), "curved") == 0)
-      return f;
+    if (std::strcmp(cw_cad_patch_name(cad, cw_cad_face_patch(cad, f)), "curved") == 0) return f;
   }
   fail_msg("no curved face");
   return -1;
@@ -258,8 +249,7 @@ static void expect_refusal(const TemporaryFolder &folder, CwStatus code, const c
   CwCad *cad = nullptr;
   assert_int_equal(cw_cad_open(folder.path, "part", &cad), code);
   assert_null(cad);
-  if (!std::strstr(cw_fail_message(), text))
-    fail_msg("'%s' is not in '%s'", text, cw_fail_message());
+  if (!std::strstr(cw_fail_message(), text)) fail_msg("'%s' is not in '%s'", text, cw_fail_message());
 }
 
 static void bad_solids_are_refused(void **state) {

@@ -23,8 +23,7 @@ static void box_at_its_own_grid_points(void **state) {
   for (int i = -2; i <= 10; i++) {
     for (int j = -2; j <= 10; j++) {
       for (int k = -2; k <= 10; k++) {
-        if (i == 0 || i == 8 || j == 0 || j == 8 || k == 0 || k == 8)
-          continue; // on the surface
+        if (i == 0 || i == 8 || j == 0 || j == 8 || k == 0 || k == 8) continue; // on the surface
         int wanted = i > 0 && i < 8 && j > 0 && j < 8 && k > 0 && k < 8;
         assert_int_equal(cw_inside_test(inside, (double[3]){0.5 * i, 0.5 * j, 0.5 * k}), wanted);
       }
@@ -43,8 +42,7 @@ static void voids_are_outside_and_what_is_in_them_inside(void **state) {
   for (int k = 0; k < 7; k++) {
     double r = 0.5 * k;
     int wanted = r < 0.9 || (r > 2.0 && r < 2.9);
-    if (k == 2 || k == 4 || k == 6)
-      continue;
+    if (k == 2 || k == 4 || k == 6) continue;
     assert_int_equal(cw_inside_test(inside, (double[3]){r, 0, 0}), wanted);
     assert_int_equal(cw_inside_test(inside, (double[3]){0, -r, 0}), wanted);
     assert_int_equal(cw_inside_test(inside, (double[3]){0, 0, r}), wanted);

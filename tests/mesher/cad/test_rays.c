@@ -49,12 +49,10 @@ static void many_rays_agree_with_the_formula(void **state) {
       d[k] = (seed = seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5;
       size += d[k] * d[k];
     }
-    for (int k = 0; k < 3; k++)
-      d[k] /= sqrt(size);
+    for (int k = 0; k < 3; k++) d[k] /= sqrt(size);
     assert_true(cw_rays_exit(rays, x, d, 0, 10, &s) >= 0);
     double sum = 0;
-    for (int k = 0; k < 3; k++)
-      sum += fabs(x[k] + s * d[k]);
+    for (int k = 0; k < 3; k++) sum += fabs(x[k] + s * d[k]);
     assert_true(fabs(sum - 1) < 1e-13);
   }
   cw_rays_free(&rays);

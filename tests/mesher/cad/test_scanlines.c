@@ -31,12 +31,9 @@ static void lines_are_cut_at_the_surface(void **state) {
       double off = fabs(place[0]) + fabs(place[1]);
       assert_int_equal(count, off < 0.25 ? 4 : off < 1 ? 2 : 0);
       const double *cut = &lines.crossing[lines.start[line]];
-      if (count > 0)
-        assert_true(fabs(cut[0] + (1 - off)) < 1e-14 && fabs(cut[count - 1] - (1 - off)) < 1e-14);
-      if (count == 4)
-        assert_true(fabs(cut[1] + (0.25 - off)) < 1e-14 && fabs(cut[2] - (0.25 - off)) < 1e-14);
-      for (int64_t c = 0; c < count; c += 2)
-        volume += (cut[c + 1] - cut[c]) * lines.spacing * lines.spacing;
+      if (count > 0) assert_true(fabs(cut[0] + (1 - off)) < 1e-14 && fabs(cut[count - 1] - (1 - off)) < 1e-14);
+      if (count == 4) assert_true(fabs(cut[1] + (0.25 - off)) < 1e-14 && fabs(cut[2] - (0.25 - off)) < 1e-14);
+      for (int64_t c = 0; c < count; c += 2) volume += (cut[c + 1] - cut[c]) * lines.spacing * lines.spacing;
     }
   }
   assert_true(fabs(volume / (4.0 / 3 * (1 - 1.0 / 64)) - 1) < 0.002);

@@ -377,10 +377,13 @@ static void copies_fill_the_tank(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(turns_are_counted),       cmocka_unit_test(faces_form_orbits),
-      cmocka_unit_test(orbits_of_odd_lengths_are_refused), cmocka_unit_test(fan_divides_by_angle),
+      cmocka_unit_test(turns_are_counted),
+      cmocka_unit_test(faces_form_orbits),
+      cmocka_unit_test(orbits_of_odd_lengths_are_refused),
+      cmocka_unit_test(fan_divides_by_angle),
       cmocka_unit_test(wedges_have_two_half_planes),
-      cmocka_unit_test(network_is_its_own_copy), cmocka_unit_test(uneven_plans_are_told),
+      cmocka_unit_test(network_is_its_own_copy),
+      cmocka_unit_test(uneven_plans_are_told),
       cmocka_unit_test(copies_fill_the_tank),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

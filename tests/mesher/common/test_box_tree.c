@@ -140,9 +140,8 @@ static void empty_and_stopped(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(finds_all_that_meet),
-                                     cmocka_unit_test(follows_those_that_move), cmocka_unit_test(passes_by_most),
-                                     cmocka_unit_test(rays_meet_what_lies_on_them),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(finds_all_that_meet), cmocka_unit_test(follows_those_that_move),
+                                     cmocka_unit_test(passes_by_most), cmocka_unit_test(rays_meet_what_lies_on_them),
                                      cmocka_unit_test(empty_and_stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

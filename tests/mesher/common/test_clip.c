@@ -30,11 +30,11 @@ static void worked_example_of_the_paper(void **state) {
   assert_int_equal(cw_clip_polygon(&lower, 4, (const double(*)[3])b, a), 4);
   assert_int_equal(cw_clip_polygon(&upper, 4, (const double(*)[3])a, b), 4);
   int first = 0;
-  while (first < 4 && b[first][0] < 0.5) first++; // 2' leads
-  assert_point(b[first], 0.5 + 0.1 * 0.5 / 1.3, 0);              // 2': on edge 2-3
-  assert_point(b[(first + 1) % 4], 0.6, 0.8);                    // 3
-  assert_point(b[(first + 2) % 4], 0, 0.8 - 0.6 / 1.1);          // 3': on edge 3-1
-  assert_point(b[(first + 3) % 4], 0, 0);                        // 3'': on the left border, lower edge
+  while (first < 4 && b[first][0] < 0.5) first++;       // 2' leads
+  assert_point(b[first], 0.5 + 0.1 * 0.5 / 1.3, 0);     // 2': on edge 2-3
+  assert_point(b[(first + 1) % 4], 0.6, 0.8);           // 3
+  assert_point(b[(first + 2) % 4], 0, 0.8 - 0.6 / 1.1); // 3': on edge 3-1
+  assert_point(b[(first + 3) % 4], 0, 0);               // 3'': on the left border, lower edge
 }
 
 static void corner_on_the_plane_is_kept_once(void **state) {

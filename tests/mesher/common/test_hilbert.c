@@ -24,8 +24,7 @@ static void curve_visits_neighbours(void **unused) {
   }
   for (int k = 1; k < CELLS; k++) {
     int steps = 0;
-    for (int i = 0; i < 3; i++)
-      steps += abs((int)cell[k][i] - (int)cell[k - 1][i]);
+    for (int i = 0; i < 3; i++) steps += abs((int)cell[k][i] - (int)cell[k - 1][i]);
     assert_int_equal(steps, 1);
   }
   free(cell);
@@ -34,8 +33,7 @@ static void curve_visits_neighbours(void **unused) {
 
 static double distance(const double a[3], const double b[3]) {
   double square = 0.0;
-  for (int i = 0; i < 3; i++)
-    square += (a[i] - b[i]) * (a[i] - b[i]);
+  for (int i = 0; i < 3; i++) square += (a[i] - b[i]) * (a[i] - b[i]);
   return square;
 }
 
@@ -44,8 +42,7 @@ static void order_is_a_permutation_with_short_steps(void **unused) {
   double(*x)[3] = malloc(COUNT * sizeof *x);
   int32_t *order = malloc(COUNT * sizeof *order);
   uint8_t *seen = calloc(COUNT, 1);
-  for (int k = 0; k < COUNT; k++)
-    x[k][0] = k % SIDE, x[k][1] = k / SIDE % SIDE, x[k][2] = k / SIDE / SIDE;
+  for (int k = 0; k < COUNT; k++) x[k][0] = k % SIDE, x[k][1] = k / SIDE % SIDE, x[k][2] = k / SIDE / SIDE;
   assert_int_equal(cw_hilbert_order(COUNT, (const double(*)[3])x, order), CW_OK);
   int near = 0;
   for (int k = 0; k < COUNT; k++) {
@@ -56,8 +53,7 @@ static void order_is_a_permutation_with_short_steps(void **unused) {
   assert_true(near > COUNT * 3 / 4);
   // The first rounds are thin: among the first 64th no two points are neighbours but by chance.
   int touching = 0;
-  for (int k = 1; k < COUNT / 64; k++)
-    touching += distance(x[order[k]], x[order[k - 1]]) <= 1.0;
+  for (int k = 1; k < COUNT / 64; k++) touching += distance(x[order[k]], x[order[k - 1]]) <= 1.0;
   assert_true(touching < COUNT / 64 / 8);
   free(x);
   free(order);

@@ -10,8 +10,7 @@
 #include "mesher/common/intersect.h"
 #include "surfaces.h"
 
-static int32_t pairs(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*t)[3],
-                     int32_t first[2]) {
+static int32_t pairs(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*t)[3], int32_t first[2]) {
   int32_t count = -1, (*pair)[2] = NULL;
   assert_int_equal(cw_self_intersections(points, x, triangles, t, &count, &pair), CW_OK);
   if (count > 0 && first) first[0] = pair[0][0], first[1] = pair[0][1];
@@ -71,8 +70,8 @@ static void boxes(void **state) {
     surface_box(&s, low, high, 0.0005, 63, 0);
     surface_box(&s, low2, high2, 0.0005, 63, 0);
     surface_weld(&s);
-    int32_t count = pairs(s.point_count, (const double (*)[3])s.x, s.triangle_count,
-                          (const int32_t (*)[3])s.triangle, NULL);
+    int32_t count =
+        pairs(s.point_count, (const double(*)[3])s.x, s.triangle_count, (const int32_t(*)[3])s.triangle, NULL);
     if (apart)
       assert_int_equal(count, 0);
     else
@@ -91,8 +90,8 @@ static void wrong_input(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(crossing_pair),    cmocka_unit_test(apart_by_little), cmocka_unit_test(touching_counts),
-      cmocka_unit_test(neighbours),       cmocka_unit_test(doubled_and_flat), cmocka_unit_test(boxes),
+      cmocka_unit_test(crossing_pair), cmocka_unit_test(apart_by_little),  cmocka_unit_test(touching_counts),
+      cmocka_unit_test(neighbours),    cmocka_unit_test(doubled_and_flat), cmocka_unit_test(boxes),
       cmocka_unit_test(wrong_input),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -84,8 +84,7 @@ static void island_in_a_hole_is_a_polygon_of_its_own(void **state) {
 
 // A square divided by a line that carries no boundary: two polygons, which cover it without overlap.
 static void line_of_another_plane_divides(void **state) {
-  Graph graph = {.points = 6,
-                 .point = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}}};
+  Graph graph = {.points = 6, .point = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}}};
   for (int i = 0; i < 6; i++) add_edge(&graph, i, (i + 1) % 6, 1);
   add_edge(&graph, 1, 4, 0);
   CwPolygons polygons;
@@ -111,7 +110,8 @@ static void edges_that_cross_are_found(void **state) {
   add_ring(&graph, 1, 0, 0.5, 12);
   for (int apart = 1; apart >= 0; apart--) {
     assert_int_equal(cw_polygons_crossings(graph.points, (const double(*)[2])graph.point, graph.edges,
-                                           (const int32_t(*)[2])graph.edge, &count, &crossing), CW_OK);
+                                           (const int32_t(*)[2])graph.edge, &count, &crossing),
+                     CW_OK);
     assert_int_equal(count, apart ? 0 : 2);
     free(crossing);
     add_ring(&graph, 3, 0, 0.7, 9); // crosses the large ring twice

@@ -18,8 +18,7 @@ static int judge(int n, const double *const point[], int lift) {
   int rows = n - 1, sign = 1;
   mpq_init(t);
   for (int r = 0; r < rows; r++) {
-    for (int c = 0; c < rows; c++)
-      mpq_init(m[r][c]);
+    for (int c = 0; c < rows; c++) mpq_init(m[r][c]);
     for (int c = 0; c < 3; c++) {
       mpq_set_d(m[r][c], point[r][c]);
       mpq_set_d(t, point[rows][c]);
@@ -32,16 +31,14 @@ static int judge(int n, const double *const point[], int lift) {
   }
   for (int k = 0; k < rows && sign; k++) { // elimination with the first pivot that is not zero
     int pivot = k;
-    while (pivot < rows && mpq_sgn(m[pivot][k]) == 0)
-      pivot++;
+    while (pivot < rows && mpq_sgn(m[pivot][k]) == 0) pivot++;
     if (pivot == rows) {
       sign = 0;
       break;
     }
     if (pivot != k) {
       sign = -sign;
-      for (int c = 0; c < rows; c++)
-        mpq_swap(m[k][c], m[pivot][c]);
+      for (int c = 0; c < rows; c++) mpq_swap(m[k][c], m[pivot][c]);
     }
     sign *= mpq_sgn(m[k][k]);
     for (int r = k + 1; r < rows; r++) {
@@ -56,8 +53,7 @@ static int judge(int n, const double *const point[], int lift) {
     }
   }
   for (int r = 0; r < rows; r++) {
-    for (int c = 0; c < rows; c++)
-      mpq_clear(m[r][c]);
+    for (int c = 0; c < rows; c++) mpq_clear(m[r][c]);
   }
   mpq_clear(t);
   return sign;
@@ -89,8 +85,7 @@ static void check(const double p[5][3]) {
 
 static void known_by_hand(void **unused) {
   const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {0, 1, 0}, d[3] = {0, 0, 1};
-  const double flat[3] = {0.3, 0.4, 0}, in[3] = {0.5, 0.5, 0.5}, on[3] = {1, 1, 1},
-               out[3] = {1, 1, 1 + 1e-15};
+  const double flat[3] = {0.3, 0.4, 0}, in[3] = {0.5, 0.5, 0.5}, on[3] = {1, 1, 1}, out[3] = {1, 1, 1 + 1e-15};
   assert_int_equal(cw_orient3d(a, b, c, d), 1);
   assert_int_equal(cw_orient3d(a, c, b, d), -1);
   assert_int_equal(cw_orient3d(a, b, c, flat), 0);
@@ -105,8 +100,7 @@ static void small_integers(void **unused) {
   int zeros = 0;
   for (int round = 0; round < 4000; round++) {
     double p[5][3];
-    for (int k = 0; k < 15; k++)
-      p[k / 3][k % 3] = small_integer(round % 2 ? 2 : 9);
+    for (int k = 0; k < 15; k++) p[k / 3][k % 3] = small_integer(round % 2 ? 2 : 9);
     check((const double(*)[3])p);
     zeros += cw_insphere(p[0], p[1], p[2], p[3], p[4]) == 0;
   }
@@ -120,8 +114,7 @@ static void nearly_degenerate(void **unused) {
     for (int k = 0; k < 15; k++) {
       double *x = &p[k / 3][k % 3];
       *x = 0.1 + 1e-3 * small_integer(3);
-      if (draw() % 3 == 0)
-        *x = nextafter(*x, draw() % 2 ? 1.0 : -1.0);
+      if (draw() % 3 == 0) *x = nextafter(*x, draw() % 2 ? 1.0 : -1.0);
     }
     check((const double(*)[3])p);
   }
@@ -135,8 +128,7 @@ static void mixed_sizes(void **unused) {
       p[k / 3][k % 3] = ldexp(small_integer(1 << 20) + 0.125 * small_integer(4), (int)(draw() % 60) - 40);
     }
     if (round % 2) { // the last on the line of the first two, as nearly as can be
-      for (int i = 0; i < 3; i++)
-        p[3][i] = p[4][i] = 0.5 * (p[0][i] + p[1][i]);
+      for (int i = 0; i < 3; i++) p[3][i] = p[4][i] = 0.5 * (p[0][i] + p[1][i]);
     }
     check((const double(*)[3])p);
   }
@@ -145,8 +137,7 @@ static void mixed_sizes(void **unused) {
 static void turned_corners_turn_the_sign(void **unused) {
   for (int round = 0; round < 500; round++) {
     double p[5][3];
-    for (int k = 0; k < 15; k++)
-      p[k / 3][k % 3] = 0.05 + 1e-4 * small_integer(4);
+    for (int k = 0; k < 15; k++) p[k / 3][k % 3] = 0.05 + 1e-4 * small_integer(4);
     int orient = cw_orient3d(p[0], p[1], p[2], p[3]), sphere = cw_insphere(p[0], p[1], p[2], p[3], p[4]);
     assert_int_equal(cw_orient3d(p[1], p[0], p[2], p[3]), -orient);
     assert_int_equal(cw_orient3d(p[1], p[2], p[0], p[3]), orient);

@@ -40,8 +40,7 @@ static void scaled_jacobian_of_prisms(void **state) {
   double p[6][3] = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1e-3}, {1, 0, 1e-3}, {0.5, h, 1e-3}};
   const double *x[6] = {p[0], p[1], p[2], p[3], p[4], p[5]};
   NEAR(cw_prism_scaled_jacobian(x), 1.0, 1e-14); // thin is not bad
-  for (int k = 3; k < 6; k++)
-    p[k][0] += 1e-3; // sheared by 45 degrees
+  for (int k = 3; k < 6; k++) p[k][0] += 1e-3;   // sheared by 45 degrees
   NEAR(cw_prism_scaled_jacobian(x), sqrt(0.5), 1e-12);
   p[5][2] = -1e-3;
   assert_true(cw_prism_scaled_jacobian(x) < 0.0);
@@ -50,8 +49,7 @@ static void scaled_jacobian_of_prisms(void **state) {
 static void error_bound_covers_flat_tetrahedra(void **state) {
   const double a[3] = {0.1, 0.2, 0.3}, b[3] = {1.1, 0.7, 0.4}, c[3] = {0.3, 0.9, 0.7};
   double d[3];
-  for (int i = 0; i < 3; i++)
-    d[i] = a[i] + 0.3 * (b[i] - a[i]) + 0.4 * (c[i] - a[i]);
+  for (int i = 0; i < 3; i++) d[i] = a[i] + 0.3 * (b[i] - a[i]) + 0.4 * (c[i] - a[i]);
   assert_true(fabs(cw_tet_volume6(a, b, c, d)) < 1e-15);
   double error = cw_tet_volume6_error(a, b, c, d);
   assert_true(error > 0.0 && error < 1e-15);

@@ -28,20 +28,17 @@ static void refused(const Surface *s, double size, const char *part, const doubl
                       : way == 1 ? cw_fill(&input, &fill)
                                  : cw_fill_sure(&input, CW_FILL_KERNEL, &fill);
     const char *message = cw_fail_message(), *place = strchr(message, '(');
-    if (status != CW_ERR_MESH)
-      fail_msg("way %d gives %d, not an error that says \"%s\"", way, status, part);
+    if (status != CW_ERR_MESH) fail_msg("way %d gives %d, not an error that says \"%s\"", way, status, part);
     assert_null(fill.tetrahedron);
     assert_null(fill.x);
     assert_null(strchr(message, '\n'));
-    if (!strstr(message, part) || !strstr(message, "rotor region 3: "))
-      fail_msg("\"%s\" lacks \"%s\"", message, part);
+    if (!strstr(message, part) || !strstr(message, "rotor region 3: ")) fail_msg("\"%s\" lacks \"%s\"", message, part);
     double x[3], distance = INFINITY;
     for (; at && place; place = strchr(place + 1, '(')) { // the nearest of the places
       if (sscanf(place, "(%lf, %lf, %lf)", &x[0], &x[1], &x[2]) == 3)
         distance = fmin(distance, hypot(hypot(x[0] - at[0], x[1] - at[1]), x[2] - at[2]));
     }
-    if (at && !(distance <= near))
-      fail_msg("\"%s\" names no place near (%g, %g, %g)", message, at[0], at[1], at[2]);
+    if (at && !(distance <= near)) fail_msg("\"%s\" names no place near (%g, %g, %g)", message, at[0], at[1], at[2]);
   }
 }
 
@@ -149,8 +146,7 @@ static void sphere_half_out_of_a_box(void **unused) {
 static void bent_over_itself(void **unused) { // a tongue of one closed surface goes through its other side
   Surface s = cube_of_8();
   for (int32_t p = 0; p < s.point_count; p++) {
-    if (s.x[p][0] == 0.02 && s.x[p][1] == 0.02 && s.x[p][2] == 0.0)
-      s.x[p][2] = 0.05;
+    if (s.x[p][0] == 0.02 && s.x[p][1] == 0.02 && s.x[p][2] == 0.0) s.x[p][2] = 0.05;
   }
   refused(&s, 0.01, "crosses itself", (double[3]){20, 20, 40}, 30.0);
   surface_free(&s);
@@ -162,8 +158,7 @@ static void corner_on_a_face(void **unused) {
   surface_add_box(&s, origin, (double[3]){0.04, 0.04, 0.04}, (int[3]){1, 1, 1}, 1);
   int32_t p[4];
   const double x[4][3] = {{0.02, 0.015, 0.04}, {0.01, 0.01, 0.06}, {0.03, 0.01, 0.06}, {0.02, 0.03, 0.06}};
-  for (int k = 0; k < 4; k++)
-    p[k] = surface_point(&s, x[k], s.point_count);
+  for (int k = 0; k < 4; k++) p[k] = surface_point(&s, x[k], s.point_count);
   surface_triangle(&s, p[1], p[2], p[3], 1);
   surface_triangle(&s, p[0], p[2], p[1], 1);
   surface_triangle(&s, p[0], p[3], p[2], 1);
@@ -193,8 +188,7 @@ static void triangle_without_area(void **unused) { // a point on an edge of a tr
   surface_add_box(&s, origin, (double[3]){0.04, 0.04, 0.04}, (int[3]){1, 1, 1}, 1);
   int32_t a = s.triangle[0][0], b = s.triangle[0][1], c = s.triangle[0][2];
   double x[3];
-  for (int i = 0; i < 3; i++)
-    x[i] = 0.5 * (s.x[a][i] + s.x[b][i]);
+  for (int i = 0; i < 3; i++) x[i] = 0.5 * (s.x[a][i] + s.x[b][i]);
   int32_t n = surface_point(&s, x, s.point_count);
   s.triangle[0][1] = n; // a n c, n b c, and a b n without area
   surface_triangle(&s, n, b, c, 1);

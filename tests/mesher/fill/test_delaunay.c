@@ -22,8 +22,7 @@ static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 static int holds(const int32_t *list, int count, int32_t item) {
   for (int k = 0; k < count; k++) {
-    if (list[k] == item)
-      return 1;
+    if (list[k] == item) return 1;
   }
   return 0;
 }
@@ -37,8 +36,7 @@ static void check(const CwDelaunay *mesh, int32_t count) {
   assert_int_equal(mesh->point_count, count + CW_DELAUNAY_CORNERS - mesh->duplicate_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
-    if (tet->corner[0] < 0)
-      continue;
+    if (tet->corner[0] < 0) continue;
     const double *x[4];
     for (int i = 0; i < 4; i++) {
       x[i] = mesh->point[tet->corner[i]].x;
@@ -46,28 +44,22 @@ static void check(const CwDelaunay *mesh, int32_t count) {
     }
     assert_int_equal(cw_orient3d(x[0], x[1], x[2], x[3]), 1);
     double u[3], v[3], w[3];
-    for (int i = 0; i < 3; i++)
-      u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
-    six += (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] +
-           (u[0] * v[1] - u[1] * v[0]) * w[2];
+    for (int i = 0; i < 3; i++) u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
+    six += (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2];
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] < 0) {
         open++;
-        for (int k = 0; k < 3; k++)
-          assert_true(tet->corner[tet_face[i][k]] < CW_DELAUNAY_CORNERS);
+        for (int k = 0; k < 3; k++) assert_true(tet->corner[tet_face[i][k]] < CW_DELAUNAY_CORNERS);
         continue;
       }
       const CwDelaunayTet *other = &mesh->tet[tet->neighbour[i] / 4];
       assert_true(other->corner[0] >= 0);
       assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
-      for (int k = 0; k < 3; k++)
-        assert_true(holds(other->corner, 4, tet->corner[tet_face[i][k]]));
+      for (int k = 0; k < 3; k++) assert_true(holds(other->corner, 4, tet->corner[tet_face[i][k]]));
     }
     for (int32_t p = 0; p < mesh->point_count; p++) {
-      if (holds(tet->corner, 4, p))
-        continue;
-      if (cw_insphere(x[0], x[1], x[2], x[3], mesh->point[p].x) > 0)
-        fail_msg("point %d in the sphere of %d", p, t);
+      if (holds(tet->corner, 4, p)) continue;
+      if (cw_insphere(x[0], x[1], x[2], x[3], mesh->point[p].x) > 0) fail_msg("point %d in the sphere of %d", p, t);
     }
   }
   assert_int_equal(open, 4);
@@ -75,15 +67,13 @@ static void check(const CwDelaunay *mesh, int32_t count) {
   double edge = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
   whole = edge * edge * edge / sqrt(2.0); // six times the volume of a regular tetrahedron
   assert_true(fabs(six / whole - 1.0) < 1e-12);
-  for (int32_t p = 0; p < mesh->point_count; p++)
-    assert_true(used[p]);
+  for (int32_t p = 0; p < mesh->point_count; p++) assert_true(used[p]);
   free(used);
 }
 
 static void connect_and_check(int32_t count, double (*x)[3], int32_t duplicates) {
   CwDelaunay mesh;
-  if (cw_delaunay_make(count, (const double(*)[3])x, &mesh) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_delaunay_make(count, (const double(*)[3])x, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
   assert_int_equal(mesh.duplicate_count, duplicates);
   for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh.point_count; p++) {
     assert_memory_equal(mesh.point[p].x, x[mesh.source[p]], sizeof *x);
@@ -94,18 +84,15 @@ static void connect_and_check(int32_t count, double (*x)[3], int32_t duplicates)
 
 static void few_points(void **unused) {
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (int32_t n = 1; n <= 4; n++)
-    connect_and_check(n, x, 0);
+  for (int32_t n = 1; n <= 4; n++) connect_and_check(n, x, 0);
 }
 
 static void random_points(void **unused) {
   double(*x)[3] = malloc(700 * sizeof *x);
   state = 7;
-  for (int i = 0; i < 2100; i++)
-    x[i / 3][i % 3] = draw();
+  for (int i = 0; i < 2100; i++) x[i / 3][i % 3] = draw();
   connect_and_check(700, x, 0);
-  for (int i = 0; i < 2100; i++)
-    x[i / 3][i % 3] = 1e-3 * draw() * draw() * draw() + 0.3;
+  for (int i = 0; i < 2100; i++) x[i / 3][i % 3] = 1e-3 * draw() * draw() * draw() + 0.3;
   connect_and_check(700, x, 0);
   free(x);
 }
@@ -115,21 +102,18 @@ static void packed(void **unused) {
   double(*x)[3] = malloc(300 * sizeof *x);
   CwDelaunay mesh;
   state = 5;
-  for (int i = 0; i < 900; i++)
-    x[i / 3][i % 3] = draw();
+  for (int i = 0; i < 900; i++) x[i / 3][i % 3] = draw();
   assert_int_equal(cw_delaunay_make(300, (const double(*)[3])x, &mesh), CW_OK);
   int32_t before = mesh.tet_count, kept = 0, (*corner)[4] = malloc((size_t)before * sizeof *corner);
   for (int32_t t = 0; t < before; t++) {
-    if (mesh.tet[t].corner[0] < 0)
-      continue;
+    if (mesh.tet[t].corner[0] < 0) continue;
     if (t % 2 == 0) {
       memcpy(corner[kept++], mesh.tet[t].corner, sizeof *corner);
       continue;
     }
     for (int i = 0; i < 4; i++) {
       int32_t beyond = mesh.tet[t].neighbour[i];
-      if (beyond >= 0)
-        mesh.tet[beyond / 4].neighbour[beyond % 4] = -1;
+      if (beyond >= 0) mesh.tet[beyond / 4].neighbour[beyond % 4] = -1;
     }
     cw_delaunay_free_tet(&mesh, t);
   }
@@ -140,13 +124,11 @@ static void packed(void **unused) {
     const CwDelaunayTet *tet = &mesh.tet[t];
     assert_memory_equal(tet->corner, corner[t], sizeof *corner);
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0)
-        continue;
+      if (tet->neighbour[i] < 0) continue;
       assert_true(tet->neighbour[i] / 4 < kept);
       const CwDelaunayTet *other = &mesh.tet[tet->neighbour[i] / 4];
       assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
-      for (int k = 0; k < 3; k++)
-        assert_true(holds(other->corner, 4, tet->corner[tet_face[i][k]]));
+      for (int k = 0; k < 3; k++) assert_true(holds(other->corner, 4, tet->corner[tet_face[i][k]]));
       joined++;
     }
   }
@@ -182,8 +164,7 @@ static void body_centred_grid(void **unused) {
   double(*x)[3] = malloc(2 * 6 * 6 * 6 * sizeof *x);
   int n = 0;
   for (int k = 0; k < 432; k++) {
-    for (int i = 0; i < 3; i++)
-      x[n][i] = (i == 0 ? k / 2 % 6 : i == 1 ? k / 12 % 6 : k / 72) + 0.5 * (k % 2);
+    for (int i = 0; i < 3; i++) x[n][i] = (i == 0 ? k / 2 % 6 : i == 1 ? k / 12 % 6 : k / 72) + 0.5 * (k % 2);
     n++;
   }
   connect_and_check(n, x, 0);
@@ -196,8 +177,7 @@ static void on_one_shape(void **unused) {
   state = 11;
   for (int shape = 0; shape < 4; shape++) {
     for (int k = 0; k < 300; k++) {
-      double a = 6.283185307179586 * k / 300, z = 2.0 * draw() - 1.0, r = sqrt(1.0 - z * z),
-             phi = 6.28 * draw();
+      double a = 6.283185307179586 * k / 300, z = 2.0 * draw() - 1.0, r = sqrt(1.0 - z * z), phi = 6.28 * draw();
       double sphere[3] = {r * cos(phi), r * sin(phi), z}, circle[3] = {cos(a), sin(a), 0.25};
       double line[3] = {0.125 * k, 0.25 * k, 0.5 * k}, plane[3] = {draw(), draw(), 0.5};
       memcpy(x[k], shape == 0 ? sphere : shape == 1 ? circle : shape == 2 ? line : plane, sizeof *x);
@@ -217,25 +197,18 @@ static void small_sets(void **unused) {
     double stretch = trial % 7 == 0 ? 1e-6 : 1.0, far = trial % 5 == 0 ? 1000.0 : 0.0;
     for (int k = 0; k < count; k++) {
       double p[3], a = 0.5235987755982988 * (int)(draw() * 12.0), z = (int)(draw() * 5.0) - 2.0;
-      for (int i = 0; i < 3; i++)
-        p[i] = kind == 0 ? (int)(draw() * 4.0) : draw();
+      for (int i = 0; i < 3; i++) p[i] = kind == 0 ? (int)(draw() * 4.0) : draw();
       double r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-      for (int i = 0; i < 3 && kind == 1; i++)
-        p[i] /= r;
-      if (kind == 2)
-        p[0] = cos(a), p[1] = sin(a), p[2] = z;
-      if (kind == 3 && k % 6)
-        p[2] = 0.5;
-      if (kind == 4 && k % 6)
-        p[1] = 2.0 * p[0], p[2] = -p[0];
+      for (int i = 0; i < 3 && kind == 1; i++) p[i] /= r;
+      if (kind == 2) p[0] = cos(a), p[1] = sin(a), p[2] = z;
+      if (kind == 3 && k % 6) p[2] = 0.5;
+      if (kind == 4 && k % 6) p[1] = 2.0 * p[0], p[2] = -p[0];
       p[2] *= stretch;
-      for (int i = 0; i < 3; i++)
-        p[i] += far;
+      for (int i = 0; i < 3; i++) p[i] += far;
       int seen = 0;
       for (int m = 0; m < kept && !seen; m++)
         seen = memcmp(x[m], p, sizeof p) == 0 || (x[m][0] == p[0] && x[m][1] == p[1] && x[m][2] == p[2]);
-      if (seen)
-        continue;
+      if (seen) continue;
       memcpy(x[kept++], p, sizeof p);
     }
     connect_and_check(kept, x, 0);
@@ -258,10 +231,8 @@ static void duplicates_are_named(void **unused) {
   double x[64][3];
   CwDelaunay mesh;
   state = 5;
-  for (int i = 0; i < 180; i++)
-    x[i / 3][i % 3] = draw();
-  for (int k = 60; k < 64; k++)
-    memcpy(x[k], x[7 * (k - 60)], sizeof *x);
+  for (int i = 0; i < 180; i++) x[i / 3][i % 3] = draw();
+  for (int k = 60; k < 64; k++) memcpy(x[k], x[7 * (k - 60)], sizeof *x);
   connect_and_check(64, x, 4);
   assert_int_equal(cw_delaunay_make(64, (const double(*)[3])x, &mesh), CW_OK);
   for (int32_t k = 0; k < 4; k++) {
@@ -276,8 +247,7 @@ static void equal_bits_twice(void **unused) {
   double(*x)[3] = malloc(5000 * sizeof *x);
   CwDelaunay one, two;
   state = 17;
-  for (int i = 0; i < 15000; i++)
-    x[i / 3][i % 3] = draw();
+  for (int i = 0; i < 15000; i++) x[i / 3][i % 3] = draw();
   assert_int_equal(cw_delaunay_make(5000, (const double(*)[3])x, &one), CW_OK);
   assert_int_equal(cw_delaunay_make(5000, (const double(*)[3])x, &two), CW_OK);
   assert_int_equal(one.tet_count, two.tet_count);

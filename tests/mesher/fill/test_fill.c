@@ -27,8 +27,7 @@ typedef struct {
 static double size_at(const void *context, const double x[3]) {
   const Field *f = context;
   double square = 0.0;
-  for (int i = 0; i < 3; i++)
-    square += (x[i] - f->place[i]) * (x[i] - f->place[i]);
+  for (int i = 0; i < 3; i++) square += (x[i] - f->place[i]) * (x[i] - f->place[i]);
   return f->size + f->growth * sqrt(square);
 }
 
@@ -65,11 +64,9 @@ static CwQuality check_fill(const Surface *s, const CwFill *fill) {
         p[k] = fill->tetrahedron[t][face[i][k]];
         inner |= p[k] >= s->point_count;
       }
-      if (inner)
-        continue;
+      if (inner) continue;
       int least = p[0] < p[1] ? (p[0] < p[2] ? 0 : 2) : (p[1] < p[2] ? 1 : 2);
-      for (int k = 0; k < 3; k++)
-        key[count][k] = p[(least + k) % 3];
+      for (int k = 0; k < 3; k++) key[count][k] = p[(least + k) % 3];
       key[count++][3] = t;
     }
   }
@@ -94,8 +91,7 @@ static CwQuality check_fill(const Surface *s, const CwFill *fill) {
                          .triangle = s->triangle,
                          .triangle_patch = patch,
                          .triangle_cell = cell};
-  if (cw_audit_region(&region, &quality) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_audit_region(&region, &quality) != CW_OK) fail_msg("%s", cw_fail_message());
   double volume = surface_volume(s);
   NEAR(quality.volume, volume, 1e-12 * volume);
   assert_true(quality.dihedral_least >= 10.0);
@@ -110,8 +106,7 @@ static CwQuality check_fill(const Surface *s, const CwFill *fill) {
 static CwQuality fill_and_check(const Surface *s, const Field *field) {
   CwFillInput input = input_of(s, field);
   CwFill fill;
-  if (cw_fill(&input, &fill) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
   CwQuality quality = check_fill(s, &fill);
   cw_fill_free(&fill);
   return quality;
@@ -152,8 +147,7 @@ static void coarse_shapes_without_inner_points(void **state) {
 
 static void cube_with_a_void(void **state) {
   Surface s = {0};
-  surface_add_box(&s, (double[3]){-0.02, -0.02, -0.02}, (double[3]){0.02, 0.02, 0.02}, (int[3]){10, 10, 10},
-                  1);
+  surface_add_box(&s, (double[3]){-0.02, -0.02, -0.02}, (double[3]){0.02, 0.02, 0.02}, (int[3]){10, 10, 10}, 1);
   surface_add_sphere(&s, (double[3]){0.001, 0.002, 0}, 0.01, 2, 0);
   assert_true(surface_volume(&s) < 6.1e-5);
   fill_and_check(&s, &(Field){.size = 0.004});
@@ -186,18 +180,15 @@ static void slab_thinner_than_the_size(void **state) {
   Field field = {.size = 0.002};
   CwFillInput input = input_of(&s, &field);
   CwFill fill;
-  if (cw_fill(&input, &fill) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
   double volume = 0.0;
   for (int32_t t = 0; t < fill.tetrahedron_count; t++) {
     const double *x[4];
-    for (int i = 0; i < 4; i++)
-      x[i] = fill.x[fill.tetrahedron[t][i]];
+    for (int i = 0; i < 4; i++) x[i] = fill.x[fill.tetrahedron[t][i]];
     double u[3], v[3], w[3];
-    for (int i = 0; i < 3; i++)
-      u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
-    double six = (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] +
-                 (u[0] * v[1] - u[1] * v[0]) * w[2];
+    for (int i = 0; i < 3; i++) u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
+    double six =
+        (u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2];
     assert_true(six > 0.0);
     volume += six / 6.0;
   }
@@ -213,19 +204,16 @@ static void graded_size(void **state) {
   Field field = {.size = 0.0015, .growth = 0.045};
   CwFillInput input = input_of(&s, &field);
   CwFill fill;
-  if (cw_fill(&input, &fill) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
   CwQuality q = check_fill(&s, &fill);
   double wanted = 0.0, near_volume = 0.0;
   int32_t near_count = 0;
   for (int32_t t = 0; t < fill.tetrahedron_count; t++) {
     double mean[3] = {0, 0, 0};
     for (int i = 0; i < 4; i++) {
-      for (int k = 0; k < 3; k++)
-        mean[k] += 0.25 * fill.x[fill.tetrahedron[t][i]][k];
+      for (int k = 0; k < 3; k++) mean[k] += 0.25 * fill.x[fill.tetrahedron[t][i]][k];
     }
-    if (sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) < 0.01)
-      near_count++;
+    if (sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]) < 0.01) near_count++;
   }
   // In the ball of 10 mm: integral of 6 sqrt(2) / h^3 by shells.
   for (int k = 0; k < 1000; k++) {
@@ -265,8 +253,7 @@ static void fails_with(const Surface *s, const Field *field, const char *part) {
   cw_fail_clear();
   assert_int_equal(cw_fill(&input, &fill), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
-  if (!strstr(cw_fail_message(), part))
-    fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
+  if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
 }
 
 static void open_boundary_is_named_with_its_place(void **state) {

@@ -36,8 +36,7 @@ static void box_is_cut_in_two_places(void **unused) {
     double x = 0.5 * (k % 9), y = 0.5 * (k / 9); // on lines and corners of the triangles too
     assert_int_equal(cw_columns_cut(columns, x, y, &count, &z), CW_OK);
     assert_int_equal(count % 2, 0);
-    if (k % 9 == 0 || k % 9 == 8 || k / 9 == 0 || k / 9 == 8)
-      continue; // upright walls: either
+    if (k % 9 == 0 || k % 9 == 8 || k / 9 == 0 || k / 9 == 8) continue; // upright walls: either
     assert_int_equal(count, 2);
     NEAR(fmin(z[0], z[1]), 1.0, 1e-14);
     NEAR(fmax(z[0], z[1]), 3.0, 1e-14);

@@ -40,13 +40,12 @@ static const double origin[3] = {0, 0, 0};
 static int32_t make(const Surface *s, const Field *field, double (**x)[3]) {
   CwFillInput input = input_of(s, field);
   int32_t count;
-  if (cw_fill_points(&input, 1.0, &count, x, NULL) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_fill_points(&input, 1.0, &count, x, NULL) != CW_OK) fail_msg("%s", cw_fail_message());
   return count;
 }
 
-static int32_t points_in(const double low[3], const double high[3], const int n[3], const Field *field,
-                         double (**x)[3], Surface *s) {
+static int32_t points_in(const double low[3], const double high[3], const int n[3], const Field *field, double (**x)[3],
+                         Surface *s) {
   surface_add_box(s, low, high, n, 1);
   return make(s, field, x);
 }
@@ -55,8 +54,7 @@ static void lattice_has_the_asked_density_and_keeps_its_distance(void **state) {
   Surface s = {0};
   double(*x)[3];
   const Field field = {0.002, 0.0, 1};
-  int32_t count =
-      points_in((double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){20, 20, 20}, &field, &x, &s);
+  int32_t count = points_in((double[3]){0, 0, 0}, (double[3]){0.04, 0.04, 0.04}, (int[3]){20, 20, 20}, &field, &x, &s);
   int32_t core = 0;
   for (int32_t i = 0; i < count; i++) {
     int within = 1;
@@ -77,8 +75,7 @@ static void two_shapes_of_one_size_field_agree_in_density(void **state) {
   Surface s = {0};
   double(*x)[3];
   const Field field = {0.001, 0.04, 1}; // 1 mm to 2.6 mm along 40 mm
-  int32_t count =
-      points_in((double[3]){0, 0, 0}, (double[3]){0.04, 0.02, 0.02}, (int[3]){40, 20, 20}, &field, &x, &s);
+  int32_t count = points_in((double[3]){0, 0, 0}, (double[3]){0.04, 0.02, 0.02}, (int[3]){40, 20, 20}, &field, &x, &s);
   double wanted = 0.0; // integral of sqrt(2) / h^3 less the shell of 0.62 h
   for (int k = 0; k < 1000; k++) {
     double at = 0.04 * (k + 0.5) / 1000.0, h = field.size + field.growth * at, side = 0.02 - 1.24 * h;
@@ -93,8 +90,7 @@ static void nothing_fits_into_a_gap_below_the_size(void **state) {
   Surface s = {0};
   double(*x)[3];
   const Field field = {0.002, 0.0, 1};
-  int32_t count =
-      points_in((double[3]){0, 0, 0}, (double[3]){0.02, 0.02, 0.002}, (int[3]){10, 10, 1}, &field, &x, &s);
+  int32_t count = points_in((double[3]){0, 0, 0}, (double[3]){0.02, 0.02, 0.002}, (int[3]){10, 10, 1}, &field, &x, &s);
   assert_int_equal(count, 0);
   free(x);
   surface_free(&s);
@@ -137,8 +133,7 @@ static void graded_ball(void **unused) {
   surface_add_sphere(&s, origin, 0.05, 4, 1);
   Field field = {0.0015, 0.045, 0};
   int32_t count = make(&s, &field, &x), inner = 0;
-  for (int32_t p = 0; p < count; p++)
-    inner += x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2] < 2.116e-3;
+  for (int32_t p = 0; p < count; p++) inner += x[p][0] * x[p][0] + x[p][1] * x[p][1] + x[p][2] * x[p][2] < 2.116e-3;
   for (int k = 0; k < 1000; k++) { // integral of 2 / a^3 over the ball of radius 0.046
     double r = 0.046 * (k + 0.5) / 1000, at[3] = {r, 0, 0}, a = lattice * size_at(&field, at);
     wanted += 4.0 * 3.141592653589793 * r * r * 0.046 / 1000 * 2.0 / (a * a * a);
@@ -157,8 +152,7 @@ static void equal_bits_twice_and_no_duplicates(void **unused) {
   assert_int_equal(make(&s, &field, &two), count);
   assert_memory_equal(one, two, (size_t)count * sizeof *one);
   for (int32_t p = 0; p < count; p++) {
-    for (int i = 0; i < 3; i++)
-      assert_true(one[p][i] > 0.0 && one[p][i] < 0.04);
+    for (int i = 0; i < 3; i++) assert_true(one[p][i] > 0.0 && one[p][i] < 0.04);
     for (int32_t q = 0; q < p; q++) {
       double d = hypot(hypot(one[p][0] - one[q][0], one[p][1] - one[q][1]), one[p][2] - one[q][2]);
       assert_true(d > 0.001);

@@ -22,8 +22,13 @@ static double size_at(const void *context, const double x[3]) {
 static CwRowPlace place_for(double size, double edge) {
   const double x[3][3] = {{0, 0, 0}, {edge, 0, 0}, {0.5 * edge, edge * sqrt(0.75), 0}};
   const int32_t triangle[1][3] = {{0, 1, 2}};
-  CwFillInput input = {.point_count = 3, .x = x, .triangle_count = 1, .triangle = triangle, .size = size_at,
-                       .size_context = &size, .row_count = 1};
+  CwFillInput input = {.point_count = 3,
+                       .x = x,
+                       .triangle_count = 1,
+                       .triangle = triangle,
+                       .size = size_at,
+                       .size_context = &size,
+                       .row_count = 1};
   return cw_row_place(&input, 0);
 }
 
@@ -42,8 +47,13 @@ static void line_runs_along_no_axis(void **unused) {
     double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, size = 1.0;
     const int32_t triangle[1][3] = {{0, 1, 2}};
     for (int i = 0; i < 3 && k > 0; i++) x[i][k - 1] += 1.0;
-    CwFillInput input = {.point_count = 3, .x = (const double(*)[3])x, .triangle_count = 1, .triangle = triangle,
-                         .size = size_at, .size_context = &size, .row_count = 1};
+    CwFillInput input = {.point_count = 3,
+                         .x = (const double(*)[3])x,
+                         .triangle_count = 1,
+                         .triangle = triangle,
+                         .size = size_at,
+                         .size_context = &size,
+                         .row_count = 1};
     along[k] = cw_row_place(&input, 0).along;
   }
   for (int k = 0; k < 3; k++) grown[k] = along[k + 1] - along[0];
@@ -66,8 +76,14 @@ static void spacing_is_between_the_wanted_length_and_the_edges(void **unused) {
 static void last_triangles_are_on_the_interface(void **unused) {
   const double x[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, size = 1.0;
   const int32_t triangle[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}};
-  CwFillInput input = {.point_count = 3, .x = x, .triangle_count = 3, .triangle = triangle, .size = size_at,
-                       .size_context = &size, .row_count = 3, .interface_count = 2};
+  CwFillInput input = {.point_count = 3,
+                       .x = x,
+                       .triangle_count = 3,
+                       .triangle = triangle,
+                       .size = size_at,
+                       .size_context = &size,
+                       .row_count = 3,
+                       .interface_count = 2};
   for (int t = 0; t < 3; t++) assert_int_equal(cw_row_place(&input, t).on_interface, t >= 1);
 }
 

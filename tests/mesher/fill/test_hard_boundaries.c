@@ -58,14 +58,13 @@ static const char *fill_one(const Surface *s, const char *name, double size, Cou
   CwFill fill;
   struct timespec from, to;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
-  if (cw_fill_sure(&input, CW_FILL_KERNEL, &fill) != CW_OK)
-    return cw_fail_message();
+  if (cw_fill_sure(&input, CW_FILL_KERNEL, &fill) != CW_OK) return cw_fail_message();
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
   const char *fault = fill_fault(s, &fill);
   if (getenv("CUTWATER_VERBOSE"))
     printf("%-32s %6d triangles %7d cells %5d missing %6d flips %3d cleared %4d divided%s, flatness %.2g, %.2f s\n",
-           name, s->triangle_count, fill.tetrahedron_count, fill.way.missing, fill.way.flips,
-           fill.way.cleared, fill.way.divided, fill.way.tetgen ? ", TetGen" : "", cw_fill_flatness(&fill),
+           name, s->triangle_count, fill.tetrahedron_count, fill.way.missing, fill.way.flips, fill.way.cleared,
+           fill.way.divided, fill.way.tetgen ? ", TetGen" : "", cw_fill_flatness(&fill),
            (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
   add(count, &fill.way);
   cw_fill_free(&fill);
@@ -80,11 +79,9 @@ static void library(void **unused) {
     double size;
     const char *name = hard_boundary(k, &s, &size), *fault;
     CwFillInput input = fill_input(&s, &size);
-    if (cw_boundary_check_crossing(&input) != CW_OK)
-      fail_msg("%s: no boundary: %s", name, cw_fail_message());
+    if (cw_boundary_check_crossing(&input) != CW_OK) fail_msg("%s: no boundary: %s", name, cw_fail_message());
     fault = fill_one(&s, name, size, &count);
-    if (fault)
-      print_error("%s: %s\n", name, fault);
+    if (fault) print_error("%s: %s\n", name, fault);
     faults += fault != NULL;
     surface_free(&s);
   }
@@ -115,8 +112,7 @@ static void random_ones(void **unused) {
     } else {
       fault = fill_one(&s, name, size, &count);
     }
-    if (fault)
-      print_error("%s: %s\n", name, fault);
+    if (fault) print_error("%s: %s\n", name, fault);
     faults += fault != NULL;
     surface_free(&s);
   }
@@ -157,13 +153,11 @@ static int one_alone(const char *name, uint64_t seed) {
     fault = fill_one(&s, "random", size, &count);
   }
   for (int k = 0; k < hard_boundary_count() && name; k++) {
-    if (strcmp(hard_boundary(k, &s, &size), name) == 0)
-      fault = fill_one(&s, name, size, &count);
+    if (strcmp(hard_boundary(k, &s, &size), name) == 0) fault = fill_one(&s, name, size, &count);
     surface_free(&s);
   }
   surface_free(&s);
-  if (fault)
-    printf("%s\n", fault);
+  if (fault) printf("%s\n", fault);
   return fault != NULL;
 }
 
@@ -171,12 +165,9 @@ int main(int argc, char **argv) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(library), cmocka_unit_test(random_ones),
                                      cmocka_unit_test(equal_bits_twice)};
   const struct CMUnitTest many[] = {cmocka_unit_test(random_ones)};
-  if (getenv("CUTWATER_VERBOSE"))
-    cw_log_open("test", NULL, 1, getenv("CUTWATER_VERBOSE")[0] == '2');
-  if (argc == 3)
-    return one_alone(NULL, strtoull(argv[2], NULL, 10));
-  if (argc == 2 && atoi(argv[1]) == 0)
-    return one_alone(argv[1], 0);
+  if (getenv("CUTWATER_VERBOSE")) cw_log_open("test", NULL, 1, getenv("CUTWATER_VERBOSE")[0] == '2');
+  if (argc == 3) return one_alone(NULL, strtoull(argv[2], NULL, 10));
+  if (argc == 2 && atoi(argv[1]) == 0) return one_alone(argv[1], 0);
   if (argc == 2) {
     random_count = atoi(argv[1]);
     return cmocka_run_group_tests(many, NULL, NULL);

@@ -21,13 +21,11 @@ typedef struct {
 static Shape check(const Surface *s, const CwFill *fill) {
   Shape worst = {180.0, 0.0};
   const char *fault = fill_fault(s, fill);
-  if (fault)
-    fail_msg("%s", fault);
+  if (fault) fail_msg("%s", fault);
   for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
     const double *x[4];
     CwTetShape shape;
-    for (int i = 0; i < 4; i++)
-      x[i] = fill->x[fill->tetrahedron[t][i]];
+    for (int i = 0; i < 4; i++) x[i] = fill->x[fill->tetrahedron[t][i]];
     cw_tet_shape(x, &shape);
     worst.dihedral_least = fmin(worst.dihedral_least, shape.dihedral_least);
     worst.aspect_mean += shape.edge_longest / shape.edge_shortest / fill->tetrahedron_count;
@@ -39,10 +37,8 @@ static Shape fill_and_check(const Surface *s, double size) {
   CwFillInput input = fill_input(s, &size);
   CwFill fill;
   CwStatus status = cw_kernel_fill(&input, &fill);
-  if (status == CW_RETRY)
-    fail_msg("not recovered");
-  if (status != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (status == CW_RETRY) fail_msg("not recovered");
+  if (status != CW_OK) fail_msg("%s", cw_fail_message());
   Shape shape = check(s, &fill);
   cw_fill_free(&fill);
   return shape;
@@ -124,8 +120,7 @@ static void equal_bits_twice(void **unused) {
   assert_int_equal(one.point_count, two.point_count);
   assert_int_equal(one.tetrahedron_count, two.tetrahedron_count);
   assert_memory_equal(one.x, two.x, (size_t)one.point_count * sizeof *one.x);
-  assert_memory_equal(one.tetrahedron, two.tetrahedron,
-                      (size_t)one.tetrahedron_count * sizeof *one.tetrahedron);
+  assert_memory_equal(one.tetrahedron, two.tetrahedron, (size_t)one.tetrahedron_count * sizeof *one.tetrahedron);
   cw_fill_free(&one);
   cw_fill_free(&two);
   surface_free(&s);

@@ -16,30 +16,23 @@
 static double volume(const CwDelaunay *mesh) {
   double six = 0.0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (mesh->tet[t].corner[0] < 0)
-      continue;
+    if (mesh->tet[t].corner[0] < 0) continue;
     const double *x[4];
-    for (int i = 0; i < 4; i++)
-      x[i] = mesh->point[mesh->tet[t].corner[i]].x;
+    for (int i = 0; i < 4; i++) x[i] = mesh->point[mesh->tet[t].corner[i]].x;
     assert_int_equal(cw_orient3d(x[0], x[1], x[2], x[3]), 1);
     six += cw_tet_volume6(x[0], x[1], x[2], x[3]);
     for (int i = 0; i < 4; i++) {
       int32_t other = mesh->tet[t].neighbour[i];
-      if (other >= 0)
-        assert_int_equal(mesh->tet[other / 4].neighbour[other % 4], 4 * t + i);
+      if (other >= 0) assert_int_equal(mesh->tet[other / 4].neighbour[other % 4], 4 * t + i);
     }
   }
   return six;
 }
 
 // The facets over all points are missing before, and there after the hollow was cleared.
-static void clear(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*triangle)[3],
-                  int expected) {
-  CwFillInput input = {.point_count = points,
-                       .x = x,
-                       .triangle_count = triangles,
-                       .triangle = triangle,
-                       .name = "rotor region 3"};
+static void clear(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*triangle)[3], int expected) {
+  CwFillInput input = {
+      .point_count = points, .x = x, .triangle_count = triangles, .triangle = triangle, .name = "rotor region 3"};
   CwDelaunay mesh;
   CwFacets facets;
   CwFlips flips;
@@ -83,8 +76,7 @@ static void two_faces_and_their_edge(void **unused) {
 static void facets_that_cross_stay(void **unused) {
   const double x[5][3] = {{1, 0, 0}, {-0.5, 0.8, 0.01}, {-0.5, -0.8, 0}, {0.01, 0, 0.3}, {0, 0.01, -0.3}};
   const int32_t triangle[2][3] = {{0, 1, 2}, {0, 3, 4}};
-  CwFillInput input = {
-      .point_count = 5, .x = x, .triangle_count = 2, .triangle = triangle, .name = "rotor region 3"};
+  CwFillInput input = {.point_count = 5, .x = x, .triangle_count = 2, .triangle = triangle, .name = "rotor region 3"};
   CwDelaunay mesh;
   CwFacets facets;
   int32_t sources = 5;
@@ -109,10 +101,8 @@ static void segments_and_triangles(void **unused) {
   CwDelaunay mesh;
   int32_t p[6], t[3];
   assert_int_equal(cw_delaunay_make(6, x, &mesh), CW_OK);
-  for (int32_t k = CW_DELAUNAY_CORNERS; k < mesh.point_count; k++)
-    p[mesh.source[k]] = k;
-  for (int k = 0; k < 3; k++)
-    t[k] = p[given[k]];
+  for (int32_t k = CW_DELAUNAY_CORNERS; k < mesh.point_count; k++) p[mesh.source[k]] = k;
+  for (int k = 0; k < 3; k++) t[k] = p[given[k]];
   assert_int_equal(cw_kernel_meet(&mesh, p[3], p[4], t), 1);
   assert_int_equal(cw_kernel_meet(&mesh, p[4], p[3], t), 1);
   assert_int_equal(cw_kernel_meet(&mesh, p[4], p[5], t), 0);

@@ -63,8 +63,7 @@ static void carved_mesh_and_core_fit(void **unused) {
   assert_int_equal(cw_kernel_core_carve(&core, &mesh), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     const CwDelaunayTet *tet = &mesh.tet[t];
-    if (tet->corner[0] < 0)
-      continue;
+    if (tet->corner[0] < 0) continue;
     left += volume6(&mesh, tet->corner);
     for (int i = 0; i < 4; i++) {
       open += tet->neighbour[i] < 0;
@@ -97,13 +96,11 @@ static void fill_with_and_without(int row) {
     ball.input.inner_site = k ? ball.site : NULL;
     assert_int_equal(cw_kernel_fill(&ball.input, &fill[k]), CW_OK);
     const char *fault = fill_fault(&ball.surface, &fill[k]);
-    if (fault)
-      fail_msg("%s", fault);
+    if (fault) fail_msg("%s", fault);
     for (int32_t t = 0; t < fill[k].tetrahedron_count; t++) {
       CwTetShape shape;
       const double *c[4];
-      for (int i = 0; i < 4; i++)
-        c[i] = fill[k].x[fill[k].tetrahedron[t][i]];
+      for (int i = 0; i < 4; i++) c[i] = fill[k].x[fill[k].tetrahedron[t][i]];
       cw_tet_shape(c, &shape);
       volume[k] += shape.volume;
       least[k] = fmin(least[k], shape.dihedral_least);
@@ -117,9 +114,13 @@ static void fill_with_and_without(int row) {
   free_ball(&ball);
 }
 
-static void fills_with_and_without(void **unused) { fill_with_and_without(0); }
+static void fills_with_and_without(void **unused) {
+  fill_with_and_without(0);
+}
 
-static void fills_with_and_without_under_a_row(void **unused) { fill_with_and_without(1); }
+static void fills_with_and_without_under_a_row(void **unused) {
+  fill_with_and_without(1);
+}
 
 int main(void) {
   const struct CMUnitTest tests[] = {

@@ -20,16 +20,13 @@ static double check(const CwDelaunay *mesh) {
   double six = 0.0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
-    if (tet->corner[0] < 0)
-      continue;
+    if (tet->corner[0] < 0) continue;
     const double *x[4];
-    for (int i = 0; i < 4; i++)
-      x[i] = mesh->point[tet->corner[i]].x;
+    for (int i = 0; i < 4; i++) x[i] = mesh->point[tet->corner[i]].x;
     assert_int_equal(cw_orient3d(x[0], x[1], x[2], x[3]), 1);
     six += cw_tet_volume6(x[0], x[1], x[2], x[3]);
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0)
-        continue;
+      if (tet->neighbour[i] < 0) continue;
       const CwDelaunayTet *other = &mesh->tet[tet->neighbour[i] / 4];
       assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
       for (int k = 0; k < 3; k++) {
@@ -51,15 +48,13 @@ static int never_in_the_way(const void *context, int count, const int32_t *point
 static int holds_both(const void *context, int count, const int32_t *point) {
   const int32_t *pair = context;
   int found = 0;
-  for (int k = 0; k < count; k++)
-    found += point[k] == pair[0] || point[k] == pair[1];
+  for (int k = 0; k < count; k++) found += point[k] == pair[0] || point[k] == pair[1];
   return found == 2;
 }
 
 static int32_t point_from(const CwDelaunay *mesh, int32_t source) {
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    if (mesh->source[p] == source)
-      return p;
+    if (mesh->source[p] == source) return p;
   }
   return -1;
 }
@@ -102,8 +97,7 @@ static void axis_of_a_bipyramid(void **unused) {
   for (t = 0; t < mesh.tet_count && !flipped; t++) {
     for (int i = 0; i < 4 && !flipped && mesh.tet[t].corner[0] >= 0; i++) {
       int32_t other = mesh.tet[t].neighbour[i];
-      if (other < 0 || mesh.tet[t].corner[i] != a || mesh.tet[other / 4].corner[other % 4] != b)
-        continue;
+      if (other < 0 || mesh.tet[t].corner[i] != a || mesh.tet[other / 4].corner[other % 4] != b) continue;
       assert_int_equal(cw_flips_face(&flips, t, i, &flipped), CW_OK);
     }
   }
@@ -134,13 +128,11 @@ static void any_flips_keep_a_mesh(void **unused) {
     state = state * 6364136223846793005u + 1442695040888963407u;
     int32_t t = (int32_t)((state >> 33) % (uint64_t)mesh.tet_count);
     int i = (int)(state >> 20 & 3), j = (i + 1 + (int)((state >> 22) % 3)) % 4, flipped = 0;
-    if (mesh.tet[t].corner[0] < 0)
-      continue;
+    if (mesh.tet[t].corner[0] < 0) continue;
     if (k % 2)
       assert_int_equal(cw_flips_face(&flips, t, i, &flipped), CW_OK);
     else
-      assert_int_equal(cw_flips_edge(&flips, t, mesh.tet[t].corner[i], mesh.tet[t].corner[j], &flipped),
-                       CW_OK);
+      assert_int_equal(cw_flips_edge(&flips, t, mesh.tet[t].corner[i], mesh.tet[t].corner[j], &flipped), CW_OK);
     done += flipped;
   }
   assert_true(done > 500);
@@ -163,10 +155,7 @@ static void improvement_raises_the_least(void **unused) {
   for (int i = 0; i < 3000; i++) {
     state = state * 6364136223846793005u + 1442695040888963407u;
     int k = i / 3;
-    x[k][i % 3] = (i % 3 == 0   ? k % 10
-                   : i % 3 == 1 ? k / 10 % 10
-                                : k / 100) +
-                  0.4 * (double)(state >> 11) * 0x1p-53;
+    x[k][i % 3] = (i % 3 == 0 ? k % 10 : i % 3 == 1 ? k / 10 % 10 : k / 100) + 0.4 * (double)(state >> 11) * 0x1p-53;
   }
   assert_int_equal(cw_delaunay_make(1000, (const double(*)[3])x, &mesh), CW_OK);
   double six = check(&mesh);
@@ -178,8 +167,7 @@ static void improvement_raises_the_least(void **unused) {
   assert_int_equal(sources - 1000, improved.points_added);
   assert_int_equal(mesh.point_count, 1004 + improved.points_added);
   for (int32_t p = 0; p < mesh.point_count; p++) {
-    if (mesh.source[p] >= 0 && mesh.source[p] < 100)
-      assert_memory_equal(mesh.point[p].x, x[mesh.source[p]], sizeof *x);
+    if (mesh.source[p] >= 0 && mesh.source[p] < 100) assert_memory_equal(mesh.point[p].x, x[mesh.source[p]], sizeof *x);
   }
   cw_delaunay_free(&mesh);
   free(x);

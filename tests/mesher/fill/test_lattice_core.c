@@ -29,8 +29,7 @@ static int32_t block(int n, CwLatticeSite **site) {
       for (int j = 0; j <= n - half; j++) {
         for (int k = 0; k <= n - half; k++) {
           int32_t at[3] = {EDGE * (i + 4), EDGE * (j + 4), EDGE * (k + 4)};
-          for (int a = 0; a < 3; a++)
-            at[a] += half * EDGE / 2;
+          for (int a = 0; a < 3; a++) at[a] += half * EDGE / 2;
           (*site)[count++] = (CwLatticeSite){cw_lattice_key(at), LEVEL, 1};
         }
       }
@@ -48,8 +47,7 @@ static int32_t find_site(int32_t count, const CwLatticeSite *site, const int32_t
 
 static CwLatticeCore make(int32_t count, const CwLatticeSite *site) {
   CwLatticeCore core;
-  if (cw_lattice_core_make(count, site, &core) != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (cw_lattice_core_make(count, site, &core) != CW_OK) fail_msg("%s", cw_fail_message());
   return core;
 }
 
@@ -57,8 +55,7 @@ static void places(int32_t count, const CwLatticeSite *site, double (*x)[3]) {
   for (int32_t s = 0; s < count; s++) {
     int32_t at[3];
     cw_lattice_at(site[s].key, at);
-    for (int i = 0; i < 3; i++)
-      x[s][i] = at[i];
+    for (int i = 0; i < 3; i++) x[s][i] = at[i];
   }
 }
 
@@ -83,8 +80,7 @@ static double volume_of(const CwLatticeCore *core, const double (*x)[3]) {
 // Role of a point of a block: of a corner (half 0) or a centre (half 1).
 static int role_in(const CwLatticeCore *core, int32_t count, const CwLatticeSite *site, int half, const int at[3]) {
   int32_t there[3];
-  for (int i = 0; i < 3; i++)
-    there[i] = EDGE * (at[i] + 4) + half * EDGE / 2;
+  for (int i = 0; i < 3; i++) there[i] = EDGE * (at[i] + 4) + half * EDGE / 2;
   return core->role[find_site(count, site, there)];
 }
 
@@ -95,8 +91,7 @@ static int32_t count_tets(const CwLatticeCore *core, int32_t sites, const CwLatt
     int axis = f % 3, cell[3] = {f / 3 / n / n, f / 3 / n % n, f / 3 % n}, other[3];
     memcpy(other, cell, sizeof other);
     other[axis]++;
-    if (other[axis] == n)
-      continue;
+    if (other[axis] == n) continue;
     int centres = role_in(core, sites, site, 1, cell) == CW_LATTICE_DEEP ||
                   role_in(core, sites, site, 1, other) == CW_LATTICE_DEEP;
     int deep[4];
@@ -107,8 +102,7 @@ static int32_t count_tets(const CwLatticeCore *core, int32_t sites, const CwLatt
       at[(axis + 2) % 3] += k >= 2;
       deep[k] = role_in(core, sites, site, 0, at) == CW_LATTICE_DEEP;
     }
-    for (int k = 0; k < 4; k++)
-      count += centres || deep[k] || deep[(k + 1) % 4];
+    for (int k = 0; k < 4; k++) count += centres || deep[k] || deep[(k + 1) % 4];
   }
   return count;
 }
@@ -181,8 +175,7 @@ static void spheres_are_empty(void **unused) {
   assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, &site), CW_OK);
   CwLatticeCore core = make(count, site);
   assert_true(core.tet_count > 50000);
-  for (int32_t t = 0; t < core.tet_count; t++)
-    both |= 1 << site[core.tet[t][0]].level; // a centre
+  for (int32_t t = 0; t < core.tet_count; t++) both |= 1 << site[core.tet[t][0]].level; // a centre
   assert_true((both & (both - 1)) != 0);
   volume_of(&core, (const double(*)[3])x);
   for (int32_t t = 0; t < core.tet_count; t += 50) {
@@ -205,8 +198,7 @@ static void spheres_are_empty(void **unused) {
     assert_int_equal(on, 4);
   }
   int32_t *met = calloc((size_t)count, sizeof *met);
-  for (int32_t t = 0; t < 4 * core.tet_count; t++)
-    met[core.tet[t / 4][t % 4]]++;
+  for (int32_t t = 0; t < 4 * core.tet_count; t++) met[core.tet[t / 4][t % 4]]++;
   for (int32_t p = 0; p < count; p++) {
     assert_true(core.role[p] != CW_LATTICE_DEEP || met[p] == 24);
     assert_true(core.role[p] != CW_LATTICE_SHELL || met[p] == 0);

@@ -25,10 +25,8 @@ static const CwLatticeFrame frame = {{0, 0, 0}, 0.25};
 static int64_t places_of(const Field *field, int32_t count, const CwLatticeCell *cell, CwLatticePlace **place) {
   CwFillInput input = {.size = size_at, .size_context = field, .name = "box"};
   int64_t places;
-  if (cw_lattice_places(&input, &frame, count, cell, &places, place) != CW_OK)
-    fail_msg("%s", cw_fail_message());
-  for (int64_t k = 1; k < places; k++)
-    assert_true((*place)[k].key > (*place)[k - 1].key);
+  if (cw_lattice_places(&input, &frame, count, cell, &places, place) != CW_OK) fail_msg("%s", cw_fail_message());
+  for (int64_t k = 1; k < places; k++) assert_true((*place)[k].key > (*place)[k - 1].key);
   return places;
 }
 

@@ -39,12 +39,9 @@ static double roof(double degrees, double apart, int32_t *worst) {
   const double a = degrees * 3.14159265358979323846 / 180.0;
   // The edge 0-1; 2 and 3 on the floor and the slope, at `apart` to both sides of the middle; 4 and 5 close the far
   // side.
-  const double x[6][3] = {{0, 0, 0},
-                          {0, 2, 0},
-                          {1, 1 - apart, 0},
-                          {cos(a), 1 + apart, sin(a)},
-                          {1, 1 + apart, 0},
-                          {cos(a), 1 - apart, sin(a)}};
+  const double x[6][3] = {{0, 0, 0},         {0, 2, 0},
+                          {1, 1 - apart, 0}, {cos(a), 1 + apart, sin(a)},
+                          {1, 1 + apart, 0}, {cos(a), 1 - apart, sin(a)}};
   // Floor 0-2-4-1, slope 0-5-3-1 and the ends 0-5-2, 1-4-3; the far side 2-5-3-4.
   const int32_t triangle[8][3] = {{0, 4, 2}, {0, 1, 4}, {0, 5, 3}, {0, 3, 1},
                                   {0, 2, 5}, {1, 3, 4}, {2, 4, 3}, {2, 3, 5}};

@@ -30,13 +30,11 @@ static double least_of(const CwFill *fill, double *volume) {
   for (int32_t t = 0; t < fill->tetrahedron_count; t++) {
     const double *x[4];
     double u[3], v[3], w[3];
-    for (int i = 0; i < 4; i++)
-      x[i] = fill->x[fill->tetrahedron[t][i]];
-    for (int i = 0; i < 3; i++)
-      u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
-    *volume += ((u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] +
-                (u[0] * v[1] - u[1] * v[0]) * w[2]) /
-               6.0;
+    for (int i = 0; i < 4; i++) x[i] = fill->x[fill->tetrahedron[t][i]];
+    for (int i = 0; i < 3; i++) u[i] = x[1][i] - x[0][i], v[i] = x[2][i] - x[0][i], w[i] = x[3][i] - x[0][i];
+    *volume +=
+        ((u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] + (u[0] * v[1] - u[1] * v[0]) * w[2]) /
+        6.0;
     least = fmin(least, cw_tet_quality(x[0], x[1], x[2], x[3]));
   }
   return least;
@@ -73,8 +71,7 @@ static void octahedron_gets_its_best_diagonal(void **state) {
     free_fill(&fill);
   }
   int worst = least[0] < least[1] ? 0 : 1;
-  if (least[2] < least[worst])
-    worst = 2;
+  if (least[2] < least[worst]) worst = 2;
   double best = fmax(fmax(least[0], least[1]), least[2]), got_volume;
   assert_true(least[worst] < 0.4 && best > least[worst] + 0.1);
   CwFill fill = fill_of(6, x, 4, (const int32_t(*)[4])tets[worst]);
@@ -138,8 +135,7 @@ static void inner_point_is_smoothed(void **state) {
   x = malloc(13 * sizeof *x);
   memcpy(x, s.x, 12 * sizeof *x);
   const int32_t *f = s.triangle[0];
-  for (int i = 0; i < 3; i++)
-    x[12][i] = 0.31 * (s.x[f[0]][i] + s.x[f[1]][i] + s.x[f[2]][i]);
+  for (int i = 0; i < 3; i++) x[12][i] = 0.31 * (s.x[f[0]][i] + s.x[f[1]][i] + s.x[f[2]][i]);
   int32_t tet[20][4];
   for (int t = 0; t < 20; t++) {
     const int32_t one[4] = {s.triangle[t][0], s.triangle[t][2], s.triangle[t][1], 12};
@@ -168,8 +164,7 @@ static void points_go_into_a_ball(void **state) {
   surface_add_sphere(&s, (double[3]){0, 0, 0}, 1.0, 1, 1);
   for (int t = 0; t < 80; t++) {
     const int32_t *f = s.triangle[t], one[4] = {f[0], f[2], f[1], 0};
-    if (f[0] != 0 && f[1] != 0 && f[2] != 0)
-      memcpy(tet[count++], one, sizeof one);
+    if (f[0] != 0 && f[1] != 0 && f[2] != 0) memcpy(tet[count++], one, sizeof one);
   }
   assert_int_equal(count, 75);
   CwFill fill = fill_of(42, (const double(*)[3])s.x, 75, (const int32_t(*)[4])tet);

@@ -20,17 +20,13 @@ static double shape_of(const CwTetWork *w, double *mean, double *aspect) {
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     const int32_t *c = w->mesh->tet[t].corner;
     int inner = 0;
-    if (c[0] < 0)
-      continue;
-    for (int i = 0; i < 4; i++)
-      inner |= w->mesh->source[c[i]] >= w->fixed_count;
-    CwTetMeasures m =
-        cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+    if (c[0] < 0) continue;
+    for (int i = 0; i < 4; i++) inner |= w->mesh->source[c[i]] >= w->fixed_count;
+    CwTetMeasures m = cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
     double shortest, longest;
     assert_true(m.six > 0.0);
     six += m.six;
-    if (!inner)
-      continue;
+    if (!inner) continue;
     cw_tet_edges(&m, &shortest, &longest);
     *aspect += sqrt(longest / shortest);
     *mean += cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
@@ -46,11 +42,8 @@ static void shaken_points_become_even(void **state) {
   int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x), moved = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .fixed_count = outside,
-                 .source_count = count};
+  CwTetWork w = {
+      .flips = {.mesh = &mesh}, .mesh = &mesh, .limit = CW_TET_IMPROVE, .fixed_count = outside, .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   double six = shape_of(&w, &before, &uneven);
   assert_int_equal(cw_tet_relax(&w), CW_OK);
@@ -58,8 +51,7 @@ static void shaken_points_become_even(void **state) {
   assert_true(after > before + 0.03);
   assert_true(uneven > 1.49 && even < 1.346); // 1.348 by the centres alone
   for (int32_t p = 0; p < mesh.point_count; p++) {
-    if (mesh.source[p] < 0)
-      continue;
+    if (mesh.source[p] < 0) continue;
     int same = memcmp(mesh.point[p].x, x[mesh.source[p]], sizeof *x) == 0;
     assert_true(same || mesh.source[p] >= outside);
     moved += !same;
@@ -68,12 +60,10 @@ static void shaken_points_become_even(void **state) {
   assert_true(moved > (count - outside) / 2);
   for (int32_t t = 0; t < mesh.tet_count; t++) { // qualities are kept, those below the limit listed
     const int32_t *c = mesh.tet[t].corner;
-    if (c[0] < 0 || mesh.tet[t].square == 1.0)
-      continue;
+    if (c[0] < 0 || mesh.tet[t].square == 1.0) continue;
     assert_true(mesh.tet[t].square == cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]));
     int listed = mesh.tet[t].square >= CW_TET_IMPROVE;
-    for (int32_t k = 0; k < w.next_count && !listed; k++)
-      listed = w.next[k] == t;
+    for (int32_t k = 0; k < w.next_count && !listed; k++) listed = w.next[k] == t;
     assert_true(listed);
   }
   free(w.bad);
@@ -88,19 +78,14 @@ static void lattice_stays(void **state) {
   int32_t outside, count = shaken_lattice(8, 1e-3, &outside, &x), deep = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .fixed_count = outside,
-                 .source_count = count};
+  CwTetWork w = {
+      .flips = {.mesh = &mesh}, .mesh = &mesh, .limit = CW_TET_IMPROVE, .fixed_count = outside, .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   assert_int_equal(cw_tet_relax(&w), CW_OK);
   for (int32_t p = 0; p < mesh.point_count; p++) {
-    if (mesh.source[p] < 0)
-      continue;
+    if (mesh.source[p] < 0) continue;
     const double *old = x[mesh.source[p]];
-    if (fmin(fmin(old[0], old[1]), old[2]) < 1.9 || fmax(fmax(old[0], old[1]), old[2]) > 6.1)
-      continue;
+    if (fmin(fmin(old[0], old[1]), old[2]) < 1.9 || fmax(fmax(old[0], old[1]), old[2]) > 6.1) continue;
     assert_memory_equal(mesh.point[p].x, old, sizeof *x);
     deep++;
   }

@@ -121,8 +121,8 @@ static double least_round(const CwDelaunay *mesh, int32_t point) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
     if (c[0] < 0 || (c[0] != point && c[1] != point && c[2] != point && c[3] != point)) continue;
-    least = fmin(least, cw_tet_quality(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x,
-                                       mesh->point[c[3]].x));
+    least =
+        fmin(least, cw_tet_quality(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x));
   }
   return least;
 }

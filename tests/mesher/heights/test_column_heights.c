@@ -36,10 +36,18 @@ static void make_wall(Wall *wall, double size, int points, double (*x)[3], int t
   wall->size = size;
   wall->region_start[1] = triangles;
   for (int t = 0; t < triangles; t++) wall->source[t] = wall->region_wall[t] = t;
-  wall->skeleton = (CwSkeleton){.size_at = constant, .size = &wall->size, .wall_count = points, .wall_x = x,
-                                .wall_triangle_count = triangles, .wall_triangle = triangle, .wall_face = face,
-                                .wall_source = wall->source, .region_wall_start = wall->region_start,
-                                .region_wall = wall->region_wall, .front = wall->front, .height = wall->height,
+  wall->skeleton = (CwSkeleton){.size_at = constant,
+                                .size = &wall->size,
+                                .wall_count = points,
+                                .wall_x = x,
+                                .wall_triangle_count = triangles,
+                                .wall_triangle = triangle,
+                                .wall_face = face,
+                                .wall_source = wall->source,
+                                .region_wall_start = wall->region_start,
+                                .region_wall = wall->region_wall,
+                                .front = wall->front,
+                                .height = wall->height,
                                 .reason = wall->reason};
   for (int v = 0; v < points; v++) {
     memcpy(wall->front[v], x[v], sizeof *x);
@@ -62,9 +70,9 @@ static int32_t square[2][3] = {{0, 1, 2}, {0, 2, 3}}, square_face[2] = {0, 0};
 static const CwLayerTarget DOUBLING = {.first_height = 1, .growth = 2, .thickness = 7};
 
 static void a_flat_wall(void **state) {
-  NEAR(cw_column_height_flat(&DOUBLING, 3, 10), 7);                // a tetrahedron is 8.16 high
-  NEAR(cw_column_height_flat(&DOUBLING, 3, 2.25 / 0.816), 4.75);   // 2.25 high: layers of 1, 1.5 and 2.25
-  NEAR(cw_column_height_flat(&DOUBLING, 3, 0.5), 3.15);            // 1.05 times three even layers
+  NEAR(cw_column_height_flat(&DOUBLING, 3, 10), 7);              // a tetrahedron is 8.16 high
+  NEAR(cw_column_height_flat(&DOUBLING, 3, 2.25 / 0.816), 4.75); // 2.25 high: layers of 1, 1.5 and 2.25
+  NEAR(cw_column_height_flat(&DOUBLING, 3, 0.5), 3.15);          // 1.05 times three even layers
   NEAR(cw_column_height_least(1, 3), 3.15);
   CwLayerTarget thin = DOUBLING;
   thin.thickness = 4;

@@ -51,8 +51,7 @@ static void growth_at_its_limit_raises_the_first_height(void **state) {
 static void a_short_column_gives_up_its_outer_layers(void **state) {
   double f[5];
   NEAR(cw_layer_fractions(4.0, 1.0, 4, 1.2, f), 1.0, 0.0); // just even
-  for (int k = 0; k <= 4; k++)
-    NEAR(f[k], 0.25 * k, 1e-14);
+  for (int k = 0; k <= 4; k++) NEAR(f[k], 0.25 * k, 1e-14);
   // 1 + 0.8 + 0.64 + 0.512 = 2.952
   NEAR(cw_layer_fractions(2.952, 1.0, 4, 1.2, f), 1.0, 0.0);
   NEAR(f[1], 1.0 / 2.952, 1e-14);
@@ -85,8 +84,7 @@ static void fractions_hold_their_rules_at_all_heights(void **state) {
         assert_true(f[k + 1] > f[k]);
         NEAR((f[k + 1] - f[k]) / (f[k] - f[k - 1]), ratio, 1e-6);
       }
-      if (ratio < 1.25 * (1 - 1e-9) && ratio > CW_LEAST_GROWTH * (1 + 1e-9))
-        NEAR(first, 3e-6, 1e-20);
+      if (ratio < 1.25 * (1 - 1e-9) && ratio > CW_LEAST_GROWTH * (1 + 1e-9)) NEAR(first, 3e-6, 1e-20);
     }
   }
 }

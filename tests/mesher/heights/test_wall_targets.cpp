@@ -63,12 +63,18 @@ static void each_patch_has_its_group(void **state) {
   table.walls.hub_shroud.y_plus = 4, table.walls.volute.y_plus = 3, table.walls.pipe.y_plus = 2;
   table.mesh.size_blade = 0.1, table.mesh.size_hub_shroud = 0.2, table.mesh.size_volute = 0.3;
   table.mesh.size_pipe = 0.4, table.mesh.size_interface = 0.5;
-  const CwFlowScales scales = {.relative_speed = SPEED, .volute_speed = 3, .suction_speed = 4, .diffuser_speed = 6,
-                               .discharge_speed = 5, .blade_length = LENGTH, .volute_length = 0.2, .pipe_length = 0.3};
+  const CwFlowScales scales = {.relative_speed = SPEED,
+                               .volute_speed = 3,
+                               .suction_speed = 4,
+                               .diffuser_speed = 6,
+                               .discharge_speed = 5,
+                               .blade_length = LENGTH,
+                               .volute_length = 0.2,
+                               .pipe_length = 0.3};
   const struct {
     const char *patch;
     double size, y_plus, speed, length;
-  } wanted[] = {{"blade_suction", 0.1, 5, SPEED, LENGTH}, {"hub", 0.2, 4, SPEED, LENGTH}, {"step", 0.5, 3, 3, 0.2},
+  } wanted[] = {{"blade_suction", 0.1, 5, SPEED, LENGTH}, {"hub", 0.2, 4, SPEED, LENGTH},  {"step", 0.5, 3, 3, 0.2},
                 {"inlet_pipe", 0.4, 2, 4, 0.3},           {"outlet_pipe", 0.4, 2, 5, 0.3}, {"inlet", 0.4, 0, 1, 1}};
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(10, 20, 30).Shape(), patch_of_side);
   double size[6];
@@ -141,10 +147,9 @@ static void scales_of_the_design(void **state) {
 }
 
 int main() {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(first_height_by_hand),
-                                     cmocka_unit_test(what_a_group_gives_goes_first),
-                                     cmocka_unit_test(each_patch_has_its_group),
-                                     cmocka_unit_test(a_diffuser_has_the_mean_speed_along_it),
-                                     cmocka_unit_test(scales_of_the_design)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(first_height_by_hand), cmocka_unit_test(what_a_group_gives_goes_first),
+      cmocka_unit_test(each_patch_has_its_group), cmocka_unit_test(a_diffuser_has_the_mean_speed_along_it),
+      cmocka_unit_test(scales_of_the_design)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -100,8 +100,8 @@ static int end_planes(const void *context, const double x[3], double normal[2][3
 
 // Caps of an extruded channel are given coarsely: a quad of each end, larger than the channel.
 static void end_caps(Surface *cap, double x0, double z0, double x1, double z1, double depth) {
-  add_quad(cap, x0, 0, z0, x1, 0, z0, x1, 0, z1, x0, 0, z1, 1, 1);                     // outward: -y
-  add_quad(cap, x0, depth, z0, x0, depth, z1, x1, depth, z1, x1, depth, z0, 1, 1);     // outward: +y
+  add_quad(cap, x0, 0, z0, x1, 0, z0, x1, 0, z1, x0, 0, z1, 1, 1);                 // outward: -y
+  add_quad(cap, x0, depth, z0, x0, depth, z1, x1, depth, z1, x1, depth, z0, 1, 1); // outward: +y
 }
 
 // L-shaped channel between two caps: one convex and five concave edges of 90 degrees, full height everywhere.
@@ -274,7 +274,7 @@ static void leaning_column(void **state) {
     add_quad(&c.wall, 0, 0, 0, 0, 0.01, 0, 0.01, 0.01, 0, 0.01, 0, 0, 10, 10);
     assert_int_equal(case_make(&c), CW_OK);
     int32_t n = c.wall.point_count, centre = 0, rounds = 0;
-    double (*front)[3] = malloc((size_t)n * sizeof *front), *least = malloc((size_t)n * sizeof *least);
+    double(*front)[3] = malloc((size_t)n * sizeof *front), *least = malloc((size_t)n * sizeof *least);
     for (int32_t v = 0; v < n; v++) {
       least[v] = least_height[i];
       if (hypot(c.wall.x[v][0] - 0.005, c.wall.x[v][1] - 0.005) < 1e-9) centre = v;
@@ -282,7 +282,7 @@ static void leaning_column(void **state) {
     for (int32_t v = 0; v < n && i > 0; v++) { // lines on which the columns stand and lean
       const double way = v == centre ? 0.87 : 0, length = hypot(0.6, way);
       const double across[2][3] = {{0, 1, 0}, {0.6 / length, 0, -way / length}};
-      memcpy(((double (*)[2][3])c.in.guide_normal)[v], across, sizeof across);
+      memcpy(((double(*)[2][3])c.in.guide_normal)[v], across, sizeof across);
       ((int32_t *)c.in.guide_count)[v] = 2;
     }
     c.in.least = least; // freed with the case
@@ -306,7 +306,7 @@ static void leaning_column(void **state) {
         const double *const a[3] = {c.wall.x[v[0]], c.wall.x[v[1]], c.wall.x[v[2]]};
         const double *const b[3] = {front[v[0]], front[v[1]], front[v[2]]};
         shape = fmin(shape, cw_prism_front_quality(a, b));
-        prism = fmin(prism, cw_layers_prism_quality(&work, f, (const double (*)[3])front));
+        prism = fmin(prism, cw_layers_prism_quality(&work, f, (const double(*)[3])front));
       }
       print_message("  leaning column: prisms %.3f, front %.3f, heights from %.2f mm\n", prism, shape, height / MM);
       assert_true(prism >= 0.12);
@@ -478,12 +478,23 @@ static void same_each_time(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(most_normal_by_hand), cmocka_unit_test(flat_square),       cmocka_unit_test(inside_of_box),
-      cmocka_unit_test(box_in_box),          cmocka_unit_test(l_channel),         cmocka_unit_test(sharp_creases),
-      cmocka_unit_test(thin_gap),            cmocka_unit_test(gap_to_cap),        cmocka_unit_test(gradation),
-      cmocka_unit_test(pipe_between_caps),   cmocka_unit_test(plane_through_box), cmocka_unit_test(failures),
-      cmocka_unit_test(same_each_time),      cmocka_unit_test(slanted_caps),      cmocka_unit_test(hollow),
-      cmocka_unit_test(guide_along_wall),    cmocka_unit_test(low_crease),
+      cmocka_unit_test(most_normal_by_hand),
+      cmocka_unit_test(flat_square),
+      cmocka_unit_test(inside_of_box),
+      cmocka_unit_test(box_in_box),
+      cmocka_unit_test(l_channel),
+      cmocka_unit_test(sharp_creases),
+      cmocka_unit_test(thin_gap),
+      cmocka_unit_test(gap_to_cap),
+      cmocka_unit_test(gradation),
+      cmocka_unit_test(pipe_between_caps),
+      cmocka_unit_test(plane_through_box),
+      cmocka_unit_test(failures),
+      cmocka_unit_test(same_each_time),
+      cmocka_unit_test(slanted_caps),
+      cmocka_unit_test(hollow),
+      cmocka_unit_test(guide_along_wall),
+      cmocka_unit_test(low_crease),
       cmocka_unit_test(leaning_column),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

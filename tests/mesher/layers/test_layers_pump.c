@@ -186,7 +186,9 @@ static void hub_face(const void *context, double u, double v, double x[3], doubl
   x[1] += b->lean * z;
   x[2] = z;
 }
-static void hub(const void *context, double u, double v, double x[3]) { hub_face(context, u, v, x, 0); }
+static void hub(const void *context, double u, double v, double x[3]) {
+  hub_face(context, u, v, x, 0);
+}
 static void shroud(const void *context, double u, double v, double x[3]) {
   hub_face(context, u, v, x, ((const Blade *)context)->height);
 }
@@ -205,8 +207,8 @@ static int walk(int corners, const double (*p)[2], double h, double (*out)[2]) {
 
 static const double HALF = 1 * MM, BEVEL = 0.6 * MM, LENGTH = 12 * MM; // of the blade below
 
-// Blade 2 mm thick with a blunt end and bevels on both sides of it, on hub and shroud, leaning by an angle whose tangent
-// is `lean`; edges of h.
+// Blade 2 mm thick with a blunt end and bevels on both sides of it, on hub and shroud, leaning by an angle whose
+// tangent is `lean`; edges of h.
 static void blade_wall(Surface *wall, double lean, double h) {
   const double outline[8][2] = {{0, -HALF + BEVEL},      {BEVEL, -HALF},         {LENGTH - BEVEL, -HALF},
                                 {LENGTH, -HALF + BEVEL}, {LENGTH, HALF - BEVEL}, {LENGTH - BEVEL, HALF},
@@ -338,8 +340,9 @@ static void bumpy_spheres(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(neck_sector),   cmocka_unit_test(neck_ring),     cmocka_unit_test(cylinder_rims),
-      cmocka_unit_test(trailing_edge), cmocka_unit_test(least_height_of_blade), cmocka_unit_test(bumpy_spheres),
+      cmocka_unit_test(neck_sector),           cmocka_unit_test(neck_ring),
+      cmocka_unit_test(cylinder_rims),         cmocka_unit_test(trailing_edge),
+      cmocka_unit_test(least_height_of_blade), cmocka_unit_test(bumpy_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,14 +21,15 @@ static double by_faces(const double corner[3][2], double height, int on_wall) {
     face[count][0] = height * (q[1] - p[1]);
     face[count][1] = height * (p[0] - q[0]);
   }
-  for (int f = 0; f < count; f++) mean += sqrt(face[f][0] * face[f][0] + face[f][1] * face[f][1] +
-                                               face[f][2] * face[f][2]) / count;
+  for (int f = 0; f < count; f++)
+    mean += sqrt(face[f][0] * face[f][0] + face[f][1] * face[f][1] + face[f][2] * face[f][2]) / count;
   for (int f = 0; f < count; f++) {
     for (int i = 0; i < 9; i++) sum[i / 3][i % 3] += face[f][i / 3] * face[f][i % 3] / (mean * mean);
   }
   return (sum[0][0] * (sum[1][1] * sum[2][2] - sum[1][2] * sum[2][1]) -
           sum[0][1] * (sum[1][0] * sum[2][2] - sum[1][2] * sum[2][0]) +
-          sum[0][2] * (sum[1][0] * sum[2][1] - sum[1][1] * sum[2][0])) / 8;
+          sum[0][2] * (sum[1][0] * sum[2][1] - sum[1][1] * sum[2][0])) /
+         8;
 }
 
 static void as_by_the_faces(void **state) {

@@ -21,9 +21,9 @@ struct Half {
 
   Half() {
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
-    assert_int_equal(cw_inside_make(background.point_count, background.x, background.triangle_count,
-                                    background.triangle, &inside),
-                     CW_OK);
+    assert_int_equal(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
+        CW_OK);
   }
   ~Half() {
     cw_inside_free(&inside);

@@ -23,8 +23,7 @@ typedef struct {
 } Work;
 
 static int64_t result_size(const Work *work, int32_t task) {
-  if (!strcmp(work->mode, "large"))
-    return task == 3 ? 150000001 : 0; // more than two broadcasts
+  if (!strcmp(work->mode, "large")) return task == 3 ? 150000001 : 0; // more than two broadcasts
   return task % 5 == 4 ? 0 : 100 + 13 * task;
 }
 
@@ -39,8 +38,7 @@ static CwStatus run(void *context, int32_t task, void **bytes, int64_t *size) {
   work->order[work->count++] = task;
   CW_REQUIRE(strcmp(work->mode, "fail") || task != 17, CW_ERR_MESH, "region 17 is too thin at (1, 2, 3) mm");
   CW_REQUIRE(strcmp(work->mode, "all-fail"), CW_ERR_MESH, "every task fails");
-  if (!strcmp(work->mode, "killed") && task == 5)
-    raise(SIGKILL);
+  if (!strcmp(work->mode, "killed") && task == 5) raise(SIGKILL);
   if (!strcmp(work->mode, "idle") && task == 0)
     sleep(4);
   else if (strcmp(work->mode, "alone") && strcmp(work->mode, "idle"))
@@ -48,8 +46,7 @@ static CwStatus run(void *context, int32_t task, void **bytes, int64_t *size) {
   *size = result_size(work, task);
   if (*size) {
     unsigned char *result = malloc((size_t)*size);
-    for (int64_t at = 0; at < *size; at++)
-      result[at] = result_byte(task, at);
+    for (int64_t at = 0; at < *size; at++) result[at] = result_byte(task, at);
     *bytes = result;
   }
 done:
@@ -57,13 +54,8 @@ done:
 }
 
 static CwSchedule schedule_of(Work *work, const double *cost) {
-  return (CwSchedule){.step = "tasks",
-                      .unit = "tasks",
-                      .count = TASKS,
-                      .cost = cost,
-                      .run = run,
-                      .context = work,
-                      .gather = 1};
+  return (CwSchedule){
+      .step = "tasks", .unit = "tasks", .count = TASKS, .cost = cost, .run = run, .context = work, .gather = 1};
 }
 
 static double now(void) {
@@ -100,8 +92,14 @@ static int began_too_early(char *mode) {
     cost[k] = k % 4 == 0 ? 2 : 1;
     after[k] = k % 4 == 0 ? -1 : k - k % 4;
   }
-  CwSchedule schedule = {.step = "tasks", .unit = "tasks", .count = TASKS, .cost = cost, .after = after,
-                         .run = run_timed, .context = mode, .gather = 1};
+  CwSchedule schedule = {.step = "tasks",
+                         .unit = "tasks",
+                         .count = TASKS,
+                         .cost = cost,
+                         .after = after,
+                         .run = run_timed,
+                         .context = mode,
+                         .gather = 1};
   if (cw_schedule_run(&schedule, bytes, size, NULL) != CW_OK) early = -1;
   for (int k = 0; k < TASKS && early >= 0; k++) {
     early += after[k] >= 0 && ((double *)bytes[k])[0] < ((double *)bytes[after[k]])[1];
@@ -138,20 +136,15 @@ static int be_a_rank(int argc, char **argv) {
     double cost[TASKS], seconds[TASKS];
     void *bytes[TASKS] = {0};
     int64_t size[TASKS] = {0};
-    for (int k = 0; k < TASKS; k++)
-      cost[k] = k % 7;
+    for (int k = 0; k < TASKS; k++) cost[k] = k % 7;
     CwSchedule schedule = schedule_of(&work, cost);
-    if (cw_schedule_run(&schedule, bytes, size, seconds) != CW_OK)
-      return 99; // fails inside with many ranks
+    if (cw_schedule_run(&schedule, bytes, size, seconds) != CW_OK) return 99; // fails inside with many ranks
     wrong += results_wrong(&work, bytes, size);
-    for (int k = 0; k < TASKS; k++)
-      wrong += !(seconds[k] > 0 && seconds[k] < 0.1) && !strcmp(argv[1], "work");
+    for (int k = 0; k < TASKS; k++) wrong += !(seconds[k] > 0 && seconds[k] < 0.1) && !strcmp(argv[1], "work");
     // Each rank took its tasks largest first.
-    for (int k = 1; k < work.count; k++)
-      wrong += cost[work.order[k]] > cost[work.order[k - 1]];
+    for (int k = 1; k < work.count; k++) wrong += cost[work.order[k]] > cost[work.order[k - 1]];
     printf("RANK %d RAN %d WRONG %d\n", rank, work.count, wrong);
-    if (!strcmp(argv[1], "idle"))
-      break;
+    if (!strcmp(argv[1], "idle")) break;
   }
   cw_log_close();
   cw_mpi_end();
@@ -163,8 +156,7 @@ static char output[100000];
 static void every_task_runs_once_and_all_get_all(void **state) {
   for (int ranks = 2; ranks <= 8; ranks += 3) { // more than the cores of a small machine
     int lines, code = launch(ranks, "work", output, sizeof output);
-    if (code)
-      fail_msg("exit status %d: %s", code, output);
+    if (code) fail_msg("exit status %d: %s", code, output);
     assert_int_equal(sum_of(output, " RAN ", &lines), 3 * TASKS);
     assert_int_equal(lines, 3 * ranks);
     assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
@@ -218,8 +210,8 @@ static void tasks_wait_for_none_that_is_taken_later(void **state) {
   (void)state;
   const double cost[2] = {1, 2};
   const int32_t after[2] = {-1, 0};
-  CwSchedule schedule = {.step = "tasks", .count = 2, .cost = cost, .after = after, .run = run_timed,
-                         .context = "after"};
+  CwSchedule schedule = {
+      .step = "tasks", .count = 2, .cost = cost, .after = after, .run = run_timed, .context = "after"};
   assert_int_equal(cw_schedule_run(&schedule, NULL, NULL, NULL), CW_ERR_INPUT);
 }
 
@@ -248,13 +240,11 @@ static void one_rank_runs_largest_first(void **state) {
   double cost[TASKS], seconds[TASKS];
   void *bytes[TASKS] = {0};
   int64_t size[TASKS] = {0};
-  for (int k = 0; k < TASKS; k++)
-    cost[k] = k % 3;
+  for (int k = 0; k < TASKS; k++) cost[k] = k % 3;
   CwSchedule schedule = schedule_of(&work, cost);
   assert_int_equal(cw_schedule_run(&schedule, bytes, size, seconds), CW_OK);
   assert_int_equal(work.count, TASKS);
-  for (int k = 0; k < TASKS; k++)
-    assert_int_equal(work.ran[k], 1);
+  for (int k = 0; k < TASKS; k++) assert_int_equal(work.ran[k], 1);
   assert_int_equal(work.order[0], 2); // cost 2: 2, 5, 8, ...; then 1, 4, 7, ...
   assert_int_equal(work.order[1], 5);
   assert_int_equal(work.order[13], 1);
@@ -268,13 +258,11 @@ static void one_rank_gives_the_failure_back(void **state) {
   CwSchedule schedule = schedule_of(&work, NULL);
   assert_int_equal(cw_schedule_run(&schedule, bytes, size, NULL), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "region 17 is too thin at (1, 2, 3) mm");
-  for (int k = 0; k < TASKS; k++)
-    free(bytes[k]);
+  for (int k = 0; k < TASKS; k++) free(bytes[k]);
 }
 
 int main(int argc, char **argv) {
-  if (launched(argc))
-    return be_a_rank(argc, argv);
+  if (launched(argc)) return be_a_rank(argc, argv);
   cw_log_open("test", NULL, 0, 0);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_rank_runs_largest_first),

@@ -91,8 +91,8 @@ static int be_a_rank(int argc, char **argv) {
   int rank, ranks, wrong = 0, retry = !strcmp(argv[1], "retry"), ran = 0;
   cw_mpi_start(&argc, &argv, &rank, &ranks);
   cw_log_open("test", NULL, rank == 0, !strcmp(argv[1], "work"));
-  CwSides sides = {.step = "sides", .count = SIDES, .cost = cost, .own = 0.5, .run = work_on, .hand = hand_over,
-                   .context = &work};
+  CwSides sides = {
+      .step = "sides", .count = SIDES, .cost = cost, .own = 0.5, .run = work_on, .hand = hand_over, .context = &work};
   for (int repeat = 0; repeat < 2; repeat++) {
     CwStatus outcome[SIDES], status;
     memset(&work, 0, sizeof work);

@@ -54,7 +54,8 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
   int parts = cw_domain_size_parts(made);
   field = calloc((size_t)parts, sizeof *field);
   assert_non_null(field);
-  for (int i = 0; i < parts; i++) check(cw_domain_make_size(made, &table, table.mesh.gradation, seed, i, &field[i], &size));
+  for (int i = 0; i < parts; i++)
+    check(cw_domain_make_size(made, &table, table.mesh.gradation, seed, i, &field[i], &size));
   check(cw_domain_take_size(made, field));
   for (int i = 0; i < seeds; i++) free(seed[i]);
   free(seed);
@@ -244,8 +245,13 @@ static void packed_plans_come_back_whole(void **state) {
 
 // Planned anew, a domain has one region more, other planes and the scale of before; three times, then the run ends.
 static void plans_that_do_not_fit_give_way(void **state) {
-  CwMeshRun run = {.table = &table, .domains = domains, .prism_factor = 2 * prism_factor, .tet_factor = 2 * TET_FACTOR,
-                   .planned_prism_factor = prism_factor, .planned_tet_factor = TET_FACTOR, .planned_scale = 2};
+  CwMeshRun run = {.table = &table,
+                   .domains = domains,
+                   .prism_factor = 2 * prism_factor,
+                   .tet_factor = 2 * TET_FACTOR,
+                   .planned_prism_factor = prism_factor,
+                   .planned_tet_factor = TET_FACTOR,
+                   .planned_scale = 2};
   memcpy(run.domain, domain, sizeof domain);
   cw_mesh_set_scale(&run, 2);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
@@ -273,8 +279,7 @@ static double layers_at(const CwDomain *of, int face, const double x[3]) {
   int patch = cw_cad_face_patch(of->cad, face);
   const CwLayerTarget *target = &of->patch_layers[patch];
   if (cw_cad_patch_kind(of->cad, patch) != CW_PATCH_WALL) return 0;
-  return fmin(target->thickness,
-              fmax(1.05 * of->layer_count * target->first_height, 2.5 * cw_size_at(of->size, x)));
+  return fmin(target->thickness, fmax(1.05 * of->layer_count * target->first_height, 2.5 * cw_size_at(of->size, x)));
 }
 
 static double layers_at_corner(const CwDomain *of, const CwCorner *corner) {
@@ -326,8 +331,8 @@ typedef struct {
   int touching; // likewise, of those that come much nearer
 } Room;
 
-// By the network that follows from the plan, not by what the planner thought of it. CW_RETRY where a plane grazes an edge:
-// then the mesher plans again with one region more.
+// By the network that follows from the plan, not by what the planner thought of it. CW_RETRY where a plane grazes an
+// edge: then the mesher plans again with one region more.
 static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
   CwNetwork network;
   Room room = {0};
@@ -351,9 +356,9 @@ static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
   return CW_OK;
 }
 
-// All ways of dividing the pump: regions are even, planes and lines keep clear of layers, but for `filled` lines, and no
-// plane stands slantwise on walls, but for `few` of the rotor's; `along` may run along edges, and as many as lines are
-// filled touch some.
+// All ways of dividing the pump: regions are even, planes and lines keep clear of layers, but for `filled` lines, and
+// no plane stands slantwise on walls, but for `few` of the rotor's; `along` may run along edges, and as many as lines
+// are filled touch some.
 static void judge_room(int32_t regions, double each, int few, int filled, int along) {
   for (int way = 0; way < 3; way++) {
     CwDomain *of = &domain[way == 2];
@@ -389,8 +394,8 @@ static void planes_keep_clear_of_edges_and_layers(void **state) {
 }
 
 // Hundreds do not find room beside all edges. From some 190 on the layers before the nose of the nut and the nose where
-// it is blunt are longer than a slice of a periodic rotor may be, and planes between slices can only stand across. One plane
-// of the rotor of ns200 in 32 regions has 38 degrees, whatever four tries of each small part find.
+// it is blunt are longer than a slice of a periodic rotor may be, and planes between slices can only stand across. One
+// plane of the rotor of ns200 in 32 regions has 38 degrees, whatever four tries of each small part find.
 static void all_that_are_asked_can_be_had(void **state) {
   for (int i = 0; i < asked_count; i++) {
     int regions = atoi(asked[i]);
@@ -400,12 +405,9 @@ static void all_that_are_asked_can_be_had(void **state) {
 
 int main(int argc, char **argv) {
   const struct CMUnitTest quick[] = {
-      cmocka_unit_test(few_regions_are_even_and_cut_cleanly),
-      cmocka_unit_test(dozens_of_regions_too),
-      cmocka_unit_test(planes_keep_clear_of_edges_and_layers),
-      cmocka_unit_test(two_plans_are_the_same),
-      cmocka_unit_test(plans_that_do_not_fit_give_way),
-      cmocka_unit_test(packed_plans_come_back_whole),
+      cmocka_unit_test(few_regions_are_even_and_cut_cleanly),  cmocka_unit_test(dozens_of_regions_too),
+      cmocka_unit_test(planes_keep_clear_of_edges_and_layers), cmocka_unit_test(two_plans_are_the_same),
+      cmocka_unit_test(plans_that_do_not_fit_give_way),        cmocka_unit_test(packed_plans_come_back_whole),
   };
   const struct CMUnitTest many[] = {cmocka_unit_test(all_that_are_asked_can_be_had)};
   if (argc < 2) return cmocka_run_group_tests(quick, open_pump, close_pump);

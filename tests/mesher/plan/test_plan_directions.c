@@ -31,8 +31,10 @@ static void turns_and_tilts_lead_to_neighbours(void **state) {
     for (int step = -1; step <= 1; step += 2) {
       assert_true(fabs(cosine(d, cw_direction_at(turn + step, tilt))) > cos(1.51 * M_PI / 180));
       int32_t beside = cw_direction_at(turn, tilt + step);
-      if (beside >= 0) assert_true(fabs(cosine(d, beside)) > cos(0.101));
-      else assert_int_equal(tilt, step * CW_TILTS);
+      if (beside >= 0)
+        assert_true(fabs(cosine(d, beside)) > cos(0.101));
+      else
+        assert_int_equal(tilt, step * CW_TILTS);
     }
     // Half a turn on it is the same plane.
     assert_int_equal(cw_direction_at(turn + CW_TURNS, -tilt), d);

@@ -74,7 +74,7 @@ static void sharp_lines_cost_much(void **) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(lines_with_room_cost_nothing), cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
-      cmocka_unit_test(lines_that_lean_much_cost_much),
-      cmocka_unit_test(lines_in_the_layers_are_refused), cmocka_unit_test(sharp_lines_cost_much)};
+      cmocka_unit_test(lines_that_lean_much_cost_much), cmocka_unit_test(lines_in_the_layers_are_refused),
+      cmocka_unit_test(sharp_lines_cost_much)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -13,8 +13,8 @@
 
 // A right prism on the corner triangle of a square, height 1, with a tetrahedron on its top.
 static double x[8][3];
-static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4],
-    quad_patch[4], quad_cell[4];
+static int32_t tet[3][4], prism[1][6], triangle[8][3], triangle_patch[8], triangle_cell[8], quad[4][4], quad_patch[4],
+    quad_cell[4];
 
 static CwRegionMesh prism_and_tet(void) {
   static const double points[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
@@ -28,14 +28,12 @@ static CwRegionMesh prism_and_tet(void) {
   memcpy(triangle, triangles, sizeof triangles);
   memcpy(triangle_cell, cells, sizeof cells);
   memcpy(quad, quads, sizeof quads);
-  for (int k = 0; k < 3; k++)
-    quad_cell[k] = 1;
+  for (int k = 0; k < 3; k++) quad_cell[k] = 1;
   CwRegionMesh r = {.domain = "rotor", .region = 3, .number = 1};
   r.point_count = 7, r.x = x;
   r.tetrahedron_count = 1, r.tetrahedron = tet;
   r.prism_count = 1, r.prism = prism;
-  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch,
-  r.triangle_cell = triangle_cell;
+  r.triangle_count = 4, r.triangle = triangle, r.triangle_patch = triangle_patch, r.triangle_cell = triangle_cell;
   r.quad_count = 3, r.quad = quad, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
   return r;
 }
@@ -45,8 +43,7 @@ static void fails_with(const CwRegionMesh *r, const char *part) {
   cw_fail_clear();
   assert_int_equal(cw_audit_region(r, &q), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
-  if (!strstr(cw_fail_message(), part))
-    fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
+  if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
 }
 
 static void good_region_passes_with_its_figures(void **state) {
@@ -120,8 +117,7 @@ static void two_cells_on_one_side(void **state) {
   // Points 3..7 alone, renumbered 0..4.
   memmove(x, x + 3, 5 * sizeof x[0]);
   for (int k = 0; k < 2; k++) {
-    for (int i = 0; i < 4; i++)
-      tet[k][i] -= 3;
+    for (int i = 0; i < 4; i++) tet[k][i] -= 3;
   }
   fails_with(&r, "has both of its cells on one side");
 }
@@ -174,14 +170,12 @@ static void corners_may_be_turned(void **state) {
     for (int f = 0; f < r.triangle_count; f++) {
       int32_t was[3];
       memcpy(was, triangle[f], sizeof was);
-      for (int k = 0; k < 3; k++)
-        triangle[f][k] = was[(k + face_turn) % 3];
+      for (int k = 0; k < 3; k++) triangle[f][k] = was[(k + face_turn) % 3];
     }
     for (int f = 0; f < r.quad_count; f++) {
       int32_t was[4];
       memcpy(was, quad[f], sizeof was);
-      for (int k = 0; k < 4; k++)
-        quad[f][k] = was[(k + face_turn) % 4];
+      for (int k = 0; k < 4; k++) quad[f][k] = was[(k + face_turn) % 4];
     }
     assert_int_equal(cw_audit_region(&r, &q), CW_OK);
     NEAR(q.volume, 0.5 + 1.0 / 6.0, 1e-15);

@@ -50,9 +50,16 @@ static void rectangle(Rectangle *r, double width, double height, int steps, doub
   }
   r->field[0] = size;
   r->field[1] = growth;
-  r->input = (CwPatchInput){.surface = flat_map, .size = size_at, .size_context = r->field, .point_count = count,
-                            .uv = (const double(*)[2])r->uv, .x = (const double(*)[3])r->x, .edge_count = count,
-                            .edge = (const int32_t(*)[2])r->edge, .boundary = r->boundary, .name = "rectangle"};
+  r->input = (CwPatchInput){.surface = flat_map,
+                            .size = size_at,
+                            .size_context = r->field,
+                            .point_count = count,
+                            .uv = (const double(*)[2])r->uv,
+                            .x = (const double(*)[3])r->x,
+                            .edge_count = count,
+                            .edge = (const int32_t(*)[2])r->edge,
+                            .boundary = r->boundary,
+                            .name = "rectangle"};
 }
 
 static void circles_by_hand(void **unused) {

@@ -14,9 +14,18 @@ static CwStatus count(double height, int with_tet, CwRatioWall wall, CwLayerRati
                      {0, 1, 0.4}, {0, 0, 1.4}, {1, 0, 1.4}, {0, 1, 1.4}, {0.3, 0.3, 1.4 + height}};
   int32_t tet[1][4] = {{6, 7, 8, 9}}, prism[2][6] = {{0, 1, 2, 3, 4, 5}, {3, 4, 5, 6, 7, 8}};
   int32_t triangle[1][3] = {{0, 2, 1}}, patch[1] = {1}, cell[1] = {with_tet};
-  CwRegionMesh mesh = {.domain = "rotor", .region = 1, .point_count = 10, .x = x, .tetrahedron_count = with_tet,
-                       .tetrahedron = tet, .prism_count = 2, .prism = prism, .triangle_count = 1, .triangle = triangle,
-                       .triangle_patch = patch, .triangle_cell = cell};
+  CwRegionMesh mesh = {.domain = "rotor",
+                       .region = 1,
+                       .point_count = 10,
+                       .x = x,
+                       .tetrahedron_count = with_tet,
+                       .tetrahedron = tet,
+                       .prism_count = 2,
+                       .prism = prism,
+                       .triangle_count = 1,
+                       .triangle = triangle,
+                       .triangle_patch = patch,
+                       .triangle_cell = cell};
   return cw_layer_ratio(&mesh, 2, &wall, 2, ratio);
 }
 
@@ -39,7 +48,7 @@ static void layers_that_reach_the_tetrahedron(void **state) {
   cramped.cramped = 1;
   thick.first = 1.4;
   even.last = 0.4;
-  narrow.made = 1.1; // by its height; its volume over the face is 1
+  narrow.made = 1.1;                                   // by its height; its volume over the face is 1
   assert_int_equal(count(0.9, 1, WALL, ratio), CW_OK); // half of it is 0.45, below 0.48
   assert_int_equal(ratio[1].within, 1);
   assert_int_equal(ratio[1].fair_within, 1);
@@ -47,8 +56,8 @@ static void layers_that_reach_the_tetrahedron(void **state) {
   assert_int_equal(ratio[1].within, 1);
   assert_int_equal(count(0.4, 1, WALL, ratio), CW_OK); // two would do; made too tall
   assert_int_equal(ratio[1].within, 2);
-  assert_int_equal(count(0.9, 1, thick, ratio), CW_OK); // 1.4 is more than 1.35
-  assert_int_equal(count(0.9, 1, even, ratio), CW_OK);  // 0.4 never comes to 0.45
+  assert_int_equal(count(0.9, 1, thick, ratio), CW_OK);  // 1.4 is more than 1.35
+  assert_int_equal(count(0.9, 1, even, ratio), CW_OK);   // 0.4 never comes to 0.45
   assert_int_equal(count(0.9, 1, narrow, ratio), CW_OK); // 0.48 / 1.1 neither
   assert_int_equal(count(0.9, 1, cramped, ratio), CW_OK);
   assert_int_equal(ratio[1].within, 2);

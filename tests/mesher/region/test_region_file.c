@@ -16,8 +16,7 @@ static char folder[256], path[300], other[300];
 static int make_folder(void **state) {
   const char *base = getenv("TMPDIR");
   snprintf(folder, sizeof folder, "%s/region-XXXXXX", base ? base : P_tmpdir);
-  if (!mkdtemp(folder))
-    return 1;
+  if (!mkdtemp(folder)) return 1;
   snprintf(path, sizeof path, "%s/rotor-0001.h5", folder);
   snprintf(other, sizeof other, "%s/rotor-0002.h5", folder);
   return 0;
@@ -29,22 +28,18 @@ static int remove_folder(void **state) {
   return rmdir(folder); // fails where a temporary file was left behind
 }
 
-static double points[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},    {0, 0, 1},
-                              {1, 0, 1}, {0, 1, 1}, {0.2, 0.2, 2}};
+static double points[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.2, 0.2, 2}};
 static int64_t ids[2] = {7, 5000000000};
 static int32_t tetrahedra[1][4] = {{3, 4, 5, 6}}, prisms[1][6] = {{0, 1, 2, 3, 4, 5}};
-static int32_t triangles[2][3] = {{0, 2, 1}, {3, 4, 6}}, triangle_patch[2] = {0, 3},
-               triangle_cell[2] = {1, 0};
+static int32_t triangles[2][3] = {{0, 2, 1}, {3, 4, 6}}, triangle_patch[2] = {0, 3}, triangle_cell[2] = {1, 0};
 static int32_t quads[1][4] = {{0, 1, 4, 3}}, quad_patch[1] = {2}, quad_cell[1] = {1};
 
 static CwRegionMesh region_by_hand(void) {
-  CwRegionMesh r = {
-      .domain = "rotor", .region = 1, .number = 4, .fingerprint = "0123456789abcdef0123456789abcdef"};
+  CwRegionMesh r = {.domain = "rotor", .region = 1, .number = 4, .fingerprint = "0123456789abcdef0123456789abcdef"};
   r.point_count = 7, r.shared_count = 2, r.x = points, r.shared_id = ids;
   r.tetrahedron_count = 1, r.tetrahedron = tetrahedra;
   r.prism_count = 1, r.prism = prisms;
-  r.triangle_count = 2, r.triangle = triangles, r.triangle_patch = triangle_patch,
-  r.triangle_cell = triangle_cell;
+  r.triangle_count = 2, r.triangle = triangles, r.triangle_patch = triangle_patch, r.triangle_cell = triangle_cell;
   r.quad_count = 1, r.quad = quads, r.quad_patch = quad_patch, r.quad_cell = quad_cell;
   return r;
 }

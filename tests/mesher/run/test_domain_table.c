@@ -38,8 +38,8 @@ static int remove_folder(void **state) {
 
 #define HEAD "domain,face,patch,kind,name\n"
 #define PAIRS "domain,patch,other_domain,other_patch\n"
-#define THREE                                                                                                \
-  HEAD "rotor,1,hub,wall,hub_1\nrotor,2,a,interface,a_1\nrotor,3,a,interface,a_2\nstator,1,b,interface,b\n"   \
+#define THREE                                                                                                          \
+  HEAD "rotor,1,hub,wall,hub_1\nrotor,2,a,interface,a_1\nrotor,3,a,interface,a_2\nstator,1,b,interface,b\n"            \
        "rotor,4,c,interface,c\nsuction,1,d,interface,d\n"
 
 static void domains_come_in_the_order_of_their_first_rows(void **state) {
@@ -67,8 +67,7 @@ static void expect(const char *faces, const char *pairs, const char *message) {
 }
 
 static void wrong_pairs_are_named(void **state) {
-  expect(THREE, PAIRS "rotor,hub,stator,b\n",
-         "interfaces.csv:2: domain 'rotor' has no patch 'hub' of kind interface");
+  expect(THREE, PAIRS "rotor,hub,stator,b\n", "interfaces.csv:2: domain 'rotor' has no patch 'hub' of kind interface");
   expect(THREE, PAIRS "rotor,a,stator,b\nrotor,c,pipe,d\n",
          "interfaces.csv:3: domain 'pipe' has no patch 'd' of kind interface");
   expect(THREE, PAIRS "rotor,a,rotor,c\n", "interfaces.csv:2: both sides lie in domain 'rotor'");

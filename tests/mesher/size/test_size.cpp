@@ -20,8 +20,7 @@
 static const double gradation = 0.2;
 
 static void check(CwStatus status) {
-  if (status != CW_OK)
-    fail_msg("%s", cw_fail_message());
+  if (status != CW_OK) fail_msg("%s", cw_fail_message());
 }
 
 // Everything of one solid; lengths in mm for the reader, as the field takes metres.
@@ -39,38 +38,35 @@ struct Model {
     table.curvature_angle = curvature_angle;
     table.cells_across_gap = cells_across_gap;
     assert_int_equal(patch_size.size(), cw_cad_patch_count(cad));
-    if (cw_background_make(cad, 1e-5, 0.1, &background) != CW_OK)
-      fail_msg("%s", cw_fail_message());
+    if (cw_background_make(cad, 1e-5, 0.1, &background) != CW_OK) fail_msg("%s", cw_fail_message());
     CwSizeSeeds *seeds = nullptr;
     std::vector<void *> parts(cw_size_seed_parts(cad));
     int64_t bytes;
     void *block = nullptr;
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
-    for (int i = (int)parts.size() - 1; i >= 0; i--)
-      check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
+    for (int i = (int)parts.size() - 1; i >= 0; i--) check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
     cw_size_seeds_free(&seeds);
     const double *rim = rim_size.empty() ? nullptr : rim_size.data();
-    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(),
-                       CW_SIZE_SEEDS, &block, &bytes));
+    check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_SEEDS,
+                       &block, &bytes));
     check(cw_size_unpack(&block, &size));
     assert_null(block);
     if (rim) {
       CwSize *rims = nullptr;
-      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(),
-                         CW_SIZE_RIMS, &block, &bytes));
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_RIMS,
+                         &block, &bytes));
       check(cw_size_unpack(&block, &rims));
       cw_size_join(size, &rims);
       assert_null(rims);
       CwSize *again = nullptr; // made once more, as with another gradation, it takes the rims of the first
-      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(),
-                         CW_SIZE_SEEDS, &block, &bytes));
+      check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_SEEDS,
+                         &block, &bytes));
       check(cw_size_unpack(&block, &again));
       cw_size_join(again, &size);
       assert_null(size);
       size = again;
     }
-    for (void *part : parts)
-      free(part);
+    for (void *part : parts) free(part);
   }
   ~Model() {
     cw_size_free(&size);
@@ -141,8 +137,7 @@ static void gaps_get_their_cells(void **state) {
 
 static void walls_of_a_wedge_are_no_gap(void **state) {
   Model wedge(BRepPrimAPI_MakeCylinder(50, 50, M_PI / 6).Shape(), 2, 0.5, 4, {1});
-  for (double r = 2; r < 20; r += 1)
-    assert_near(wedge.at(r, 0, 25), 2, 0.02);
+  for (double r = 2; r < 20; r += 1) assert_near(wedge.at(r, 0, 25), 2, 0.02);
 }
 
 static void narrow_faces_get_their_width(void **state) {
@@ -226,10 +221,10 @@ static void rims_hold_at_any_scale(void **state) {
   for (double scale : {0.5, 0.8}) {
     cw_size_set_scale(plain.size, scale);
     cw_size_set_scale(rim.size, scale);
-    assert_true(rim.at(15, 0, 30) <= 1 + 1e-6);                       // on the rim, no matter the scale
-    assert_near(rim.at(15, 15, 30), plain.at(15, 15, 30), 1e-6);      // in the middle of the open face as before
-    assert_true(rim.at(15, 0, 20) <= 1 + gradation * 12);             // down the wall
-    assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);            // far from it as before
+    assert_true(rim.at(15, 0, 30) <= 1 + 1e-6);                  // on the rim, no matter the scale
+    assert_near(rim.at(15, 15, 30), plain.at(15, 15, 30), 1e-6); // in the middle of the open face as before
+    assert_true(rim.at(15, 0, 20) <= 1 + gradation * 12);        // down the wall
+    assert_near(rim.at(0, 0, 0), plain.at(0, 0, 0), 1e-6);       // far from it as before
   }
   cw_size_set_scale(rim.size, 1 / 1.02); // asks 0.34, half-way from 0.4 down to 0.28: gets half-way from 0.4 up to 1
   assert_near(rim.at(15, 0, 30), 0.7 * 3 / 1.02, 1e-5);

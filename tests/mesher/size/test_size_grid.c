@@ -38,8 +38,7 @@ static void linear_values_come_back(void **state) {
   assert_int_equal(cw_size_grid_make(low, high, 1, 1000000, &grid), CW_OK);
   for (int32_t k = 0, n = 0; k < grid.count[2]; k++) {
     for (int32_t j = 0; j < grid.count[1]; j++) {
-      for (int32_t i = 0; i < grid.count[0]; i++)
-        grid.value[n++] = (float)(1 + 2 * i + 3 * j + 5 * k);
+      for (int32_t i = 0; i < grid.count[0]; i++) grid.value[n++] = (float)(1 + 2 * i + 3 * j + 5 * k);
     }
   }
   const double x[3] = {2.25, 3.5, 0.125}; // node (0, 0, 0) is (-1, -1, -1)
@@ -54,8 +53,7 @@ static void seeds_spread_with_the_slope(void **state) {
   const double slope = 0.3, seed[2][3] = {{2, 2, 2}, {8, 5, 4}}, value[2] = {1, 0.4};
   CwSizeGrid grid;
   assert_int_equal(cw_size_grid_make(low, high, 0.1, 10000000, &grid), CW_OK);
-  for (int s = 0; s < 2; s++)
-    cw_size_grid_seed(&grid, seed[s], value[s]);
+  for (int s = 0; s < 2; s++) cw_size_grid_seed(&grid, seed[s], value[s]);
   for (double y = 0; y <= 8; y += 0.1) {
     for (double z = 0; z <= 6; z += 0.1) {
       const double wall[3] = {0, y, z};
@@ -63,14 +61,13 @@ static void seeds_spread_with_the_slope(void **state) {
     }
   }
   assert_int_equal(cw_size_grid_spread(&grid, slope, NULL), CW_OK);
-  for (int s = 0; s < 2; s++)
-    assert_true(cw_size_grid_at(&grid, seed[s]) <= value[s] + 1e-6);
+  for (int s = 0; s < 2; s++) assert_true(cw_size_grid_at(&grid, seed[s]) <= value[s] + 1e-6);
   for (double z = 0.3; z < 6; z += 0.7) {
     for (double y = 0.2; y < 8; y += 0.7) {
       for (double x = 0.1; x < 10; x += 0.7) {
         const double p[3] = {x, y, z};
-        double exact = fmin(1.2 + slope * x, fmin(value[0] + slope * distance(p, seed[0]),
-                                                  value[1] + slope * distance(p, seed[1])));
+        double exact = fmin(1.2 + slope * x,
+                            fmin(value[0] + slope * distance(p, seed[0]), value[1] + slope * distance(p, seed[1])));
         double got = cw_size_grid_at(&grid, p);
         assert_true(got > exact - slope * 0.1 * 2.1); // a seed holds within its cell
         assert_true(got < exact + slope * 0.1 * 3 + 0.04 * (exact - 0.4));

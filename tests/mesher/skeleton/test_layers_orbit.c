@@ -16,7 +16,9 @@ enum { PASSAGES = 4, OF_PASSAGE = 16, AROUND = PASSAGES * OF_PASSAGE, RINGS = 10
 enum { POINTS = AROUND * (RINGS + 1), TRIANGLES = 2 * AROUND * RINGS };
 static const double HEIGHT = 0.6e-3;
 
-static int32_t point(int i, int j) { return i % AROUND * (RINGS + 1) + j; }
+static int32_t point(int i, int j) {
+  return i % AROUND * (RINGS + 1) + j;
+}
 
 static void leave(const void *context, int32_t v, double x[3]) {
   (void)context, (void)v, (void)x;
@@ -57,10 +59,16 @@ static void seams_get_the_sounder_column(void **state) {
     guides[held] = 2;
     CwSymmetry symmetry = {.count = PASSAGES};
     CwSkeleton skeleton = {.wall_source = source};
-    skeleton.orbits = (CwSkeletonOrbits){.symmetry = &symmetry, .node_capacity = POINTS, .node_next = next,
-                                         .node_turns = turns};
-    CwLayerInput in = {.point_count = POINTS, .x = x, .triangle_count = TRIANGLES, .triangle = triangle,
-                       .target = target, .guide_count = guides, .guide_normal = guide, .guide_stays = stays,
+    skeleton.orbits =
+        (CwSkeletonOrbits){.symmetry = &symmetry, .node_capacity = POINTS, .node_next = next, .node_turns = turns};
+    CwLayerInput in = {.point_count = POINTS,
+                       .x = x,
+                       .triangle_count = TRIANGLES,
+                       .triangle = triangle,
+                       .target = target,
+                       .guide_count = guides,
+                       .guide_normal = guide,
+                       .guide_stays = stays,
                        .snap = leave};
     CwLayers layers;
     assert_int_equal(cw_orbit_layers(&skeleton, &in, &layers), CW_OK);

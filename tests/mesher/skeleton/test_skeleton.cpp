@@ -61,9 +61,9 @@ struct Box {
     if (nodes >= 3) node[0].child[0] = 2;
     plan = {nodes, nodes + 1, node, none, none, 0, 0, 0, 0};
     assert_int_equal(cw_background_make(cad, 1e-4, 0.2, &background), CW_OK);
-    assert_int_equal(cw_inside_make(background.point_count, background.x, background.triangle_count,
-                                    background.triangle, &inside),
-                     CW_OK);
+    assert_int_equal(
+        cw_inside_make(background.point_count, background.x, background.triangle_count, background.triangle, &inside),
+        CW_OK);
     skeleton = {};
     skeleton.cad = cad;
     skeleton.plan = &plan;
@@ -370,17 +370,21 @@ static void a_crossing_boundary_is_examined(void **) {
   std::ifstream file(path);
   std::string word;
   int points = 0, triangles = 0, of_surface[3] = {0, 0, 0}, crossing = 0;
-  while (file >> word && word != "POINTS") {}
+  while (file >> word && word != "POINTS") {
+  }
   file >> points;
-  while (file >> word && word != "POLYGONS") {}
+  while (file >> word && word != "POLYGONS") {
+  }
   file >> triangles;
-  while (file >> word && word != "default") {}
+  while (file >> word && word != "default") {
+  }
   for (int t = 0, kind; t < triangles; t++) {
     file >> kind;
     assert_true(kind >= 0 && kind < 3);
     of_surface[kind]++;
   }
-  while (file >> word && word != "default") {}
+  while (file >> word && word != "default") {
+  }
   for (int t = 0, one; t < triangles; t++) {
     assert_true(bool(file >> one));
     crossing += one;

@@ -44,8 +44,7 @@ static void add_square(Plan *plan, double low, double high) {
   add_point(plan, high, low);
   add_point(plan, high, high);
   add_point(plan, low, high);
-  for (int k = 0; k < 4; k++)
-    add_edge(plan, p + k, p + (k + 1) % 4, 1);
+  for (int k = 0; k < 4; k++) add_edge(plan, p + k, p + (k + 1) % 4, 1);
 }
 
 static double area(const Plan *plan, const CwCdt *cdt) {
@@ -134,10 +133,8 @@ static void scale_decides_the_diagonal(void **state) {
   CwCdt cdt;
   const double tall[2] = {1, 4}, flat[2] = {4, 1};
   const double kite[4][2] = {{-1, 0}, {0, -1}, {1, 0.01}, {0, 1}};
-  for (int k = 0; k < 4; k++)
-    add_point(&plan, kite[k][0], kite[k][1]);
-  for (int k = 0; k < 4; k++)
-    add_edge(&plan, k, (k + 1) % 4, 1);
+  for (int k = 0; k < 4; k++) add_point(&plan, kite[k][0], kite[k][1]);
+  for (int k = 0; k < 4; k++) add_edge(&plan, k, (k + 1) % 4, 1);
   assert_int_equal(cw_cdt_make(&plan.input, tall, &cdt), CW_OK);
   assert_int_equal(cdt.triangle[0][2], 2); // 0 1 2: joined across
   cw_cdt_free(&cdt);
@@ -150,8 +147,7 @@ static void expect_refusal(const Plan *plan, const char *text, const char *place
   CwCdt cdt;
   cw_fail_clear();
   assert_int_equal(cw_cdt_make(&plan->input, unit, &cdt), CW_ERR_INPUT);
-  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) ||
-      !strstr(cw_fail_message(), place))
+  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) || !strstr(cw_fail_message(), place))
     fail_msg("unexpected message: %s", cw_fail_message());
   assert_null(cdt.triangle);
 }
@@ -162,8 +158,7 @@ static void crossing_edges_are_refused_with_their_place(void **state) {
   add_point(&plan, 1, 0);
   add_point(&plan, 0, 1);
   add_point(&plan, 1, 1);
-  for (int k = 0; k < 4; k++)
-    add_edge(&plan, k, (k + 1) % 4, 1);
+  for (int k = 0; k < 4; k++) add_edge(&plan, k, (k + 1) % 4, 1);
   expect_refusal(&plan, "cross", "(500, 500, 250) mm");
 }
 

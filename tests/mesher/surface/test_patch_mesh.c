@@ -43,10 +43,8 @@ static void surface_at(const void *context, const double uv[2], double x[3], dou
     memcpy(dv, (double[3]){2 * v * cos(w) - r * sin(w), 2 * v * sin(w) + r * cos(w), 2 * v}, sizeof dv);
   }
   memcpy(x, at, sizeof at);
-  if (xu)
-    memcpy(xu, du, sizeof du);
-  if (xv)
-    memcpy(xv, dv, sizeof dv);
+  if (xu) memcpy(xu, du, sizeof du);
+  if (xv) memcpy(xv, dv, sizeof dv);
 }
 
 // Least at x = 0, growing with |x|.
@@ -98,22 +96,19 @@ static void add_line(Plan *plan, int32_t a, int32_t b, int boundary) {
   along[0] = 0;
   for (int k = 1; k <= PIECES; k++) {
     double t = (double)k / PIECES, uv[2], x[3], d = 0;
-    for (int c = 0; c < 2; c++)
-      uv[c] = (1 - t) * plan->uv[a][c] + t * plan->uv[b][c];
+    for (int c = 0; c < 2; c++) uv[c] = (1 - t) * plan->uv[a][c] + t * plan->uv[b][c];
     surface_at(plan, uv, x, NULL, NULL);
-    for (int c = 0; c < 3; c++)
-      d += (x[c] - last[c]) * (x[c] - last[c]);
+    for (int c = 0; c < 3; c++) d += (x[c] - last[c]) * (x[c] - last[c]);
     along[k] = along[k - 1] + sqrt(d) / size_at(plan, x);
     memcpy(last, x, sizeof last);
   }
   int count = (int)fmax(1, round(along[PIECES]));
   int32_t from = a;
   for (int i = 1, k = 1; i < count; i++) {
-    while (along[k] < along[PIECES] * i / count)
-      k++;
+    while (along[k] < along[PIECES] * i / count) k++;
     double t = (k - 1 + (along[PIECES] * i / count - along[k - 1]) / (along[k] - along[k - 1])) / PIECES;
-    int32_t p = add_point(plan, (1 - t) * plan->uv[a][0] + t * plan->uv[b][0],
-                          (1 - t) * plan->uv[a][1] + t * plan->uv[b][1]);
+    int32_t p =
+        add_point(plan, (1 - t) * plan->uv[a][0] + t * plan->uv[b][0], (1 - t) * plan->uv[a][1] + t * plan->uv[b][1]);
     add_edge(plan, from, p, boundary);
     from = p;
   }
@@ -122,10 +117,8 @@ static void add_line(Plan *plan, int32_t a, int32_t b, int boundary) {
 
 static void add_loop(Plan *plan, int count, const double (*corner)[2]) {
   int32_t first = plan->input.point_count;
-  for (int k = 0; k < count; k++)
-    add_point(plan, corner[k][0], corner[k][1]);
-  for (int k = 0; k < count; k++)
-    add_line(plan, first + k, first + (k + 1) % count, 1);
+  for (int k = 0; k < count; k++) add_point(plan, corner[k][0], corner[k][1]);
+  for (int k = 0; k < count; k++) add_line(plan, first + k, first + (k + 1) % count, 1);
 }
 
 static void add_rectangle(Plan *plan, double u0, double v0, double u1, double v1) {
@@ -197,17 +190,14 @@ static double check_topology(const Plan *plan, const CwPatchMesh *mesh, int eule
         wall = side[next].triangle == -2;
       }
     assert_int_equal(triangles, wall ? 1 : 2);
-    if (!is_given)
-      assert_int_equal(component[0], component[1]);
+    if (!is_given) assert_int_equal(component[0], component[1]);
     for (int i = 0; is_given && i < 2; i++)
       if (apex[i] >= plan->input.point_count)
-        clearance = fmin(clearance,
-                         height_over(mesh, apex[i], side[k].a, side[k].b) / size_at(plan, mesh->x[apex[i]]));
+        clearance = fmin(clearance, height_over(mesh, apex[i], side[k].a, side[k].b) / size_at(plan, mesh->x[apex[i]]));
     found += is_given;
     edges++;
   }
-  for (int32_t p = 0; p < mesh->point_count; p++)
-    points += used[p];
+  for (int32_t p = 0; p < mesh->point_count; p++) points += used[p];
   assert_int_equal(points, mesh->point_count);
   assert_int_equal(found, given);
   assert_int_equal(points - edges + mesh->triangle_count, euler);
@@ -263,8 +253,7 @@ static Figures measure(const Plan *plan, const CwPatchMesh *mesh) {
 static Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int euler, int components,
                               int32_t *triangle_count) {
   CwPatchMesh mesh, again;
-  if (cw_patch_mesh(&plan->input, &mesh) != CW_OK)
-    fail_msg("%s: %s", title, cw_fail_message());
+  if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s: %s", title, cw_fail_message());
   double clearance = check_topology(plan, &mesh, euler);
   check_places(plan, &mesh, uv_area);
   assert_int_equal(mesh.component_count, components);
@@ -273,15 +262,12 @@ static Figures mesh_and_check(Plan *plan, const char *title, double uv_area, int
   assert_int_equal(again.triangle_count, mesh.triangle_count);
   assert_memory_equal(again.x, mesh.x, sizeof mesh.x[0] * (size_t)mesh.point_count);
   assert_memory_equal(again.triangle, mesh.triangle, sizeof mesh.triangle[0] * (size_t)mesh.triangle_count);
-  assert_memory_equal(again.component, mesh.component,
-                      sizeof mesh.component[0] * (size_t)mesh.triangle_count);
+  assert_memory_equal(again.component, mesh.component, sizeof mesh.component[0] * (size_t)mesh.triangle_count);
   Figures figures = measure(plan, &mesh);
   figures.clearance = clearance;
-  printf("%-24s %7d triangles, least angle %5.1f, mean %5.2f, edges out of size %.2f %%, clearance %.2f\n",
-         title, mesh.triangle_count, figures.least_angle, figures.mean_angle, 100 * figures.outside,
-         clearance);
-  if (triangle_count)
-    *triangle_count = mesh.triangle_count;
+  printf("%-24s %7d triangles, least angle %5.1f, mean %5.2f, edges out of size %.2f %%, clearance %.2f\n", title,
+         mesh.triangle_count, figures.least_angle, figures.mean_angle, 100 * figures.outside, clearance);
+  if (triangle_count) *triangle_count = mesh.triangle_count;
   cw_patch_mesh_free(&again);
   cw_patch_mesh_free(&mesh);
   free(plan);
@@ -450,8 +436,7 @@ static void noisy_straight_sides(void **state) {
     double area = 0, noise = pow(10, -16 + 2 * k);
     add_rectangle(plan, 0.01, 0, 1, 1);
     for (int32_t p = 4; p < plan->input.point_count; p++) {
-      for (int i = 0; i < 2; i++)
-        plan->uv[p][i] += noise * (random_unit() - 0.5);
+      for (int i = 0; i < 2; i++) plan->uv[p][i] += noise * (random_unit() - 0.5);
       surface_at(plan, plan->uv[p], plan->x[p], NULL, NULL);
     }
     for (int32_t e = 0; e < plan->input.edge_count; e++) {
@@ -468,8 +453,7 @@ static void folds_are_counted(void **state) {
   CwPatchMesh mesh;
   const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
   add_loop(plan, 3, corner);
-  for (int k = 0; k < 3; k++)
-    plan->x[k][0] = -plan->x[k][0];
+  for (int k = 0; k < 3; k++) plan->x[k][0] = -plan->x[k][0];
   assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_OK);
   assert_int_equal(mesh.triangle_count, 1);
   assert_int_equal(mesh.folded_count, 1);
@@ -506,8 +490,7 @@ static void expect_refusal(Plan *plan, const char *text, const char *place) {
   CwPatchMesh mesh;
   cw_fail_clear();
   assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_ERR_INPUT);
-  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) ||
-      !strstr(cw_fail_message(), place))
+  if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) || !strstr(cw_fail_message(), place))
     fail_msg("unexpected message: %s", cw_fail_message());
   assert_null(mesh.triangle);
   free(plan);
