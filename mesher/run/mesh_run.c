@@ -25,14 +25,16 @@ static const double COPY_COST = 0.07;       // of a turned copy of a region, by 
 // (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
 // A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise, and with the many
 // regions of small scales those on interfaces (measured from 3 to 20 million cells: 12.9 at scale 0.75, 11.4 at
-// 0.51, 10.5 at 0.36; above 1 sizes grow no more steeply: 14.2 at 1.24, 13.1 at 2.26, and 11.8 to 17.4 in pumps of
-// other sizes).
+// 0.51, 10.5 at 0.36). Above 1 sizes grow no more steeply, fewer cells lie where they change, and surfaces take a
+// greater share again: 14.0 at 1.25, 13.5 at 1.49, 13.2 at 1.77, 12.9 at 2.3 and 2.6, 14.0 at 4.1, 13.5 at 5.6 (in most
+// pumps of other sizes within 13 %).
 static double prisms_per_layer(double scale) {
   return 2.33 + 0.1 * scale;
 }
 
 static double tets_per_volume(double scale) {
-  return 8.2 + 6.25 * fmin(scale, 1) + 0.011 / (scale * scale);
+  if (scale > 1) return 11.6 + 0.4 * scale + 2.461 / (scale * scale);
+  return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
