@@ -4,11 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/vec.h"
+
 // Edges longer or shorter than these shares of the wanted length are split or drawn together.
 static const double long_edge = 1.45, short_edge = 0.62;
 
 // Free points keep this share of their wanted length from given edges.
 static const double least_height = 0.4;
+
+// A triangle whose normal is farther than 60 degrees from the surface's at a corner is split; the new points keep this
+// share of their wanted length free around them.
+static const double steep_cosine = 0.5, steep_room = 0.3;
 
 static double edge_size(const CwPatchWork *work, int32_t a, int32_t b) {
   return 0.5 * (work->size[a] + work->size[b]);
@@ -294,9 +300,50 @@ static int64_t mend_worst(CwPatchWork *work, double bound) {
   return changes;
 }
 
+// The least cosine between the normal of a triangle and those of the surface at its corners.
+static double least_cosine(const CwPatchWork *work, int32_t t) {
+  const int32_t *c = work->corner[t];
+  double e[3], f[3], n[3], least = 1;
+  cw_sub(work->x[c[1]], work->x[c[0]], e);
+  cw_sub(work->x[c[2]], work->x[c[0]], f);
+  cw_cross(e, f, n);
+  cw_unit(n);
+  for (int i = 0; i < 3; i++) {
+    double m[3];
+    cw_patch_normal(work, c[i], m);
+    if (cw_unit(m) > 0) least = fmin(least, cw_dot(n, m)); // no normal at a pole of the map
+  }
+  return least;
+}
+
+// Halves the longest free edge of triangles that stand steeply on the surface: on a nose narrower than the wanted
+// edges one may span half of it, and its corners see no direction in common with the faces beside it.
+static CwStatus split_steep(CwPatchWork *work, int64_t *splits) {
+  CwStatus status = CW_OK;
+  int32_t count = work->triangle_count;
+  for (int32_t t = 0; t < count; t++) {
+    if (work->corner[t][0] < 0 || least_cosine(work, t) >= steep_cosine) continue;
+    double most = 0, uv[2];
+    for (int i = 0; i < 3; i++) {
+      int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
+      double d = cw_patch_distance2(work->x[a], work->x[b]);
+      if (work->given[t] >> i & 1 || d <= most) continue;
+      most = d;
+      for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);
+    }
+    if (most == 0) continue;
+    status = cw_patch_insert(work, uv, t, steep_room, 0.5 * sqrt(most));
+    *splits += status == CW_OK;
+    if (status == CW_RETRY) status = CW_OK;
+    CW_TRY(status);
+  }
+done:
+  return status;
+}
+
 CwStatus cw_patch_improve(CwPatchWork *work) {
   CwStatus status = CW_OK;
-  enum { SWEEPS = 4, MENDS = 4 };
+  enum { SWEEPS = 4, MENDS = 4, STEEP_ROUNDS = 3 };
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     cw_patch_delaunay(work, 1);
     remove_crowded(work);
@@ -310,6 +357,13 @@ CwStatus cw_patch_improve(CwPatchWork *work) {
   cw_patch_delaunay(work, 1);
   for (int mend = 0; mend < MENDS; mend++)
     if (!mend_worst(work, 0.8)) break;
+  // Last, without flips after it: these go by the angles and would turn such triangles back.
+  for (int round = 0; round < STEEP_ROUNDS; round++) {
+    int64_t splits = 0;
+    CW_TRY(split_steep(work, &splits));
+    if (splits == 0) break;
+    smooth(work);
+  }
 done:
   return status;
 }

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "mesher/common/vec.h"
 #include "mesher/surface/patch_mesh.h"
 
 enum { MOST = 20000 };
@@ -428,6 +429,38 @@ static void coarse_on_curvature(void **state) {
   }
 }
 
+// Half a cylinder with three edges across each end, and edges of up to four radii wanted: all triangles stay within 60
+// degrees of the surface at their corners, where those that the wanted edges make reach from one side to the other.
+static void triangles_follow_a_narrow_nose(void **state) {
+  for (int parts = 3; parts <= 6; parts++) {
+    Plan *plan = new_plan(CYLINDER, 1.2 / parts);
+    CwPatchMesh mesh;
+    for (int k = 0; k < 3; k++) add_point(plan, k * M_PI / 3, 0);
+    for (int k = 0; k < parts; k++) add_point(plan, M_PI, 1.2 * k / parts);
+    for (int k = 3; k > 0; k--) add_point(plan, k * M_PI / 3, 1.2);
+    for (int k = parts; k > 0; k--) add_point(plan, 0, 1.2 * k / parts);
+    int32_t count = plan->input.point_count;
+    for (int32_t p = 0; p < count; p++) add_edge(plan, p, (p + 1) % count, 1);
+    if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
+    check_topology(plan, &mesh, 1);
+    check_places(plan, &mesh, 1.2 * M_PI);
+    for (int32_t t = 0; t < mesh.triangle_count; t++) {
+      const int32_t *c = mesh.triangle[t];
+      double e[3], f[3], n[3];
+      cw_sub(mesh.x[c[1]], mesh.x[c[0]], e);
+      cw_sub(mesh.x[c[2]], mesh.x[c[0]], f);
+      cw_cross(e, f, n);
+      cw_unit(n);
+      for (int i = 0; i < 3; i++) {
+        const double outward[3] = {cos(mesh.uv[c[i]][0]), sin(mesh.uv[c[i]][0]), 0};
+        assert_true(cw_dot(n, outward) > 0.5 - 1e-9);
+      }
+    }
+    cw_patch_mesh_free(&mesh);
+    free(plan);
+  }
+}
+
 // A straight side whose points are off by rounding has slivers in its Delaunay triangulation: none may stay.
 static void noisy_straight_sides(void **state) {
   seed = 7;
@@ -517,6 +550,7 @@ int main(void) {
       cmocka_unit_test(two_holes_and_a_dividing_line),
       cmocka_unit_test(a_slit_keeps_its_two_sides),
       cmocka_unit_test(cylinder),
+      cmocka_unit_test(triangles_follow_a_narrow_nose),
       cmocka_unit_test(stretched_fifty_to_one),
       cmocka_unit_test(sphere_patch),
       cmocka_unit_test(funnel),
