@@ -15,7 +15,7 @@ static const double ROOM = 1.5;       // thicknesses of the layers: lines of two
 static const double SAME_LINE = 1, APART = 3;
 static const double SAME_POINT = 1e-9;   // m
 static const double LEANING = 0.55;      // cosine of a line to a wall's normal: columns that lean more are lower
-static const double LEANING_MOST = 0.38; // the same, where a line is as good as one without room
+static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
 static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall
 static const double HOLLOW_WALL = 0.8;   // share of the layers that a line in them leaves behind where the wall bends
 static const double SAME_WALL = 0.9;     // least cosine between triangles of one wall
