@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-report: the files of a run in, one page to look at out.
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "pipeline/atomic_file.h"
@@ -16,6 +17,18 @@ static const CwStageUsage usage = {
     .reads = {"geometry", "mesh"},
 };
 
+// Writes the page without its pictures to nowhere, so that what is missing or wrong is told before they are drawn,
+// which takes most of the time. CW_ERR_IO, CW_ERR_INPUT.
+static CwStatus require_content(const CwReportData *data) {
+  CwStatus status = CW_OK;
+  FILE *nowhere = fopen("/dev/null", "w");
+  CW_REQUIRE(nowhere, CW_ERR_IO, "/dev/null: cannot be opened");
+  CW_TRY(cw_page_write(nowhere, data));
+done:
+  if (nowhere) fclose(nowhere);
+  return status;
+}
+
 static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *record) {
   CwStatus status = CW_OK;
   CwReportData data = {0};
@@ -25,6 +38,7 @@ static CwStatus report(const CwStageArgs *args, const CwCase *table, CwRecord *r
   double started = cw_seconds(), drawn;
   CW_TRY(cw_report_data_read(args->run_path, table, &data));
   CW_TRY(cw_report_sizes(&data, &sizes));
+  CW_TRY(require_content(&data));
   CW_TRY(cw_report_pictures_draw(&data.mesh, &sizes, &data.pictures));
   drawn = cw_seconds();
   CW_TRY(cw_stage_path(args, "report/index.html", &path));

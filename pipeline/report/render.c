@@ -180,41 +180,57 @@ void cw_render_outline(CwCanvas *canvas, uint32_t colour, double step) {
   }
 }
 
-// Share of the surroundings of pixel (i, j) that stands over it, 0 to 1.
-static double hollow(const CwCanvas *canvas, long i, long j, double radius, double unit) {
-  enum { DIRECTIONS = 12, RINGS = 5 }; // each direction with its opposite
+// Pairs of opposite samples round a pixel, on rings.
+enum { DIRECTIONS = 12, RINGS = 5, PAIRS = RINGS * DIRECTIONS };
+
+typedef struct {
+  long du, dv;   // from the pixel to one of the two, in samples
+  double length; // px
+  double weight;
+} Pair;
+
+static void place_pairs(double radius, Pair pairs[PAIRS]) {
   static const double turn[RINGS] = {0, 0.4, 0.8, 0.2, 0.6};
-  long columns = canvas->columns, rows = canvas->rows;
-  double here = canvas->depth[j * columns + i], sum = 0, weights = 0;
   for (int ring = 0; ring < RINGS; ring++) {
-    double share = (ring + 1.0) / RINGS, length = radius * share, weight = 1.2 - share;
+    double share = (ring + 1.0) / RINGS, length = radius * share;
     for (int k = 0; k < DIRECTIONS; k++) {
       double angle = M_PI * (k + turn[ring]) / DIRECTIONS;
-      long du = lround(length * CW_RENDER_SAMPLES * cos(angle)), dv = lround(length * CW_RENDER_SAMPLES * sin(angle));
-      long u = i + du, v = j + dv, across_u = i - du, across_v = j - dv;
-      weights += weight;
-      if (fmin(u, across_u) < 0 || fmin(v, across_v) < 0 || fmax(u, across_u) >= columns || fmax(v, across_v) >= rows)
-        continue;
-      double there = canvas->depth[v * columns + u], across = canvas->depth[across_v * columns + across_u];
-      if (isinf(there) || isinf(across)) continue;
-      // The mean of two opposite samples: a slanted plane has no hollow. What stands far above is another
-      // thing.
-      double rise = (0.5 * (there + across) - here) / (unit * length);
-      if (rise > 0) sum += weight * fmin(rise, 1) / (1 + pow(rise / 4, 2));
+      pairs[ring * DIRECTIONS + k] = (Pair){.du = lround(length * CW_RENDER_SAMPLES * cos(angle)),
+                                            .dv = lround(length * CW_RENDER_SAMPLES * sin(angle)),
+                                            .length = length,
+                                            .weight = 1.2 - share};
     }
+  }
+}
+
+// Share of the surroundings of sample (i, j) that stands over it, 0 to 1.
+static double hollow(const CwCanvas *canvas, long i, long j, const Pair pairs[PAIRS], double unit) {
+  double here = canvas->depth[j * canvas->columns + i], sum = 0, weights = 0;
+  for (int k = 0; k < PAIRS; k++) {
+    long du = pairs[k].du, dv = pairs[k].dv;
+    weights += pairs[k].weight;
+    if (i < labs(du) || j < labs(dv) || i + labs(du) >= canvas->columns || j + labs(dv) >= canvas->rows) continue;
+    double there = canvas->depth[(j + dv) * canvas->columns + i + du];
+    double across = canvas->depth[(j - dv) * canvas->columns + i - du];
+    if (isinf(there) || isinf(across)) continue;
+    // The mean of two opposite samples: a slanted plane has no hollow. What stands far above is another thing.
+    double rise = (0.5 * (there + across) - here) / (unit * pairs[k].length);
+    if (rise > 0) sum += pairs[k].weight * fmin(rise, 1) / (1 + pow(rise / 4, 2));
   }
   return sum / weights;
 }
 
 void cw_render_occlusion(CwCanvas *canvas, double radius, double unit) {
+  Pair pairs[PAIRS];
   if (!canvas->depth) return;
+  place_pairs(radius, pairs);
   for (long j = 0; j < canvas->height; j++) {
     for (long i = 0; i < canvas->width; i++) {
       // One value a pixel, at the nearest of its samples that shows something.
       for (int s = 0; s < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; s++) {
         long u = i * CW_RENDER_SAMPLES + s % CW_RENDER_SAMPLES, v = j * CW_RENDER_SAMPLES + s / CW_RENDER_SAMPLES;
         if (isinf(canvas->depth[v * canvas->columns + u])) continue;
-        double factor = 1 - 0.8 * hollow(canvas, u, v, radius, unit);
+        double factor = 1 - 0.8 * hollow(canvas, u, v, pairs, unit);
         for (int t = s; t < CW_RENDER_SAMPLES * CW_RENDER_SAMPLES; t++) {
           size_t place = (size_t)(j * CW_RENDER_SAMPLES + t / CW_RENDER_SAMPLES) * (size_t)canvas->columns +
                          (size_t)(i * CW_RENDER_SAMPLES + t % CW_RENDER_SAMPLES);
