@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/region/region_file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,8 +105,9 @@ CwStatus cw_region_write(const char *path, const CwRegionMesh *region) {
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
   creation = H5Pcreate(H5P_FILE_CREATE);
   H5Pset_obj_track_times(creation, 0); // equal regions give equal bytes
+  errno = 0;
   file = H5Fcreate(temporary, H5F_ACC_TRUNC, creation, access);
-  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be made", temporary);
+  CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be made: %s", path, errno ? strerror(errno) : "HDF5 refuses");
   made = 1;
   status = write_items(file, region);
   if (status != CW_OK) {

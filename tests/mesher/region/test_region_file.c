@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <errno.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -133,6 +134,7 @@ static void folder_that_is_not_there_is_an_io_error(void **state) {
   char nowhere[400];
   snprintf(nowhere, sizeof nowhere, "%s/none/rotor-0001.h5", folder);
   assert_int_equal(cw_region_write(nowhere, &r), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), strerror(ENOENT)));
   assert_non_null(strstr(cw_fail_message(), nowhere));
 }
 
