@@ -4,6 +4,7 @@
 #   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
 #   make check                               the quick tests, with everything they need
 #   make check-long                          the long ones
+#   make check-sanitized                     the quick ones of single modules, under sanitizers, in build/sanitized
 #   make -C cases NAME                       another case; `make -C cases` lists them
 #   make clean                               removes build/ (runs/ stays)
 #
@@ -13,7 +14,7 @@ include pipeline/build.mk
 include pipeline/run.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help check check-long clean
+.PHONY: help check check-long check-sanitized clean
 
 help:
 	@sed -n '/^#   make/s/^#  //p; /^# CELLS/s/^# //p' Makefile
@@ -22,11 +23,14 @@ OUT ?= runs/paper
 $(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))
 
 check check-long: everything
-check: LABEL := quick
-check-long: LABEL := long
+check: CHOICE := -L '^quick$$'
+check-long: CHOICE := -L '^long$$'
 check check-long:
-	@cd $(BUILD) && { ctest -L '^$(LABEL)$$' -j $(JOBS) --no-tests=error --no-label-summary --output-on-failure \
+	@cd $(BUILD) && { ctest $(CHOICE) -j $(JOBS) --no-tests=error --no-label-summary --output-on-failure \
 	  --output-junit $(BUILD)/$@.xml; python3 $(ROOT)/tests/tally.py $@ $(BUILD)/$@.xml; }
+check-sanitized:
+	@$(MAKE) --no-print-directory check BUILD=$(BUILD)/sanitized OPTIONS=-DCUTWATER_SANITIZE=ON \
+	  CHOICE='-L quick -R /test_'
 
 clean:
 	@rm -rf $(BUILD)

@@ -29,15 +29,6 @@
 #include "geometry/solid.hpp"
 #include "pipeline/atomic_file.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// OpenCASCADE 7.6 leaks a few kilobytes of its own: singletons and the translators' sessions. The sanitizer's
-// short stacks show most of it only as the allocator of its handles.
-extern "C" const char *__lsan_default_suppressions() {
-  return "leak:libTKXSBase\nleak:libTKSTEP\nleak:libTKXDESTEP\nleak:TPrsStd_DriverTable\nleak:Standard_"
-         "MMgrRaw\n";
-}
-#endif
-
 namespace {
 
 // An XCAF document that is closed when it goes.

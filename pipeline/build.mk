@@ -23,7 +23,7 @@ packages:
 
 configure: packages
 	@mkdir -p $(BUILD)
-	@test -e $(BUILD)/Makefile || $(call cutwater_logged,cmake -S $(ROOT) -B $(BUILD),$(BUILD)/configure.log)
+	@test -e $(BUILD)/Makefile || $(call cutwater_logged,cmake -S $(ROOT) -B $(BUILD) $(OPTIONS),$(BUILD)/configure.log)
 	@$(call cutwater_logged,cmake --build $(BUILD) --target cmake_check_build_system,$(BUILD)/configure.log)
 
 programs: configure

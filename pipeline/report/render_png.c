@@ -7,14 +7,6 @@
 
 #include "pipeline/report/render.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// Fontconfig, under Cairo, keeps its tables until the process ends; they are no leaks of ours.
-const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) {
-  return "leak:libfontconfig\n";
-}
-#endif
-
 static void average(const CwCanvas *canvas, unsigned char *pixels, int stride) {
   const int samples = CW_RENDER_SAMPLES * CW_RENDER_SAMPLES;
   for (int j = 0; j < canvas->height; j++) {

@@ -14,12 +14,6 @@
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 
-// On a failure TetGen itself loses three small lists.
-const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) {
-  return "leak:tetgenmesh::recoverboundary\n";
-}
-
 typedef struct {
   double size, growth, place[3]; // size + growth * distance from place
 } Field;

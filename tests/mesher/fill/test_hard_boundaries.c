@@ -20,12 +20,6 @@
 #include "mesher/fill/kernel.h"
 #include "pipeline/log.h"
 
-// On a failure TetGen itself loses three small lists.
-const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) {
-  return "leak:tetgenmesh::recoverboundary\n";
-}
-
 static int random_count = 40;
 
 typedef struct {
