@@ -65,20 +65,30 @@ static void add_place(CwDelaunayTet *tet, int place) {
   tet->square = -(double)(place_of(tet) | place);
 }
 
-// A tetrahedron at a corner of the one that encloses all, with another corner (own) if it has one: all of
-// these hang together.
-static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
+// A point that hangs together with a corner of the tetrahedron that encloses all.
+static const double *find_enclosed(const CwDelaunay *mesh) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
-    int corners = 0;
-    *own = 0;
+    int own = -1, corners = 0;
     for (int i = 0; i < 4; i++) {
       corners += c[i] < CW_DELAUNAY_CORNERS;
-      *own = c[i] < CW_DELAUNAY_CORNERS ? *own : i;
+      own = c[i] < CW_DELAUNAY_CORNERS ? own : i;
     }
-    if (c[0] >= 0 && corners) return t;
+    if (c[0] >= 0 && corners && own >= 0) return mesh->point[c[own]].x;
   }
-  return 0;
+  return mesh->point[0].x;
+}
+
+// Marks a tetrahedron as outside and puts it into the chain of those that wait. 1 where it has a corner of the one that
+// encloses all.
+static int add_outside(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
+  CwDelaunayTet *tet = &mesh->tet[t];
+  int enclosing = 0;
+  for (int i = 0; i < 4; i++) enclosing |= tet->corner[i] < CW_DELAUNAY_CORNERS;
+  add_place(tet, OUTSIDE);
+  tet->corner[1] = *waiting;
+  *waiting = t;
+  return enclosing;
 }
 
 // Floods from the outer sides of all facets and frees what it reaches. All that it does not reach lies
@@ -87,19 +97,15 @@ static int32_t find_enclosing(const CwDelaunay *mesh, int *own) {
 // than it saves where that was little.
 static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwDelaunay *mesh) {
   CwStatus status = CW_OK;
-  int own = 0;
-  int32_t waiting = -1, freed = 0, enclosing = find_enclosing(mesh, &own);
-  const double *x = mesh->point[mesh->tet[enclosing].corner[own]].x;
+  int enclosing = 0;
+  int32_t waiting = -1, freed = 0;
   for (int32_t f = 0; f < facets->count; f++) {
     int32_t inner = facets->inner[f], outer = mesh->tet[inner / 4].neighbour[inner % 4];
     CwDelaunayTet *inside = &mesh->tet[inner / 4], *outside = &mesh->tet[outer / 4];
     const double *y = mesh->point[facets->corner[f][0]].x;
-    if (!(place_of(outside) & OUTSIDE)) {
-      outside->corner[1] = waiting;
-      waiting = outer / 4;
-    }
+    if (!(place_of(outside) & OUTSIDE)) enclosing |= add_outside(mesh, outer / 4, &waiting);
     add_place(inside, INNER | 1 << inner % 4);
-    add_place(outside, OUTSIDE | 1 << outer % 4);
+    add_place(outside, 1 << outer % 4);
     CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
@@ -115,18 +121,19 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
       CW_REQUIRE((place_of(next) & INNER) == 0, CW_ERR_MESH,
                  "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
                  input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
-      if (place_of(next) & OUTSIDE) continue;
-      add_place(next, OUTSIDE);
-      next->corner[1] = waiting;
-      waiting = tet->neighbour[i] / 4;
+      if (!(place_of(next) & OUTSIDE)) enclosing |= add_outside(mesh, tet->neighbour[i] / 4, &waiting);
     }
     cw_delaunay_free_tet(mesh, t); // its place stays
     freed++;
   }
-  CW_REQUIRE(place_of(&mesh->tet[enclosing]) & OUTSIDE, CW_ERR_MESH,
-             "%s: the boundary encloses all that lies outside it: its normals point inward near "
-             "(%.6g, %.6g, %.6g) mm",
-             input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  if (!enclosing) { // it lies inside, with all that hangs together with it
+    const double *x = find_enclosed(mesh);
+    status = CW_FAIL(CW_ERR_MESH,
+                     "%s: the boundary encloses all that lies outside it: its normals point inward near "
+                     "(%.6g, %.6g, %.6g) mm",
+                     input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+    goto done;
+  }
   for (int32_t f = 0; f < facets->count; f++) mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
   if (freed > mesh->tet_count / 4) cw_delaunay_pack(mesh);
 done:
@@ -141,10 +148,8 @@ static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *fa
   CwRecovered recovered = {0};
   cw_facets_locate(mesh, input->point_count, facets);
   way->missing = facets->missing_count;
-  for (int round = 0; round < ROUNDS && facets->missing_count; round++) {
+  for (int round = 0; round < ROUNDS && facets->missing_count; round++)
     CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
-    cw_facets_locate(mesh, input->point_count, facets);
-  }
   if (facets->missing_count) {
     CW_TRY(cw_boundary_check_crossing(input));
     CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));

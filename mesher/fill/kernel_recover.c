@@ -189,7 +189,39 @@ void cw_recovery_free(CwRecovery *recovery) {
   cw_flips_free(&recovery->flips);
 }
 
-CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, int32_t *source_count,
+// Whether face i of a tetrahedron is the facet, seen from inside.
+static int is_inner(const CwDelaunayTet *tet, int i, const int32_t facet[3]) {
+  const int8_t *face = tet_face[i];
+  if (tet->corner[0] < 0) return 0;
+  int k = tet->corner[face[0]] == facet[0] ? 0 : tet->corner[face[1]] == facet[0] ? 1 : 2;
+  for (int m = 0; m < 3; m++) {
+    if (tet->corner[face[(k + m) % 3]] != facet[m]) return 0;
+  }
+  return 1;
+}
+
+// Looks for the facets that flips may have moved, round a point of each: few are, beside all faces of the mesh.
+static CwStatus locate_again(CwFlips *flips, CwFacets *facets) {
+  CwStatus status = CW_OK;
+  const CwDelaunay *mesh = flips->mesh;
+  facets->missing_count = 0;
+  for (int32_t f = 0; f < facets->count; f++) {
+    const int32_t *corner = facets->corner[f];
+    int32_t *inner = &facets->inner[f];
+    if (*inner >= 0 && is_inner(&mesh->tet[*inner / 4], *inner % 4, corner)) continue;
+    *inner = -1;
+    CW_TRY(cw_flips_star(flips, corner[0]));
+    for (int32_t k = 0; k < 4 * flips->star_count && *inner < 0; k++) {
+      int32_t t = flips->star[k / 4];
+      if (is_inner(&mesh->tet[t], k % 4, corner)) *inner = 4 * t + k % 4;
+    }
+    facets->missing_count += *inner < 0;
+  }
+done:
+  return status;
+}
+
+CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int32_t *source_count,
                            CwRecovered *recovered) {
   CwStatus status = CW_OK;
   CwRecovery r;
@@ -214,6 +246,7 @@ CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, 
   recovered->flips += r.flips.done;
   cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered", facets->missing_count,
                (long long)r.flips.done, lost_edges, lost_faces);
+  CW_TRY(locate_again(&r.flips, facets));
 done:
   cw_recovery_free(&r);
   return status;

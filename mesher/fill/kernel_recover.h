@@ -38,9 +38,10 @@ typedef struct {
 } CwRecovered;
 
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered
-// stay missing (see cw_facets_locate afterwards). Another `round` tries other flips, from the third on also
-// new points, whose sources go from *source_count on. Adds to *recovered. Deterministic.
-CwStatus cw_kernel_recover(CwDelaunay *mesh, const CwFacets *facets, int round, int32_t *source_count,
+// stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. Another `round`
+// tries other flips, from the third on also new points, whose sources go from *source_count on. Adds to *recovered.
+// Deterministic.
+CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int32_t *source_count,
                            CwRecovered *recovered);
 
 #ifdef __cplusplus

@@ -10,9 +10,15 @@
 static const double jitter = 1e-3; // of the cell
 enum { DIGIT = 11, ROUNDS = 9, SEEN = 13 };
 
+// What the field asks for in a cell and in its children: asked once, for all rounds of the fit; 0: not yet.
+typedef struct {
+  double own, child[8];
+} Asked;
+
 typedef struct {
   const CwFillInput *input;
   const CwLatticeFrame *frame;
+  Asked *asked;         // of each cell given
   double fit;           // factor on the wanted spacing
   double wanted, found; // cells that the size field asks for, and cells found
   CwLatticePlace *place;
@@ -29,19 +35,33 @@ done:
   return status;
 }
 
-// Cuts down to the wanted spacing; counts, or stores the corners and centres of the leaves.
-static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int level, int store) {
+// Edge of a cell that the field asks for at the middle of the cell at `at`.
+static CwStatus asked_in(const Lattice *lattice, const int32_t at[3], int level, double *asked) {
   CwStatus status = CW_OK;
-  double centre[3], asked, edge = lattice->frame->unit * (double)(1 << level);
+  double centre[3];
   for (int i = 0; i < 3; i++)
     centre[i] = lattice->frame->origin[i] + lattice->frame->unit * (at[i] + 0.5 * (double)(1 << level));
-  CW_TRY(cw_lattice_size(lattice->input, centre, &asked));
-  asked *= CW_LATTICE_CONSTANT;
+  CW_TRY(cw_lattice_size(lattice->input, centre, asked));
+  *asked *= CW_LATTICE_CONSTANT;
+done:
+  return status;
+}
+
+// Cuts down to the wanted spacing; counts, or stores the corners and centres of the leaves. `known`: of the cell, where
+// it is one of those given, else NULL.
+static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int level, double asked, Asked *known,
+                    int store) {
+  CwStatus status = CW_OK;
+  double edge = lattice->frame->unit * (double)(1 << level);
   if (level > 0 && edge > 1.4142135623730951 * lattice->fit * asked) {
+    int first = known && known->child[0] == 0.0;
     for (int child = 0; child < 8; child++) {
       int32_t corner[3];
+      double below = known ? known->child[child] : 0.0;
       for (int i = 0; i < 3; i++) corner[i] = at[i] + ((child >> i & 1) << (level - 1));
-      CW_TRY(cut(lattice, cell, corner, level - 1, store));
+      if (!known || first) CW_TRY(asked_in(lattice, corner, level - 1, &below));
+      if (first) known->child[child] = below;
+      CW_TRY(cut(lattice, cell, corner, level - 1, below, NULL, store));
     }
     goto done;
   }
@@ -67,7 +87,10 @@ static CwStatus cut_all(Lattice *lattice, int32_t count, const CwLatticeCell *ce
   CwStatus status = CW_OK;
   lattice->wanted = lattice->found = 0.0;
   for (int32_t c = 0; c < count; c++) {
-    if (store || cell[c].counts) CW_TRY(cut(lattice, c, cell[c].at, cell[c].level, store));
+    if (!store && !cell[c].counts) continue;
+    Asked *asked = &lattice->asked[c];
+    if (asked->own == 0.0) CW_TRY(asked_in(lattice, cell[c].at, cell[c].level, &asked->own));
+    CW_TRY(cut(lattice, c, cell[c].at, cell[c].level, asked->own, asked, store));
   }
 done:
   return status;
@@ -135,10 +158,13 @@ CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame
   Lattice lattice = {.input = input, .frame = frame, .fit = 1.0};
   *count = 0;
   *place = NULL;
+  CW_NEW(lattice.asked, cell_count);
   CW_TRY(fit_spacing(&lattice, cell_count, cell));
   CW_NEW(lattice.seen, 1 << SEEN);
   memset(lattice.seen, 0xff, sizeof *lattice.seen << SEEN);
   CW_TRY(cut_all(&lattice, cell_count, cell, 1));
+  free(lattice.asked);
+  lattice.asked = NULL;
   CW_TRY(sort_places(&lattice));
   for (int64_t k = 0; k < lattice.place_count; k++) {
     if (k == 0 || lattice.place[k].key != lattice.place[*count - 1].key) lattice.place[(*count)++] = lattice.place[k];
@@ -146,6 +172,7 @@ CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame
   *place = lattice.place;
   lattice.place = NULL;
 done:
+  free(lattice.asked);
   free(lattice.place);
   free(lattice.seen);
   return status;

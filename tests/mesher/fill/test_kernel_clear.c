@@ -86,7 +86,10 @@ static void facets_that_cross_stay(void **unused) {
   assert_int_equal(facets.missing_count, 1);
   for (int round = 0; round < 4; round++) {
     assert_int_equal(cw_kernel_recover(&mesh, &facets, round, &sources, &(CwRecovered){0}), CW_OK);
+    assert_int_equal(facets.missing_count, 1);
+    int32_t inner[2] = {facets.inner[0], facets.inner[1]};
     cw_facets_locate(&mesh, 5, &facets);
+    assert_memory_equal(inner, facets.inner, sizeof inner);
   }
   assert_int_equal(facets.missing_count, 1);
   assert_true(facets.inner[0] < 0 && facets.inner[1] >= 0);
