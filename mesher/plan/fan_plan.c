@@ -65,15 +65,19 @@ static CwPlane half_plane(double angle) {
 }
 
 // What a half-plane through `wheel`, the part beyond the plane across the axis, costs.
-static Judged judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double angle) {
+static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double angle, Judged *judged) {
+  CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
   CwPlane plane = half_plane(angle);
   plan->node[plan->fan_first].plane = plane;
   CwPlane end = cw_fan_end(plan, plan->fan_first);
   CwPlanPlace place = cw_plan_place(fan->model, wheel, &plane, &end);
-  double lines = cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY);
+  double lines;
+  CW_TRY(cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY, &lines));
   double touch = cw_plan_touch_cost(cw_plan_touch(fan->model, wheel, &plane, &end));
-  return (Judged){cw_plan_place_cost(place) + touch + lines, place.worst};
+  *judged = (Judged){cw_plan_place_cost(place) + touch + lines, place.worst};
+done:
+  return status;
 }
 
 // Finds which side of the domain has fluid on the axis; CW_RETRY where both or none have it.
@@ -207,10 +211,11 @@ static CwStatus judge_angle(void *context, int32_t i, void **bytes, int64_t *siz
   const Wheel *wheel = context;
   Judged *made = NULL;
   CW_NEW(made, 1);
-  *made = judge_half_plane(wheel->fan, wheel->part, 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES);
+  CW_TRY(judge_half_plane(wheel->fan, wheel->part, 2 * M_PI / wheel->fan->count * (i + 0.5) / ANGLES, made));
   *bytes = made;
   *size = sizeof *made;
 done:
+  if (status != CW_OK) free(made);
   return status;
 }
 

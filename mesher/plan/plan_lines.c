@@ -2,12 +2,13 @@
 #include "mesher/plan/plan_lines.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
 #include "mesher/plan/fan.h"
 
-enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, NEIGHBOURS = 64, HITS = 64 };
+enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, HITS_MOST = 64 };
 static const double LINE_STEP = 1e-3; // m between samples of a line
 static const double ROOM = 1.5;       // thicknesses of the layers: lines of two planes start behind the layers
 // Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
@@ -43,8 +44,8 @@ typedef struct {
   const CwPlan *plan;
   int32_t above;
   double point[3], direction[3], from, to;
-  int neighbour_count;
-  Neighbour neighbour[NEIGHBOURS];
+  int32_t neighbour_count, neighbour_space;
+  Neighbour *neighbour;
 } Line;
 
 static void at(const Line *line, double s, double x[3]) {
@@ -85,7 +86,8 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
 }
 
 // Collects the planes, not those of the line, that come within `room` of it; of the new plane its turned copies.
-static void find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
+static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
+  CwStatus status = CW_OK;
   const CwPlan *plan = line->plan;
   double ends[2][3];
   at(line, line->from, ends[0]);
@@ -95,19 +97,22 @@ static void find_neighbours(Line *line, int32_t node, const CwPlane *plane, doub
     int in_wedge = plan->fan_turns && c >= plan->fan_first + plan->fan_count;
     for (int32_t turns = c == node; turns < (in_wedge ? plan->fan_turns : 1); turns++) {
       Neighbour made = {c == node ? *plane : plan->node[c].plane, c, turns};
-      if (c == line->above || line->neighbour_count == NEIGHBOURS) continue;
+      if (c == line->above) continue;
       if (turns) cw_symmetry_turn(plan->fan_turns, turns, made.plane.normal, made.plane.normal);
       double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
       if ((a > room && b > room) || (a < -room && b < -room)) continue;
+      CW_GROW(line->neighbour, line->neighbour_space, line->neighbour_count + 1);
       line->neighbour[line->neighbour_count++] = made;
     }
   }
+done:
+  return status;
 }
 
 // Distance from x to the nearest other plane inside its own cell; `room` where none is nearer.
 static double plane_near(const Line *line, const double x[3], double room) {
   double best = room;
-  for (int i = 0; i < line->neighbour_count; i++) {
+  for (int32_t i = 0; i < line->neighbour_count; i++) {
     const Neighbour *near = &line->neighbour[i];
     double distance = fabs(cw_plane_distance(&near->plane, x)), back[3];
     if (distance >= best) continue;
@@ -139,7 +144,7 @@ static double judge_crossings(const Line *line, double from, double to, Lines *l
   double a[3], b[3], x[3], worst = 0;
   at(line, from - SAME_POINT, a);
   at(line, to + SAME_POINT, b);
-  for (int i = 0; i < line->neighbour_count && !lines->impossible; i++) {
+  for (int32_t i = 0; i < line->neighbour_count && !lines->impossible; i++) {
     const Neighbour *near = &line->neighbour[i];
     double before = cw_plane_distance(&near->plane, a), after = cw_plane_distance(&near->plane, b), back[3];
     if ((before > 0) == (after > 0)) continue;
@@ -217,12 +222,14 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   lines->blocked += cramped >= HARDLY;
 }
 
-static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
-                       Lines *lines) {
+static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, const CwPlane *plane, double sine,
+                           Lines *lines) {
+  CwStatus status = CW_OK;
   cut_to_cell(line, node, part);
-  if (!(line->to > line->from)) return;
-  CwPlanHit hit[HITS];
-  int32_t hits = cw_plan_line_hits(line->model, line->point, line->direction, line->from, line->to, HITS, hit);
+  if (!(line->to > line->from)) return CW_OK;
+  CwPlanHit hit[HITS_MOST];
+  int32_t hits = cw_plan_line_hits(line->model, line->point, line->direction, line->from, line->to, HITS_MOST, hit);
+  if (hits == HITS_MOST) lines->impossible = 1; // there may be more of them
   int found = 0;
   End from = {line->from, -1, 0, 0};
   for (int32_t i = 0; i <= hits && !lines->impossible; i++) {
@@ -231,13 +238,16 @@ static void judge_line(Line *line, int32_t node, const CwPlanPart *part, const C
     if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
     at(line, (from.place + to.place) / 2, x);
     if (to.place - from.place > SAME_POINT && cw_inside_test(line->model->inside, x)) {
-      if (!found) find_neighbours(line, node, plane, 10e-3);
+      if (!found) CW_TRY(find_neighbours(line, node, plane, 10e-3));
       found = 1;
       lines->sharp = fmin(lines->sharp, sine);
       judge_run(line, part, &from, &to, lines);
     }
     from = to;
   }
+done:
+  free(line->neighbour);
+  return status;
 }
 
 // Whether parallel planes, one of them perhaps turned round, leave a region between them.
@@ -255,8 +265,9 @@ static double cost_of(const Lines *lines) {
   return CRAMPED * lines->cramped + BLOCKED * lines->blocked + cw_plan_sharpness(lines->sharp);
 }
 
-double cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                     const CwPlane *plane, double most) {
+CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
+                       const CwPlane *plane, double most, double *cost) {
+  CwStatus status = CW_OK;
   Lines lines = {.sharp = 1};
   CwPlanBound bound = cw_plan_bound(plan, node);
   for (; bound.node >= 0 && cost_of(&lines) < most; bound = cw_plan_next_bound(plan, bound)) {
@@ -268,7 +279,9 @@ double cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node,
       continue;
     }
     cw_cross(other->normal, plane->normal, across);
-    judge_line(&line, node, part, plane, cw_norm(across), &lines);
+    CW_TRY(judge_line(&line, node, part, plane, cw_norm(across), &lines));
   }
-  return cost_of(&lines);
+  *cost = cost_of(&lines);
+done:
+  return status;
 }

@@ -191,7 +191,8 @@ static int like_one_tried(const Choice *choice, const CwPlane *plane, int32_t be
 }
 
 // Takes the best plane unlike those tried that is better than *best, if there is one.
-static void find_best(const Choice *choice, Best *best) {
+static CwStatus find_best(const Choice *choice, Best *best) {
+  CwStatus status = CW_OK;
   int32_t judged = 0;
   // These only add to a score, so the rest cannot win once the next score alone is no less than the best.
   for (int32_t i = 0; i < choice->count && choice->candidate[i].score < best->score; i++) {
@@ -204,13 +205,16 @@ static void find_best(const Choice *choice, Best *best) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
       double touch = cw_plan_touch_cost(cw_plan_touch(choice->model, choice->part, &plane, NULL));
-      candidate->further =
-          touch + cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch);
+      CW_TRY(cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch,
+                           &candidate->further));
+      candidate->further += touch;
       candidate->judged = candidate->further < most || candidate->further == INFINITY;
     }
     double score = candidate->score + candidate->further;
     if (score < best->score) *best = (Best){plane, candidate->direction, candidate->below, score};
   }
+done:
+  return status;
 }
 
 static void add_direction(Choice *choice, int32_t direction, Directions *directions) {
@@ -234,7 +238,7 @@ static CwStatus look_further(Choice *choice, Directions *directions, Best *best)
   CW_TRY(look(directions, choice->candidate + choice->count, &added));
   choice->count += added;
   qsort(choice->candidate, (size_t)choice->count, sizeof *choice->candidate, by_score);
-  find_best(choice, best);
+  CW_TRY(find_best(choice, best));
 done:
   return status;
 }
@@ -262,7 +266,7 @@ static CwStatus next_best(Choice *choice, double limit, Best *best) {
   CwStatus status = CW_OK;
   Directions upright = {.count = 0}, leaning = {.count = 0};
   *best = (Best){.score = limit};
-  find_best(choice, best);
+  CW_TRY(find_best(choice, best));
   for (int32_t turn = 0; turn < CW_TURNS; turn += COARSE) add_direction(choice, cw_direction_at(turn, 0), &upright);
   add_direction(choice, CW_ALONG_AXIS, &upright);
   CW_TRY(look_further(choice, &upright, best));

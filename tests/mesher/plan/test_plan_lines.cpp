@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Lines in which a new plane meets the plane above it, in a box with layers on its walls.
+#include <vector>
+
 #include <BRepPrimAPI_MakeBox.hxx>
 
 extern "C" {
@@ -23,7 +25,9 @@ struct Box : PlannedSolid {
     double length = std::sqrt(nx * nx + ny * ny + nz * nz);
     CwPlane plane = {{nx / length, ny / length, nz / length}, 0};
     plane.offset = (nx * x + ny * y + nz * z) / length * 1e-3;
-    return cw_plan_lines(&model, &plan, 1, &whole, &plane, INFINITY);
+    double cost = 0;
+    assert_int_equal(cw_plan_lines(&model, &plan, 1, &whole, &plane, INFINITY, &cost), CW_OK);
+    return cost;
   }
 };
 
@@ -71,10 +75,35 @@ static void sharp_lines_cost_much(void **) {
   assert_near(box.cost(1, 0, 0, 31, 15, 10), 0, 1e-9);
 }
 
+// Behind x = 21 mm lie as many planes as hundreds of regions have, and the last ends where the new one would begin.
+static void the_last_of_many_planes_is_seen(void **) {
+  Box box;
+  const int32_t many = 200;
+  std::vector<CwPlanNode> node(many + 1, box.node[0]);
+  for (int32_t n = 1; n < many; n++) {
+    node[n] = {{{0, 1, 0}, 0.024 - 1e-6 * n}, n - 1, {n + 1, -1 - n}};
+    node[n - 1].child[0] = n;
+  }
+  node[many - 1].plane.offset = 0.014;
+  node[many - 1].child[0] = -1;
+  node[0].child[1] = many;
+  node[many] = {{}, 0, {INT32_MIN, INT32_MIN}};
+  box.plan.node = node.data();
+  box.plan.node_count = many;
+  auto cost = [&](double y) {
+    CwPlane plane = {{0, 1, 0}, y};
+    double found = 0;
+    assert_int_equal(cw_plan_lines(&box.model, &box.plan, many, &box.whole, &plane, INFINITY, &found), CW_OK);
+    return found;
+  };
+  assert_true(std::isinf(cost(0.0141)));
+  assert_false(std::isinf(cost(0.019)));
+}
+
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(lines_with_room_cost_nothing), cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
+      cmocka_unit_test(lines_with_room_cost_nothing),   cmocka_unit_test(lines_tangent_to_a_wall_are_refused),
       cmocka_unit_test(lines_that_lean_much_cost_much), cmocka_unit_test(lines_in_the_layers_are_refused),
-      cmocka_unit_test(sharp_lines_cost_much)};
+      cmocka_unit_test(sharp_lines_cost_much),          cmocka_unit_test(the_last_of_many_planes_is_seen)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
