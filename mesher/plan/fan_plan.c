@@ -72,10 +72,10 @@ static CwStatus judge_half_plane(const Fan *fan, const CwPlanPart *wheel, double
   plan->node[plan->fan_first].plane = plane;
   CwPlane end = cw_fan_end(plan, plan->fan_first);
   CwPlanPlace place = cw_plan_place(fan->model, wheel, &plane, &end);
-  double lines;
+  CwPlanLines lines;
   CW_TRY(cw_plan_lines(fan->model, plan, plan->fan_first, wheel, &plane, INFINITY, &lines));
   double touch = cw_plan_touch_cost(cw_plan_touch(fan->model, wheel, &plane, &end));
-  *judged = (Judged){cw_plan_place_cost(place) + touch + lines, place.worst};
+  *judged = (Judged){cw_plan_place_cost(place) + touch + lines.cost, place.worst};
 done:
   return status;
 }

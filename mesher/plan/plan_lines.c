@@ -30,6 +30,7 @@ typedef struct {
   double cramped; // sum over the lines: 0 where a line has room, 1 where it has none
   int blocked;    // lines that have hardly any
   double sharp;   // least sine of the angle between the planes along a line in the domain; 1 without lines
+  double cosine;  // least of a line to a wall's normal; 1 without lines
 } Lines;
 
 // A plane that comes near a line, as so many turns make it: within the wedges of a fan planes have turned copies.
@@ -85,7 +86,8 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
   }
 }
 
-// Collects the planes, not those of the line, that come within `room` of it; of the new plane its turned copies.
+// Collects the planes, not those of the line nor those below, that come within `room` of it; of the new plane its
+// turned copies.
 static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, double room) {
   CwStatus status = CW_OK;
   const CwPlan *plan = line->plan;
@@ -93,7 +95,7 @@ static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, 
   at(line, line->from, ends[0]);
   at(line, line->to, ends[1]);
   line->neighbour_count = 0;
-  for (int32_t c = 0; c <= node; c++) {
+  for (int32_t c = 0; c < plan->node_count || c <= node; c++) {
     int in_wedge = plan->fan_turns && c >= plan->fan_first + plan->fan_count;
     for (int32_t turns = c == node; turns < (in_wedge ? plan->fan_turns : 1); turns++) {
       Neighbour made = {c == node ? *plane : plan->node[c].plane, c, turns};
@@ -101,6 +103,7 @@ static CwStatus find_neighbours(Line *line, int32_t node, const CwPlane *plane, 
       if (turns) cw_symmetry_turn(plan->fan_turns, turns, made.plane.normal, made.plane.normal);
       double a = cw_plane_distance(&made.plane, ends[0]), b = cw_plane_distance(&made.plane, ends[1]);
       if ((a > room && b > room) || (a < -room && b < -room)) continue;
+      if (c > node && cw_plan_is_ancestor(plan, node, c)) continue; // its own lines are judged from there
       CW_GROW(line->neighbour, line->neighbour_space, line->neighbour_count + 1);
       line->neighbour[line->neighbour_count++] = made;
     }
@@ -177,6 +180,7 @@ static double judge_end(const Line *line, const CwPlanPart *part, End *end, Line
   end->cosine = fabs(cw_dot(line->direction, model->normal[end->triangle]));
   end->layers = thickness / fmax(end->cosine, LEANING);
   if (thickness == 0) return cramped;
+  lines->cosine = fmin(lines->cosine, end->cosine);
   if (end->cosine < TANGENT) lines->impossible = 1;
   cramped = fmax(cramped, shortage(end->cosine, LEANING_MOST, LEANING));
   return fmax(cramped, shortage(plane_near(line, x, ROOM * thickness), thickness / 2, ROOM * thickness));
@@ -266,9 +270,9 @@ static double cost_of(const Lines *lines) {
 }
 
 CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                       const CwPlane *plane, double most, double *cost) {
+                       const CwPlane *plane, double most, CwPlanLines *found) {
   CwStatus status = CW_OK;
-  Lines lines = {.sharp = 1};
+  Lines lines = {.sharp = 1, .cosine = 1};
   CwPlanBound bound = cw_plan_bound(plan, node);
   for (; bound.node >= 0 && cost_of(&lines) < most; bound = cw_plan_next_bound(plan, bound)) {
     const CwPlane *other = &plan->node[bound.node].plane;
@@ -281,7 +285,7 @@ CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t nod
     cw_cross(other->normal, plane->normal, across);
     CW_TRY(judge_line(&line, node, part, plane, cw_norm(across), &lines));
   }
-  *cost = cost_of(&lines);
+  *found = (CwPlanLines){cost_of(&lines), lines.cosine};
 done:
   return status;
 }

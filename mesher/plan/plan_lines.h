@@ -9,11 +9,15 @@
 // What an angle of this sine, to a wall or to another plane, costs.
 double cw_plan_sharpness(double sine);
 
-// *cost: what the lines of `plane`, which is to become `node`, with the planes above cost: for each as much as it lacks room,
-// for all the sharpest angle. INFINITY where one runs through the layers of a wall or along that of another plane, or
-// where a parallel plane leaves no room between both: then the plane will not do. May stop at any sum of `most` or
-// more.
+typedef struct {
+  double cost;   // for each line as much as it lacks room, for all the sharpest angle
+  double cosine; // least between a line and the normal of a wall where it ends; 1 without lines
+} CwPlanLines;
+
+// The lines of `plane`, which is or is to become `node`, with the planes above. They cost INFINITY where one runs
+// through the layers of a wall or along that of another plane, or where a parallel plane leaves no room between both:
+// then the plane will not do. May stop at any sum of `most` or more.
 CwStatus cw_plan_lines(const CwPlanModel *model, const CwPlan *plan, int32_t node, const CwPlanPart *part,
-                       const CwPlane *plane, double most, double *cost);
+                       const CwPlane *plane, double most, CwPlanLines *found);
 
 #endif

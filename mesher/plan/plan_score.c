@@ -8,6 +8,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/plan/plan_directions.h"
+#include "mesher/plan/plan_improve.h"
 
 enum {
   COARSE = 3, // of so many upright directions one is looked along at first
@@ -205,9 +206,9 @@ static CwStatus find_best(const Choice *choice, Best *best) {
       if (++judged > LINES_JUDGED && best->score < INFINITY) break;
       double most = best->score - candidate->score;
       double touch = cw_plan_touch_cost(cw_plan_touch(choice->model, choice->part, &plane, NULL));
-      CW_TRY(cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch,
-                           &candidate->further));
-      candidate->further += touch;
+      CwPlanLines lines;
+      CW_TRY(cw_plan_lines(choice->model, choice->plan, choice->node, choice->part, &plane, most - touch, &lines));
+      candidate->further = touch + lines.cost;
       candidate->judged = candidate->further < most || candidate->further == INFINITY;
     }
     double score = candidate->score + candidate->further;
@@ -397,6 +398,11 @@ done:
 
 CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
                         int side) {
+  CwStatus status = CW_OK;
+  const int32_t node = plan->node_count;
   double bad;
-  return divide(model, plan, part, regions, parent, side, INFINITY, &bad);
+  CW_TRY(divide(model, plan, part, regions, parent, side, INFINITY, &bad));
+  if (plan->node_count > node) CW_TRY(cw_plan_improve(model, plan, part, node));
+done:
+  return status;
 }

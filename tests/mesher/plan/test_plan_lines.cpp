@@ -25,9 +25,9 @@ struct Box : PlannedSolid {
     double length = std::sqrt(nx * nx + ny * ny + nz * nz);
     CwPlane plane = {{nx / length, ny / length, nz / length}, 0};
     plane.offset = (nx * x + ny * y + nz * z) / length * 1e-3;
-    double cost = 0;
-    assert_int_equal(cw_plan_lines(&model, &plan, 1, &whole, &plane, INFINITY, &cost), CW_OK);
-    return cost;
+    CwPlanLines found;
+    assert_int_equal(cw_plan_lines(&model, &plan, 1, &whole, &plane, INFINITY, &found), CW_OK);
+    return found.cost;
   }
 };
 
@@ -92,9 +92,9 @@ static void the_last_of_many_planes_is_seen(void **) {
   box.plan.node_count = many;
   auto cost = [&](double y) {
     CwPlane plane = {{0, 1, 0}, y};
-    double found = 0;
+    CwPlanLines found;
     assert_int_equal(cw_plan_lines(&box.model, &box.plan, many, &box.whole, &plane, INFINITY, &found), CW_OK);
-    return found;
+    return found.cost;
   };
   assert_true(std::isinf(cost(0.0141)));
   assert_false(std::isinf(cost(0.019)));

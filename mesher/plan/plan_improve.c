@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/plan/plan_improve.h"
+
+#include <math.h>
+
+#include "mesher/common/vec.h"
+#include "mesher/plan/plan_score.h"
+
+enum {
+  REGIONS_MOST = 12, // of a subtree whose plane is moved: all below it is weighed for each move
+  MOVES = 6
+};
+// Cosines of a line to the normal of a wall where it ends. Columns on walls that meet a line of less than the first
+// came out so crooked that cells had small determinants (the paper's pump of 100 million cells: 42, and 11 degrees);
+// from the second on nothing is gained.
+static const double LEANING = 0.42, UPRIGHT = 0.55;
+static const double LEANING_COST = 20;                   // of a cosine less by 1 than the second
+static const double FIRST_STEP = 0.08, LAST_STEP = 0.01; // of a plane, over the cube root of its cell's volume
+static const double WORTH = 0.05;                        // least gain of a step
+
+// What a subtree of the plan is worth.
+typedef struct {
+  double cost;   // of its planes, their lines and the unevenness of its regions
+  double cosine; // least between a line and the normal of a wall
+} Worth;
+
+static int32_t regions_of(const CwPlan *plan, int32_t node) {
+  if (node < 0) return 1;
+  return regions_of(plan, plan->node[node].child[0]) + regions_of(plan, plan->node[node].child[1]);
+}
+
+// Weighs the planes and regions of a subtree with this cell. Notes work and angles in the plan. May stop at any cost of
+// `most` or more.
+static CwStatus weigh(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, double most,
+                      Worth *worth) {
+  CwStatus status = CW_OK;
+  CwPlanPart half = {0};
+  CwPlanLines lines = {0, 1};
+  if (node < 0) {
+    plan->predicted_cells[-1 - node] = part->work;
+    *worth = (Worth){cw_plan_unevenness(part->work, model->mean_work, 1), 1};
+    return CW_OK;
+  }
+  const CwPlane *plane = &plan->node[node].plane;
+  CwPlanPlace place = cw_plan_place(model, part, plane, NULL);
+  plan->worst_angle[node] = place.worst;
+  double cost = cw_plan_place_cost(place) + cw_plan_touch_cost(cw_plan_touch(model, part, plane, NULL));
+  if (cost < most) CW_TRY(cw_plan_lines(model, plan, node, part, plane, most - cost, &lines));
+  *worth = (Worth){cost + lines.cost + LEANING_COST * fmax(0, UPRIGHT - lines.cosine), lines.cosine};
+  for (int s = 0; s < 2 && worth->cost < most; s++) {
+    Worth further;
+    CW_TRY(cw_plan_part_clip(model, part, plane, s, &half));
+    CW_TRY(weigh(model, plan, &half, plan->node[node].child[s], most - worth->cost, &further));
+    cw_plan_part_free(&half);
+    worth->cost += further.cost;
+    worth->cosine = fmin(worth->cosine, further.cosine);
+  }
+done:
+  cw_plan_part_free(&half);
+  return status;
+}
+
+// Where a plane cuts its cell: the middle, and how far the cut reaches from there.
+static void find_cut(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, double centre[3],
+                     double *reach) {
+  double sum[3] = {0, 0, 0}, square = 0, all = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t i = 0; i < part->sample_count; i++) {
+      const double *x = model->sample_x[part->sample[i]];
+      if (fabs(cw_plane_distance(plane, x)) > model->sample_spacing) continue;
+      double volume = model->sample_volume[part->sample[i]], d[3];
+      if (pass == 0) {
+        for (int k = 0; k < 3; k++) sum[k] += volume * x[k];
+        all += volume;
+      } else {
+        cw_sub(x, centre, d);
+        square += volume * cw_dot(d, d);
+      }
+    }
+    for (int k = 0; k < 3 && pass == 0; k++) centre[k] = all > 0 ? sum[k] / all : (part->low[k] + part->high[k]) / 2;
+  }
+  *reach = all > 0 ? sqrt(square / all) : cw_distance(part->low, part->high) / 4;
+}
+
+// The plane after a move of this length: shifted, or turned about one of two directions through the middle of its cut.
+static CwPlane moved(const CwPlane *plane, const double centre[3], double reach, int move, double length) {
+  const double *n = plane->normal;
+  double across[3] = {n[1], -n[0], 0}, other[3], step = move % 2 ? -length : length; // n x z
+  CwPlane made = *plane;
+  if (move < 2) {
+    made.offset += step;
+    return made;
+  }
+  if (cw_norm(across) < 0.1) across[0] = 0, across[1] = n[2], across[2] = -n[1]; // n x x
+  cw_unit(across);
+  cw_cross(n, across, other);
+  const double *towards = move < 4 ? across : other;
+  for (int k = 0; k < 3; k++) made.normal[k] += step / reach * towards[k];
+  cw_unit(made.normal);
+  made.offset = cw_dot(made.normal, centre) + cw_plane_distance(plane, centre);
+  return made;
+}
+
+// Moves the plane of `node` step by step to where its subtree costs less, where some line in it leans.
+static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node) {
+  CwStatus status = CW_OK;
+  CwPlane *plane = &plan->node[node].plane;
+  double centre[3], reach, size = cbrt(part->volume);
+  Worth least, worth;
+  CW_TRY(weigh(model, plan, part, node, INFINITY, &least));
+  if (least.cosine > LEANING) goto done;
+  for (double step = FIRST_STEP * size; step > LAST_STEP * size;) {
+    CwPlane best = *plane;
+    const CwPlane from = best;
+    double before = least.cost;
+    find_cut(model, part, plane, centre, &reach);
+    for (int move = 0; move < MOVES; move++) {
+      *plane = moved(&from, centre, reach, move, step);
+      CW_TRY(weigh(model, plan, part, node, least.cost, &worth));
+      if (worth.cost < least.cost - WORTH) {
+        least = worth;
+        best = *plane;
+      }
+    }
+    *plane = best;
+    if (!(least.cost < before)) step /= 2;
+  }
+  CW_TRY(weigh(model, plan, part, node, INFINITY, &least)); // notes what came of it
+done:
+  return status;
+}
+
+CwStatus cw_plan_improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node) {
+  CwStatus status = CW_OK;
+  CwPlanPart half = {0};
+  if (node < 0) goto done;
+  for (int s = 0; s < 2; s++) {
+    CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half));
+    CW_TRY(cw_plan_improve(model, plan, &half, plan->node[node].child[s]));
+    cw_plan_part_free(&half);
+  }
+  if (regions_of(plan, node) <= REGIONS_MOST) CW_TRY(improve_plane(model, plan, part, node));
+done:
+  cw_plan_part_free(&half);
+  return status;
+}

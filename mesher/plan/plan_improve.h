@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Local improvement of a part that is divided. The planner takes planes one by one from a grid of directions; here a
+// plane whose lines, or whose descendants' lines, end slantwise on walls is shifted and turned a little, as long as
+// that costs nothing in angles, room and balance.
+#ifndef CUTWATER_MESHER_PLAN_PLAN_IMPROVE_H
+#define CUTWATER_MESHER_PLAN_PLAN_IMPROVE_H
+
+#include "mesher/plan/plan_model.h"
+
+// Improves the planes of the subtree of `node` (negative: a region, nothing to do), whose cell is `part`. Nodes and
+// regions keep their numbers; notes work and angles in the plan anew.
+CwStatus cw_plan_improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node);
+
+#endif
