@@ -84,14 +84,14 @@ done:
   return status;
 }
 
-int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int32_t *tet, int32_t *ring) {
+int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int most, int32_t *tet, int32_t *ring) {
   // The other two corners in the order that makes (i, j, first, second) an even permutation.
   static const int8_t first_of[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
   const CwDelaunayTet *now = &flips->mesh->tet[t];
   int i = corner_of(now, a), j = corner_of(now, b), first = first_of[i][j], count = 0;
   int32_t from = now->corner[first], to = now->corner[6 - i - j - first], start = t;
   do {
-    if (count == CW_RING) return 0;
+    if (count == most) return 0;
     tet[count] = t;
     ring[count++] = from;
     int32_t next = now->neighbour[corner_of(now, from)];
@@ -213,7 +213,7 @@ CwStatus cw_flips_edge(CwFlips *flips, int32_t t, int32_t a, int32_t b, int *fli
   int32_t old[CW_RING], ring[CW_RING], tet[CW_FLIP][4], slot[CW_FLIP];
   RingTable table;
   *flipped = 0;
-  int n = cw_flips_ring(flips, t, a, b, old, ring);
+  int n = cw_flips_ring(flips, t, a, b, CW_RING, old, ring);
   if (n < 3) goto done;
   int before = crossings(flips, 2, a, b, -1);
   for (int k = 0; k < n; k++) {

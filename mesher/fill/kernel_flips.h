@@ -42,7 +42,7 @@ CwStatus cw_flips_star(CwFlips *flips, int32_t point);
 CwStatus cw_flips_find_edge(CwFlips *flips, int32_t a, int32_t b, int32_t *tet);
 // Tetrahedra round the edge a-b of t: tet[k] has the points ring[k], ring[k + 1], and (a, b, ring[k], ring[k
 // + 1]) is positive. 0 where there are more than CW_RING, or the edge is open.
-int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int32_t *tet, int32_t *ring);
+int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int most, int32_t *tet, int32_t *ring);
 
 // Two tetrahedra at face i of t become three. *flipped is 0 where that is not valid, or adds crossings.
 CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped);

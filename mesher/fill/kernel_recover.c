@@ -60,7 +60,7 @@ static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int dep
   CW_TRY(cw_flips_edge(flips, t, p, q, moved));
   *moved *= 2;
   if (*moved || depth == 0) goto done;
-  int n = cw_flips_ring(flips, t, p, q, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
+  int n = cw_flips_ring(flips, t, p, q, CW_RING, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
   flips->slack = 1; // no more crossings than before
   for (int step = 0; step < n && !*moved; step++) {
     int k = (first + step) % n;
@@ -163,7 +163,7 @@ CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
       moved = 0;
       CW_TRY(cw_flips_find_edge(flips, a, b, &t));
-      int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, tet, ring);
+      int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, CW_RING, tet, ring);
       for (int k = 0; k < n && !*found; k++) *found = ring[k] == c;
       if (*found) goto done;
       for (int k = 0; k < n && !moved; k++) {

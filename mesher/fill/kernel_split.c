@@ -223,7 +223,7 @@ static CwStatus put_point(Splitter *s, const Place *place, int32_t *point) {
   } else {
     int32_t a = place->point[0], b = place->point[1];
     if (cw_facets_has_edge(s->facets, a, b)) goto done;
-    old_count = cw_flips_ring(flips, place->tet, a, b, old, ring);
+    old_count = cw_flips_ring(flips, place->tet, a, b, CW_RING, old, ring);
     for (int k = 0; k < old_count; k++) {
       int32_t from = ring[k], to = ring[(k + 1) % old_count]; // (a, b, from, to) is positive
       const int32_t low[4] = {from, to, a, -1}, high[4] = {to, from, b, -1};

@@ -8,7 +8,7 @@
 #include "mesher/fill/tet_work.h"
 
 static const double insert_limit = 0.4226, round_limit = 0.38;
-enum { PASSES = 5 };
+enum { PASSES = 5, EVENINGS = 2 };
 
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int8_t cw_tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
@@ -117,7 +117,9 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
   w.count.least_before = least_quality(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_TURN;
-  CW_TRY(cw_tet_relax(&w));
+  CW_TRY(cw_tet_relax(&w, 0));
+  CW_TRY(cw_tet_shorten(&w));
+  CW_TRY(cw_tet_relax(&w, EVENINGS));
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_IMPROVE;
   CW_TRY(cw_tet_improve_list(&w, PASSES, 1));

@@ -22,7 +22,7 @@ CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *
   double quality[2 * RING], least = INFINITY;
   RingTable table;
   *done_it = 0;
-  int n = cw_flips_ring(&w->flips, t, a, b, old, ring);
+  int n = cw_flips_ring(&w->flips, t, a, b, RING, old, ring);
   if (n < 3 || n > RING) goto done;
   for (int k = 0; k < n; k++) {
     double q = w->mesh->tet[old[k]].square;

@@ -7,7 +7,7 @@
 
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
 static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
-static const double pull = 0.15;          // of an edge
+static const double pull = 0.1;           // of an edge
 enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
 
 // Sets the quality (1 for all that are regular enough), and puts the tetrahedron into the list where it is
@@ -72,20 +72,23 @@ static inline void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart.
 static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
   const int32_t *c = w->mesh->tet[t].corner;
-  double x[4][3], square[6];
+  const double *x[4];
+  double least = INFINITY, most = 0.0;
   int shortest = 0, longest = 0;
-  for (int k = 0; k < 4; k++) memcpy(x[k], cw_tet_at(w, c[k]), sizeof x[k]);
-  for (int e = 0; e < 6; e++) {
+  for (int k = 0; k < 4; k++) x[k] = cw_tet_at(w, c[k]);
+  for (int e = 0; e < 6; e++) { // without branches: they would be taken at random
     const double *p = x[cw_tet_edge[e][0]], *q = x[cw_tet_edge[e][1]];
-    double u = q[0] - p[0], v = q[1] - p[1], z = q[2] - p[2];
-    square[e] = u * u + v * v + z * z;
-    shortest = square[e] < square[shortest] ? e : shortest;
-    longest = square[e] > square[longest] ? e : longest;
+    double u = q[0] - p[0], v = q[1] - p[1], z = q[2] - p[2], square = u * u + v * v + z * z;
+    int less = square<least, more = square> most;
+    shortest = less ? e : shortest;
+    longest = more ? e : longest;
+    least = less ? square : least;
+    most = more ? square : most;
   }
-  if (!(square[shortest] > CW_TET_FLAT * square[longest])) return;
+  if (!(least > CW_TET_FLAT * most)) return;
   for (int k = 0; k < 2; k++) {
     int e = k ? longest : shortest, a = cw_tet_edge[e][0], b = cw_tet_edge[e][1];
-    double weight = 1.0 / square[e], step = k ? weight * pull : -weight * pull;
+    double weight = 1.0 / (k ? most : least), step = k ? weight * pull : -weight * pull;
     Sum *p = &sum[c[a]], *q = &sum[c[b]];
     for (int i = 0; i < 3; i++) {
       float way = (float)(step * (x[b][i] - x[a][i]));
@@ -189,9 +192,9 @@ done:
 }
 
 // Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
-// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by a short step to where its tetrahedra's
+// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by short steps to where its tetrahedra's
 // edges are more even.
-CwStatus cw_tet_relax(CwTetWork *w) {
+CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
   Sum *sum = NULL;
@@ -206,7 +209,7 @@ CwStatus cw_tet_relax(CwTetWork *w) {
     w->count.points_moved += moved[p];
   }
   move_all(w, add_centre, moved, sum);
-  move_all(w, add_pull, moved, sum);
+  for (int k = 0; k < evenings; k++) move_all(w, add_pull, moved, sum);
   CW_TRY(take_back(w, (const double(*)[3])old, moved));
 done:
   free(sum);

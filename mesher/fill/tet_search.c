@@ -205,6 +205,7 @@ static CwStatus put_back(Search *s) {
   CwStatus status = CW_OK;
   int32_t *place = NULL;
   CwTetWork *w = s->whole;
+  int32_t sources = w->source_count;
   CW_TRY(cw_tet_patch_put(&s->best.patch, w->mesh, &w->source_count, &place));
   for (int32_t k = 0; k < s->best.patch.mesh.tet_count; k++) {
     if (place[k] < 0) continue;
@@ -213,6 +214,7 @@ static CwStatus put_back(Search *s) {
     w->mesh->tet[place[k]].centre[1] = -1.0;
     CW_TRY(cw_tet_set_quality(w, place[k], cw_tet_quality_of(w, c[0], c[1], c[2], c[3])));
   }
+  w->count.points_added += w->source_count - sources;
   w->count.patches_changed++;
 done:
   free(place);

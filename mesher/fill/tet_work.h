@@ -95,9 +95,13 @@ double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough);
 // Pattern search for the point of best least quality from p, which it moves; returns that quality.
 double cw_hollow_best(CwHollow *hollow, double p[3], double start);
 
-// Moves all inner points at once towards even spacing and even edges; then every tetrahedron below the limit is in the
-// list.
-CwStatus cw_tet_relax(CwTetWork *w);
+// Moves all inner points at once towards even spacing and then, in `evenings` steps, towards even edges; after that
+// every tetrahedron below the limit is in the list.
+CwStatus cw_tet_relax(CwTetWork *w, int evenings);
+// Goes once over the tetrahedra whose longest edge is more than 1.6 times the shortest. Three or four round their
+// longest edge are made anew without it where the ratio becomes less in the mean; the least quality of those may fall,
+// to 0.3.
+CwStatus cw_tet_shorten(CwTetWork *w);
 // Sets all qualities and finds the tetrahedra below the limit.
 CwStatus cw_tet_scan(CwTetWork *w);
 

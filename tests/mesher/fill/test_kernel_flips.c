@@ -74,7 +74,7 @@ static void axis_of_a_bipyramid(void **unused) {
   int32_t a = point_from(&mesh, 3), b = point_from(&mesh, 4);
   assert_int_equal(cw_flips_find_edge(&flips, a, b, &t), CW_OK);
   assert_true(t >= 0);
-  assert_int_equal(cw_flips_ring(&flips, t, a, b, tet, ring), 3);
+  assert_int_equal(cw_flips_ring(&flips, t, a, b, CW_RING, tet, ring), 3);
   // Not where that is not wanted.
   const int32_t base[2] = {ring[0], ring[1]};
   flips.context = base;

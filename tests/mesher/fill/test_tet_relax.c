@@ -46,7 +46,7 @@ static void shaken_points_become_even(void **state) {
       .flips = {.mesh = &mesh}, .mesh = &mesh, .limit = CW_TET_IMPROVE, .fixed_count = outside, .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   double six = shape_of(&w, &before, &uneven);
-  assert_int_equal(cw_tet_relax(&w), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, 2), CW_OK);
   assert_true(fabs(shape_of(&w, &after, &even) / six - 1.0) < 1e-12);
   assert_true(after > before + 0.03);
   assert_true(uneven > 1.49 && even < 1.346); // 1.348 by the centres alone
@@ -81,7 +81,7 @@ static void lattice_stays(void **state) {
   CwTetWork w = {
       .flips = {.mesh = &mesh}, .mesh = &mesh, .limit = CW_TET_IMPROVE, .fixed_count = outside, .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
-  assert_int_equal(cw_tet_relax(&w), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, 2), CW_OK);
   for (int32_t p = 0; p < mesh.point_count; p++) {
     if (mesh.source[p] < 0) continue;
     const double *old = x[mesh.source[p]];

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/tet_work.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double slender = 1.6;       // longest over shortest edge: tetrahedra above it are looked at
+static const double usual = 1.4;         // what neither helps nor hinders, so that their number does not count
+static const double gain = 1e-3;         // at least, in the sum
+static const double least_quality = 0.3; // of what comes, or as it was before
+enum { RING = 4 }; // tetrahedra round an edge, at most: of removals with five one in fifteen would help
+
+static inline double square_of(const CwTetWork *w, int32_t p, int32_t q) {
+  const double *x = cw_tet_at(w, p), *y = cw_tet_at(w, q);
+  double u = y[0] - x[0], v = y[1] - x[1], z = y[2] - x[2];
+  return u * u + v * v + z * z;
+}
+
+// Squares of a tetrahedron's edges; the greatest is returned.
+static inline double squares_of(const CwTetWork *w, const int32_t c[4], double square[6], double *shortest) {
+  double longest = 0.0;
+  *shortest = INFINITY;
+  for (int e = 0; e < 6; e++) {
+    square[e] = square_of(w, c[cw_tet_edge[e][0]], c[cw_tet_edge[e][1]]);
+    *shortest = cw_tet_less(*shortest, square[e]);
+    longest = cw_tet_more(longest, square[e]);
+  }
+  return longest;
+}
+
+// Longest over shortest edge, less the usual.
+static double excess_of(const CwTetWork *w, const int32_t c[4]) {
+  double square[6], shortest, longest = squares_of(w, c, square, &shortest);
+  return sqrt(longest / shortest) - usual;
+}
+
+// Removes the edge a-b of t, whose square is given.
+static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, double square) {
+  CwStatus status = CW_OK;
+  int32_t old[CW_RING], ring[CW_RING], made[RING][4];
+  double before = 0.0, after = 0.0, quality[RING], least = least_quality;
+  int n = cw_flips_ring(&w->flips, t, a, b, RING, old, ring), count = n == 3 ? 2 : 4, first = 0;
+  if (n < 3) goto done;
+  if (n == 4) { // the shorter one of the two edges that may come
+    double one = square_of(w, ring[0], ring[2]), other = square_of(w, ring[1], ring[3]);
+    if (one >= square && other >= square) goto done;
+    first = other < one;
+  }
+  for (int k = 0; k < n; k++) {
+    before += excess_of(w, w->mesh->tet[old[k]].corner);
+    least = cw_tet_less(least, w->mesh->tet[old[k]].square);
+  }
+  for (int k = 0; k < count; k++) {
+    int32_t p = ring[first], q = ring[first + 1 + k / 2], r = ring[(first + 2 + k / 2) % n];
+    memcpy(made[k], k % 2 ? (int32_t[4]){p, r, q, a} : (int32_t[4]){p, q, r, b}, sizeof *made);
+    after += excess_of(w, made[k]);
+  }
+  if (!(after < before - gain)) goto done;
+  for (int k = 0; k < count; k++) {
+    quality[k] = cw_tet_quality_of(w, made[k][0], made[k][1], made[k][2], made[k][3]);
+    if (!(quality[k] > 0.0 && quality[k] >= least)) goto done;
+  }
+  CW_TRY(cw_tet_replace(w, n, old, count, (const int32_t(*)[4])made, quality));
+  w->count.edges_removed++;
+done:
+  return status;
+}
+
+CwStatus cw_tet_shorten(CwTetWork *w) {
+  CwStatus status = CW_OK;
+  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
+    const int32_t *c = w->mesh->tet[t].corner;
+    if (c[0] < 0) continue;
+    double square[6], shortest, longest = squares_of(w, c, square, &shortest);
+    if (!(longest > slender * slender * shortest)) continue;
+    int e = 0;
+    while (square[e] < longest) e++;
+    CW_TRY(remove_edge(w, t, c[cw_tet_edge[e][0]], c[cw_tet_edge[e][1]], longest));
+  }
+done:
+  return status;
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "mesher/fill/tet_mesh.h"
+#include "mesher/fill/tet_work.h"
+#include "shaken_lattice.h"
+
+typedef struct {
+  int count;
+  double six, aspect, least; // sums, and the least quality
+} Shape;
+
+static Shape shape_of(const CwTetWork *w) {
+  Shape shape = {.least = 1.0};
+  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
+    const int32_t *c = w->mesh->tet[t].corner;
+    if (c[0] < 0) continue;
+    CwTetMeasures m = cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+    double shortest, longest;
+    assert_true(m.six > 0.0);
+    cw_tet_edges(&m, &shortest, &longest);
+    shape.six += m.six;
+    shape.aspect += sqrt(longest / shortest);
+    shape.least = fmin(shape.least, cw_tet_quality_of(w, c[0], c[1], c[2], c[3]));
+    shape.count++;
+  }
+  return shape;
+}
+
+static void release(CwTetWork *w) {
+  free(w->bad);
+  free(w->next);
+  cw_delaunay_free(w->mesh);
+}
+
+static void tetrahedra_become_less_slender(void **state) {
+  double(*x)[3];
+  int32_t outside, count = shaken_lattice(8, 0.15, &outside, &x);
+  CwDelaunay mesh;
+  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
+  CwTetWork w = {
+      .flips = {.mesh = &mesh}, .mesh = &mesh, .limit = CW_TET_TURN, .fixed_count = outside, .source_count = count};
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  Shape before = shape_of(&w);
+  assert_int_equal(cw_tet_shorten(&w), CW_OK);
+  Shape after = shape_of(&w);
+  assert_true(fabs(after.six / before.six - 1.0) < 1e-12);
+  assert_true(after.least >= fmin(before.least, 0.3));
+  assert_true(w.count.edges_removed > before.count / 50);
+  assert_true(after.aspect / after.count < before.aspect / before.count - 0.005);
+  for (int32_t t = 0; t < mesh.tet_count; t++) { // qualities are kept, those below the limit listed
+    const CwDelaunayTet *tet = &mesh.tet[t];
+    const int32_t *c = tet->corner;
+    if (c[0] < 0) continue;
+    assert_true(tet->square == 1.0 || tet->square == cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]));
+    int listed = tet->square >= w.limit;
+    for (int32_t k = 0; k < w.next_count && !listed; k++) listed = w.next[k] == t;
+    assert_true(listed);
+    for (int i = 0; i < 4; i++) // neighbours know one another
+      assert_true(tet->neighbour[i] < 0 ||
+                  mesh.tet[tet->neighbour[i] / 4].neighbour[tet->neighbour[i] % 4] == 4 * t + i);
+  }
+  release(&w);
+  free(x);
+}
+
+// Tetrahedra round the edge from point 0 to point 1 (upright, of length 1), with `n` points round it in turn: after
+// shortening, how many there are, and how many still have the edge.
+static void shorten_round(int n, const double (*round)[2], int *count, int *with) {
+  double x[6][3] = {{0, 0, 0.5}, {0, 0, -0.5}};
+  int32_t tet[4][4];
+  CwFill fill = {.point_count = 2 + n, .x = x, .tetrahedron_count = n, .tetrahedron = tet};
+  CwDelaunay mesh = {0};
+  for (int k = 0; k < n; k++) {
+    memcpy(x[2 + k], round[k], sizeof *round);
+    x[2 + k][2] = 0.0;
+    memcpy(tet[k], (int32_t[4]){1, 0, 2 + k, 2 + (k + 1) % n}, sizeof *tet);
+  }
+  assert_int_equal(cw_tet_mesh_make(&fill, &mesh), CW_OK);
+  CwTetWork w = {.flips = {.mesh = &mesh}, .mesh = &mesh, .fixed_count = 2 + n, .source_count = 2 + n};
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  double six = shape_of(&w).six;
+  assert_int_equal(cw_tet_shorten(&w), CW_OK);
+  Shape shape = shape_of(&w);
+  assert_true(fabs(shape.six / six - 1.0) < 1e-12);
+  *count = shape.count;
+  *with = 0;
+  for (int32_t t = 0; t < mesh.tet_count; t++) {
+    int ends = 0;
+    for (int i = 0; i < 4 && mesh.tet[t].corner[0] >= 0; i++) {
+      int32_t source = mesh.source[mesh.tet[t].corner[i]];
+      ends += source == 0 || source == 1;
+    }
+    *with += ends == 2;
+  }
+  release(&w);
+}
+
+static void an_edge_goes_where_shorter_ones_come(void **state) {
+  int count, with;
+  shorten_round(3, (const double[3][2]){{0.33, 0}, {-0.165, 0.286}, {-0.165, -0.286}}, &count, &with);
+  assert_int_equal(count, 2);
+  assert_int_equal(with, 0);
+  shorten_round(4, (const double[4][2]){{0.55, 0}, {0, 0.35}, {-0.55, 0}, {0, -0.35}}, &count, &with);
+  assert_int_equal(count, 4); // round the edge of 0.7
+  assert_int_equal(with, 0);
+  shorten_round(4, (const double[4][2]){{0.85, 0}, {0, 0.6}, {-0.85, 0}, {0, -0.6}}, &count, &with);
+  assert_int_equal(with, 4); // the others are longer
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(tetrahedra_become_less_slender),
+      cmocka_unit_test(an_edge_goes_where_shorter_ones_come),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
