@@ -10,10 +10,11 @@
 #include "mesher/fill/tet_work.h"
 
 // Sines of dihedral angles.
-static const double wanted = 0.2250;   // 13 degrees: a search begins where there is less
-static const double reached = 0.2419;  // 14 degrees: it ends
-static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again,
-static const double worthwhile = 0.85; // and below so much of the angle that the boundary allows, too
+static const double bad = 0.2250;      // 13 degrees: a search begins where there is less,
+static const double wanted = 0.3090;   // and below 18 degrees where that is
+static const double worthwhile = 0.85; // less than so much of the angle that the boundary allows
+static const double beyond = 0.0170;   // a degree: a search ends so much above where it begins
+static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again, where it is worthwhile
 static const double counted = 0.3746;  // 22 degrees: what is less counts in a patch
 static const double sound = 0.02;      // what a disturbance leaves, at least; flatter ones are no matter of this search
 static const double alike = 0.05;      // above the worst: those that are disturbed, too
@@ -24,7 +25,8 @@ enum {
   TRIES = 400,    // of a beginning
   IDLE = 250,     // of these, without a gain
   SHARE = 500,    // one try for as many tetrahedra of the mesh: half as long as their fill takes,
-  FEWEST = 600,   // or so many
+  FEWEST = 600,   // or so many,
+  MILD = 200,     // or so many, where none is below 13 degrees
   BEGINNINGS = 8, // of a place where one is
   MIXED = 3,      // in one beginning of as many points do not only go in
   FEW = 250,      // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
@@ -50,7 +52,8 @@ typedef struct {
   CwDelaunay trial;
   uint64_t random;
   int32_t tries; // left
-  double again;  // least sine below which a search begins again
+  double begin;  // least sine below which a search begins
+  double again;  // and begins again
   int mixed;     // all kinds of disturbances, though an angle is pressing
 } Search;
 
@@ -229,7 +232,7 @@ static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
   *best = rate(&s->now.patch.mesh);
   s->now.gain = best->deficit;
-  for (int k = 0, idle = 0; best->least < reached && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
+  for (int k = 0, idle = 0; best->least < s->begin + beyond && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
     s->tries--;
     s->whole->count.search_tries++;
     CW_TRY(try_disturbed(s, best->least, &trial));
@@ -280,12 +283,12 @@ static int32_t count_bad(const CwTetWork *w) {
   int32_t count = 0;
   for (int32_t k = 0; k < w->next_count; k++) {
     int32_t t = w->next[k];
-    count += w->mesh->tet[t].corner[0] >= 0 && w->mesh->tet[t].square < wanted && least_sine(w->mesh, t) < wanted;
+    count += w->mesh->tet[t].corner[0] >= 0 && w->mesh->tet[t].square < bad && least_sine(w->mesh, t) < bad;
   }
   return count;
 }
 
-// The least sine below which a place of this mesh is searched again and again.
+// The sine of the least angle of a place of this mesh for which more than one search is worthwhile.
 static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, allowed;
@@ -307,7 +310,7 @@ static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
                           .triangle_count = count,
                           .triangle = (const int32_t(*)[3])triangle};
   CW_TRY(cw_tet_bound(&boundary, &allowed, &worst));
-  *sine = fmin(pressing, sin(worthwhile * allowed * CW_DEGREE));
+  *sine = sin(worthwhile * allowed * CW_DEGREE);
 done:
   free(triangle);
   free(x);
@@ -316,23 +319,30 @@ done:
 
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
-  Search s = {.whole = w, .work = {.limit = counted, .insert = wanted, .insert_round = wanted, .fixed_count = 1}};
-  double place[PLACES][3], reach[PLACES];
+  Search s = {.whole = w, .begin = wanted, .work = {.limit = counted, .fixed_count = 1}};
+  double place[PLACES][3], reach[PLACES], worth = 0.0;
   s.work.mesh = s.work.flips.mesh = &s.trial;
   s.work.source_count = 1;
   if (count_bad(w) <= w->mesh->tet_count / FEW)
     s.tries = w->mesh->tet_count > SHARE * FEWEST ? w->mesh->tet_count / SHARE : FEWEST;
   for (int n = 0; n < PLACES && s.tries > 0; n++) {
-    double least = wanted;
+    double least = s.begin;
     int32_t worst = -1;
     for (int32_t k = 0; k < w->next_count; k++) {
       int32_t t = w->next[k];
-      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= wanted) continue;
+      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= least) continue;
       double sine = least_sine(w->mesh, t);
       if (sine < least && sine > sound && !is_near(w, t, n, (const double(*)[3])place, reach)) least = sine, worst = t;
     }
     if (worst < 0) break;
-    if (n == 0 && least < pressing) CW_TRY(least_worthwhile(w->mesh, &s.again));
+    if (n == 0) {
+      CW_TRY(least_worthwhile(w->mesh, &worth));
+      s.again = fmin(pressing, worth);
+      s.begin = fmin(wanted, fmax(bad, worth));
+      s.work.insert = s.work.insert_round = s.begin;
+      if (least >= s.begin) break;
+      if (least >= bad) s.tries = MILD;
+    }
     memcpy(place[n], cw_tet_at(w, w->mesh->tet[worst].corner[0]), sizeof place[n]);
     reach[n] = 2.0 * mean_edge(w->mesh, worst); // what else is bad there was before the same search
     CW_TRY(search_place(&s, worst));

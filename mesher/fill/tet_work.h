@@ -81,10 +81,11 @@ CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it);
 CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least);
 // Goes over the list, again and again while something changes. The first pass adds no points.
 CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move);
-// Where single changes have left dihedral angles below 13 degrees in the list: disturbs patches of a few hundred
-// tetrahedra and improves them again, hundreds of times; what is better in all is kept. The same every time. A place
-// below 12 degrees is begun with again while the boundary (cw_tet_bound) allows clearly more than is reached. There are
-// no more than 600 disturbances in all, or one for 500 tetrahedra: a search takes about half as long as their fill.
+// Where single changes have left dihedral angles below 13 degrees in the list, or below 18 and below 0.85 of what the
+// boundary allows (cw_tet_bound): disturbs patches of a few hundred tetrahedra and improves them again, hundreds of
+// times; what is better in all is kept. The same every time. A place below 12 degrees is begun with again while the
+// boundary allows clearly more than is reached. There are no more than 600 disturbances in all, or one for 500
+// tetrahedra, and 200 where nothing is below 13 degrees: a search takes about half as long as their fill.
 CwStatus cw_tet_search(CwTetWork *w);
 
 // Tetrahedra of an inner point of t; 0 where there are more than CW_TET_STAR.
