@@ -18,7 +18,8 @@ static const double far_centre = 5e-12; // on radius^2 / centre^2
 // Corners of the face opposite corner i, outward.
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-enum { LOCAL = 64 }; // points round a cavity that the edge table holds
+enum { WITHIN = 1, BEYOND = 2, TAKEN = 4 }; // of a sphere, and in the cavity already
+enum { LOCAL = 64 };                        // points round a cavity that the edge table holds
 
 typedef struct {
   int32_t corner[3]; // seen counter-clockwise from outside of the cavity
@@ -38,7 +39,8 @@ typedef struct {
   Edge *edge;
   int32_t edge_space;
   double (*arm)[4]; // from the new point to each point round the cavity, and its square
-  int32_t arm_space;
+  int32_t *round;   // these points
+  int32_t arm_space, round_space;
   int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
 } Work;
 
@@ -131,9 +133,13 @@ static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, con
   return cw_insphere(at(mesh, c[0]), at(mesh, c[1]), at(mesh, c[2]), at(mesh, c[3]), p) > 0;
 }
 
-static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
+static inline double square_from_centre(const CwDelaunayTet *t, const double p[3]) {
   double x = p[0] - t->centre[0], y = p[1] - t->centre[1], z = p[2] - t->centre[2];
-  double square = x * x + y * y + z * z;
+  return x * x + y * y + z * z;
+}
+
+static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
+  double square = square_from_centre(t, p);
   if (square > t->square * (1.0 + band)) return 0;
   if (square < t->square * (1.0 - band)) return 1;
   return in_sphere_exactly(mesh, t, p);
@@ -198,7 +204,16 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
   }
 }
 
-// All tetrahedra whose spheres hold p, from one of them; their square becomes -1.
+// A condition as a number of which the compiler makes no branch.
+static inline unsigned number(int condition) {
+  unsigned n = (unsigned)condition;
+  __asm__("" : "+r"(n));
+  return n;
+}
+
+// All tetrahedra whose spheres hold p, from one of them; their square becomes -1. Whether a face leads to one more, to
+// one outside or to one that was met before is as good as random, and as branches half of them were foretold wrongly,
+// which took a third of the time: instead both lists are written to, and one of them, or none, keeps it.
 static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3]) {
   CwStatus status = CW_OK;
   work->cavity_count = work->side_count = 0;
@@ -211,18 +226,21 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
     CW_GROW(work->side, work->side_space, work->side_count + 4);
     for (int i = 0; i < 4; i++) {
       int32_t outer = tet->neighbour[i];
+      unsigned known = BEYOND;
       if (outer >= 0) {
         CwDelaunayTet *next = &mesh->tet[outer >> 2];
-        if (next->square == -1.0) continue;
-        if (in_sphere(mesh, next, p)) {
-          next->square = -1.0;
-          work->cavity[work->cavity_count++] = outer >> 2;
-          continue;
-        }
+        double square = square_from_centre(next, p), limit = next->square;
+        known = number(square < limit * (1.0 - band)) | number(square > limit * (1.0 + band)) << 1 |
+                number(limit < 0.0) << 2;
+        if (known == 0) known = in_sphere_exactly(mesh, next, p) ? WITHIN : BEYOND;
+        next->square = (double[2]){limit, -1.0}[known & WITHIN];
       }
-      Side *side = &work->side[work->side_count++];
+      work->cavity[work->cavity_count] = outer >> 2;
+      work->cavity_count += known & WITHIN;
+      Side *side = &work->side[work->side_count];
       for (int k = 0; k < 3; k++) side->corner[k] = tet->corner[tet_face[i][k]];
       side->outer = outer;
+      work->side_count += known == BEYOND;
     }
   }
 done:
@@ -264,18 +282,18 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
   CwStatus status = CW_OK;
   const double *p = mesh->point[point].x;
   int32_t locals = 0, *table = work->table;
+  CW_GROW(work->arm, work->arm_space, 3 * (int64_t)work->side_count + 1);
+  CW_GROW(work->round, work->round_space, 3 * (int64_t)work->side_count + 1);
   for (int32_t k = 0; k < work->side_count; k++) {
     Side *side = &work->side[k];
-    CW_GROW(work->arm, work->arm_space, locals + 3);
-    for (int i = 0; i < 3; i++) {
-      CwDelaunayPoint *q = &mesh->point[side->corner[i]];
-      if (q->mark >> 32 != (uint64_t)point) {
-        double *arm = work->arm[locals];
-        q->mark = (uint64_t)point << 32 | (uint64_t)locals++;
-        for (int j = 0; j < 3; j++) arm[j] = q->x[j] - p[j];
-        arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
-      }
-      side->local[i] = (int32_t)(uint32_t)q->mark;
+    for (int i = 0; i < 3; i++) { // without branches, as above
+      uint64_t *mark = &mesh->point[side->corner[i]].mark;
+      uint64_t now = (uint64_t)point << 32 | (uint64_t)locals;
+      uint64_t fresh = (((*mark ^ now) >> 32) + UINT32_MAX) >> 32;
+      work->round[locals] = side->corner[i];
+      *mark ^= (*mark ^ now) & -fresh;
+      side->local[i] = (int32_t)(uint32_t)*mark;
+      locals += (int32_t)fresh;
     }
     if (k < work->cavity_count)
       side->tet = work->cavity[k];
@@ -283,6 +301,12 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
       CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
   }
   for (int32_t k = work->side_count; k < work->cavity_count; k++) cw_delaunay_free_tet(mesh, work->cavity[k]);
+  for (int32_t l = 0; l < locals; l++) {
+    const double *x = mesh->point[work->round[l]].x;
+    double *arm = work->arm[l];
+    for (int i = 0; i < 3; i++) arm[i] = x[i] - p[i];
+    arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
+  }
   int tabled = locals <= LOCAL;
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
@@ -422,6 +446,7 @@ done:
     free(work->side);
     free(work->edge);
     free(work->arm);
+    free(work->round);
   }
   free(work);
   if (status != CW_OK) cw_delaunay_free(mesh);
