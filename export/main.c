@@ -7,6 +7,7 @@
 #include "export/stage.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
+#include "pipeline/stop_line.h"
 
 int main(int argc, char **argv) {
   CwStatus status = CW_OK;
@@ -25,6 +26,7 @@ int main(int argc, char **argv) {
   MPI_Comm_rank(ranks.comm, &ranks.rank);
   MPI_Comm_size(ranks.comm, &ranks.size);
   CW_TRY(cw_ranks_agree(&ranks, cw_stage_begin(argc, argv, &usage, ranks.rank == 0, &args, &table)));
+  if (!args.finished) CW_TRY(cw_ranks_agree(&ranks, cw_stop_watch(args.run_path, "export", ranks.rank == 0)));
   if (!args.finished) CW_TRY(cw_export_run(&table, args.run_path, &ranks));
 done:;
   int speaks = cw_ranks_speaks_of(&ranks, status);
@@ -32,6 +34,7 @@ done:;
   // All ranks end with the same code: mpirun passes on the first one it sees.
   MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, ranks.comm);
   cw_log_close();
+  cw_stop_end();
   H5close();
   MPI_Finalize();
   return code;

@@ -8,6 +8,7 @@
 #include "mesher/run/mesh_run.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
+#include "pipeline/stop_line.h"
 
 static const CwStageUsage USAGE = {
     .stage = "mesh",
@@ -26,6 +27,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_mpi_start(&argc, &argv, &run.rank, &run.ranks));
   CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
   if (args.finished) goto done;
+  CW_TRY(cw_stop_watch(args.run_path, "mesh", run.rank == 0));
   run.table = &table;
   run.run_path = args.run_path;
   CW_TRY(cw_record_start("mesh", &run.record));
@@ -49,6 +51,7 @@ done:
   cw_record_free(run.record);
   free(record_path);
   cw_log_close();
+  cw_stop_end();
   cw_mpi_end();
   return 0;
 }

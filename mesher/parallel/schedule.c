@@ -10,6 +10,7 @@
 
 #include "mesher/parallel/ledger.h"
 #include "pipeline/log.h"
+#include "pipeline/stop_line.h"
 
 enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
 enum { CHUNK = 1 << 26 }; // bytes of one broadcast: counts of MPI are int
@@ -111,6 +112,7 @@ void cw_mpi_end(void) {
 }
 
 int cw_mpi_fail(CwStatus status) {
+  cw_stop_claim(); // the others, stopped for this, are to say nothing
   if (world.ranks == 1) return cw_log_error(status);
   // The second to fail leaves the line to the first, and time to print it.
   if (add_on(0, SLOT_FAILED, 1) > 0) sleep_seconds(5.0);

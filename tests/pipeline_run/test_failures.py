@@ -144,6 +144,20 @@ class Failures(unittest.TestCase):
                 self.assertEqual(result.returncode, 4)
                 self.assertEqual(result.stdout.strip(), f"cutwater-{name}: error: {run / name}: is not a folder")
 
+    def test_a_run_that_is_stopped_says_so_once(self):
+        run = with_geometry("stopped")
+        process = start("mesh", run, cells="2M", ranks=3)
+        for line in process.stderr:
+            if "size field" in line:
+                break
+        os.kill(process.pid, signal.SIGTERM)
+        _, text = process.communicate(timeout=60)
+        self.assertGreater(process.returncode, 0)
+        self.assertEqual(len(error_lines(text, "mesh")), 1, text)
+        self.assertIn("stopped from outside", error_lines(text, "mesh")[0])
+        self.assertEqual(files_of(run / "mesh"), [])
+        self.assertEqual([path.name for path in (run / "log").iterdir()], ["mesh.log"])
+
     def test_a_killed_rank_ends_the_run(self):
         run = with_geometry("killed")
         process = start("mesh", run, cells="2M", ranks=3)
@@ -160,6 +174,8 @@ class Failures(unittest.TestCase):
         _, text = process.communicate(timeout=60)
         self.assertLess(time.monotonic() - killed, 60)
         self.assertNotEqual(process.returncode, 0)
+        self.assertEqual(len(error_lines(text, "mesh")), 1, text)
+        self.assertIn("a rank was killed", error_lines(text, "mesh")[0])
         self.assertFalse((run / "mesh/manifest.json").exists())
         self.assertFalse((run / "mesh/record.json").exists())
         # mpirun may end a moment before the ranks that it has told to stop.

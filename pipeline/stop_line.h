@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// One line where a run under mpirun is stopped: when a rank is killed, or mpirun itself is told to stop, all ranks get
+// SIGTERM and would end without a word.
+#ifndef CUTWATER_PIPELINE_STOP_LINE_H
+#define CUTWATER_PIPELINE_STOP_LINE_H
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// From here on SIGTERM ends this process with exit status 143, and one of the ranks says so: the first to remove
+// RUN/log/STAGE.running, which the rank that `makes` it makes here. Where it cannot be made the run goes on without.
+// CW_ERR_MEMORY.
+CwStatus cw_stop_watch(const char *run, const char *stage, int makes);
+
+// Whether this process is the one to say why the run ends: 1 for one of all ranks, and where nobody watches.
+int cw_stop_claim(void);
+
+// The end of the run: the rank that made the file removes it; SIGTERM does what it did before.
+void cw_stop_end(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Ranks that are stopped: one of them says so.
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "pipeline/stop_line.h"
+
+enum { RANKS = 4 };
+
+static char run[64], token[100];
+
+// A rank: watches, tells so on `ready`, and waits for the signal.
+static void be_rank(int rank, int told, int ready) {
+  alarm(60); // where the test ends before
+  dup2(told, STDERR_FILENO);
+  if (cw_stop_watch(run, "mesh", rank == 0) != CW_OK || write(ready, "r", 1) != 1) _exit(1);
+  for (;;) pause();
+}
+
+static void start_ranks(pid_t rank[RANKS], int *told) {
+  int told_pipe[2], ready_pipe[2];
+  char letter;
+  assert_int_equal(pipe(told_pipe), 0);
+  assert_int_equal(pipe(ready_pipe), 0);
+  for (int k = 0; k < RANKS; k++) {
+    rank[k] = fork();
+    assert_true(rank[k] >= 0);
+    if (rank[k] == 0) be_rank(k, told_pipe[1], ready_pipe[1]);
+    assert_int_equal(read(ready_pipe[0], &letter, 1), 1);
+  }
+  close(told_pipe[1]);
+  close(ready_pipe[0]);
+  close(ready_pipe[1]);
+  *told = told_pipe[0];
+}
+
+// Ends the ranks from `first` on as mpirun does; gives what all ranks have said.
+static void stop_ranks(const pid_t rank[RANKS], int first, int told, char said[1000]) {
+  size_t length = 0;
+  for (int k = first; k < RANKS; k++) assert_int_equal(kill(rank[k], SIGTERM), 0);
+  for (int k = first; k < RANKS; k++) {
+    int status;
+    assert_int_equal(waitpid(rank[k], &status, 0), rank[k]);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 128 + SIGTERM);
+  }
+  for (ssize_t got; (got = read(told, said + length, 999 - length)) > 0;) length += (size_t)got;
+  said[length] = '\0';
+  close(told);
+}
+
+static void one_of_all_ranks_tells(void **state) {
+  pid_t rank[RANKS];
+  char said[1000];
+  int told;
+  start_ranks(rank, &told);
+  assert_int_equal(access(token, F_OK), 0);
+  stop_ranks(rank, 0, told, said);
+  assert_ptr_equal(strstr(said, "cutwater-mesh: error: stopped from outside"), said);
+  assert_ptr_equal(strchr(said, '\n'), said + strlen(said) - 1);
+  assert_int_not_equal(access(token, F_OK), 0);
+}
+
+static void one_tells_where_the_first_is_killed(void **state) {
+  pid_t rank[RANKS];
+  char said[1000];
+  int told;
+  start_ranks(rank, &told);
+  kill(rank[0], SIGKILL);
+  assert_int_equal(waitpid(rank[0], NULL, 0), rank[0]);
+  stop_ranks(rank, 1, told, said);
+  assert_ptr_equal(strchr(said, '\n'), said + strlen(said) - 1);
+}
+
+static void nobody_tells_after_an_error(void **state) {
+  pid_t rank[RANKS];
+  char said[1000];
+  int told;
+  start_ranks(rank, &told);
+  assert_int_equal(cw_stop_watch(run, "mesh", 0), CW_OK); // as one rank more, which fails
+  assert_int_equal(cw_stop_claim(), 1);
+  cw_stop_end();
+  stop_ranks(rank, 0, told, said);
+  assert_string_equal(said, "");
+}
+
+static void the_end_leaves_nothing(void **state) {
+  struct sigaction action;
+  assert_int_equal(cw_stop_watch(run, "mesh", 1), CW_OK);
+  assert_int_equal(access(token, F_OK), 0);
+  cw_stop_end();
+  assert_int_not_equal(access(token, F_OK), 0);
+  sigaction(SIGTERM, NULL, &action);
+  assert_true(action.sa_handler == SIG_DFL);
+  assert_int_equal(cw_stop_claim(), 1); // nobody watches
+}
+
+static int make_run(void **state) {
+  char log[80];
+  strcpy(run, "/tmp/cutwater-stop-XXXXXX");
+  assert_non_null(mkdtemp(run));
+  snprintf(log, sizeof log, "%s/log", run);
+  snprintf(token, sizeof token, "%s/mesh.running", log);
+  return mkdir(log, 0777);
+}
+
+static int remove_run(void **state) {
+  char command[100];
+  snprintf(command, sizeof command, "rm -r %s", run);
+  return system(command);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(one_of_all_ranks_tells, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(one_tells_where_the_first_is_killed, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(nobody_tells_after_an_error, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(the_end_leaves_nothing, make_run, remove_run),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
