@@ -6,6 +6,7 @@
 
 #include "export/stage.h"
 #include "pipeline/log.h"
+#include "pipeline/mpi_settings.h"
 #include "pipeline/stage_args.h"
 #include "pipeline/stop_line.h"
 
@@ -22,6 +23,7 @@ int main(int argc, char **argv) {
   // Memory of one region serves the next: it is not given back to the system in between.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  cw_mpi_settings();
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(ranks.comm, &ranks.rank);
   MPI_Comm_size(ranks.comm, &ranks.size);

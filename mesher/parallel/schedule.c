@@ -10,6 +10,7 @@
 
 #include "mesher/parallel/ledger.h"
 #include "pipeline/log.h"
+#include "pipeline/mpi_settings.h"
 #include "pipeline/stop_line.h"
 
 enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
@@ -65,17 +66,10 @@ static void quiet_barrier(int progress) {
   }
 }
 
-// Where all ranks are on one machine, Open MPI's way over shared memory needs none of the libraries of fast networks,
-// and to load and ask them is more than half of what a rank needs to start. What the user has chosen stays.
-static void stay_on_this_machine(void) {
-  const char *all = getenv("OMPI_COMM_WORLD_SIZE"), *here = getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
-  if (all && here && strcmp(all, here) == 0) setenv("OMPI_MCA_pml", "ob1", 0);
-}
-
 CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
   CwStatus status = CW_OK;
   int given;
-  stay_on_this_machine();
+  cw_mpi_settings();
   CW_REQUIRE(MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &given) == MPI_SUCCESS, CW_ERR_LIBRARY,
              "MPI cannot be started");
   MPI_Comm_rank(MPI_COMM_WORLD, &world.rank);

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How Open MPI is to start, where the user has not chosen. Before MPI_Init.
+#ifndef CUTWATER_PIPELINE_MPI_SETTINGS_H
+#define CUTWATER_PIPELINE_MPI_SETTINGS_H
+
+// Where all ranks are on one machine, Open MPI's way over shared memory needs none of the libraries of fast networks,
+// and to load and ask them is more than half of what a rank needs to start. A rank started without mpirun needs no
+// daemon beside it either, which takes a quarter of a second: nobody is going to join it.
+void cw_mpi_settings(void);
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "pipeline/mpi_settings.h"
+
+static const char *const names[] = {"OMPI_COMM_WORLD_SIZE",
+                                    "OMPI_COMM_WORLD_LOCAL_SIZE",
+                                    "PMIX_NAMESPACE",
+                                    "PMI_RANK",
+                                    "OMPI_MCA_ess_singleton_isolated",
+                                    "OMPI_MCA_pml"};
+
+static int forget_all(void **state) {
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) unsetenv(names[k]);
+  return 0;
+}
+
+static void a_rank_without_mpirun_starts_no_daemon(void **state) {
+  cw_mpi_settings();
+  assert_string_equal(getenv("OMPI_MCA_ess_singleton_isolated"), "1");
+  assert_string_equal(getenv("OMPI_MCA_pml"), "ob1");
+}
+
+static void ranks_of_one_machine_share_memory(void **state) {
+  setenv("OMPI_COMM_WORLD_SIZE", "4", 1);
+  setenv("OMPI_COMM_WORLD_LOCAL_SIZE", "4", 1);
+  cw_mpi_settings();
+  assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
+  assert_string_equal(getenv("OMPI_MCA_pml"), "ob1");
+}
+
+static void ranks_of_several_machines_take_what_there_is(void **state) {
+  setenv("OMPI_COMM_WORLD_SIZE", "8", 1);
+  setenv("OMPI_COMM_WORLD_LOCAL_SIZE", "4", 1);
+  cw_mpi_settings();
+  assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
+  assert_null(getenv("OMPI_MCA_pml"));
+}
+
+static void other_launchers_are_left_alone(void **state) {
+  for (int k = 2; k < 4; k++) {
+    forget_all(NULL);
+    setenv(names[k], "1", 1);
+    cw_mpi_settings();
+    assert_null(getenv("OMPI_MCA_ess_singleton_isolated"));
+    assert_null(getenv("OMPI_MCA_pml"));
+  }
+}
+
+static void what_the_user_chose_stays(void **state) {
+  setenv("OMPI_MCA_pml", "ucx", 1);
+  cw_mpi_settings();
+  assert_string_equal(getenv("OMPI_MCA_pml"), "ucx");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup(a_rank_without_mpirun_starts_no_daemon, forget_all),
+      cmocka_unit_test_setup(ranks_of_one_machine_share_memory, forget_all),
+      cmocka_unit_test_setup(ranks_of_several_machines_take_what_there_is, forget_all),
+      cmocka_unit_test_setup(other_launchers_are_left_alone, forget_all),
+      cmocka_unit_test_setup(what_the_user_chose_stays, forget_all),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
