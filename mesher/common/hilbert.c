@@ -21,13 +21,10 @@ uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
   for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
     uint32_t below = bit - 1;
     for (int i = 0; i < 3; i++) {
-      if (c[i] & bit) {
-        c[0] ^= below;
-      } else {
-        uint32_t t = (c[0] ^ c[i]) & below;
-        c[0] ^= t;
-        c[i] ^= t;
-      }
+      // Where the bit is set the bits below it are turned over, else exchanged; without a branch, for it is random.
+      uint32_t set = -(uint32_t)((c[i] & bit) != 0), t = (c[0] ^ c[i]) & below & ~set;
+      c[0] ^= t | (below & set);
+      c[i] ^= t;
     }
   }
   c[1] ^= c[0];

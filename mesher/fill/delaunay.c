@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/hilbert.h"
+#include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
 
 // Relative band of the stored sphere within which the exact predicate decides, and the two conditions under
@@ -204,13 +205,6 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
   }
 }
 
-// A condition as a number of which the compiler makes no branch.
-static inline unsigned number(int condition) {
-  unsigned n = (unsigned)condition;
-  __asm__("" : "+r"(n));
-  return n;
-}
-
 // All tetrahedra whose spheres hold p, from one of them; their square becomes -1. Whether a face leads to one more, to
 // one outside or to one that was met before is as good as random, and as branches half of them were foretold wrongly,
 // which took a third of the time: instead both lists are written to, and one of them, or none, keeps it.
@@ -230,8 +224,8 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
       if (outer >= 0) {
         CwDelaunayTet *next = &mesh->tet[outer >> 2];
         double square = square_from_centre(next, p), limit = next->square;
-        known = number(square < limit * (1.0 - band)) | number(square > limit * (1.0 + band)) << 1 |
-                number(limit < 0.0) << 2;
+        known = cw_number(square < limit * (1.0 - band)) | cw_number(square > limit * (1.0 + band)) << 1 |
+                cw_number(limit < 0.0) << 2;
         if (known == 0) known = in_sphere_exactly(mesh, next, p) ? WITHIN : BEYOND;
         next->square = (double[2]){limit, -1.0}[known & WITHIN];
       }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/number.h"
+
 struct CwColumns {
   const double (*x)[3];
   const int32_t (*triangle)[3];
@@ -12,7 +14,8 @@ struct CwColumns {
   int64_t *start;  // of each bin; bins + 1
   int32_t *member; // triangles whose box meets the bin
   double *z;
-  int32_t z_space;
+  int32_t *chosen; // members of a bin that are looked at closely
+  int32_t z_space, chosen_space;
 };
 
 static int32_t bin_of(const CwColumns *columns, int axis, double value) {
@@ -81,16 +84,35 @@ void cw_columns_free(CwColumns **columns) {
   free((*columns)->start);
   free((*columns)->member);
   free((*columns)->z);
+  free((*columns)->chosen);
   free(*columns);
   *columns = NULL;
 }
 
 // The edge from a to b crosses the line x = px of the plane above py: half-open in x, and always computed
-// from the left end, so that the two triangles at an edge agree to the bit.
-static inline int edge_above(const double a[3], const double b[3], double px, double py) {
-  if ((a[0] <= px) == (b[0] <= px)) return 0;
-  const double *left = a[0] <= px ? a : b, *right = left == a ? b : a;
-  return left[1] + (right[1] - left[1]) * ((px - left[0]) / (right[0] - left[0])) > py;
+// from the left end, so that the two triangles at an edge agree to the bit. Above or below is also what lies so with
+// both ends. Of an edge that does not cross, the quotient is of no use.
+static inline unsigned edge_above(const double a[3], const double b[3], double px, double py) {
+  unsigned of_a = cw_number(a[0] <= px), of_b = cw_number(b[0] <= px), up_a = cw_number(a[1] > py);
+  unsigned up_b = cw_number(b[1] > py);
+  const double *end[2] = {b, a}, *left = end[of_a], *right = end[1 - of_a];
+  unsigned up = cw_number(left[1] + (right[1] - left[1]) * ((px - left[0]) / (right[0] - left[0])) > py);
+  return (of_a ^ of_b) & ((up_a & up_b) | ((up_a | up_b) & up));
+}
+
+// The members of a bin that may be cut: the others have all corners on one side in x or in y, so that none or two of
+// their edges cross above.
+static int32_t choose_members(const CwColumns *columns, int64_t bin, double x, double y) {
+  int32_t chosen = 0;
+  for (int64_t k = columns->start[bin]; k < columns->start[bin + 1]; k++) {
+    const int32_t *t = columns->triangle[columns->member[k]];
+    const double *a = columns->x[t[0]], *b = columns->x[t[1]], *c = columns->x[t[2]];
+    unsigned left = cw_number(a[0] <= x) + cw_number(b[0] <= x) + cw_number(c[0] <= x);
+    unsigned above = cw_number(a[1] > y) + cw_number(b[1] > y) + cw_number(c[1] > y);
+    columns->chosen[chosen] = columns->member[k];
+    chosen += (int32_t)(cw_number(left - 1 < 2) & cw_number(above - 1 < 2));
+  }
+  return chosen;
 }
 
 CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, const double **z) {
@@ -99,8 +121,10 @@ CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, 
   int64_t members = columns->start[bin + 1] - columns->start[bin];
   *count = 0;
   CW_GROW(columns->z, columns->z_space, members);
-  for (int64_t k = columns->start[bin]; k < columns->start[bin + 1]; k++) {
-    const int32_t *t = columns->triangle[columns->member[k]];
+  CW_GROW(columns->chosen, columns->chosen_space, members);
+  int32_t chosen = choose_members(columns, bin, x, y);
+  for (int32_t k = 0; k < chosen; k++) {
+    const int32_t *t = columns->triangle[columns->chosen[k]];
     const double *a = columns->x[t[0]], *b = columns->x[t[1]], *c = columns->x[t[2]];
     if (!(edge_above(a, b, x, y) ^ edge_above(b, c, x, y) ^ edge_above(c, a, x, y))) continue;
     double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];

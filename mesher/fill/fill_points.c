@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/number.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_columns.h"
 #include "mesher/fill/fill_reach.h"
@@ -44,6 +45,7 @@ typedef struct {
   int32_t cell_count, cell_space, reached_space;
   int32_t *list;
   int64_t list_count, list_space;
+  int32_t *near;     // items whose boxes hold a point
   uint8_t *children; // of the cell that is divided, which each item of its list reaches into
 } Tree;
 
@@ -81,9 +83,14 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
   const CwFillInput *input = tree->input;
   double h = 0.0, apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
   float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
+  int32_t near = 0;
   for (int32_t k = reached->count - 1; k >= 0; k--) { // the row first: it is soon asked
-    int32_t t = tree->list[reached->list + k], place = t - input->triangle_count;
-    if ((place >= 0 && !tree->row[place].chosen) || !cw_reach_holds(&tree->box[t], p)) continue;
+    int32_t t = tree->near[near] = tree->list[reached->list + k];
+    near += (int32_t)cw_number(cw_reach_holds(&tree->box[t], p));
+  }
+  for (int32_t k = 0; k < near; k++) {
+    int32_t t = tree->near[k], place = t - input->triangle_count;
+    if (place >= 0 && !tree->row[place].chosen) continue;
     if (place >= 0) {
       const CwRowPlace *point = &tree->row[place].place;
       double nearest = apart * point->spacing;
@@ -331,6 +338,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CW_NEW(tree->box, items);
   CW_NEW(tree->ball, input->triangle_count);
   CW_NEW(tree->row, input->row_count);
+  CW_NEW(tree->near, items);
   CW_NEW(tree->children, items);
   CW_GROW(tree->list, tree->list_space, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
@@ -372,6 +380,7 @@ done:
   free(tree->cell);
   free(tree->reached);
   free(tree->list);
+  free(tree->near);
   free(tree->children);
   free(place);
   cw_columns_free(&tree->columns);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/number.h"
+
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 enum { EMPTY = -1, DIVIDED = -2 }; // places of the tables
@@ -220,9 +222,9 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
     const CwDelaunayTet *tet = &mesh->tet[t];
     if (tet->corner[0] < 0) continue;
     int on_boundary = 0, count = 0;
-    for (int i = 0; i < 4 && count + 2 > i; i++) { // most have two corners inside, and are done with
+    for (int i = 0; i < 4; i++) {
       int32_t given = mesh->source[tet->corner[i]];
-      int is = (given >= 0 && given < boundary_points) || given >= facets->divided_from;
+      int is = (int)(cw_number((uint32_t)given < (uint32_t)boundary_points) | cw_number(given >= facets->divided_from));
       on_boundary |= is << i;
       count += is;
     }

@@ -113,10 +113,9 @@ static Side side_of(const int32_t corner[4], int i, int32_t owner) {
   Side s = {{corner[tet_face[i][0]], corner[tet_face[i][1]], corner[tet_face[i][2]]}, owner};
   for (int k = 0; k < 3; k++) {
     int m = k == 1 ? 1 : 0; // compares 0-1, 1-2, 0-1
-    if (s.p[m] <= s.p[m + 1]) continue;
-    int32_t swap = s.p[m];
-    s.p[m] = s.p[m + 1];
-    s.p[m + 1] = swap;
+    int32_t low = s.p[m], high = s.p[m + 1];
+    s.p[m] = low < high ? low : high;
+    s.p[m + 1] = low < high ? high : low;
   }
   return s;
 }

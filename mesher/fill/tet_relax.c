@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/number.h"
+
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
 static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
 static const double pull = 0.1;           // of an edge
@@ -74,20 +76,20 @@ static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
   const int32_t *c = w->mesh->tet[t].corner;
   const double *x[4];
   double least = INFINITY, most = 0.0;
-  int shortest = 0, longest = 0;
+  unsigned shortest = 0, longest = 0;
   for (int k = 0; k < 4; k++) x[k] = cw_tet_at(w, c[k]);
-  for (int e = 0; e < 6; e++) { // without branches: they would be taken at random
+  for (unsigned e = 0; e < 6; e++) { // without branches: they would be taken at random
     const double *p = x[cw_tet_edge[e][0]], *q = x[cw_tet_edge[e][1]];
     double u = q[0] - p[0], v = q[1] - p[1], z = q[2] - p[2], square = u * u + v * v + z * z;
-    int less = square<least, more = square> most;
-    shortest = less ? e : shortest;
-    longest = more ? e : longest;
-    least = less ? square : least;
-    most = more ? square : most;
+    shortest ^= (shortest ^ e) & -cw_number(square < least);
+    longest ^= (longest ^ e) & -cw_number(square > most);
+    least = cw_tet_less(square, least);
+    most = cw_tet_more(square, most);
   }
   if (!(least > CW_TET_FLAT * most)) return;
   for (int k = 0; k < 2; k++) {
-    int e = k ? longest : shortest, a = cw_tet_edge[e][0], b = cw_tet_edge[e][1];
+    unsigned e = k ? longest : shortest;
+    int a = cw_tet_edge[e][0], b = cw_tet_edge[e][1];
     double weight = 1.0 / (k ? most : least), step = k ? weight * pull : -weight * pull;
     Sum *p = &sum[c[a]], *q = &sum[c[b]];
     for (int i = 0; i < 3; i++) {
@@ -112,7 +114,9 @@ static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   CwDelaunay *mesh = w->mesh;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
-    if (c[0] >= 0 && mesh->tet[t].square < regular) moved[c[0]] = moved[c[1]] = moved[c[2]] = moved[c[3]] = MOVED;
+    if (c[0] < 0) continue;
+    uint8_t irregular = MOVED * (uint8_t)cw_number(mesh->tet[t].square < regular);
+    for (int i = 0; i < 4; i++) moved[c[i]] |= irregular;
   }
   for (int32_t p = 0; p < mesh->point_count; p++) moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
 }
