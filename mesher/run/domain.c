@@ -18,6 +18,7 @@
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
+static const double LONGEST_ON_WALL = 30;   // of second heights: inside, prisms of the second layer are the thinnest
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double SEED_AREA = 1e-6;       // m2, that takes as long to seed as a triangle does by itself
@@ -93,8 +94,9 @@ done:
   return status;
 }
 
-// What the count of cells follows from: integrals of the size field at scale 1 over walls and volume. Collective.
-static CwStatus integrate(CwDomain *domain) {
+// What the count of cells follows from: integrals of the size field at a scale, for sizes over that, over walls and
+// volume. Collective.
+static CwStatus integrate(CwDomain *domain, double scale) {
   CwStatus status = CW_OK;
   WallPiece *piece = NULL;
   double *along = NULL;
@@ -105,12 +107,14 @@ static CwStatus integrate(CwDomain *domain) {
   domain->layer_sample = NULL;
   domain->layer_sample_count = 0;
   domain->prism_integral = domain->volume_integral = 0;
+  cw_size_set_scale(domain->size, scale);
   CW_NEW(piece, domain->background.triangle_count);
   CW_NEW(along, lines);
   CW_TRY(cw_share("size integrals", domain->background.triangle_count, sizeof *piece, find_piece, domain, piece));
+  for (int32_t t = 0; t < domain->background.triangle_count; t++) piece[t].size /= scale;
   CW_TRY(sum_pieces(domain, piece));
   CW_TRY(cw_share("size integrals", lines, sizeof *along, find_line, domain, along));
-  for (int32_t i = 0; i < lines; i++) domain->volume_integral += along[i];
+  for (int32_t i = 0; i < lines; i++) domain->volume_integral += along[i] * scale * scale * scale;
 done:
   free(piece);
   free(along);
@@ -210,20 +214,42 @@ done:
   return status;
 }
 
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, void *const *seeds,
-                             int part, void **bytes, int64_t *byte_count) {
+// Longer edges make prisms of small determinant.
+static double longest_on_wall(const CwDomain *domain, int patch) {
+  const CwLayerTarget *layers = &domain->patch_layers[patch];
+  return LONGEST_ON_WALL * layers->growth * layers->first_height;
+}
+
+void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, double *asked) {
+  for (int32_t i = 0; i < domain->layer_sample_count; i++) {
+    const CwLayerSample *sample = &domain->layer_sample[i];
+    double h = scale * sample->size, longest = longest_on_wall(domain, sample->patch);
+    double prisms = sample->density * sample->size / (scale * scale);
+    *wanted += prisms;
+    *asked += prisms * fmax(1, h * h / (longest * longest));
+  }
+}
+
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
+                             void *const *seeds, int part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   CwMeshTable mesh = table->mesh;
   mesh.gradation = gradation;
   if (part >= SIZE_FIELDS) return measure_face(domain, part - SIZE_FIELDS, bytes, byte_count);
-  double *rim_size = NULL;
+  double *rim = NULL, *wall = NULL;
   int patches = cw_cad_patch_count(domain->cad);
-  CW_NEW(rim_size, patches);
-  for (int p = 0; p < patches; p++) rim_size[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, BASE_SIZE, rim_size, seeds,
+  CW_NEW(rim, patches);
+  CW_NEW(wall, patches);
+  for (int p = 0; p < patches; p++) {
+    rim[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
+    wall[p] = longest_on_wall(domain, p) / wall_scale;
+  }
+  CwSizeLimits limits = {rim, wall_scale > 0 ? wall : NULL};
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, BASE_SIZE, &limits, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:
-  free(rim_size);
+  free(rim);
+  free(wall);
   return status;
 }
 
@@ -237,19 +263,19 @@ CwStatus cw_domain_take_size(CwDomain *domain, void **bytes) {
   domain->solid_volume = 0;
   for (int i = SIZE_FIELDS; i < cw_domain_size_parts(domain); i++) domain->solid_volume += *(const double *)bytes[i];
   CW_REQUIRE(domain->solid_volume > 0, CW_ERR_INPUT, "%s: the solid has no volume", domain->name);
-  CW_TRY(integrate(domain));
+  CW_TRY(integrate(domain, 1));
 done:
   cw_size_free(&rims);
   return status;
 }
 
-CwStatus cw_domain_take_field(CwDomain *domain, void **bytes) {
+CwStatus cw_domain_take_field(CwDomain *domain, double scale, void **bytes) {
   CwStatus status = CW_OK;
   CwSize *field = NULL;
   CW_TRY(cw_size_unpack(bytes, &field));
   cw_size_join(field, &domain->size);
   domain->size = field;
-  CW_TRY(integrate(domain));
+  CW_TRY(integrate(domain, scale));
 done:
   return status;
 }

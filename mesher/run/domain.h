@@ -15,8 +15,8 @@
 
 // The layers over a piece of wall, where h is nearly one.
 typedef struct {
-  double density; // area / h^3 at scale 1, m-1
-  double size;    // h at scale 1, m
+  double density; // area / h^3 for h over the scale, m-1
+  double size;    // h over the scale, m
   int32_t patch;
 } CwLayerSample;
 
@@ -33,9 +33,9 @@ typedef struct {
   double *relative_size;       // of each patch
   CwLayerTarget *patch_layers; // of each patch
   int layer_count;
-  double prism_integral;       // sum over walls of area / h^2, at scale 1
-  double *face_triangles;      // area / h^2 of each face, at scale 1
-  double volume_integral;      // integral of h^-3 over the domain, at scale 1
+  double prism_integral;       // sum over walls of area / h^2, for h over the scale
+  double *face_triangles;      // area / h^2 of each face, likewise
+  double volume_integral;      // integral of h^-3 over the domain, likewise
   CwLayerSample *layer_sample; // what the layers take of it
   int32_t layer_sample_count;
   double layer_share;   // of that, what graded columns take; known with the walls
@@ -64,10 +64,15 @@ void cw_domain_seed_costs(const CwDomain *domain, double *cost); // of each part
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count);
 int cw_domain_size_parts(const CwDomain *domain);
 void cw_domain_size_costs(const CwDomain *domain, double *cost); // of each part, zeroed
-CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, void *const *seeds,
-                             int part, void **bytes, int64_t *byte_count);
-CwStatus cw_domain_take_size(CwDomain *domain, void **bytes);  // takes them over (cw_size_unpack); collective
-CwStatus cw_domain_take_field(CwDomain *domain, void **bytes); // the same for part CW_SIZE_SEEDS made once more
+// Its growth at scale 1 is `gradation`; edges on walls are no longer at the scale `wall_scale`, if that is not 0, than
+// their layers allow.
+CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double gradation, double wall_scale,
+                             void *const *seeds, int part, void **bytes, int64_t *byte_count);
+CwStatus cw_domain_take_size(CwDomain *domain, void **bytes); // takes them over (cw_size_unpack); collective
+// The same for part CW_SIZE_SEEDS made once more, for about this scale.
+CwStatus cw_domain_take_field(CwDomain *domain, double scale, void **bytes);
+// Adds up area / h^2 of the walls at a scale of the field, and what it would be with no edge longer than they allow.
+void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, double *asked);
 // Integral of h^-3 over the domain less its layers at a scale of the size field, for h at scale 1: what the number of
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);

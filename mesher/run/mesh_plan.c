@@ -13,6 +13,8 @@
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
 enum { GRADATION_ROUNDS = 4 };
 static const double GRADATION_TOLERANCE = 0.05; // over that of the case
+static const double MOST_ASKED = 2;             // by walls, of the prisms they have without their limits
+static const double MOST_GREATER = 1.5;         // scale that walls are limited at, of that without limits
 static const double OWN_PLAN = 0.2;             // of the work on a plan, what every rank does for itself
 
 // Background triangulations, face by face.
@@ -93,23 +95,38 @@ static void field_cost(const CwDomain *domain, double *cost) {
   *cost = domain->background.triangle_count;
 }
 
-// The scale multiplies the field with its growth. Where meshes are so coarse that the growth would be more than the
-// case allows, the fields are made again with less. That makes the scale greater, by about the fourth root of what the
-// growth is less by (measured on all pumps of cases/ at 0.3 and 1 million cells).
+// Whether edges on walls are limited at a scale: where that takes no more than some more prisms. Where it would take
+// most of all cells, as for the thin layers of resolved walls, flat prisms are what is asked.
+static int walls_limit(const CwMeshRun *run, double scale) {
+  double wanted = 0, asked = 0;
+  for (int d = 0; d < run->domains.count; d++) cw_domain_walls_ask(&run->domain[d], scale, &wanted, &asked);
+  cw_log_debug("size field: walls ask for %.2f times as many prisms", asked / wanted);
+  return asked <= MOST_ASKED * wanted;
+}
+
+// The scale multiplies the field with its growth, and with the edges on walls. Where meshes are so coarse that the
+// growth would be more than the case allows, the fields are made again with less, and with edges on walls no longer
+// than their layers allow. Less growth makes the scale greater, by about the fourth root of what it is less by
+// (measured on all pumps of cases/ at 0.3 and 1 million cells); where edges on walls make it greater still, once more.
 static CwStatus hold_gradation(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults results = {0};
-  double allowed = run->table->mesh.gradation;
+  double allowed = run->table->mesh.gradation, made_for = 0, greatest = 0;
   int32_t parts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->domains.count; d++) parts[d] = CW_SIZE_SEEDS + 1; // rims ask for metres, whatever the scale
   for (int round = 0;; round++) {
     cw_mesh_solve_scale(run);
-    double less = allowed / (run->scale * run->gradation);
-    if (1 / less <= 1 + GRADATION_TOLERANCE || round == GRADATION_ROUNDS) break;
-    run->gradation *= less * pow(less, 0.25);
-    cw_log_debug("size field: scale %.4f, made again with a gradation of %.4f", run->scale, run->gradation);
+    double growth = run->scale * run->gradation / allowed;
+    if (growth <= 1 + GRADATION_TOLERANCE || round == GRADATION_ROUNDS) break;
+    made_for = run->scale * pow(growth, round == 0 ? 0.25 : 1);
+    if (round == 0) greatest = MOST_GREATER * made_for;
+    run->gradation = allowed / made_for;
+    if (round == 0 ? walls_limit(run, made_for) : run->wall_scale > 0) run->wall_scale = fmin(made_for, greatest);
+    cw_log_debug("size field: scale %.4f, made again with a gradation of %.4f, walls at %.3f", run->scale,
+                 run->gradation, run->wall_scale);
     CW_TRY(run_parts(run, "size field", cw_step_size, parts, field_cost, &results));
-    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_field(&run->domain[d], results.bytes[d]));
+    for (int d = 0; d < run->domains.count; d++)
+      CW_TRY(cw_domain_take_field(&run->domain[d], made_for, results.bytes[d]));
     cw_results_free(&results);
   }
 done:
@@ -130,6 +147,7 @@ static CwStatus make_sizes(CwMeshRun *run) {
     parts[d] = cw_domain_size_parts(&run->domain[d]);
   }
   run->gradation = run->table->mesh.gradation;
+  run->wall_scale = 0;
   CW_TRY(run_parts(run, "size field", cw_step_size, parts, cw_domain_size_costs, &results));
   cw_ledger_part("integrals of the size");
   for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_take_size(&run->domain[d], results.bytes[d]));

@@ -20,26 +20,33 @@ enum { PASSES_MOST = 4, WALL_PASSES = 3, SCALE_STEPS = 100 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 static const double WALL_TOLERANCE = 0.01;  // of the same, before the volume is filled
 static const double COPY_COST = 0.07;       // of a turned copy of a region, by that of its first
-// Cells per unit of the integrals of the size field, where the first pass starts; the passes correct both. Equilateral
-// triangles would be 4 / sqrt(3) = 2.31 per h^2; those on rims and in bends come on top, and their share grows with h
-// (measured from 0.3 to 20 million cells: 2.53 at scale 2.01, 2.45 at 1.17, 2.42 at 0.73, 2.38 at 0.50, 2.36 at 0.35).
-// A lattice of tetrahedra is 8.2 per h^3; the cells that fit it to the front come on top likewise, and with the many
-// regions of small scales those on interfaces (measured from 3 to 20 million cells: 12.9 at scale 0.75, 11.4 at
-// 0.51, 10.5 at 0.36). Above 1 sizes grow no more steeply, fewer cells lie where they change, and surfaces take a
-// greater share again: 14.0 at 1.25, 13.5 at 1.49, 13.2 at 1.77, 12.9 at 2.3 and 2.6, 14.0 at 4.1, 13.5 at 5.6 (in most
-// pumps of other sizes within 13 %).
-static double prisms_per_layer(double scale) {
-  return 2.33 + 0.1 * scale;
+// Triangles for each area of h^2 on the walls, where the first pass starts; the passes correct it. Equilateral ones
+// would be 4 / sqrt(3) = 2.31; those on rims and in bends come on top, with a share that grows with h (measured in the
+// pumps of cases/ at 0.3 million cells: 2.55 to 2.72, at 1 million 2.39 to 2.49; in the paper's at 3, 8 and 20
+// million 2.43, 2.38 and 2.36).
+static double prisms_per_layer(double asked) {
+  return 2.34 + 0.12 / sqrt(asked / 1e6);
 }
 
-static double tets_per_volume(double scale) {
-  if (scale > 1) return 11.6 + 0.4 * scale + 2.461 / (scale * scale);
-  return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
+// Tetrahedra for each volume of h^3, likewise. A lattice is 8.2; those that fit it to the front come on top. In coarse
+// meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the front: sizes change
+// within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells, within 5 %
+// in others). In fine ones those on interfaces come with the many regions (measured in the paper's from 3 to 20 million
+// cells: 12.9 at scale 0.75, 11.4 at 0.51, 10.5 at 0.36).
+static double tets_per_volume(const CwMeshRun *run, double scale) {
+  double walls = 0, volume = 0;
+  if (scale <= 1) return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
+  for (int d = 0; d < run->domains.count; d++) {
+    walls += run->domain[d].prism_integral;
+    volume += cw_domain_tet_integral(&run->domain[d], scale);
+  }
+  return 8.2 + 1.33 * log(fmin((double)run->table->mesh.cells, 1.5e6) / 1e6) + 4.95 * scale * walls / volume;
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
-  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(scale) * run->table->walls.layer_count;
-  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(scale); // 0: nothing learned yet
+  double asked = (double)run->table->mesh.cells;
+  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(asked) * run->table->walls.layer_count;
+  double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(run, scale); // 0: nothing learned yet
   return prisms * run->domain[d].prism_integral / (scale * scale) +
          tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
 }
@@ -385,8 +392,8 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   CW_TRY(cw_make_directory(path));
   CW_TRY(cw_mesh_open(run));
   double asked = (double)run->table->mesh.cells;
-  run->prism_factor = prisms_per_layer(run->scale) * run->table->walls.layer_count;
-  run->tet_factor = tets_per_volume(run->scale);
+  run->prism_factor = prisms_per_layer(asked) * run->table->walls.layer_count;
+  run->tet_factor = tets_per_volume(run, run->scale);
   CwPassState state = {.pass = 1};
   CW_TRY(cw_pass_fingerprint(run->table, run->run_path, &run->domains, fingerprint));
   cw_pass_state_read(run->run_path, fingerprint, &state);

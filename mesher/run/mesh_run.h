@@ -39,6 +39,7 @@ typedef struct {
   double prism_factor, tet_factor;      // cells per unit of the integrals
   double scale;                         // of the size field
   double gradation;                     // of the size field at scale 1
+  double wall_scale;                    // at which walls limit its edges; 0: they do not
   double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
   // With which the domains were planned.
   double planned_prism_factor, planned_tet_factor, planned_scale;

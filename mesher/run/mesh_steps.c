@@ -21,8 +21,8 @@ CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
 }
 
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_domain_make_size(&run->domain[task.domain], run->table, run->gradation, run->seeds[task.domain], task.index,
-                             bytes, size);
+  return cw_domain_make_size(&run->domain[task.domain], run->table, run->gradation, run->wall_scale,
+                             run->seeds[task.domain], task.index, bytes, size);
 }
 
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {

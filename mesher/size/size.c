@@ -216,11 +216,18 @@ static Packed packed_head(const CwSizeGrid *grid, const CwScanlines *lines, CwSi
   return head;
 }
 
+// The longest edge that a face allows; any where the list is that of the edges, behind the faces.
+static double longest_of(const CwCad *cad, const CwSizeLimits *limits, int face) {
+  if (!limits || !limits->wall || face == cw_cad_face_count(cad)) return INFINITY;
+  int patch = cw_cad_face_patch(cad, face);
+  return cw_cad_patch_kind(cad, patch) == CW_PATCH_WALL ? limits->wall[patch] : INFINITY;
+}
+
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
+                      const double *patch_size, double base_size, const CwSizeLimits *limits, void *const *seeds,
                       CwSizePart part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
-  const CwSizeInput input = {cad, background, table, patch_size, base_size, rim_size};
+  const CwSizeInput input = {cad, background, table, patch_size, base_size, limits ? limits->rim : NULL};
   CwSizeGrid grid;
   char *block = NULL;
   uint8_t *within = NULL;
@@ -233,13 +240,13 @@ CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const Cw
   CwSize made = arrays_in(&head, block);
   grid.value = part == CW_SIZE_SEEDS ? made.grid.value : made.rim.value;
   cw_size_grid_clear(&grid);
-  for (int i = 0; i < lists; i++) cw_size_take_seeds(&grid, seeds[i]);
+  for (int i = 0; i < lists; i++) cw_size_take_seeds(&grid, seeds[i], longest_of(cad, limits, i));
   CW_TRY(mark_inside(&grid, &lines, &within));
   if (part == CW_SIZE_SEEDS) {
     memcpy(made.lines.start, lines.start, head.starts * sizeof *lines.start);
     memcpy(made.lines.crossing, lines.crossing, head.crossings * sizeof *lines.crossing);
     CW_TRY(cw_size_grid_spread(&grid, table->gradation, within));
-    if (rim_size) head.plain.rim_asks = cw_size_rims_ask(&input, &grid);
+    if (limits) head.plain.rim_asks = cw_size_rims_ask(&input, &grid);
   } else {
     cw_size_grid_clear(&grid);
     cw_size_seed_rims(&input, &grid);

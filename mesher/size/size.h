@@ -31,16 +31,21 @@ int cw_size_seed_parts(const CwCad *cad);
 CwStatus cw_size_seeds_part(CwSizeSeeds *seeds, int part, void **bytes, int64_t *byte_count);
 void cw_size_seeds_free(CwSizeSeeds **seeds);
 
-// The field that spreads from all parts of the seeds (seeds[part]) through the domain. `rim_size`, if given, is the
-// longest edge (m, by patch; only those of walls count) where a wall meets an open face, at any scale: prisms there
-// have a side on the boundary, and what is left to hold a cell falls with the fourth power of height over length. Rims
-// are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28 of
-// it in the mean.
+// Longest edges (m, by patch; only those of walls count): what is left to hold a flat prism falls with the fourth power
+// of height over length.
+typedef struct {
+  const double *rim;  // where a wall meets an open face, and prisms have a side on the boundary; at any scale
+  const double *wall; // all over the walls, at scale 1; NULL: any
+} CwSizeLimits;
+
+// The field that spreads from all parts of the seeds (seeds[part]) through the domain, within the limits, if given.
+// Rims are granted no less than 0.4 of what is wanted there without them, and nothing where they ask for less than 0.28
+// of it in the mean.
 // Different ranks may make its two parts: the field of the seeds, and that of the rims, which joins it. They come in
 // one block of bytes (malloc'd), to travel between ranks.
 typedef enum { CW_SIZE_SEEDS, CW_SIZE_RIMS } CwSizePart;
 CwStatus cw_size_make(const CwCad *cad, const CwBackground *background, const CwMeshTable *table,
-                      const double *patch_size, double base_size, const double *rim_size, void *const *seeds,
+                      const double *patch_size, double base_size, const CwSizeLimits *limits, void *const *seeds,
                       CwSizePart part, void **bytes, int64_t *byte_count);
 // The field in its block, which it takes over (*bytes is NULL after).
 CwStatus cw_size_unpack(void **bytes, CwSize **size);

@@ -20,7 +20,7 @@ typedef struct {
   const CwMeshTable *table;
   const double *patch_size; // relative, by patch
   double base_size;         // m
-  const double *rim_size;   // m, by patch, or NULL: see cw_size_make
+  const double *rim_size;   // m, by patch, or NULL: see CwSizeLimits
 } CwSizeInput;
 
 // No single feature asks for less than this share of the base size: what is smaller is resolved by its edges
@@ -47,8 +47,9 @@ void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
 // through a facing triangle; walls that meet in a crease there are not a gap.
 CwStatus cw_size_seed_face(CwSizeSurface *surface, int face, void **bytes, int64_t *byte_count);
 
-// Lowers the nodes of the grid by packed seeds; the order of faces does not matter.
-void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes);
+// Lowers the nodes of the grid by packed seeds, of which none counts for more than `most` (m); the order of faces does
+// not matter.
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double most);
 
 // The same for those CAD edges that are creases: the length of a short one, and the width of the face between two that
 // have no vertex in common.

@@ -371,11 +371,12 @@ CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines)
   return cw_scanlines_make(surface->input.background, &low[1], &high[1], surface->grid.spacing, lines);
 }
 
-void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes) {
+void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double most) {
   int64_t count;
   memcpy(&count, bytes, sizeof count);
   const Seed *seed = (const Seed *)((const char *)bytes + sizeof count);
   for (int64_t i = 0; i < count; i++) {
-    if (seed[i].value < grid->value[seed[i].node]) grid->value[seed[i].node] = seed[i].value;
+    float value = fminf(seed[i].value, (float)most);
+    if (value < grid->value[seed[i].node]) grid->value[seed[i].node] = value;
   }
 }

@@ -31,7 +31,7 @@ struct Model {
 
   Model(const TopoDS_Shape &solid, double base_mm, double curvature_angle, double cells_across_gap,
         std::vector<double> patch_size, const PatchOfFace &patch_of = all_wall,
-        const std::vector<double> &rim_size = {})
+        const std::vector<double> &rim_size = {}, const std::vector<double> &wall_size = {})
       : cad(open_solid(solid, patch_of)) {
     CwMeshTable table = {};
     table.gradation = gradation;
@@ -46,7 +46,8 @@ struct Model {
     check(cw_size_seeds_start(cad, &background, &table, patch_size.data(), base_mm * 1e-3, &seeds));
     for (int i = (int)parts.size() - 1; i >= 0; i--) check(cw_size_seeds_part(seeds, i, &parts[i], &bytes));
     cw_size_seeds_free(&seeds);
-    const double *rim = rim_size.empty() ? nullptr : rim_size.data();
+    const CwSizeLimits limits = {rim_size.data(), wall_size.empty() ? nullptr : wall_size.data()};
+    const CwSizeLimits *rim = rim_size.empty() ? nullptr : &limits;
     check(cw_size_make(cad, &background, &table, patch_size.data(), base_mm * 1e-3, rim, parts.data(), CW_SIZE_SEEDS,
                        &block, &bytes));
     check(cw_size_unpack(&block, &size));
@@ -232,6 +233,23 @@ static void rims_hold_at_any_scale(void **state) {
   assert_near(rim.at(15, 0, 30), 2 * 3, 1e-5);
 }
 
+static void walls_hold_their_edges(void **state) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(30, 30, 30).Shape();
+  const PatchOfFace open_top = [](const TopoDS_Face &face) {
+    gp_Pln plane = BRepAdaptor_Surface(face).Plane();
+    int top = std::fabs(plane.Axis().Direction().Z()) > 0.5 && plane.Location().Z() > 29;
+    return std::string(top ? "top,inlet" : "rest,wall");
+  };
+  const Model held(box, 3, 0.5, 1, {1, 1}, open_top, {1, 1}, {2e-3, 2e-3});
+  assert_near(held.at(15, 15, 0), 2, 1e-5);
+  assert_near(held.at(0, 15, 15), 2, 1e-5);
+  assert_near(held.at(15, 15, 30), 3, 1e-5); // no wall
+  const Model wide(box, 3, 0.5, 1, {1, 1}, open_top, {1, 1}, {4e-3, 4e-3});
+  assert_near(wide.at(15, 15, 0), 3, 1e-5); // wants less than it may have
+  cw_size_set_scale(held.size, 2);          // limits of walls go with the scale
+  assert_near(held.at(15, 15, 0), 4, 1e-5);
+}
+
 static void wrong_input_is_refused(void **state) {
   CwCad *cad = open_solid(BRepPrimAPI_MakeBox(1, 1, 1).Shape());
   CwBackground background;
@@ -265,6 +283,7 @@ int main(void) {
       cmocka_unit_test(samples_fill_the_domain),
       cmocka_unit_test(two_runs_are_the_same),
       cmocka_unit_test(rims_hold_at_any_scale),
+      cmocka_unit_test(walls_hold_their_edges),
       cmocka_unit_test(wrong_input_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
