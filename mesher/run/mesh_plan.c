@@ -121,7 +121,8 @@ static CwStatus hold_gradation(CwMeshRun *run) {
     made_for = run->scale * pow(growth, round == 0 ? 0.25 : 1);
     if (round == 0) greatest = MOST_GREATER * made_for;
     run->gradation = allowed / made_for;
-    if (round == 0 ? walls_limit(run, made_for) : run->wall_scale > 0) run->wall_scale = fmin(made_for, greatest);
+    if (round == 0 ? walls_limit(run, made_for) : run->wall_scale > 0)
+      run->wall_scale = fmin(made_for, greatest) * (1 + GRADATION_TOLERANCE);
     cw_log_debug("size field: scale %.4f, made again with a gradation of %.4f, walls at %.3f", run->scale,
                  run->gradation, run->wall_scale);
     CW_TRY(run_parts(run, "size field", cw_step_size, parts, field_cost, &results));
