@@ -26,6 +26,7 @@ done:
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
   CwDelaunayTet *tet = &w->mesh->tet[t];
   tet->square = quality;
+  tet->centre[2] = 1.0;
   for (int i = 0; i < 4; i++) w->mesh->point[tet->corner[i]].mark = w->pass;
   return quality < w->limit ? cw_tet_push(w, t) : CW_OK;
 }

@@ -12,11 +12,16 @@ static const double regular = 0.8;        // a point stays where all round it ar
 static const double pull = 0.1;           // of an edge
 enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
 
-// Sets the quality (1 for all that are regular enough), and puts the tetrahedron into the list where it is
-// below the limit.
+// Sets the quality (1 for all that are regular enough) and whether it is slender, and puts the tetrahedron into the
+// list where it is below the limit.
 static CwStatus judge(CwTetWork *w, int32_t t) {
   CwDelaunayTet *tet = &w->mesh->tet[t];
   const int32_t *c = tet->corner;
+  double shortest, longest;
+  CwTetMeasures measures =
+      cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+  cw_tet_edges(&measures, &shortest, &longest);
+  tet->centre[2] = longest > CW_TET_LONG * CW_TET_LONG * shortest;
   tet->square =
       cw_tet_quality_to(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]), regular);
   return tet->square < w->limit ? cw_tet_push(w, t) : CW_OK;
@@ -43,8 +48,7 @@ typedef struct {
 // A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the cube of
 // its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing
 // for flat ones, whose spheres are anywhere.
-static inline void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
-  const int32_t *corner = w->mesh->tet[t].corner;
+static inline void add_centre(const CwTetWork *w, const int32_t corner[4], Sum *sum) {
   const double *o = cw_tet_at(w, corner[0]);
   double a[3], b[3], c[3], bc[3], ca[3], ab[3];
   for (int i = 0; i < 3; i++) {
@@ -72,8 +76,7 @@ static inline void add_centre(const CwTetWork *w, int32_t t, Sum *sum) {
 }
 
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart.
-static inline void add_pull(const CwTetWork *w, int32_t t, Sum *sum) {
-  const int32_t *c = w->mesh->tet[t].corner;
+static inline void add_pull(const CwTetWork *w, const int32_t c[4], Sum *sum) {
   const double *x[4];
   double least = INFINITY, most = 0.0;
   unsigned shortest = 0, longest = 0;
@@ -121,15 +124,30 @@ static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   for (int32_t p = 0; p < mesh->point_count; p++) moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
 }
 
-// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
-static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, int32_t, Sum *), const uint8_t *moved,
-                            Sum *sum) {
-  CwDelaunay *mesh = w->mesh;
-  memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
+// The tetrahedra with a marked point: 16 bytes each to be read again and again, for the 64 of all that is known of
+// them.
+typedef struct {
+  int32_t (*corner)[4], count;
+} Touched;
+
+static CwStatus find_touched(const CwDelaunay *mesh, const uint8_t *moved, Touched *touched) {
+  CwStatus status = CW_OK;
+  CW_NEW(touched->corner, mesh->tet_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
-    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) add(w, t, sum);
+    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
+      memcpy(touched->corner[touched->count++], c, sizeof *touched->corner);
   }
+done:
+  return status;
+}
+
+// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
+static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, const int32_t[4], Sum *), const uint8_t *moved,
+                            const Touched *touched, Sum *sum) {
+  CwDelaunay *mesh = w->mesh;
+  memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
+  for (int32_t k = 0; k < touched->count; k++) add(w, touched->corner[k], sum);
   for (int32_t p = 0; p < mesh->point_count; p++) {
     for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0f; i++)
       mesh->point[p].x[i] += (double)(sum[p].way[i] / sum[p].weight);
@@ -204,6 +222,7 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
   Sum *sum = NULL;
   double(*old)[3] = NULL;
   uint8_t *moved = NULL;
+  Touched touched = {0};
   CW_NEW(sum, mesh->point_count);
   CW_NEW(old, mesh->point_count);
   CW_NEW(moved, mesh->point_count);
@@ -212,10 +231,14 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
     memcpy(old[p], mesh->point[p].x, sizeof *old);
     w->count.points_moved += moved[p];
   }
-  move_all(w, add_centre, moved, sum);
-  for (int k = 0; k < evenings; k++) move_all(w, add_pull, moved, sum);
+  CW_TRY(find_touched(mesh, moved, &touched));
+  move_all(w, add_centre, moved, &touched, sum);
+  for (int k = 0; k < evenings; k++) move_all(w, add_pull, moved, &touched, sum);
+  free(touched.corner);
+  touched.corner = NULL;
   CW_TRY(take_back(w, (const double(*)[3])old, moved));
 done:
+  free(touched.corner);
   free(sum);
   free(old);
   free(moved);

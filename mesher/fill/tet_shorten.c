@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double slender = 1.6;       // longest over shortest edge: tetrahedra above it are looked at
 static const double usual = 1.4;         // what neither helps nor hinders, so that their number does not count
 static const double gain = 1e-3;         // at least, in the sum
 static const double least_quality = 0.3; // of what comes, or as it was before
@@ -16,21 +15,14 @@ static inline double square_of(const CwTetWork *w, int32_t p, int32_t q) {
   return u * u + v * v + z * z;
 }
 
-// Squares of a tetrahedron's edges; the greatest is returned.
-static inline double squares_of(const CwTetWork *w, const int32_t c[4], double square[6], double *shortest) {
-  double longest = 0.0;
-  *shortest = INFINITY;
-  for (int e = 0; e < 6; e++) {
-    square[e] = square_of(w, c[cw_tet_edge[e][0]], c[cw_tet_edge[e][1]]);
-    *shortest = cw_tet_less(*shortest, square[e]);
-    longest = cw_tet_more(longest, square[e]);
-  }
-  return longest;
-}
-
 // Longest over shortest edge, less the usual.
 static double excess_of(const CwTetWork *w, const int32_t c[4]) {
-  double square[6], shortest, longest = squares_of(w, c, square, &shortest);
+  double shortest = INFINITY, longest = 0.0;
+  for (int e = 0; e < 6; e++) {
+    double square = square_of(w, c[cw_tet_edge[e][0]], c[cw_tet_edge[e][1]]);
+    shortest = cw_tet_less(shortest, square);
+    longest = cw_tet_more(longest, square);
+  }
   return sqrt(longest / shortest) - usual;
 }
 
@@ -70,12 +62,17 @@ CwStatus cw_tet_shorten(CwTetWork *w) {
   CwStatus status = CW_OK;
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     const int32_t *c = w->mesh->tet[t].corner;
-    if (c[0] < 0) continue;
-    double square[6], shortest, longest = squares_of(w, c, square, &shortest);
-    if (!(longest > slender * slender * shortest)) continue;
-    int e = 0;
-    while (square[e] < longest) e++;
-    CW_TRY(remove_edge(w, t, c[cw_tet_edge[e][0]], c[cw_tet_edge[e][1]], longest));
+    if (c[0] < 0 || w->mesh->tet[t].centre[2] == 0.0) continue;
+    double square, shortest = INFINITY, longest = 0.0;
+    int32_t a = -1, b = -1;
+    for (int e = 0; e < 6; e++) {
+      int32_t p = c[cw_tet_edge[e][0]], q = c[cw_tet_edge[e][1]];
+      square = square_of(w, p, q);
+      shortest = cw_tet_less(shortest, square);
+      if (square > longest) longest = square, a = p, b = q;
+    }
+    if (!(longest > CW_TET_LONG * CW_TET_LONG * shortest)) continue;
+    CW_TRY(remove_edge(w, t, a, b, longest));
   }
 done:
   return status;

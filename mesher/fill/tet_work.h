@@ -21,14 +21,16 @@ extern "C" {
 #define CW_TET_IMPROVE 0.4226
 // The same for flips after points have moved: these are cheap.
 #define CW_TET_TURN 0.48
+// Longest over shortest edge above which a tetrahedron is slender: its longest edge may go (cw_tet_shorten).
+#define CW_TET_LONG 1.6
 // Least improvement, so that no two changes undo one another for ever.
 #define CW_TET_GAIN 1e-6
 
 enum { CW_TET_STAR = 96 };
 
 // The quality of a tetrahedron (1 where it is good) stands in its square, a mark of the last star in its
-// centre[0], the pass that put it into the list for the next in centre[1], and the pass in which something
-// changed at a point in the point's mark.
+// centre[0], the pass that put it into the list for the next in centre[1], in centre[2] 0 where it was not slender when
+// all were judged, and the pass in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
@@ -99,9 +101,8 @@ double cw_hollow_best(CwHollow *hollow, double p[3], double start);
 // Moves all inner points at once towards even spacing and then, in `evenings` steps, towards even edges; after that
 // every tetrahedron below the limit is in the list.
 CwStatus cw_tet_relax(CwTetWork *w, int evenings);
-// Goes once over the tetrahedra whose longest edge is more than 1.6 times the shortest. Three or four round their
-// longest edge are made anew without it where the ratio becomes less in the mean; the least quality of those may fall,
-// to 0.3.
+// Goes once over the slender tetrahedra. Three or four round their longest edge are made anew without it where the
+// ratio becomes less in the mean; the least quality of those may fall, to 0.3.
 CwStatus cw_tet_shorten(CwTetWork *w);
 // Sets all qualities and finds the tetrahedra below the limit.
 CwStatus cw_tet_scan(CwTetWork *w);
