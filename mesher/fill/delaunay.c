@@ -82,6 +82,7 @@ void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
 void cw_delaunay_pack(CwDelaunay *mesh) {
   int32_t kept = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
+    cw_delaunay_ask_ahead(&mesh->tet[t]);
     if (mesh->tet[t].corner[0] < 0) continue;
     const CwDelaunayTet *from = &mesh->tet[t];
     CwDelaunayTet *to = &mesh->tet[kept];

@@ -131,6 +131,7 @@ static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwDelaunayTet *tet = &mesh->tet[t];
     int on_skin = 0, count = 0, inside = 0;
+    cw_delaunay_ask_ahead(tet);
     if (tet->corner[0] < 0) continue;
     for (int i = 0; i < 4 && count + 2 > i; i++) {
       int32_t given = mesh->source[tet->corner[i]];

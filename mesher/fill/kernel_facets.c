@@ -220,6 +220,7 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
   memset(facets->inner, -1, (size_t)facets->count * sizeof *facets->inner);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
+    cw_delaunay_ask_ahead(tet);
     if (tet->corner[0] < 0) continue;
     int on_boundary = 0, count = 0;
     for (int i = 0; i < 4; i++) {

@@ -16,6 +16,7 @@ CwStatus cw_flips_make(CwDelaunay *mesh, CwFlips *flips) {
   CW_NEW(flips->tet_at, mesh->point_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwDelaunayTet *tet = &mesh->tet[t];
+    cw_delaunay_ask_ahead(tet);
     tet->square = 0.0;
     for (int i = 0; i < 4 && tet->corner[0] >= 0; i++) flips->tet_at[tet->corner[i]] = t;
   }

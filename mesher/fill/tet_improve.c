@@ -100,6 +100,7 @@ static double least_quality(const CwTetWork *w) {
   }
   for (int32_t t = 0; t < w->mesh->tet_count && least >= CW_TET_IMPROVE; t++) {
     const CwDelaunayTet *tet = &w->mesh->tet[t];
+    cw_delaunay_ask_ahead(tet);
     if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->square);
   }
   return least;

@@ -41,6 +41,7 @@ CwStatus cw_tet_mesh_take(CwDelaunay *mesh, int32_t fixed_count, int32_t source_
   CW_NEW(number, source_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     int32_t corner[4];
+    cw_delaunay_ask_ahead(&mesh->tet[t]);
     memcpy(corner, mesh->tet[t].corner, sizeof corner);
     if (corner[0] < 0) continue;
     for (int i = 0; i < 4; i++) {

@@ -32,6 +32,7 @@ CwStatus cw_tet_scan(CwTetWork *w) {
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     CwDelaunayTet *tet = &w->mesh->tet[t];
+    cw_delaunay_ask_ahead(tet);
     tet->centre[0] = 0.0;
     tet->centre[1] = -1.0;
     if (tet->corner[0] >= 0) CW_TRY(judge(w, t));
@@ -117,6 +118,7 @@ static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   CwDelaunay *mesh = w->mesh;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
+    cw_delaunay_ask_ahead(&mesh->tet[t]);
     if (c[0] < 0) continue;
     uint8_t irregular = MOVED * (uint8_t)cw_number(mesh->tet[t].square < regular);
     for (int i = 0; i < 4; i++) moved[c[i]] |= irregular;
@@ -135,6 +137,7 @@ static CwStatus find_touched(const CwDelaunay *mesh, const uint8_t *moved, Touch
   CW_NEW(touched->corner, mesh->tet_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
+    cw_delaunay_ask_ahead(&mesh->tet[t]);
     if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
       memcpy(touched->corner[touched->count++], c, sizeof *touched->corner);
   }
@@ -193,6 +196,7 @@ static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) 
     whole = 0;
     for (int32_t t = 0; t < mesh->tet_count; t++) {
       const int32_t *c = mesh->tet[t].corner;
+      cw_delaunay_ask_ahead(&mesh->tet[t]);
       if (c[0] < 0 || !(moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) continue;
       CW_TRY(judge(w, t));
       CW_TRY(note_if_spoilt(w, t, old, &spoilt));

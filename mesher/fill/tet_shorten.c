@@ -62,6 +62,7 @@ CwStatus cw_tet_shorten(CwTetWork *w) {
   CwStatus status = CW_OK;
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     const int32_t *c = w->mesh->tet[t].corner;
+    cw_delaunay_ask_ahead(&w->mesh->tet[t]);
     if (c[0] < 0 || w->mesh->tet[t].centre[2] == 0.0) continue;
     double square, shortest = INFINITY, longest = 0.0;
     int32_t a = -1, b = -1;
