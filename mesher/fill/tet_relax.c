@@ -126,31 +126,16 @@ static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   for (int32_t p = 0; p < mesh->point_count; p++) moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
 }
 
-// The tetrahedra with a marked point: 16 bytes each to be read again and again, for the 64 of all that is known of
-// them.
-typedef struct {
-  int32_t (*corner)[4], count;
-} Touched;
-
-static CwStatus find_touched(const CwDelaunay *mesh, const uint8_t *moved, Touched *touched) {
-  CwStatus status = CW_OK;
-  CW_NEW(touched->corner, mesh->tet_count);
+// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
+static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, const int32_t[4], Sum *), const uint8_t *moved,
+                            Sum *sum) {
+  CwDelaunay *mesh = w->mesh;
+  memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
     cw_delaunay_ask_ahead(&mesh->tet[t]);
-    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]))
-      memcpy(touched->corner[touched->count++], c, sizeof *touched->corner);
+    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) add(w, c, sum);
   }
-done:
-  return status;
-}
-
-// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
-static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, const int32_t[4], Sum *), const uint8_t *moved,
-                            const Touched *touched, Sum *sum) {
-  CwDelaunay *mesh = w->mesh;
-  memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
-  for (int32_t k = 0; k < touched->count; k++) add(w, touched->corner[k], sum);
   for (int32_t p = 0; p < mesh->point_count; p++) {
     for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0f; i++)
       mesh->point[p].x[i] += (double)(sum[p].way[i] / sum[p].weight);
@@ -226,7 +211,6 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
   Sum *sum = NULL;
   double(*old)[3] = NULL;
   uint8_t *moved = NULL;
-  Touched touched = {0};
   CW_NEW(sum, mesh->point_count);
   CW_NEW(old, mesh->point_count);
   CW_NEW(moved, mesh->point_count);
@@ -235,14 +219,10 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
     memcpy(old[p], mesh->point[p].x, sizeof *old);
     w->count.points_moved += moved[p];
   }
-  CW_TRY(find_touched(mesh, moved, &touched));
-  move_all(w, add_centre, moved, &touched, sum);
-  for (int k = 0; k < evenings; k++) move_all(w, add_pull, moved, &touched, sum);
-  free(touched.corner);
-  touched.corner = NULL;
+  move_all(w, add_centre, moved, sum);
+  for (int k = 0; k < evenings; k++) move_all(w, add_pull, moved, sum);
   CW_TRY(take_back(w, (const double(*)[3])old, moved));
 done:
-  free(touched.corner);
   free(sum);
   free(old);
   free(moved);
