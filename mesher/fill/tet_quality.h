@@ -72,27 +72,24 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
 // Least sine of the dihedral angles, and not above 1.69 shortest / longest edge: 0.943 for the regular tetrahedron, -1
 // where it is flat or not positive. Above an aspect of 4 the edges count by their root, so that a slender triangle of
 // the boundary, which nothing can help, does not hide flat angles. The sine at an edge is 6 V times the edge over the
-// (doubled) areas of its two faces. Where it is above `enough` only 1 is known, without division.
-static inline double cw_tet_quality_to(const double a[3], const double b[3], const double c[3], const double d[3],
-                                       double enough) {
-  double shortest, longest, squared = enough * enough;
-  if (!(cw_tet_six(a, b, c, d) > 0.0)) return -1.0; // many are, and need nothing else
-  CwTetMeasures s = cw_tet_measures(a, b, c, d);
-  cw_tet_edges(&s, &shortest, &longest);
-  if (!(s.six * s.six > CW_TET_FLAT * longest * longest * longest)) return -1.0;
-  const double *l = s.edge, *n = s.area;
+// (doubled) areas of its two faces. Without branches, so that loops over many have several at once.
+static inline __attribute__((always_inline)) double cw_tet_quality_by(const CwTetMeasures *s) {
+  double shortest, longest;
+  cw_tet_edges(s, &shortest, &longest);
+  const double *l = s->edge, *n = s->area;
   double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
                              cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
-  least = s.six * s.six * cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
-  double areas = n[0] * n[1] * n[2] * n[3];
-  if (least > squared * areas && CW_TET_ASPECT * shortest > squared * longest) return 1.0;
+  least = s->six * s->six * cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   double aspect = CW_TET_ASPECT * shortest / longest;
-  if (aspect < CW_TET_SLENDER) aspect = sqrt(CW_TET_SLENDER * aspect);
-  return sqrt(cw_tet_less(least / areas, aspect));
+  double counted = aspect < CW_TET_SLENDER ? sqrt(CW_TET_SLENDER * aspect) : aspect;
+  double quality = sqrt(cw_tet_less(least / (n[0] * n[1] * n[2] * n[3]), counted));
+  return (s->six > 0.0) & (s->six * s->six > CW_TET_FLAT * longest * longest * longest) ? quality : -1.0;
 }
 
 static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  return cw_tet_quality_to(a, b, c, d, 1.0); // no sine is above 1
+  if (!(cw_tet_six(a, b, c, d) > 0.0)) return -1.0; // many are, and need nothing else
+  CwTetMeasures s = cw_tet_measures(a, b, c, d);
+  return cw_tet_quality_by(&s);
 }
 
 #endif

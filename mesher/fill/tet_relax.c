@@ -11,32 +11,79 @@ static const double floor_quality = 0.25; // below it no tetrahedron may become 
 static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
 static const double pull = 0.1;           // of an edge
 enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
+enum { LANES = 8 };
 
-// Sets the quality (1 for all that are regular enough) and whether it is slender, and puts the tetrahedron into the
-// list where it is below the limit.
-static CwStatus judge(CwTetWork *w, int32_t t) {
-  CwDelaunayTet *tet = &w->mesh->tet[t];
-  const int32_t *c = tet->corner;
-  double shortest, longest;
-  CwTetMeasures measures =
-      cw_tet_measures(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
-  cw_tet_edges(&measures, &shortest, &longest);
-  tet->centre[2] = longest > CW_TET_LONG * CW_TET_LONG * shortest;
-  tet->square =
-      cw_tet_quality_to(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]), regular);
-  return tet->square < w->limit ? cw_tet_push(w, t) : CW_OK;
+// Tetrahedra side by side, so that a processor's instructions for two or four numbers have as many of them at once.
+// Those behind `count` are of no meaning.
+typedef struct {
+  int count;
+  int32_t tet[LANES];
+  double x[4][3][LANES], quality[LANES], slender[LANES];
+} Lanes;
+
+static inline void add_lane(const CwTetWork *w, int32_t t, Lanes *s) {
+  for (int c = 0; c < 4; c++) {
+    const double *x = cw_tet_at(w, w->mesh->tet[t].corner[c]);
+    for (int i = 0; i < 3; i++) s->x[c][i][s->count] = x[i];
+  }
+  s->tet[s->count++] = t;
+}
+
+static void judge_lanes(Lanes *s) {
+  for (int k = 0; k < LANES; k++) {
+    double a[3], b[3], c[3], d[3], shortest, longest;
+    for (int i = 0; i < 3; i++) a[i] = s->x[0][i][k], b[i] = s->x[1][i][k], c[i] = s->x[2][i][k], d[i] = s->x[3][i][k];
+    CwTetMeasures measures = cw_tet_measures(a, b, c, d);
+    cw_tet_edges(&measures, &shortest, &longest);
+    s->slender[k] = longest > CW_TET_LONG * CW_TET_LONG * shortest ? 1.0 : 0.0;
+    s->quality[k] = cw_tet_quality_by(&measures);
+  }
+}
+
+typedef struct {
+  int32_t *tet, count, space;
+} List;
+
+// Whether moves made a tetrahedron worse than it may be.
+static int is_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3]) {
+  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  return tet->square < floor_quality && tet->square < cw_tet_quality(old[tet->corner[0]], old[tet->corner[1]],
+                                                                     old[tet->corner[2]], old[tet->corner[3]]);
+}
+
+// Sets the quality of those in the lanes and whether they are slender, and puts them into the list where they are below
+// the limit, and into that of the spoilt ones where that is so and `old` places are given. Empties the lanes.
+static CwStatus judge(CwTetWork *w, Lanes *s, const double (*old)[3], List *spoilt) {
+  CwStatus status = CW_OK;
+  int count = s->count;
+  s->count = 0;
+  if (count) judge_lanes(s);
+  for (int k = 0; k < count; k++) {
+    CwDelaunayTet *tet = &w->mesh->tet[s->tet[k]];
+    tet->centre[2] = s->slender[k];
+    tet->square = s->quality[k];
+    if (tet->square < w->limit) CW_TRY(cw_tet_push(w, s->tet[k]));
+    if (!old || !is_spoilt(w, s->tet[k], old)) continue;
+    CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
+    spoilt->tet[spoilt->count++] = s->tet[k];
+  }
+done:
+  return status;
 }
 
 CwStatus cw_tet_scan(CwTetWork *w) {
   CwStatus status = CW_OK;
+  Lanes lanes = {0};
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
   for (int32_t t = 0; t < w->mesh->tet_count; t++) {
     CwDelaunayTet *tet = &w->mesh->tet[t];
     cw_delaunay_ask_ahead(tet);
     tet->centre[0] = 0.0;
     tet->centre[1] = -1.0;
-    if (tet->corner[0] >= 0) CW_TRY(judge(w, t));
+    if (tet->corner[0] >= 0) add_lane(w, t, &lanes);
+    if (lanes.count == LANES) CW_TRY(judge(w, &lanes, NULL, NULL));
   }
+  CW_TRY(judge(w, &lanes, NULL, NULL));
 done:
   return status;
 }
@@ -106,13 +153,6 @@ static inline void add_pull(const CwTetWork *w, const int32_t c[4], Sum *sum) {
   }
 }
 
-// Whether the move made a tetrahedron worse than it may be.
-static int is_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3]) {
-  const CwDelaunayTet *tet = &w->mesh->tet[t];
-  return tet->square < floor_quality && tet->square < cw_tet_quality(old[tet->corner[0]], old[tet->corner[1]],
-                                                                     old[tet->corner[2]], old[tet->corner[3]]);
-}
-
 // Marks the inner points that are not in a lattice.
 static void find_irregular(const CwTetWork *w, uint8_t *moved) {
   CwDelaunay *mesh = w->mesh;
@@ -142,29 +182,17 @@ static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, const i
   }
 }
 
-typedef struct {
-  int32_t *tet, count, space;
-} List;
-
-static CwStatus note_if_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3], List *spoilt) {
-  CwStatus status = CW_OK;
-  if (!is_spoilt(w, t, old)) goto done;
-  CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
-  spoilt->tet[spoilt->count++] = t;
-done:
-  return status;
-}
-
 // A point of t goes back to where it stood. *whole: its tetrahedra are too many to be judged here.
 static CwStatus put_back(CwTetWork *w, int32_t t, int32_t point, const double (*old)[3], List *spoilt, int *whole) {
   CwStatus status = CW_OK;
   int32_t star[CW_TET_STAR];
+  Lanes lanes = {0};
   memcpy(w->mesh->point[point].x, old[point], sizeof *old);
   int count = cw_tet_star(w, t, point, star);
   *whole |= count == 0;
   for (int k = 0; k < count; k++) {
-    CW_TRY(judge(w, star[k]));
-    CW_TRY(note_if_spoilt(w, star[k], old, spoilt));
+    add_lane(w, star[k], &lanes);
+    if (lanes.count == LANES || k + 1 == count) CW_TRY(judge(w, &lanes, old, spoilt));
   }
 done:
   return status;
@@ -176,6 +204,7 @@ static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) 
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
   List spoilt = {0};
+  Lanes lanes = {0};
   int whole;
   do {
     whole = 0;
@@ -183,9 +212,10 @@ static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) 
       const int32_t *c = mesh->tet[t].corner;
       cw_delaunay_ask_ahead(&mesh->tet[t]);
       if (c[0] < 0 || !(moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) continue;
-      CW_TRY(judge(w, t));
-      CW_TRY(note_if_spoilt(w, t, old, &spoilt));
+      add_lane(w, t, &lanes);
+      if (lanes.count == LANES) CW_TRY(judge(w, &lanes, old, &spoilt));
     }
+    CW_TRY(judge(w, &lanes, old, &spoilt));
     while (spoilt.count) {
       int32_t t = spoilt.tet[--spoilt.count];
       for (int i = 0; i < 4 && is_spoilt(w, t, old); i++) {
