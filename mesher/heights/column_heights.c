@@ -19,6 +19,9 @@ static const double LAST_LAYER = 1.0;       // its height over that of a regular
 static const double LOW_LAST = 0.75;        // the same where columns are at their tallest
 static const double LAST_IN_HOLLOW = 0.65;  // the same at concave bends, times their cosine: tetrahedra there have two
                                             // faces on the front, and are the flatter the sharper the bend is
+static const double FINE_IN_HOLLOW = 0.8;   // the same where layers are fine: with less, the slope of heights holds the
+                                            // columns beside a hollow below half a tetrahedron
+static const double FINE = 0.5;             // of the wanted length: columns of even layers below that are fine
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
 static const double LITTLE_GROWTH = 1.1;
@@ -117,8 +120,11 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
   Bend bend = bend_at(skeleton, columns->around, v);
   int bent = bend.cosine < BEND;
-  double last = bent && bend.rise > HOLLOW ? LAST_IN_HOLLOW * bend.cosine : LAST_LAYER, height = 0;
-  double size = size_at(skeleton, x);
+  double size = size_at(skeleton, x), height = 0, last = LAST_LAYER;
+  if (bent && bend.rise > HOLLOW) {
+    int fine = cw_column_height_least(heights->first_height[v], heights->layer_count) < FINE * size;
+    last = (fine ? FINE_IN_HOLLOW : LAST_IN_HOLLOW) * bend.cosine;
+  }
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend.normal[k];

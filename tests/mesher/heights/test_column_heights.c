@@ -133,6 +133,8 @@ static double roof_height(double size, int fluid_above) {
 static void bends_of_the_wall(void **state) {
   // In the hollow the last layer is 0.65 cos 45 of the tetrahedron: 2.25, after 1 and 1.5.
   NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 0), 4.75);
+  // 0.8 cos 45 where three even layers are lower than half a length: 3.61, after 1 and 1.9.
+  NEAR(roof_height(3.61 / (0.8 * sqrt(0.5) * 0.816), 0), 6.51);
   NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 1), 7);
   NEAR(roof_height(2.25 / 0.816, 1), 4.75);
   NEAR(roof_height(1.8, 1), 3.6); // no taller than two wanted lengths
