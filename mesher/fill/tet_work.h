@@ -28,9 +28,9 @@ extern "C" {
 
 enum { CW_TET_STAR = 96 };
 
-// The quality of a tetrahedron stands in its square, a mark of the last star in its
-// centre[0], the pass that put it into the list for the next in centre[1], in centre[2] 0 where it was not slender when
-// all were judged, and the pass in which something changed at a point in the point's mark.
+// The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it
+// into the list for the next in centre[1], in centre[2] 0 where it was not slender when all were judged, and the pass
+// in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
