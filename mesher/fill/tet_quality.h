@@ -61,6 +61,23 @@ static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double
   *longest = cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])), cw_tet_more(l[4], l[5]));
 }
 
+// checkMesh's determinant: that of the sum of S S^T / a^2 over the inner faces, S being their area vectors and a the
+// mean of their areas, over 8. Bit i of `open` is set where the face opposite corner i lies on the boundary. As the S
+// of all four add up to 0, the sum's is (9 V^2 / 2)^2 without one of them and 4 times that with all; 0 where two or
+// more are open.
+static inline double cw_tet_determinant(const CwTetMeasures *s, int open) {
+  double sum = 0.0;
+  int inner = 0;
+  for (int i = 0; i < 4; i++) {
+    if (open >> i & 1) continue;
+    sum += 0.5 * sqrt(s->area[i]);
+    inner++;
+  }
+  if (inner < 3) return 0.0;
+  double mean = sum / inner, root = (inner == 4 ? 2.0 : 1.0) * s->six * s->six / (8.0 * mean * mean * mean);
+  return root * root / 8.0;
+}
+
 // Least six volumes over the cube of the longest edge, squared: flatter ones are lost in rounding.
 #define CW_TET_FLAT 1e-16
 

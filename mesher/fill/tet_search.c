@@ -9,6 +9,7 @@
 #include "mesher/fill/tet_patch.h"
 #include "mesher/fill/tet_work.h"
 
+static const double small_determinant = 1e-3; // checkMesh calls it so below
 // Sines of dihedral angles.
 static const double bad = 0.2250;      // 13 degrees: a search begins where there is less,
 static const double wanted = 0.3090;   // and below 18 degrees where that is
@@ -26,7 +27,7 @@ enum {
   IDLE = 250,     // of these, without a gain
   SHARE = 500,    // one try for as many tetrahedra of the mesh: half as long as their fill takes,
   FEWEST = 600,   // or so many,
-  MILD = 200,     // or so many, where none is below 13 degrees
+  MILD = 200,     // or so many, where none is below 13 degrees, and for determinants
   BEGINNINGS = 8, // of a place where one is
   MIXED = 3,      // in one beginning of as many points do not only go in
   FEW = 250,      // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
@@ -36,7 +37,7 @@ enum {
 };
 
 typedef struct {
-  double least, deficit; // least sine; what all lack, the worst by far the most
+  double least, sine, deficit; // least judged, and least sine; what all lack, the worst by far the most
 } Rated;
 
 // A patch, changed or not.
@@ -51,10 +52,11 @@ typedef struct {
   Found now, best;        // of this beginning; of all of a place
   CwDelaunay trial;
   uint64_t random;
-  int32_t tries; // left
-  double begin;  // least sine below which a search begins
-  double again;  // and begins again
-  int mixed;     // all kinds of disturbances, though an angle is pressing
+  int32_t tries;    // left
+  double begin;     // least sine below which a search begins
+  double again;     // and begins again
+  int determinants; // count too
+  int mixed;        // all kinds of disturbances, though an angle is pressing
 } Search;
 
 // In [0, 1).
@@ -72,12 +74,25 @@ static CwTetMeasures measures_of(const CwDelaunay *mesh, int32_t t) {
   return cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x);
 }
 
-static double least_sine(const CwDelaunay *mesh, int32_t t) {
+static double least_sine(const CwTetMeasures *m) {
   static const int8_t beside[6][2] = {{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}; // faces at each edge
-  CwTetMeasures m = measures_of(mesh, t);
   double least = INFINITY;
-  for (int e = 0; e < 6; e++) least = fmin(least, m.edge[e] / (m.area[beside[e][0]] * m.area[beside[e][1]]));
-  return m.six > 0.0 ? m.six * sqrt(least) : -1.0;
+  for (int e = 0; e < 6; e++) least = fmin(least, m->edge[e] / (m->area[beside[e][0]] * m->area[beside[e][1]]));
+  return m->six > 0.0 ? m->six * sqrt(least) : -1.0;
+}
+
+// The least sine or, where the search is for determinants, less where checkMesh calls that small: `bad` at its limit.
+// Of flat tetrahedra it goes with the fourth power of their angles, and those of 13 to 17 degrees may be called so. A
+// face without a neighbour is left out as on a cap, though layers or more of the mesh may lie behind it: no small one
+// is missed.
+static double judge(const Search *s, const CwDelaunay *mesh, int32_t t, double *sine) {
+  CwTetMeasures m = measures_of(mesh, t);
+  int open = 0;
+  *sine = least_sine(&m);
+  if (!s->determinants || *sine < 0.0) return *sine;
+  for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] < 0) << i;
+  double determinant = cw_tet_determinant(&m, open);
+  return determinant > 0.0 ? fmin(*sine, bad * sqrt(sqrt(determinant / small_determinant))) : *sine;
 }
 
 static double mean_edge(const CwDelaunay *mesh, int32_t t) {
@@ -85,12 +100,13 @@ static double mean_edge(const CwDelaunay *mesh, int32_t t) {
   return sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
 }
 
-static Rated rate(const CwDelaunay *mesh) {
-  Rated rated = {INFINITY, 0.0};
+static Rated rate(const Search *s, const CwDelaunay *mesh) {
+  Rated rated = {INFINITY, INFINITY, 0.0};
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     if (mesh->tet[t].corner[0] < 0) continue;
-    double sine = least_sine(mesh, t), lack = fmax(0.0, 1.0 - sine / counted);
-    rated.least = fmin(rated.least, sine);
+    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / counted);
+    rated.least = fmin(rated.least, judged);
+    rated.sine = fmin(rated.sine, sine);
     rated.deficit += lack * lack * lack * lack * lack * lack;
   }
   return rated;
@@ -100,7 +116,8 @@ static Rated rate(const CwDelaunay *mesh) {
 static int32_t choose_tet(Search *s, double least) {
   int32_t count = 0, chosen = 0;
   for (int32_t t = 0; t < s->trial.tet_count; t++) {
-    if (s->trial.tet[t].corner[0] >= 0 && least_sine(&s->trial, t) < fmin(counted, least + alike) &&
+    double sine;
+    if (s->trial.tet[t].corner[0] >= 0 && judge(s, &s->trial, t, &sine) < fmin(counted, least + alike) &&
         choose(s, ++count) == 0)
       chosen = t;
   }
@@ -198,7 +215,7 @@ static CwStatus try_disturbed(Search *s, double least, Rated *result) {
   s->work.next_count = 0;
   CW_TRY(cw_tet_scan(&s->work));
   CW_TRY(cw_tet_improve_list(&s->work, PASSES, 1));
-  *result = rate(&s->trial);
+  *result = rate(s, &s->trial);
 done:
   return status;
 }
@@ -230,13 +247,14 @@ static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   CwStatus status = CW_OK;
   Rated trial, *best = &s->now.rated;
   CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
-  *best = rate(&s->now.patch.mesh);
+  *best = rate(s, &s->now.patch.mesh);
   s->now.gain = best->deficit;
   for (int k = 0, idle = 0; best->least < s->begin + beyond && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
     s->tries--;
     s->whole->count.search_tries++;
     CW_TRY(try_disturbed(s, best->least, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
+    if (trial.sine < fmin(best->sine, wanted)) continue; // no angle is given up for a determinant
     CwDelaunay swap = s->now.patch.mesh;
     s->now.patch.mesh = s->trial;
     s->trial = swap;
@@ -283,7 +301,9 @@ static int32_t count_bad(const CwTetWork *w) {
   int32_t count = 0;
   for (int32_t k = 0; k < w->next_count; k++) {
     int32_t t = w->next[k];
-    count += w->mesh->tet[t].corner[0] >= 0 && w->mesh->tet[t].square < bad && least_sine(w->mesh, t) < bad;
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= bad) continue;
+    CwTetMeasures m = measures_of(w->mesh, t);
+    count += least_sine(&m) < bad;
   }
   return count;
 }
@@ -317,36 +337,56 @@ done:
   return status;
 }
 
+// The worst below where a search begins, as it is judged, but near none of the places; -1 where there is none.
+static int32_t find_worst(const Search *s, int count, const double (*place)[3], const double *reach, double *least) {
+  const CwTetWork *w = s->whole;
+  int32_t worst = -1;
+  *least = s->begin;
+  for (int32_t k = 0; k < w->next_count; k++) {
+    int32_t t = w->next[k];
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= (s->determinants ? wanted : *least)) continue;
+    double sine, judged = judge(s, w->mesh, t, &sine);
+    if (judged < *least && judged > sound && !is_near(w, t, count, place, reach)) *least = judged, worst = t;
+  }
+  return worst;
+}
+
+static CwStatus search_places(Search *s) {
+  CwStatus status = CW_OK;
+  double place[PLACES][3], reach[PLACES], least;
+  for (int n = 0; n < PLACES && s->tries > 0; n++) {
+    int32_t worst = find_worst(s, n, (const double(*)[3])place, reach, &least);
+    if (worst < 0) break;
+    memcpy(place[n], cw_tet_at(s->whole, s->whole->mesh->tet[worst].corner[0]), sizeof place[n]);
+    reach[n] = 2.0 * mean_edge(s->whole->mesh, worst); // what else is bad there was before the same search
+    CW_TRY(search_place(s, worst));
+  }
+done:
+  return status;
+}
+
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
   Search s = {.whole = w, .begin = wanted, .work = {.limit = counted, .fixed_count = 1}};
-  double place[PLACES][3], reach[PLACES], worth = 0.0;
+  double least, worth = 0.0;
   s.work.mesh = s.work.flips.mesh = &s.trial;
   s.work.source_count = 1;
-  if (count_bad(w) <= w->mesh->tet_count / FEW)
-    s.tries = w->mesh->tet_count > SHARE * FEWEST ? w->mesh->tet_count / SHARE : FEWEST;
-  for (int n = 0; n < PLACES && s.tries > 0; n++) {
-    double least = s.begin;
-    int32_t worst = -1;
-    for (int32_t k = 0; k < w->next_count; k++) {
-      int32_t t = w->next[k];
-      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= least) continue;
-      double sine = least_sine(w->mesh, t);
-      if (sine < least && sine > sound && !is_near(w, t, n, (const double(*)[3])place, reach)) least = sine, worst = t;
-    }
-    if (worst < 0) break;
-    if (n == 0) {
-      CW_TRY(least_worthwhile(w->mesh, &worth));
-      s.again = fmin(pressing, worth);
-      s.begin = fmin(wanted, fmax(bad, worth));
-      s.work.insert = s.work.insert_round = s.begin;
-      if (least >= s.begin) break;
-      if (least >= bad) s.tries = MILD;
-    }
-    memcpy(place[n], cw_tet_at(w, w->mesh->tet[worst].corner[0]), sizeof place[n]);
-    reach[n] = 2.0 * mean_edge(w->mesh, worst); // what else is bad there was before the same search
-    CW_TRY(search_place(&s, worst));
+  if (count_bad(w) > w->mesh->tet_count / FEW) goto done;
+  s.tries = w->mesh->tet_count > SHARE * FEWEST ? w->mesh->tet_count / SHARE : FEWEST;
+  if (find_worst(&s, 0, NULL, NULL, &least) >= 0) {
+    CW_TRY(least_worthwhile(w->mesh, &worth));
+    s.again = fmin(pressing, worth);
+    s.begin = fmin(wanted, fmax(bad, worth));
+    s.work.insert = s.work.insert_round = s.begin;
+    if (least >= bad) s.tries = MILD;
+    CW_TRY(search_places(&s));
   }
+  // After the angles, with tries of its own: else the many on layers that only look small would use them up.
+  s.determinants = 1;
+  s.begin = s.work.insert = s.work.insert_round = bad;
+  s.again = 0.0;
+  s.tries = MILD;
+  CW_TRY(search_places(&s));
 done:
   cw_delaunay_free(&s.trial);
   free(s.work.bad);

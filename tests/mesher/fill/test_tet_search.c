@@ -174,7 +174,7 @@ static void what_the_boundary_forces_is_not_pressed(void **state) {
   assert_true(least_angle(w.mesh, &volume) < 10.0);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 10.0);
-  assert_in_range(w.count.search_tries, 1, 400);
+  assert_in_range(w.count.search_tries, 1, 600); // 200 of them for determinants
   finish(&w, &patch);
 }
 
@@ -188,8 +188,32 @@ static void tries_are_bounded(void **state) {
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 12.0);
-  assert_int_equal(w.count.search_tries, 600);
+  assert_int_equal(w.count.search_tries, 800); // 200 of them for determinants
   finish(&w, &patch);
+}
+
+// In closed form as by the sum over the faces, which checkMesh takes.
+static void determinant_is_that_of_the_sum(void **state) {
+  const double x[4][3] = {{0.1, 0.0, 0.2}, {1.3, 0.1, 0.0}, {0.2, 0.9, -0.1}, {0.5, 0.3, 0.4}};
+  CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
+  assert_true(m.six > 0.0);
+  for (int open = -1; open < 4; open++) {
+    double sum[3][3] = {{0}}, mean = 0.0;
+    for (int f = 0; f < 4; f++) {
+      double u[3], v[3], n[3];
+      if (f == open) continue;
+      cw_sub(x[cw_tet_face[f][1]], x[cw_tet_face[f][0]], u);
+      cw_sub(x[cw_tet_face[f][2]], x[cw_tet_face[f][0]], v);
+      cw_cross(u, v, n);
+      mean += 0.5 * cw_norm(n) / (open < 0 ? 4 : 3);
+      for (int i = 0; i < 9; i++) sum[i / 3][i % 3] += 0.25 * n[i / 3] * n[i % 3];
+    }
+    double minor[3], determinant;
+    cw_cross(sum[1], sum[2], minor);
+    determinant = cw_dot(sum[0], minor) / (8.0 * pow(mean, 6.0));
+    assert_true(fabs(cw_tet_determinant(&m, open < 0 ? 0 : 1 << open) / determinant - 1.0) < 1e-10);
+  }
+  assert_true(cw_tet_determinant(&m, 3) == 0.0);
 }
 
 int main(void) {
@@ -198,6 +222,7 @@ int main(void) {
       cmocka_unit_test(good_ones_are_left_alone),
       cmocka_unit_test(what_the_boundary_forces_is_not_pressed),
       cmocka_unit_test(tries_are_bounded),
+      cmocka_unit_test(determinant_is_that_of_the_sum),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
