@@ -8,7 +8,7 @@
 
 enum {
   REGIONS_MOST = 12, // of a subtree whose plane is moved: all below it is weighed for each move
-  MOVES = 6
+  MOVES = 27         // each of shift and two turns forth, not at all and back; the first is no move
 };
 // Cosines of a line to the normal of a wall where it ends. Columns on walls that meet a line of less than the first
 // came out so crooked that cells had small determinants (the paper's pump of 100 million cells: 42, and 11 degrees);
@@ -82,22 +82,19 @@ static void find_cut(const CwPlanModel *model, const CwPlanPart *part, const CwP
   *reach = all > 0 ? sqrt(square / all) : cw_distance(part->low, part->high) / 4;
 }
 
-// The plane after a move of this length: shifted, or turned about one of two directions through the middle of its cut.
+// The plane after a move of this length: shifted, turned about two directions through the middle of its cut, or several
+// of these at once. Where one of them alone leaves a line no room, another may give it back.
 static CwPlane moved(const CwPlane *plane, const double centre[3], double reach, int move, double length) {
-  const double *n = plane->normal;
-  double across[3] = {n[1], -n[0], 0}, other[3], step = move % 2 ? -length : length; // n x z
+  static const double way[3] = {0, 1, -1};
+  const double *n = plane->normal, turn = length / reach;
+  double across[3] = {n[1], -n[0], 0}, other[3]; // n x z
   CwPlane made = *plane;
-  if (move < 2) {
-    made.offset += step;
-    return made;
-  }
   if (cw_norm(across) < 0.1) across[0] = 0, across[1] = n[2], across[2] = -n[1]; // n x x
   cw_unit(across);
   cw_cross(n, across, other);
-  const double *towards = move < 4 ? across : other;
-  for (int k = 0; k < 3; k++) made.normal[k] += step / reach * towards[k];
+  for (int k = 0; k < 3; k++) made.normal[k] += turn * (way[move / 3 % 3] * across[k] + way[move / 9] * other[k]);
   cw_unit(made.normal);
-  made.offset = cw_dot(made.normal, centre) + cw_plane_distance(plane, centre);
+  made.offset = cw_dot(made.normal, centre) + cw_plane_distance(plane, centre) + way[move % 3] * length;
   return made;
 }
 
@@ -114,7 +111,7 @@ static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPl
     const CwPlane from = best;
     double before = least.cost;
     find_cut(model, part, plane, centre, &reach);
-    for (int move = 0; move < MOVES; move++) {
+    for (int move = 1; move < MOVES; move++) {
       *plane = moved(&from, centre, reach, move, step);
       CW_TRY(weigh(model, plan, part, node, least.cost, &worth));
       if (worth.cost < least.cost - WORTH) {
