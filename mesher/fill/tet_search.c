@@ -27,7 +27,7 @@ enum {
   IDLE = 250,     // of these, without a gain
   SHARE = 500,    // one try for as many tetrahedra of the mesh: half as long as their fill takes,
   FEWEST = 600,   // or so many,
-  MILD = 200,     // or so many, where none is below 13 degrees, and for determinants
+  MILD = 200,     // or so many, where none is below 13 degrees
   BEGINNINGS = 8, // of a place where one is
   MIXED = 3,      // in one beginning of as many points do not only go in
   FEW = 250,      // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
@@ -384,8 +384,8 @@ CwStatus cw_tet_search(CwTetWork *w) {
   // After the angles, with tries of its own: else the many on layers that only look small would use them up.
   s.determinants = 1;
   s.begin = s.work.insert = s.work.insert_round = bad;
-  s.again = 0.0;
-  s.tries = MILD;
+  s.again = bad;
+  s.tries = FEWEST;
   CW_TRY(search_places(&s));
 done:
   cw_delaunay_free(&s.trial);
