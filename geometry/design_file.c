@@ -124,8 +124,8 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
                                       [CW_EDGE_BLUNT] = "blunt",
                                       [CW_EDGE_ROUNDED] = "rounded",
                                       [CW_EDGE_SHARP] = "sharp"};
-  json_t *root = json_object(), *sources = json_object();
-  int failed = !root || !sources;
+  json_t *root = json_object(), *sources = json_object(), *names = json_object();
+  int failed = !root || !sources || !names;
   failed |= json_object_set_new(root, "blade_count", json_integer(design->blade_count)) != 0;
   failed |= json_object_set_new(sources, "blade_count", json_string(design->blade_count_source)) != 0;
   failed |= json_object_set_new(root, "splitter_count",
@@ -146,6 +146,7 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
     const CwDesignValue value = cw_hydraulic_design_value(design, i);
     failed |= json_object_set_new(root, value.key, cw_json_number(value.stored)) != 0;
     failed |= json_object_set_new(sources, value.key, json_string(design->source[i])) != 0;
+    failed |= json_object_set_new(names, value.key, json_string(value.text)) != 0;
   }
   failed |= json_object_set_new(root, "rotor_volume_m3", cw_json_number(measured->solid[CW_PUMP_ROTOR].volume)) != 0;
   failed |= json_object_set_new(root, "stator_volume_m3", cw_json_number(measured->solid[CW_PUMP_STATOR].volume)) != 0;
@@ -155,10 +156,12 @@ CwStatus cw_design_file_write(const CwDesign *design, const CwMeasuredPump *meas
   failed |= json_object_set_new(root, "remarks", remarks_json(design)) != 0;
   failed |= json_object_set_new(root, "volute_sections", sections_json(&design->volute)) != 0;
   failed |= json_object_set(root, "sources", sources) != 0;
+  failed |= json_object_set(root, "names", names) != 0;
   CW_REQUIRE(!failed, CW_ERR_MEMORY, "%s: out of memory", path);
   CW_TRY(cw_json_write(root, path));
 done:
   json_decref(root);
   json_decref(sources);
+  json_decref(names);
   return status;
 }

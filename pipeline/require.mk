@@ -9,6 +9,11 @@ cutwater_require = $(if $(shell echo '$(subst ','\'',$(2))' | grep -Ex '$(3)' > 
 # $(call cutwater_require_cells,NAME,VALUE): empty, or as --cells takes it; whether it is in range the first stage tells.
 cutwater_require_cells = $(call cutwater_require,$(1),$(2),([0-9][0-9.]*[kKMG]?)?,a number of cells as 500000 or 500k or 2M)
 
+# Stops at a variable of the command line that is none of those in the list, such as CELL=2M.
+cutwater_variables := BUILD CELLS CHOICE JOBS MPIRUN NP OPTIONS OUT SWEEP
+$(foreach variable,$(filter-out $(cutwater_variables),$(.VARIABLES)),$(if $(filter command,$(origin $(variable))),$\
+  $(error $(variable) is no variable of this project; allowed: $(cutwater_variables))))
+
 # $(call cutwater_folder,NAME,VALUE): an absolute path; others count from the top of the source.
 cutwater_folder = $(if $(filter 1,$(words $(2))),$(abspath $(if $(filter /%,$(2)),$(2),$(ROOT)/$(2))),$\
   $(error $(1) is '$(2)'; allowed: one folder, without blanks))

@@ -64,7 +64,7 @@ def mesh_lines(result):
         yield "layers", (f"{result['layers']} on {faces:,} wall faces; first height as asked on "
                          f"{100 * first / faces:.1f} %, full thickness on {100 * full / faces:.1f} %")
     yield "volume", ", ".join(f"{domain['name']} {100 * domain['volume_error']:+.3f} %" for domain in domains) + \
-        " from its solid; least cell " + f"{min(domain['least_cell_volume_m3'] for domain in domains):.1e} m3"
+        " from its solid; least cell " + f"{1e9 * min(domain['least_cell_volume_m3'] for domain in domains):.2g} mm3"
 
 
 def main():

@@ -244,8 +244,8 @@ static CwStatus refine_interfaces(CwMeshRun *run) {
     if (domain->symmetry) continue;
     CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
     if (domain->rule.planned == 0) continue;
-    cw_log("%s: region numbers in %d colours; of %lld interface triangles %lld held new points in their spheres: "
-           "%lld centres inserted, %lld triangles left to both sides",
+    cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
+           "centres inserted %lld, triangles left to both sides %lld",
            domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
            (long long)domain->rule.inserted, (long long)domain->rule.left);
   }

@@ -109,11 +109,11 @@ char *cw_format_seconds(double seconds, char text[CW_FORMAT_SIZE]) {
 }
 
 char *cw_format_bytes(double bytes, char text[CW_FORMAT_SIZE]) {
-  static const char *const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  static const char *const units[] = {"B", "kB", "MB", "GB", "TB"};
   char number[CW_FORMAT_SIZE];
   int at = 0;
   while (bytes >= 999.5 && at < 4) {
-    bytes /= 1024;
+    bytes /= 1000;
     at++;
   }
   snprintf(text, CW_FORMAT_SIZE, "%.40s %s", cw_format_number(bytes, 3, number), units[at]);

@@ -50,7 +50,7 @@ static const char style[] =
     "sub,sup{line-height:0;font-size:75%}a{color:var(--blue)}\n"
     "figure{margin:0}figure img{display:block;width:100%;height:auto;border:1px solid var(--line)}\n"
     "figure svg{max-width:100%;height:auto}\n"
-    ".drawing svg{display:block;width:100%;border:1px solid var(--line)}\n"
+    ".drawing{margin:18px 0 30px}.drawing svg{display:block;border:1px solid var(--line)}\n"
     "figcaption{margin-top:8px;font-size:14px;color:var(--soft);max-width:88ch}figcaption "
     "b{color:var(--ink)}\n"
     ".key{margin:5px 0 0;font-size:13px;color:var(--soft);display:flex;flex-wrap:wrap;gap:2px 16px}\n"

@@ -36,7 +36,7 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   if (key->presence == CW_KEY_COMPUTED && (isnan(value) || value == key->fallback))
     return; // left open: stands among the derived dimensions, or follows from others
   if (key->presence == CW_KEY_DEFAULT && value == key->fallback) origin = "default";
-  cw_quantity_start(page, stem);
+  cw_quantity_start(page, stem, NULL);
   if (key->type == CW_KEY_CHOICE) {
     fputs("<td class=\"n\">", page);
     cw_html_label(page, key->choices[(int)value]);
@@ -83,7 +83,7 @@ static const struct {
              {"relative_speed_m_per_s", "Speeds that walls are meshed for, and volumes"}};
 
 // A flat list of numbers in JSON as table rows.
-static void design_rows(FILE *page, json_t *object, json_t *sources) {
+static void design_rows(FILE *page, json_t *object, json_t *sources, json_t *names) {
   const char *key;
   json_t *value;
   char stem[CW_STEM_SIZE], number[CW_FORMAT_SIZE];
@@ -95,7 +95,7 @@ static void design_rows(FILE *page, json_t *object, json_t *sources) {
     const CwQuantityUnit *unit = cw_quantity_unit(key);
     double real = json_number_value(value) * unit->scale;
     cw_quantity_stem(key, stem);
-    cw_quantity_start(page, stem);
+    cw_quantity_start(page, stem, json_string_value(json_object_get(names, key)));
     cw_html_number_cell(page, json_is_integer(value)
                                   ? cw_format_count(json_integer_value(value), number)
                                   : cw_format_number(fabs(real) < 1e-9 ? 0 : real, 5, number)); // residuals
@@ -115,21 +115,21 @@ CwStatus cw_page_design(FILE *page, const CwReportData *data) {
   fputs("<p>Every dimension and figure of the hydraulic design with the correlation it comes from.</p>\n"
         "<table><tr><th>Quantity</th><th></th><th class=\"n p\">Value</th><th>Unit</th><th>Source</th></tr>\n",
         page);
-  design_rows(page, data->design, json_is_object(sources) ? sources : NULL);
+  design_rows(page, data->design, json_is_object(sources) ? sources : NULL, json_object_get(data->design, "names"));
   fputs("</table>\n", page);
   if (!json_is_object(measured)) return CW_OK;
   fputs("<h3>Measured on the solids as built</h3>\n<table><tr><th>Quantity</th><th></th><th class=\"n "
         "p\">Value</th>"
         "<th>Unit</th></tr>\n",
         page);
-  design_rows(page, measured, NULL);
+  design_rows(page, measured, NULL, NULL);
   const char *key;
   json_t *value;
   char number[CW_FORMAT_SIZE];
   json_object_foreach(measured, key, value) {
     double angle = cw_json_real(value, "angle_deg");
     if (isnan(angle)) continue;
-    cw_quantity_start(page, key);
+    cw_quantity_start(page, key, NULL);
     cw_html_number_cell(page, cw_format_number(angle, 5, number));
     fputs("<td>&deg;</td></tr>\n", page);
   }
@@ -150,7 +150,6 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
   int count = scandir(folder, &entry, is_svg, alphasort);
   CW_REQUIRE(count >= 0, CW_ERR_IO, "%s: cannot be read: %s", folder, strerror(errno));
   if (count == 0) fputs("<p>The geometry stage left no drawings.</p>\n", page);
-  fputs("<div class=\"grid\">\n", page);
   for (int k = 0; k < count; k++) {
     snprintf(path, sizeof path, "%s/%s", folder, entry[k]->d_name);
     snprintf(name, sizeof name, "%.*s", (int)strlen(entry[k]->d_name) - 4, entry[k]->d_name);
@@ -160,7 +159,6 @@ CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data) {
     cw_html_label(page, name);
     fputs("</b></figcaption></figure>\n", page);
   }
-  fputs("</div>\n", page);
 done:
   for (int k = 0; k < count; k++) free(entry[k]);
   free(entry);

@@ -118,7 +118,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
   figure_row(page, data, "Difference", "%", domain, "volume_error", 100, 3);
   figure_row(page, data, "Least cell", "mm&sup3;", domain, "least_cell_volume_m3", 1e9, 3);
   fputs("</table></div>\n<div><table><tr><th>Domain</th><th>Patch</th><th>Kind</th><th class=\"n p\">Area, "
-        "cm&sup2;</th></tr>\n",
+        "mm&sup2;</th></tr>\n",
         page);
   for (int d = 0; d < data->mesh.domain_count; d++) {
     size_t k;
@@ -131,7 +131,7 @@ CwStatus cw_page_counts(FILE *page, const CwReportData *data) {
       fputs("</td><td class=\"q\">", page);
       cw_html_text(page, kind ? kind : "");
       fputs("</td>", page);
-      number_cell(page, cw_json_real(patch, "area_m2") * 1e4, 4);
+      number_cell(page, cw_json_real(patch, "area_m2") * 1e6, 5);
       fputs("</tr>\n", page);
     }
   }
@@ -195,8 +195,9 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   json_t *domain[DOMAINS_MOST];
   CW_TRY(all_domains(data, domain));
-  fputs("<p>Each domain is divided by planes into regions that are meshed on their own, in the order of their "
-        "colours; the mesh is the same for any number of ranks.</p>\n",
+  fputs("<p>Each domain is divided by planes into regions that are meshed on their own; the mesh is the same for any "
+        "number of ranks. Where passages of the impeller are equal, their regions are turned copies of the first's, "
+        "which takes less time.</p>\n",
         page);
   cw_page_picture_list(page, data, CW_SECTION_DECOMPOSITION);
   fputs("<h3>Balance</h3>\n<div class=\"grid\">\n", page);
@@ -212,7 +213,7 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data) {
   figure_row(page, data, "Largest region over mean", "", domain, "region_balance", 1, 3);
   figure_row(page, data, "Largest error of the predicted share", "%", domain, "region_prediction_error", 100, 2);
   figure_row(page, data, "Interface polygons", "", domain, "interfaces", 1, 9);
-  figure_row(page, data, "Colours (longest chain)", "", domain, "colours", 1, 9);
+  figure_row(page, data, "Colours of the region numbers", "", domain, "colours", 1, 9);
   fputs("</table>\n", page);
 done:
   return status;

@@ -136,6 +136,8 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
       x += width * value / limit;
     }
     text(page, left - tick_gap, y + 11, "end", "c", plot->label[c]);
+    const double mark = left + width * plot->mark / limit;
+    if (mark > x - 5) x = fmax(x, mark); // so that the line does not cross the note
     if (plot->note) text(page, x + 5, y + 11, "start", "v", plot->note[c]);
   }
   text(page, left + 0.5 * width, top + body + 36, "middle", "x", plot->axis);

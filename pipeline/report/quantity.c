@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/report/quantity.h"
 
+#include <ctype.h>
 #include <string.h>
 
 #include "pipeline/report/html.h"
@@ -19,6 +20,7 @@ static const CwQuantityUnit units[] = {
     {"npsh_available_m", "m", 1},
     {"_deg", "&deg;", 1},
     {"_m2", "mm&sup2;", 1e6},
+    {"cell_volume_m3", "mm&sup3;", 1e9},
     {"_m3", "cm&sup3;", 1e6},
     {"_m", "mm", 1e3},
     {"_w", "W", 1},
@@ -84,9 +86,14 @@ static void symbol_cell(FILE *page, const char *stem) {
   fputs("</td>", page);
 }
 
-void cw_quantity_start(FILE *page, const char *stem) {
+void cw_quantity_start(FILE *page, const char *stem, const char *name) {
   fputs("<tr><td>", page);
-  cw_html_label(page, stem);
+  if (name && islower((unsigned char)name[0]) && isalpha((unsigned char)name[1])) // a word; not u2 or c_m
+    fputc(toupper((unsigned char)*name++), page);
+  if (name)
+    cw_html_text(page, name);
+  else
+    cw_html_label(page, stem);
   fputs("</td>", page);
   symbol_cell(page, stem);
 }

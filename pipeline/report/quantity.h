@@ -20,7 +20,7 @@ const CwQuantityUnit *cw_quantity_unit(const char *key);
 // The key without its unit.
 void cw_quantity_stem(const char *key, char stem[CW_STEM_SIZE]);
 
-// Starts a table row with the cells of name and symbol.
-void cw_quantity_start(FILE *page, const char *stem);
+// Starts a table row with the cells of name and symbol. Where `name` is NULL the stem stands for it.
+void cw_quantity_start(FILE *page, const char *stem, const char *name);
 
 #endif

@@ -49,6 +49,9 @@ static void keys_of_the_format(void **state) {
   const json_t *sources = json_object_get(root, "sources");
   assert_int_equal(json_object_size(sources), CW_DESIGN_COUNT + 1); // and blade_count
   assert_string_equal(json_string_value(json_object_get(sources, "outlet_diameter_m")), "case");
+  const json_t *names = json_object_get(root, "names");
+  assert_int_equal(json_object_size(names), CW_DESIGN_COUNT);
+  assert_string_equal(json_string_value(json_object_get(names, "outlet_diameter_m")), "impeller outlet D2");
   // Six triangles; both families for each correlated quantity (Guan's D2 is 178 mm); a remark on the head.
   assert_int_equal(json_array_size(json_object_get(root, "velocity_triangles")), 2 * CW_TRIANGLE_SPANS);
   const json_t *d2 = json_object_get(json_object_get(root, "correlations"), "outlet_diameter_m");

@@ -73,6 +73,15 @@ static void columns_are_as_high_as_their_values(void **state) {
   free(text);
 }
 
+// Where the words begin; 0 where they are not.
+static double note_place(const char *text, const char *words) {
+  const char *end = strstr(text, words);
+  double place = 0;
+  for (const char *at = text; end && (at = strstr(at, "<text x=\"")) && at < end; at++)
+    place = atof(at + strlen("<text x=\""));
+  return place;
+}
+
 static void bars_are_stacked_and_noted(void **state) {
   static const char *const label[] = {"one", "two"}, *const note[] = {"30 s", "60 s"};
   const double first[] = {10, 20}, second[] = {20, 40};
@@ -102,7 +111,11 @@ static void bars_are_stacked_and_noted(void **state) {
     if (class && !strncmp(class, "class=\"m\"", 9)) at = atof(line + strlen("<line x1=\""));
   }
   assert_near(at, p[1][0] + 0.75 * (p[1][2] + q[1][2]), 0.06);
-  assert_non_null(strstr(text, ">60 s<"));
+  assert_true(note_place(text, ">60 s<") > q[1][0] + q[1][2]);
+  free(text);
+  plot.mark = 32; // just behind the first bar: its note stands behind the line
+  text = drawn(cw_plot_bars, &plot);
+  assert_true(note_place(text, ">30 s<") > p[1][0] + 32.0 / 60 * (p[1][2] + q[1][2]));
   free(text);
 }
 

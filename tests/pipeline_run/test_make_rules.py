@@ -145,6 +145,7 @@ class FrontDoor(unittest.TestCase):
                             (["CELLS=1'"], "CELLS is '1''"), (["NP=0"], "NP is '0'; allowed: a number of ranks from 1"),
                             (["NP=two"], "NP is 'two'"), (["JOBS=0"], "JOBS is '0'"),
                             (["OUT="], "OUT is ''; allowed: one folder, without blanks"), (["OUT=a b"], "OUT is 'a b'"),
+                            (["CELL=2M"], "CELL is no variable of this project; allowed: BUILD CELLS "),
                             (["BUILD=a b"], "BUILD is 'a b'"), (["-C", "cases", "SWEEP=100k x"], "SWEEP is 'x'"),
                             (["-C", "cases", "OUT="], "OUT is ''"),
                             (["-C", "cases", "nothing"], "no case is called 'nothing'; allowed: ")):
