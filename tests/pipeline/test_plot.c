@@ -73,12 +73,13 @@ static void columns_are_as_high_as_their_values(void **state) {
   free(text);
 }
 
-// Where the words begin; 0 where they are not.
+// Where the words, between > and <, begin; 0 where they are not.
 static double note_place(const char *text, const char *words) {
-  const char *end = strstr(text, words);
   double place = 0;
-  for (const char *at = text; end && (at = strstr(at, "<text x=\"")) && at < end; at++)
-    place = atof(at + strlen("<text x=\""));
+  for (const char *at = text; (at = strstr(at, "<text x=\"")); at++) {
+    const char *shown = strchr(at, '>');
+    if (shown && !strncmp(shown, words, strlen(words))) place = atof(at + strlen("<text x=\""));
+  }
   return place;
 }
 
