@@ -403,7 +403,7 @@ CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleto
       cw_layer_fractions(heights->room[v], heights->first_height[v], layers, heights->growth[v], fraction);
       made->first = fmin(made->first, heights->first_height[v]);
       made->last += heights->room[v] * (1 - fraction[layers - 1]) / 3;
-      cw_layer_fractions(skeleton->height[v], heights->first_height[v], layers, heights->growth[v], fraction);
+      cw_layer_fractions(skeleton->height[v], heights->first_made[v], layers, heights->growth[v], fraction);
       made->made += skeleton->height[v] * (1 - fraction[layers - 1]) / 3;
       made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
     }
@@ -414,6 +414,7 @@ done:
 
 void cw_column_heights_free(CwColumnHeights *heights) {
   free(heights->first_height);
+  free(heights->first_made);
   free(heights->growth);
   free(heights->target);
   free(heights->least);

@@ -18,6 +18,7 @@
 typedef struct {
   int layer_count;
   double *first_height; // m
+  double *first_made;   // the same by which the column is divided, once it stands (even_columns.h), m
   double *growth;       // largest ratio of neighbouring layers
   double *target;       // height, m
   double *least;        // height of the lowest column with that first height, m

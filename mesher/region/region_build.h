@@ -13,7 +13,7 @@ typedef struct {
   const char *domain;
   int layer_count;
   CwFillMethod fill;
-  const double *first_height; // of each wall vertex, m
+  const double *first_height; // of each wall vertex, by which its column is divided, m
   const double *growth;       // of each wall vertex, largest ratio of neighbouring layers
   // Filled by cw_region_context_make:
   int64_t *shared_base; // of each skeleton node: first shared number of its column (or its own), -1: not shared

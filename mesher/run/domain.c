@@ -384,7 +384,7 @@ CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
                                       .layer_count = table->walls.layer_count,
                                       .growth = domain->heights.growth,
                                       .fill = table->mesh.fill,
-                                      .first_height = domain->heights.first_height};
+                                      .first_height = domain->heights.first_made};
   CW_TRY(cw_region_context_make(&domain->context));
 done:
   return status;
@@ -423,7 +423,8 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
       int32_t v = skeleton->wall_triangle[t][k];
       double height = skeleton->height[v];
       double wanted = heights->first_height[v];
-      double first = cw_layer_fractions(height, wanted, heights->layer_count, heights->growth[v], fraction);
+      double first =
+          cw_layer_fractions(height, heights->first_made[v], heights->layer_count, heights->growth[v], fraction);
       for (int l = 0; l < heights->layer_count; l++) layer[l] += height * (fraction[l + 1] - fraction[l]) / 3;
       full &= height >= 0.99 * heights->target[v];
       met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;

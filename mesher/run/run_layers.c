@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/run/run_layers.h"
 
+#include "mesher/heights/even_columns.h"
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/sides.h"
 #include "pipeline/log.h"
@@ -63,6 +64,8 @@ static CwStatus grow(void *context, int32_t d) {
   CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least));
   cw_ledger_part("layers: room");
   CW_TRY(cw_column_heights_room(&domain->heights, &domain->skeleton));
+  cw_ledger_part("layers: small prisms");
+  CW_TRY(cw_column_heights_even(&domain->heights, &domain->skeleton));
 done:
   return status;
 }
@@ -78,6 +81,7 @@ static CwStatus hand_layers(void *context, const CwSideHand *hand) {
   CW_SIDE_ARRAY(hand, skeleton->height, n);
   CW_SIDE_ARRAY(hand, skeleton->reason, n);
   CW_SIDE_ARRAY(hand, domain->heights.room, n);
+  CW_SIDE_ARRAY(hand, domain->heights.first_made, n);
 done:
   return status;
 }

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "mesher/heights/column_heights.h"
+#include "mesher/heights/even_columns.h"
 #include "mesher/layers/layers.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-9)
@@ -191,6 +192,7 @@ static void room_and_what_it_allows(void **state) {
   wall.front[0][0] = square_x[0][0];
   free(heights.room);
   assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
+  assert_int_equal(cw_column_heights_even(&heights, &wall.skeleton), CW_OK);
   assert_int_equal(cw_column_heights_ratio(&heights, &wall.skeleton, 0, &ratio), CW_OK);
   assert_true(ratio[0].cramped);
   assert_false(ratio[1].cramped);

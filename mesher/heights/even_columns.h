@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Short columns, whose outer layers give way for the first height, are divided more evenly where checkMesh would else
+// call the determinant of a prism small (thin_prism.h): on long edges, and where columns lean, outer layers of a
+// quarter of the first are too thin.
+#ifndef CUTWATER_MESHER_HEIGHTS_EVEN_COLUMNS_H
+#define CUTWATER_MESHER_HEIGHTS_EVEN_COLUMNS_H
+
+#include "mesher/heights/column_heights.h"
+
+// Sets first_made of all columns, once they stand: the first height or, around prisms of small determinants that more
+// even layers cure, less in steps of a twentieth until they do. Turned copies get that of their first. Collective.
+CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skeleton);
+
+#endif

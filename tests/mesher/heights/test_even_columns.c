@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Upright columns of two layers over the unit square, whose triangles have an area of 1/2 and 2 + sqrt(2) around.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/heights/even_columns.h"
+#include "mesher/heights/layer_heights.h"
+#include "mesher/layers/thin_prism.h"
+
+#define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
+
+// First height made of the four columns where 0.05 is asked; corners 0 and 2 are on both triangles.
+static void make(const double height[4], double made[4]) {
+  double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, front[4][3];
+  double first[4] = {0.05, 0.05, 0.05, 0.05}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
+  int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
+  CwSkeleton skeleton = {.wall_count = 4,
+                         .wall_x = x,
+                         .wall_triangle_count = 2,
+                         .wall_triangle = triangle,
+                         .wall_source = source,
+                         .front = front,
+                         .height = own};
+  CwColumnHeights heights = {.layer_count = 2, .first_height = first, .growth = growth};
+  memcpy(own, height, sizeof own);
+  memcpy(front, x, sizeof front);
+  for (int v = 0; v < 4; v++) front[v][2] = height[v];
+  assert_int_equal(cw_column_heights_even(&heights, &skeleton), CW_OK);
+  memcpy(made, heights.first_made, sizeof own);
+  heights.first_height = heights.growth = NULL;
+  cw_column_heights_free(&heights);
+}
+
+static double determinant(double height) {
+  return cw_thin_prism_determinant(0.5, 2 + sqrt(2), height, 0);
+}
+
+static void short_ones_until_none_is_small(void **state) {
+  const double short_one = 0.06, start = short_one / 1.7; // layers that shrink by 0.7 at most
+  double made[4];
+  assert_true(determinant(0.7 * start) < CW_SMALL_DETERMINANT && determinant(short_one / 2) > CW_SMALL_DETERMINANT);
+  make((double[4]){short_one, short_one, short_one, short_one}, made);
+  for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
+  NEAR(made[0], start * 0.95 * 0.95);
+  assert_true(determinant(short_one - made[0]) > CW_SMALL_DETERMINANT);
+  assert_true(determinant(short_one - made[0] / 0.95) < 1.05 * CW_SMALL_DETERMINANT);
+}
+
+static void others_stay(void **state) {
+  double made[4];
+  // Layers grow, or shrink and are high enough, or are so thin that even ones are small too.
+  const double all[3] = {0.105, 0.09, 0.04};
+  assert_true(determinant(0.04) > CW_SMALL_DETERMINANT && determinant(0.02) < CW_SMALL_DETERMINANT);
+  for (int i = 0; i < 3; i++) {
+    make((double[4]){all[i], all[i], all[i], all[i]}, made);
+    for (int v = 0; v < 4; v++) NEAR(made[v], 0.05);
+  }
+  // A tall column among short ones keeps its first height.
+  make((double[4]){0.06, 0.06, 0.06, 0.11}, made);
+  assert_true(made[1] < 0.06 / 1.7);
+  NEAR(made[3], 0.05);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small), cmocka_unit_test(others_stay)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
