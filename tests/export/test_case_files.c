@@ -165,6 +165,17 @@ static void turbulence_follows_the_textbook(void **state) {
   assert_float_equal(t.omega, t.epsilon / (0.09 * 0.015), 1e-12);
 }
 
+static void a_wrong_number_of_ranks_is_told(void **state) {
+  (void)state;
+  static const char *const scripts[] = {"Allrun", "transient/Allrun"};
+  export_with("");
+  for (int i = 0; i < 2; i++) {
+    assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' two", folder, scripts[i]), 1);
+    assert_string_equal(output, "Allrun: RANKS is 'two'; allowed: a number of ranks from 1 on\n");
+    assert_int_equal(stage_shell(output, "'%s/run/export/openfoam/%s' 0", folder, scripts[i]), 1);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_paper_in_cfx),
@@ -173,6 +184,7 @@ int main(void) {
       cmocka_unit_test(resolved_walls_take_k_omega),
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),
       cmocka_unit_test(turbulence_follows_the_textbook),
+      cmocka_unit_test(a_wrong_number_of_ranks_is_told),
   };
   return cmocka_run_group_tests(tests, make_run, remove_run);
 }
