@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/fill/fill.h"
+
 typedef struct {
   int32_t point_count, triangle_count;
   double (*x)[3];
@@ -18,6 +20,17 @@ static inline void surface_free(Surface *s) {
   free(s->x);
   free(s->triangle);
   memset(s, 0, sizeof *s);
+}
+
+// The surface as a boundary to fill, with `size` at every place; NULL for steps that need none.
+static inline CwFillInput surface_fill_input(const Surface *s, CwSizeAt size, const void *context) {
+  return (CwFillInput){.point_count = s->point_count,
+                       .x = (const double(*)[3])s->x,
+                       .triangle_count = s->triangle_count,
+                       .triangle = (const int32_t(*)[3])s->triangle,
+                       .size = size,
+                       .size_context = context,
+                       .name = "rotor region 3"};
 }
 
 static inline int32_t surface_point(Surface *s, const double p[3], int32_t search_from) {

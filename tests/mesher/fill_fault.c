@@ -10,13 +10,7 @@ static double constant_size(const void *length, const double x[3]) {
 }
 
 CwFillInput fill_input(const Surface *surface, const double *size) {
-  return (CwFillInput){.point_count = surface->point_count,
-                       .x = (const double(*)[3])surface->x,
-                       .triangle_count = surface->triangle_count,
-                       .triangle = (const int32_t(*)[3])surface->triangle,
-                       .size = constant_size,
-                       .size_context = size,
-                       .name = "rotor region 3"};
+  return surface_fill_input(surface, constant_size, size);
 }
 
 static int compare_triples(const void *a, const void *b) {

@@ -2,7 +2,6 @@
 // A tank with n equal sides and a hub in its middle: its symmetry, a fan over it, and its regions as turned copies.
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <vector>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -26,7 +25,7 @@ extern "C" {
 #include "mesher/skeleton/skeleton.h"
 }
 
-#include "solids.h"
+#include "shared_points.h"
 
 static double even_size(const void *, const double *) {
   return 4e-3;
@@ -326,8 +325,7 @@ static void fill_the_tank(bool divided) {
   context.first_height = first.data();
   check(cw_region_context_make(&context));
   double volume = 0;
-  std::map<int64_t, std::vector<double>> shared;
-  std::map<int64_t, int> held;
+  SharedPoints shared;
   CwRegionMesh first_mesh[2], mesh;
   const int each = (regions - 1) / 5; // regions of a wedge
   for (int r = 0; r < each; r++) check(cw_region_build(&context, 1 + r, number[1 + r], &first_mesh[r]));
@@ -349,19 +347,12 @@ static void fill_the_tank(bool divided) {
     for (int i = 0; i < mesh.point_count; i++) { // every point lies in its own region
       assert_true(cw_plan_in_region(&tank.plan, r, mesh.x[i], 1e-9));
     }
-    for (int i = 0; i < mesh.shared_count; i++) {
-      std::vector<double> x(mesh.x[i], mesh.x[i] + 3);
-      auto found = shared.emplace(mesh.shared_id[i], x);
-      assert_memory_equal(found.first->second.data(), x.data(), sizeof(double[3]));
-      held[mesh.shared_id[i]]++;
-    }
+    shared.add(mesh);
     cw_region_free(&mesh);
   }
   for (int r = 0; r < each; r++) cw_region_free(&first_mesh[r]);
   assert_near(volume / solid_volume(tank.cad), 1, 1e-12);
-  assert_int_equal(shared.size(), context.shared_count);
-  assert_int_equal(shared.rbegin()->first, context.shared_count - 1);
-  for (const auto &point : held) assert_true(point.second >= 2);
+  shared.check(context.shared_count);
 
   cw_region_context_free(&context);
   free(pair);

@@ -13,21 +13,13 @@
 
 #define NEAR(value, wanted, tolerance) assert_true(fabs((value) - (wanted)) <= (tolerance))
 
-static CwFillInput input_of(const Surface *s) {
-  return (CwFillInput){.point_count = s->point_count,
-                       .x = (const double(*)[3])s->x,
-                       .triangle_count = s->triangle_count,
-                       .triangle = (const int32_t(*)[3])s->triangle,
-                       .name = "rotor region 3"};
-}
-
 static const double origin[3] = {0, 0, 0};
 
 // Lines through the inside, an edge and corners of a box; beside it.
 static void box_is_cut_in_two_places(void **unused) {
   Surface s = {0};
   surface_add_box(&s, (double[3]){0, 0, 1}, (double[3]){4, 4, 3}, (int[3]){4, 4, 2}, 1);
-  CwFillInput input = input_of(&s);
+  CwFillInput input = surface_fill_input(&s, NULL, NULL);
   CwColumns *columns = NULL;
   int32_t count;
   const double *z;
@@ -57,7 +49,7 @@ static void ball_with_a_void_is_cut_in_four(void **unused) {
   Surface s = {0};
   surface_add_sphere(&s, origin, 1.0, 4, 1);
   surface_add_sphere(&s, origin, 0.5, 4, 0);
-  CwFillInput input = input_of(&s);
+  CwFillInput input = surface_fill_input(&s, NULL, NULL);
   CwColumns *columns = NULL;
   int32_t count;
   const double *z;

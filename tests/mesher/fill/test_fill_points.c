@@ -26,13 +26,7 @@ static double size_at(const void *context, const double x[3]) {
 }
 
 static CwFillInput input_of(const Surface *s, const Field *field) {
-  return (CwFillInput){.point_count = s->point_count,
-                       .x = (const double(*)[3])s->x,
-                       .triangle_count = s->triangle_count,
-                       .triangle = (const int32_t(*)[3])s->triangle,
-                       .size = size_at,
-                       .size_context = field,
-                       .name = "rotor region 3"};
+  return surface_fill_input(s, size_at, field);
 }
 
 static const double origin[3] = {0, 0, 0};

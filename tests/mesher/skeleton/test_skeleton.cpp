@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,7 @@ extern "C" {
 #include "mesher/skeleton/skeleton.h"
 }
 
-#include "solids.h"
+#include "shared_points.h"
 
 static double even_size(const void *, const double *) {
   return 2.5e-3;
@@ -291,8 +290,7 @@ static void fill_the_box(int rule) {
   Box::check(cw_region_context_make(&context));
   double volume = 0;
   uint64_t open_faces = 0;
-  std::map<int64_t, std::vector<double>> shared;
-  std::map<int64_t, int> held;
+  SharedPoints shared;
   for (int r = 0; r < 4; r++) {
     CwRegionMesh mesh;
     CwQuality quality;
@@ -304,19 +302,12 @@ static void fill_the_box(int rule) {
     assert_true(quality.beside.count > 0 && quality.apart.count > 0);
     assert_int_equal(quality.beside.count + quality.apart.count, mesh.tetrahedron_count);
     open_faces += quality.open_faces;
-    for (int i = 0; i < mesh.shared_count; i++) {
-      std::vector<double> x(mesh.x[i], mesh.x[i] + 3);
-      auto found = shared.emplace(mesh.shared_id[i], x);
-      assert_memory_equal(found.first->second.data(), x.data(), sizeof(double[3]));
-      held[mesh.shared_id[i]]++;
-    }
+    shared.add(mesh);
     cw_region_free(&mesh);
   }
   assert_near(volume / (0.04 * 0.03 * 0.02), 1, 1e-12);
   assert_int_equal(open_faces, 0);
-  assert_int_equal(shared.size(), context.shared_count);
-  assert_int_equal(shared.rbegin()->first, context.shared_count - 1);
-  for (const auto &point : held) assert_true(point.second >= 2);
+  shared.check(context.shared_count);
 
   cw_region_context_free(&context);
   free(pair);
