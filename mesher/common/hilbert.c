@@ -14,30 +14,33 @@ typedef struct {
   int32_t point;
 } Place;
 
+// Two zeros before each of 21 bits.
+static uint64_t spread(uint64_t a) {
+  a = (a | a << 32) & 0x001f00000000ffff;
+  a = (a | a << 16) & 0x001f0000ff0000ff;
+  a = (a | a << 8) & 0x100f00f00f00f00f;
+  a = (a | a << 4) & 0x10c30c30c30c30c3;
+  return (a | a << 2) & 0x1249249249249249;
+}
+
 // J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004): Gray code of the interleaved bits,
 // each cube turned so that its part of the curve begins where the one before ends.
 uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
   uint32_t c[3] = {cell[0], cell[1], cell[2]};
-  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
-    uint32_t below = bit - 1;
+  for (int b = bits - 1; b > 0; b--) {
+    uint32_t below = (1u << b) - 1;
     for (int i = 0; i < 3; i++) {
       // Where the bit is set the bits below it are turned over, else exchanged; without a branch, for it is random.
-      uint32_t set = -(uint32_t)((c[i] & bit) != 0), t = (c[0] ^ c[i]) & below & ~set;
+      uint32_t set = -(c[i] >> b & 1), t = (c[0] ^ c[i]) & below & ~set;
       c[0] ^= t | (below & set);
       c[i] ^= t;
     }
   }
   c[1] ^= c[0];
   c[2] ^= c[1];
-  uint32_t turn = 0;
-  for (uint32_t bit = 1u << (bits - 1); bit > 1; bit >>= 1) {
-    if (c[2] & bit) turn ^= bit - 1;
-  }
-  uint64_t place = 0;
-  for (int b = bits - 1; b >= 0; b--) {
-    for (int i = 0; i < 3; i++) place = place << 1 | ((c[i] ^ turn) >> b & 1);
-  }
-  return place;
+  uint32_t turn = c[2] >> 1; // each bit: whether those of c[2] above it are odd in number
+  for (int step = 1; step < bits; step *= 2) turn ^= turn >> step;
+  return spread(c[0] ^ turn) << 2 | spread(c[1] ^ turn) << 1 | spread(c[2] ^ turn);
 }
 
 // Every point stays with probability 7/8 for the last round, every other one for the round before, and so on.
@@ -61,8 +64,8 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
   for (int i = 0; i < 3; i++) {
     double high = -INFINITY;
     for (int32_t p = 0; p < count; p++) {
-      low[i] = fmin(low[i], x[p][i]);
-      high = fmax(high, x[p][i]);
+      low[i] = x[p][i] < low[i] ? x[p][i] : low[i];
+      high = x[p][i] > high ? x[p][i] : high;
     }
     extent = fmax(extent, high - low[i]);
   }

@@ -360,8 +360,8 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
     double low = x[0][i], high = x[0][i];
     for (int32_t p = 0; p < count; p++) {
       CW_REQUIRE(isfinite(x[p][i]), CW_ERR_MESH, "point %d is not finite", p);
-      low = fmin(low, x[p][i]);
-      high = fmax(high, x[p][i]);
+      low = x[p][i] < low ? x[p][i] : low;
+      high = x[p][i] > high ? x[p][i] : high;
     }
     middle[i] = 0.5 * (low + high);
     reach += 0.25 * (high - low) * (high - low);

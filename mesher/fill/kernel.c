@@ -109,6 +109,7 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+    mesh->tet[inner / 4].neighbour[inner % 4] = -1;
   }
   while (waiting >= 0) {
     int32_t t = waiting;
@@ -134,7 +135,6 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
                      input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
     goto done;
   }
-  for (int32_t f = 0; f < facets->count; f++) mesh->tet[facets->inner[f] / 4].neighbour[facets->inner[f] % 4] = -1;
   if (freed > mesh->tet_count / 4) cw_delaunay_pack(mesh);
 done:
   return status;
@@ -146,14 +146,14 @@ static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *fa
                         CwSplits *splits, CwFillWay *way) {
   CwStatus status = CW_OK;
   CwRecovered recovered = {0};
-  cw_facets_locate(mesh, input->point_count, facets);
+  CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
   way->missing = facets->missing_count;
   for (int round = 0; round < ROUNDS && facets->missing_count; round++)
     CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
   if (facets->missing_count) {
     CW_TRY(cw_boundary_check_crossing(input));
     CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));
-    cw_facets_locate(mesh, input->point_count, facets);
+    CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
   }
   if (facets->missing_count) {
     cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count, facets->count);

@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/number.h"
-
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-enum { EMPTY = -1, DIVIDED = -2 }; // places of the tables
+enum { EMPTY = -1, DIVIDED = -2 };                               // places of the tables
+enum { THREE = 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | 1 << 15 }; // bit k: k has three bits or four
 
 static uint32_t scatter(uint64_t z) {
   z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
@@ -215,25 +214,27 @@ void cw_facets_free(CwFacets *facets) {
   memset(facets, 0, sizeof *facets);
 }
 
-void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets) {
+CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets) {
+  CwStatus status = CW_OK;
+  uint8_t *on_boundary = NULL; // of each point
+  CW_NEW(on_boundary, mesh->point_count);
+  for (int32_t p = 0; p < mesh->point_count; p++) {
+    int32_t given = mesh->source[p];
+    on_boundary[p] = ((uint32_t)given < (uint32_t)boundary_points) | (given >= facets->divided_from);
+  }
   facets->missing_count = facets->count;
   memset(facets->inner, -1, (size_t)facets->count * sizeof *facets->inner);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
+    const int32_t *c = tet->corner;
     cw_delaunay_ask_ahead(tet);
-    if (tet->corner[0] < 0) continue;
-    int on_boundary = 0, count = 0;
-    for (int i = 0; i < 4; i++) {
-      int32_t given = mesh->source[tet->corner[i]];
-      int is = (int)(cw_number((uint32_t)given < (uint32_t)boundary_points) | cw_number(given >= facets->divided_from));
-      on_boundary |= is << i;
-      count += is;
-    }
-    if (count < 3) continue;
+    if (c[0] < 0) continue;
+    int corners = on_boundary[c[0]] | on_boundary[c[1]] << 1 | on_boundary[c[2]] << 2 | on_boundary[c[3]] << 3;
+    if (!(1 << corners & THREE)) continue;
     for (int i = 0; i < 4; i++) {
       int32_t p[3], beyond = tet->neighbour[i];
-      if ((on_boundary | 1 << i) != 15 || (beyond >= 0 && beyond < 4 * t)) continue; // each face once
-      for (int k = 0; k < 3; k++) p[k] = tet->corner[tet_face[i][k]];
+      if ((corners | 1 << i) != 15 || (beyond >= 0 && beyond < 4 * t)) continue; // each face once
+      for (int k = 0; k < 3; k++) p[k] = c[tet_face[i][k]];
       int32_t f = cw_facets_find(facets, p);
       if (f < 0) continue;
       // Where outward for the tetrahedron is outward for the region, it lies inside, else the one beyond.
@@ -243,4 +244,7 @@ void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets 
       facets->missing_count -= facets->inner[f] >= 0;
     }
   }
+done:
+  free(on_boundary);
+  return status;
 }

@@ -45,7 +45,7 @@ CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s
 CwStatus cw_facets_divide_face(CwFacets *facets, int32_t facet, int32_t s);
 
 // Looks all faces of the mesh up: fills inner and missing_count.
-void cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets);
+CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets);
 
 #ifdef __cplusplus
 }

@@ -40,7 +40,7 @@ static void clear(int32_t points, const double (*x)[3], int32_t triangles, const
   int found;
   assert_int_equal(cw_delaunay_make(points, x, &mesh), CW_OK);
   assert_int_equal(cw_facets_make(&input, &mesh, &facets), CW_OK);
-  cw_facets_locate(&mesh, points, &facets);
+  assert_int_equal(cw_facets_locate(&mesh, points, &facets), CW_OK);
   assert_int_equal(facets.missing_count, triangles);
   double six = volume(&mesh);
   assert_int_equal(cw_flips_make(&mesh, &flips), CW_OK);
@@ -49,7 +49,7 @@ static void clear(int32_t points, const double (*x)[3], int32_t triangles, const
   assert_int_equal(sources, points + (expected ? 2 : 0));
   assert_int_equal(mesh.point_count, CW_DELAUNAY_CORNERS + sources);
   assert_true(fabs(volume(&mesh) / six - 1.0) < 1e-12);
-  cw_facets_locate(&mesh, points, &facets);
+  assert_int_equal(cw_facets_locate(&mesh, points, &facets), CW_OK);
   assert_int_equal(facets.missing_count, expected ? 0 : triangles);
   cw_flips_free(&flips);
   cw_facets_free(&facets);
@@ -82,13 +82,13 @@ static void facets_that_cross_stay(void **unused) {
   int32_t sources = 5;
   assert_int_equal(cw_delaunay_make(5, x, &mesh), CW_OK);
   assert_int_equal(cw_facets_make(&input, &mesh, &facets), CW_OK);
-  cw_facets_locate(&mesh, 5, &facets);
+  assert_int_equal(cw_facets_locate(&mesh, 5, &facets), CW_OK);
   assert_int_equal(facets.missing_count, 1);
   for (int round = 0; round < 4; round++) {
     assert_int_equal(cw_kernel_recover(&mesh, &facets, round, &sources, &(CwRecovered){0}), CW_OK);
     assert_int_equal(facets.missing_count, 1);
     int32_t inner[2] = {facets.inner[0], facets.inner[1]};
-    cw_facets_locate(&mesh, 5, &facets);
+    assert_int_equal(cw_facets_locate(&mesh, 5, &facets), CW_OK);
     assert_memory_equal(inner, facets.inner, sizeof inner);
   }
   assert_int_equal(facets.missing_count, 1);
