@@ -3,16 +3,11 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "mesher/common/mix.h"
+#include "mesher/common/radix.h"
 
-enum { BITS = 13, ROUND_BITS = 5, DIGIT = 11, DIGITS = (3 * BITS + ROUND_BITS + DIGIT - 1) / DIGIT };
-
-typedef struct {
-  uint64_t key;
-  int32_t point;
-} Place;
+enum { BITS = 13 };
 
 // Two zeros before each of 21 bits.
 static uint64_t spread(uint64_t a) {
@@ -56,11 +51,10 @@ static int round_of(uint64_t number, int rounds) {
 
 CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
   CwStatus status = CW_OK;
-  Place *from = NULL, *to = NULL;
+  CwRadix *place = NULL;
   double low[3] = {INFINITY, INFINITY, INFINITY}, extent = 0.0;
   int rounds = 1;
-  CW_NEW(from, count);
-  CW_NEW(to, count);
+  CW_NEW_UNSET(place, count);
   for (int i = 0; i < 3; i++) {
     double high = -INFINITY;
     for (int32_t p = 0; p < count; p++) {
@@ -74,26 +68,15 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
   for (int32_t p = 0; p < count; p++) {
     uint32_t cell[3];
     for (int i = 0; i < 3; i++) {
-      double place = (x[p][i] - low[i]) * cells;
-      cell[i] = place < (double)((1 << BITS) - 1) ? (uint32_t)place : (1u << BITS) - 1;
+      double along = (x[p][i] - low[i]) * cells;
+      cell[i] = along < (double)((1 << BITS) - 1) ? (uint32_t)along : (1u << BITS) - 1;
     }
-    from[p].key = (uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | cw_hilbert_place(cell, BITS);
-    from[p].point = p;
+    place[p].key = (uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | cw_hilbert_place(cell, BITS);
+    place[p].item = p;
   }
-  for (int digit = 0; digit < DIGITS; digit++) { // sorts by digits from the lowest; stable
-    int32_t start[(1 << DIGIT) + 1] = {0};
-    int shift = digit * DIGIT;
-    uint64_t mask = (1u << DIGIT) - 1;
-    for (int32_t k = 0; k < count; k++) start[(from[k].key >> shift & mask) + 1]++;
-    for (int d = 0; d < 1 << DIGIT; d++) start[d + 1] += start[d];
-    for (int32_t k = 0; k < count; k++) to[start[from[k].key >> shift & mask]++] = from[k];
-    Place *swap = from;
-    from = to;
-    to = swap;
-  }
-  for (int32_t k = 0; k < count; k++) order[k] = from[k].point;
+  CW_TRY(cw_radix_sort(count, place));
+  for (int32_t k = 0; k < count; k++) order[k] = place[k].item;
 done:
-  free(from);
-  free(to);
+  free(place);
   return status;
 }

@@ -15,6 +15,17 @@
 static const double coarse = 2.2; // cells of lists, over wanted cells
 enum { DEPTH = 19 };
 
+// A box in finest cells of the octree, both ends in it: 20 bits an axis, and a guard over each, so that one subtraction
+// compares all three.
+typedef struct {
+  uint64_t low, high;
+} Box;
+
+enum { AXIS = 21 }; // bits
+#define UNITS (1ull | 1ull << 21 | 1ull << 42)
+#define GUARDS (UNITS << 20)
+static const Box nowhere = {GUARDS - UNITS, 0};
+
 // What reaches a cell of the octree that is not cut for the sake of the boundary any more.
 typedef struct {
   int32_t count; // items, from list
@@ -23,37 +34,69 @@ typedef struct {
   int clear; // none is in it
 } Reached;
 
-// Of the row, where it is chosen.
-typedef struct {
-  CwRowPlace place;
-  int32_t at[3]; // finest cell that it lies in
-  int32_t cell;  // that it lies in, or -1
-  int chosen;
-} RowPoint;
-
 // Items: the triangles of the boundary, then the places of the row.
 typedef struct {
   const CwFillInput *input;
   CwColumns *columns;
-  CwReachBox *box;   // of each item
+  Box *reach;        // of each item; of the row, once the octree is cut, of those that are chosen
+  Box *own;          // of each item, without the distance that it keeps
   CwReachBall *ball; // of each triangle
-  RowPoint *row;
+  CwRowPlace *row;
+  int32_t *row_cell; // that each place lies in, or -1
+  uint8_t *chosen;   // of each place
   CwLatticeFrame frame;
+  double per_unit;  // 1 / frame.unit
   double clearance; // factor on the distances to the boundary
   CwLatticeCell *cell;
   Reached *reached; // of each cell
   int32_t cell_count, cell_space, reached_space;
-  int32_t *list;
+  int32_t *list; // of cells
   int64_t list_count, list_space;
-  int32_t *near;     // items whose boxes hold a point
-  uint8_t *children; // of the cell that is divided, which each item of its list reaches into
+  int32_t *open; // lists of cells that are still being cut, each after that of the cell that it came from
+  int64_t open_count, open_space;
+  int32_t *near; // items whose boxes hold a point
+  uint8_t children[64];
 } Tree;
+
+static uint64_t pack(const Tree *tree, double x, double y, double z) {
+  const double most = (double)((1 << (AXIS - 1)) - 1), place[3] = {x, y, z};
+  uint64_t packed = 0;
+  for (int i = 0; i < 3; i++) {
+    double cells = (place[i] - tree->frame.origin[i]) * tree->per_unit;
+    cells = cells > 0.0 ? cells : 0.0;
+    packed |= (uint64_t)(int64_t)(cells < most ? cells : most) << (AXIS * i);
+  }
+  return packed;
+}
+
+static uint64_t pack_cell(const int32_t at[3], int32_t further) { // along all axes
+  return (uint64_t)(at[0] + further) | (uint64_t)(at[1] + further) << AXIS | (uint64_t)(at[2] + further) << (2 * AXIS);
+}
+
+static Box pack_box(const Tree *tree, const CwReachBox *box) {
+  return (Box){pack(tree, box->low[0], box->low[1], box->low[2]), pack(tree, box->high[0], box->high[1], box->high[2])};
+}
+
+static Box reach_of_row(const Tree *tree, int32_t p) {
+  const CwRowPlace *place = &tree->row[p];
+  CwReachBox box = cw_reach_box(place->x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * place->spacing);
+  return pack_box(tree, &box);
+}
+
+// The guards of the axes along which a <= b.
+static inline uint64_t at_most(uint64_t a, uint64_t b) {
+  return ((b | GUARDS) - a) & GUARDS;
+}
+
+static inline int holds(const Box *box, uint64_t place) {
+  return (at_most(box->low, place) & at_most(place, box->high)) == GUARDS;
+}
 
 static double size_at(const CwFillInput *input, const double x[3]) {
   return input->size(input->size_context, x);
 }
 
-static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
+static CwStatus reach_of(Tree *tree, int32_t t, CwReachBox *box, double *area, double *weight) {
   CwStatus status = CW_OK;
   const CwFillInput *input = tree->input;
   const double *a = input->x[input->triangle[t][0]], *b = input->x[input->triangle[t][1]];
@@ -61,7 +104,7 @@ static CwStatus reach_of(Tree *tree, int32_t t, double *area, double *weight) {
   double u[3], v[3], normal[3], mean[3], h;
   for (int i = 0; i < 3; i++) mean[i] = (a[i] + b[i] + c[i]) / 3.0;
   CW_TRY(cw_lattice_size(input, mean, &h));
-  cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, &tree->box[t], &tree->ball[t]);
+  cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, box, &tree->ball[t]);
   cw_sub(b, a, u);
   cw_sub(c, a, v);
   cw_cross(u, v, normal);
@@ -81,28 +124,29 @@ static double distance_square(const double a[3], const double b[3]) {
 // Whether an item of the cell keeps a point of the lattice, or of the row, away from x.
 static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int of_row) {
   const CwFillInput *input = tree->input;
-  double h = 0.0, apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
-  float p[3] = {(float)x[0], (float)x[1], (float)x[2]};
-  int32_t near = 0;
-  for (int32_t k = reached->count - 1; k >= 0; k--) { // the row first: it is soon asked
-    int32_t t = tree->near[near] = tree->list[reached->list + k];
-    near += (int32_t)cw_number(cw_reach_holds(&tree->box[t], p));
+  double apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
+  uint64_t place = pack(tree, x[0], x[1], x[2]);
+  const int32_t *list = tree->list + reached->list;
+  int32_t near = 0, k = 0;
+  for (int32_t i = reached->count - 1; i >= 0; i--) { // the row first: it is soon asked
+    tree->near[near] = list[i];
+    near += (int32_t)cw_number(holds(&tree->reach[list[i]], place));
   }
-  for (int32_t k = 0; k < near; k++) {
-    int32_t t = tree->near[k], place = t - input->triangle_count;
-    if (place >= 0 && !tree->row[place].chosen) continue;
-    if (place >= 0) {
-      const CwRowPlace *point = &tree->row[place].place;
-      double nearest = apart * point->spacing;
-      if (distance_square(x, point->x) < nearest * nearest) return 1;
-      continue;
-    }
-    if (h == 0.0) h = tree->clearance * size_at(input, x);
-    int open = !of_row && t >= input->triangle_count - input->open_count;
-    const int32_t *q = input->triangle[t];
-    if ((!open && cw_reach_in_ball(&tree->ball[t], x)) ||
-        cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], &tree->ball[t], h, tree->clearance, x))
-      return 1;
+  for (; k < near && tree->near[k] >= input->triangle_count; k++) {
+    const CwRowPlace *point = &tree->row[tree->near[k] - input->triangle_count];
+    double nearest = apart * point->spacing;
+    if (distance_square(x, point->x) < nearest * nearest) return 1;
+  }
+  if (k == near) return 0;
+  int32_t first_open = of_row ? input->triangle_count : input->triangle_count - input->open_count;
+  for (int32_t i = k; i < near; i++) {
+    if (tree->near[i] < first_open && cw_reach_in_ball(&tree->ball[tree->near[i]], x)) return 1;
+  }
+  double h = tree->clearance * size_at(input, x);
+  for (int32_t i = k; i < near; i++) {
+    const int32_t *q = input->triangle[tree->near[i]];
+    const CwReachBall *ball = &tree->ball[tree->near[i]];
+    if (cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], ball, h, tree->clearance, x)) return 1;
   }
   return 0;
 }
@@ -127,65 +171,65 @@ static void child_of(const int32_t at[3], int level, int child, int32_t corner[3
   for (int i = 0; i < 3; i++) corner[i] = at[i] + ((child >> i & 1) << (level - 1));
 }
 
-// Whether no item reaches into the box of a cell, as far as their own boxes tell. They keep no distance here, as
-// those in the tree do.
-static int is_clear(const Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
-  const CwFillInput *input = tree->input;
-  double low[3], high[3];
-  for (int i = 0; i < 3; i++) {
-    low[i] = tree->frame.origin[i] + tree->frame.unit * at[i];
-    high[i] = tree->frame.origin[i] + tree->frame.unit * (at[i] + (1 << level));
-  }
+// Whether no item lies in the cell, as far as their own boxes tell, without the distances that they keep.
+static int is_clear(const Tree *tree, const int32_t at[3], int level, const int32_t *list, int32_t list_count) {
+  uint64_t low = pack_cell(at, 0), high = pack_cell(at, 1 << level);
   for (int32_t k = 0; k < list_count; k++) {
-    int32_t t = tree->list[list + k], of_row = t - input->triangle_count;
-    const int32_t *q = of_row < 0 ? input->triangle[t] : NULL;
-    const double *a = q ? input->x[q[0]] : tree->row[of_row].place.x, *b = q ? input->x[q[1]] : a;
-    const double *c = q ? input->x[q[2]] : a;
-    int apart = 0;
-    for (int i = 0; i < 3; i++)
-      apart |= ((a[i] < low[i]) & (b[i] < low[i]) & (c[i] < low[i])) |
-               ((a[i] > high[i]) & (b[i] > high[i]) & (c[i] > high[i]));
-    if (!apart) return 0;
+    const Box *own = &tree->own[list[k]];
+    if ((at_most(own->low, high) & at_most(low, own->high)) == GUARDS) return 0;
   }
   return 1;
 }
 
-// The halves of a cell, by axis, that the box of an item reaches into: bits of its children 0 to 7. The item reaches
-// into the cell; `low` and `high` are its middle, rounded down and up.
-static uint8_t children_of(const CwReachBox *box, const float low[3], const float high[3]) {
+// The children of a cell that a box reaches into, as bits, by the axes along which it reaches below the middle (three
+// bits) and beyond it (three more).
+static void name_children(uint8_t children[64]) {
   static const uint8_t lower[3] = {0x55, 0x33, 0x0f};
-  unsigned children = 0xff;
-  for (int i = 0; i < 3; i++)
-    children &= (box->low[i] <= high[i] ? lower[i] : 0u) | (box->high[i] >= low[i] ? 0xffu & ~lower[i] : 0u);
-  return (uint8_t)children;
+  for (int k = 0; k < 64; k++) {
+    unsigned bits = 0xff;
+    for (int i = 0; i < 3; i++) bits &= (k >> i & 1 ? lower[i] : 0u) | (k >> (i + 3) & 1 ? 0xffu & ~lower[i] : 0u);
+    children[k] = (uint8_t)bits;
+  }
 }
 
-// Hands the items of a cell down to its children, of which child c gets child_count[c] from list[child_list[c]] on.
+// Hands the items of a cell, at `list` of the open ones, down to its children, of which child c gets child_count[c]
+// from first + c * list_count on: each item is written to all of them, and stays where the child keeps it, without a
+// branch. What only touches the middle goes to both sides, since points are shaken a little.
 static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count,
-                            int64_t child_list[8], int32_t child_count[8]) {
+                            int64_t *first, int32_t child_count[8]) {
   CwStatus status = CW_OK;
-  float low[3], high[3];
-  for (int i = 0; i < 3; i++) {
-    double middle = tree->frame.origin[i] + tree->frame.unit * (at[i] + (1 << (level - 1)));
-    low[i] = nextafterf((float)middle, -INFINITY);
-    high[i] = nextafterf((float)middle, INFINITY);
-  }
-  memset(child_count, 0, 8 * sizeof *child_count);
+  uint64_t middle = pack_cell(at, 1 << (level - 1)), before = middle - UNITS;
+  int32_t *to[8];
+  *first = tree->open_count;
+  CW_GROW(tree->open, tree->open_space, tree->open_count + 8 * (int64_t)list_count + 1);
+  tree->open_count += 8 * (int64_t)list_count;
+  for (int c = 0; c < 8; c++) to[c] = tree->open + *first + (int64_t)c * list_count;
   for (int32_t k = 0; k < list_count; k++) {
-    uint8_t children = tree->children[k] = children_of(&tree->box[tree->list[list + k]], low, high);
-    for (; children; children &= (uint8_t)(children - 1)) child_count[__builtin_ctz(children)]++;
+    int32_t item = tree->open[list + k];
+    const Box *reach = &tree->reach[item];
+    uint64_t sides = at_most(reach->low, middle) >> 20 | at_most(before, reach->high) >> 17;
+    unsigned children = tree->children[(sides | sides >> 20 | sides >> 40) & 63];
+    for (int c = 0; c < 8; c++) {
+      *to[c] = item;
+      to[c] += children >> c & 1;
+    }
   }
-  for (int c = 0; c < 8; c++) {
-    child_list[c] = tree->list_count;
-    tree->list_count += child_count[c];
-  }
-  CW_GROW(tree->list, tree->list_space, tree->list_count);
-  int64_t to[8];
-  memcpy(to, child_list, sizeof to);
-  for (int32_t k = 0; k < list_count; k++) {
-    for (uint8_t children = tree->children[k]; children; children &= (uint8_t)(children - 1))
-      tree->list[to[__builtin_ctz(children)]++] = tree->list[list + k];
-  }
+  for (int c = 0; c < 8; c++) child_count[c] = (int32_t)(to[c] - (tree->open + *first + (int64_t)c * list_count));
+done:
+  return status;
+}
+
+// A cell that is not cut by the boundary any more.
+static CwStatus add_cell(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count, int inside) {
+  CwStatus status = CW_OK;
+  int clear = is_clear(tree, at, level, tree->open + list, list_count);
+  CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
+  CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
+  CW_GROW(tree->list, tree->list_space, tree->list_count + list_count);
+  if (list_count) memcpy(tree->list + tree->list_count, tree->open + list, (size_t)list_count * sizeof *tree->list);
+  tree->reached[tree->cell_count] = (Reached){list_count, tree->list_count, list_count == 0, clear};
+  tree->cell[tree->cell_count++] = (CwLatticeCell){{at[0], at[1], at[2]}, level, inside};
+  tree->list_count += list_count;
 done:
   return status;
 }
@@ -194,61 +238,39 @@ done:
 static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count) {
   CwStatus status = CW_OK;
   double centre[3], size, edge = tree->frame.unit * (double)(1 << level);
-  int64_t child_list[8];
+  int64_t first;
   int32_t child_count[8];
   int inside;
   centre_of(tree, at, level, centre);
   CW_TRY(cw_lattice_size(tree->input, centre, &size));
   if (list_count == 0 || level == 0 || edge <= coarse * CW_LATTICE_CONSTANT * size) {
-    int clear = is_clear(tree, at, level, list, list_count);
     CW_TRY(test_inside(tree, centre, &inside));
-    if (list_count == 0 && !inside) goto done;
-    CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
-    CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
-    tree->reached[tree->cell_count] = (Reached){list_count, list, list_count == 0, clear};
-    tree->cell[tree->cell_count++] = (CwLatticeCell){{at[0], at[1], at[2]}, level, inside};
+    if (list_count || inside) CW_TRY(add_cell(tree, at, level, list, list_count, inside));
     goto done;
   }
-  CW_TRY(divide_list(tree, at, level, list, list_count, child_list, child_count));
+  CW_TRY(divide_list(tree, at, level, list, list_count, &first, child_count));
   for (int child = 0; child < 8; child++) {
     int32_t corner[3];
     child_of(at, level, child, corner);
-    CW_TRY(cut_coarse(tree, corner, level - 1, child_list[child], child_count[child]));
+    CW_TRY(cut_coarse(tree, corner, level - 1, first + (int64_t)child * list_count, child_count[child]));
   }
+  tree->open_count = first;
 done:
   return status;
 }
 
 // Which cell each place of the row lies in.
 static void find_cells(Tree *tree) {
-  for (int32_t p = 0; p < tree->input->row_count; p++) {
-    for (int i = 0; i < 3; i++)
-      tree->row[p].at[i] = (int32_t)floor((tree->row[p].place.x[i] - tree->frame.origin[i]) / tree->frame.unit);
-  }
+  for (int32_t p = 0; p < tree->input->row_count; p++) tree->row_cell[p] = -1;
   for (int32_t c = 0; c < tree->cell_count; c++) {
     const CwLatticeCell *cell = &tree->cell[c];
     const Reached *reached = &tree->reached[c];
+    const Box box = {pack_cell(cell->at, 0), pack_cell(cell->at, (1 << cell->level) - 1)};
     for (int32_t k = reached->count - 1; k >= 0; k--) { // the row comes last
-      int32_t p = tree->list[reached->list + k] - tree->input->triangle_count;
-      if (p < 0) break;
-      const int32_t *at = tree->row[p].at;
-      int32_t over = (at[0] - cell->at[0]) | (at[1] - cell->at[1]) | (at[2] - cell->at[2]);
-      if (over >> cell->level == 0) // neither below its corner nor beyond its edge
-        tree->row[p].cell = c;
+      int32_t item = tree->list[reached->list + k];
+      if (item < tree->input->triangle_count) break;
+      if (holds(&box, tree->own[item].low)) tree->row_cell[item - tree->input->triangle_count] = c;
     }
-  }
-}
-
-// Takes the places that were not chosen out of the lists.
-static void shorten_lists(Tree *tree) {
-  int32_t first = tree->input->triangle_count;
-  for (int32_t c = 0; c < tree->cell_count; c++) {
-    Reached *reached = &tree->reached[c];
-    int32_t *list = tree->list + reached->list, count = 0;
-    for (int32_t k = 0; k < reached->count; k++) {
-      if (list[k] < first || tree->row[list[k] - first].chosen) list[count++] = list[k];
-    }
-    reached->count = count;
   }
 }
 
@@ -256,15 +278,20 @@ static void shorten_lists(Tree *tree) {
 // before forbid.
 static CwStatus choose_row(Tree *tree, int32_t *chosen) {
   CwStatus status = CW_OK;
+  Box *reach = tree->reach + tree->input->triangle_count;
   *chosen = 0;
   find_cells(tree);
+  for (int32_t p = 0; p < tree->input->row_count; p++) reach[p] = nowhere;
   for (int32_t p = 0; p < tree->input->row_count; p++) {
-    RowPoint *point = &tree->row[p];
-    if (point->cell < 0 || is_forbidden(tree, &tree->reached[point->cell], point->place.x, 1)) continue;
-    CW_TRY(test_inside(tree, point->place.x, &point->chosen));
-    *chosen += point->chosen;
+    const double *x = tree->row[p].x;
+    int inside;
+    if (tree->row_cell[p] < 0 || is_forbidden(tree, &tree->reached[tree->row_cell[p]], x, 1)) continue;
+    CW_TRY(test_inside(tree, x, &inside));
+    if (!inside) continue;
+    reach[p] = reach_of_row(tree, p);
+    tree->chosen[p] = 1;
+    ++*chosen;
   }
-  shorten_lists(tree);
 done:
   return status;
 }
@@ -302,9 +329,9 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
     memcpy(points[kept++], p, sizeof p);
   }
   for (int32_t p = 0; p < tree->input->row_count; p++) {
-    if (!tree->row[p].chosen) continue;
+    if (!tree->chosen[p]) continue;
     if (site) sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
-    memcpy(points[kept++], tree->row[p].place.x, sizeof *points);
+    memcpy(points[kept++], tree->row[p].x, sizeof *points);
   }
   *count = kept;
   *x = points;
@@ -317,14 +344,36 @@ done:
   return status;
 }
 
-static int compare_row(const void *p, const void *q) {
-  return cw_row_compare(&((const RowPoint *)p)->place, &((const RowPoint *)q)->place);
+// Of all items, now that the octree is known.
+static void name_boxes(Tree *tree, const CwReachBox *reach) {
+  const CwFillInput *input = tree->input;
+  for (int32_t t = 0; t < input->triangle_count; t++) {
+    const int32_t *q = input->triangle[t];
+    const double *a = input->x[q[0]], *b = input->x[q[1]], *c = input->x[q[2]];
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+      low[i] = a[i] < b[i] ? a[i] : b[i];
+      high[i] = a[i] < b[i] ? b[i] : a[i];
+      low[i] = c[i] < low[i] ? c[i] : low[i];
+      high[i] = c[i] > high[i] ? c[i] : high[i];
+    }
+    tree->reach[t] = pack_box(tree, &reach[t]);
+    tree->own[t] = (Box){pack(tree, low[0], low[1], low[2]), pack(tree, high[0], high[1], high[2])};
+  }
+  for (int32_t p = 0; p < input->row_count; p++) {
+    const double *x = tree->row[p].x;
+    uint64_t own = pack(tree, x[0], x[1], x[2]);
+    tree->reach[input->triangle_count + p] = reach_of_row(tree, p);
+    tree->own[input->triangle_count + p] = (Box){own, own};
+  }
+  name_children(tree->children);
 }
 
 CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *count, double (**x)[3],
                         CwLatticeSite **site) {
   CwStatus status = CW_OK;
   Tree whole = {.input = input, .clearance = clearance}, *tree = &whole;
+  CwReachBox *box = NULL;
   CwLatticePlace *place = NULL;
   int64_t places;
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -335,29 +384,22 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   if (site) *site = NULL;
   CW_TRY(cw_columns_make(input, &tree->columns));
   int32_t items = input->triangle_count + input->row_count;
-  CW_NEW(tree->box, items);
-  CW_NEW(tree->ball, input->triangle_count);
-  CW_NEW(tree->row, input->row_count);
-  CW_NEW(tree->near, items);
-  CW_NEW(tree->children, items);
-  CW_GROW(tree->list, tree->list_space, items);
+  CW_NEW_UNSET(box, input->triangle_count);
+  CW_NEW_UNSET(tree->reach, items);
+  CW_NEW_UNSET(tree->own, items);
+  CW_NEW_UNSET(tree->ball, input->triangle_count);
+  CW_NEW_UNSET(tree->row_cell, input->row_count);
+  CW_NEW(tree->chosen, input->row_count);
+  CW_NEW_UNSET(tree->near, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
-    tree->list[tree->list_count++] = t;
-    CW_TRY(reach_of(tree, t, &area, &weight));
+    CW_TRY(reach_of(tree, t, &box[t], &area, &weight));
     for (int k = 0; k < 9; k++) {
       double value = input->x[input->triangle[t][k / 3]][k % 3];
       low[k % 3] = value < low[k % 3] ? value : low[k % 3];
       high[k % 3] = value > high[k % 3] ? value : high[k % 3];
     }
   }
-  for (int32_t p = 0; p < input->row_count; p++)
-    tree->row[p] = (RowPoint){.place = cw_row_place(input, input->triangle_count - input->row_count + p), .cell = -1};
-  qsort(tree->row, (size_t)input->row_count, sizeof *tree->row, compare_row);
-  for (int32_t p = 0; p < input->row_count; p++) {
-    tree->box[input->triangle_count + p] =
-        cw_reach_box(tree->row[p].place.x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * tree->row[p].place.spacing);
-    tree->list[tree->list_count++] = input->triangle_count + p;
-  }
+  CW_TRY(cw_row_places(input, &tree->row));
   for (int i = 0; i < 3; i++) extent = fmax(extent, high[i] - low[i]);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
   double edge = CW_LATTICE_CONSTANT * exp(weight / area);
@@ -370,18 +412,26 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   for (int i = 0; i < 3; i++) {
     tree->frame.origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->frame.unit * (double)(1 << (above + below));
   }
+  tree->per_unit = 1.0 / tree->frame.unit;
+  name_boxes(tree, box);
+  CW_GROW(tree->open, tree->open_space, items);
+  for (; tree->open_count < items; tree->open_count++) tree->open[tree->open_count] = (int32_t)tree->open_count;
   CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items));
   CW_TRY(cw_lattice_places(input, &tree->frame, tree->cell_count, tree->cell, &places, &place));
   CW_TRY(collect(tree, places, place, count, x, site));
 done:
-  free(tree->box);
+  free(box);
+  free(tree->reach);
+  free(tree->own);
   free(tree->ball);
   free(tree->row);
+  free(tree->row_cell);
+  free(tree->chosen);
   free(tree->cell);
   free(tree->reached);
   free(tree->list);
   free(tree->near);
-  free(tree->children);
+  free(tree->open);
   free(place);
   cw_columns_free(&tree->columns);
   return status;

@@ -2,7 +2,9 @@
 #include "mesher/fill/fill_row.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "mesher/common/radix.h"
 #include "mesher/common/vec.h"
 
 static const double height = 0.75; // of the spacing; sqrt(2/3) in a close packing, which is denser than asked for
@@ -27,8 +29,26 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   return place;
 }
 
-int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b) {
-  if (a->on_interface != b->on_interface) return b->on_interface - a->on_interface;
-  if (a->along != b->along) return a->along < b->along ? -1 : 1;
-  return (a->triangle > b->triangle) - (a->triangle < b->triangle);
+uint64_t cw_row_key(const CwRowPlace *place) {
+  return cw_radix_key(place->along) >> 1 | (place->on_interface ? 0 : (uint64_t)1 << 63);
+}
+
+CwStatus cw_row_places(const CwFillInput *input, CwRowPlace **places) {
+  CwStatus status = CW_OK;
+  CwRowPlace *made = NULL, *place = NULL;
+  CwRadix *order = NULL;
+  CW_NEW_UNSET(made, input->row_count);
+  CW_NEW_UNSET(order, input->row_count);
+  for (int32_t p = 0; p < input->row_count; p++) {
+    made[p] = cw_row_place(input, input->triangle_count - input->row_count + p);
+    order[p] = (CwRadix){cw_row_key(&made[p]), p};
+  }
+  CW_TRY(cw_radix_sort(input->row_count, order));
+  CW_NEW_UNSET(place, input->row_count);
+  for (int32_t p = 0; p < input->row_count; p++) place[p] = made[order[p].item];
+  *places = place;
+done:
+  free(made);
+  free(order);
+  return status;
 }

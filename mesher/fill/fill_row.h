@@ -20,7 +20,7 @@ extern "C" {
 
 typedef struct {
   double x[3], spacing; // m
-  double along;         // the line of cw_row_compare
+  double along;         // the line of cw_row_key
   int32_t triangle;
   int on_interface;
 } CwRowPlace;
@@ -28,10 +28,13 @@ typedef struct {
 // The place over the middle of triangle t, inward, whatever is there. The spacing is the mean of what is wanted there
 // and of the triangle's edges, which it exceeds by little.
 CwRowPlace cw_row_place(const CwFillInput *input, int32_t t);
-// The order in which places are best taken, for qsort: those over interfaces first, since they are continued on the
+// Ascends in the order in which places are best taken: those over interfaces first, since they are continued on the
 // other side, and along a line. What is taken so is as regular as the triangles
 // are; in any other order, gaps are left between beginnings.
-int cw_row_compare(const CwRowPlace *a, const CwRowPlace *b);
+uint64_t cw_row_key(const CwRowPlace *place);
+// The places of the last `row_count` triangles of the input in that order, equal ones as their triangles. Caller frees
+// *places.
+CwStatus cw_row_places(const CwFillInput *input, CwRowPlace **places);
 
 #ifdef __cplusplus
 }

@@ -88,14 +88,27 @@ static void last_triangles_are_on_the_interface(void **unused) {
 }
 
 static void order_is_interfaces_first_then_along_a_line_then_by_triangle(void **unused) {
-  const CwRowPlace place[5] = {{.along = 2, .triangle = 9, .on_interface = 1},
-                               {.along = 0, .triangle = 7},
-                               {.along = 0, .triangle = 8},
-                               {.along = 0.4},
-                               {.along = 0.6}};
-  for (int k = 0; k < 5; k++) {
-    for (int l = 0; l < 5; l++) assert_int_equal(cw_row_compare(&place[k], &place[l]), (k > l) - (k < l));
+  enum { COUNT = 5 };
+  const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, size = 1.0;
+  const int32_t triangle[1 + COUNT][3] = {{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 3, 1}, {1, 2, 0}};
+  CwFillInput input = {.point_count = 4,
+                       .x = x,
+                       .triangle_count = 1 + COUNT,
+                       .triangle = triangle,
+                       .size = size_at,
+                       .size_context = &size,
+                       .row_count = COUNT,
+                       .interface_count = 2};
+  CwRowPlace *place = NULL;
+  assert_int_equal(cw_row_places(&input, &place), CW_OK);
+  for (int k = 0; k < COUNT; k++) assert_int_equal(place[k].on_interface, k < 2);
+  for (int k = 1; k < COUNT; k++) {
+    if (place[k].on_interface != place[k - 1].on_interface) continue;
+    assert_true(place[k - 1].along <= place[k].along);
+    if (place[k - 1].along == place[k].along) assert_true(place[k - 1].triangle < place[k].triangle);
   }
+  assert_true(place[2].along == place[3].along || place[3].along == place[4].along); // the same triangle twice
+  free(place);
 }
 
 int main(void) {
