@@ -16,24 +16,8 @@ static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
   return low;
 }
 
-static CwStatus check_input(const CwLayerInput *in) {
+static CwStatus check_triangles(const CwLayerInput *in) {
   CwStatus status = CW_OK;
-  for (int32_t v = 0; v < in->point_count; v++) {
-    const double *x = in->x[v];
-    CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
-               "layers: wall vertex %d has a coordinate that is not a number", v);
-    CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
-               "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", in->target[v] * 1e3,
-               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
-    int guides = in->guide_count ? in->guide_count[v] : 0;
-    CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT,
-               "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2", guides, x[0] * 1e3, x[1] * 1e3,
-               x[2] * 1e3);
-    for (int i = 0; i < guides; i++)
-      CW_REQUIRE(fabs(length3(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
-                 "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", x[0] * 1e3, x[1] * 1e3,
-                 x[2] * 1e3);
-  }
   for (int32_t f = 0; f < in->triangle_count; f++)
     for (int i = 0; i < 3; i++)
       CW_REQUIRE(in->triangle[f][i] >= 0 && in->triangle[f][i] < in->point_count, CW_ERR_INPUT,
@@ -47,46 +31,75 @@ done:
   return status;
 }
 
-// Each vertex in turn puts itself on the lists of its neighbours, so that they come out ascending, and a neighbour by
-// two triangles is the last one twice. Whether it stays on a list is reckoned, not asked: no branch could foretell it.
+static CwStatus check_vertex(const CwLayerInput *in, int32_t v) {
+  CwStatus status = CW_OK;
+  const double *x = in->x[v];
+  CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
+             "layers: wall vertex %d has a coordinate that is not a number", v);
+  CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
+             "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", in->target[v] * 1e3, x[0] * 1e3,
+             x[1] * 1e3, x[2] * 1e3);
+  int guides = in->guide_count ? in->guide_count[v] : 0;
+  CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT, "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2",
+             guides, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+  for (int i = 0; i < guides; i++)
+    CW_REQUIRE(fabs(length3(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
+               "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", x[0] * 1e3, x[1] * 1e3,
+               x[2] * 1e3);
+done:
+  return status;
+}
+
+// Inserts w into an ascending list unless it is there.
+static int32_t insert(int32_t *list, int32_t count, int32_t w) {
+  int32_t at = count;
+  while (at > 0 && list[at - 1] > w) at--;
+  if (at > 0 && list[at - 1] == w) return count;
+  memmove(list + at + 1, list + at, (size_t)(count - at) * sizeof *list);
+  list[at] = w;
+  return count + 1;
+}
+
+// The neighbours of v, ascending; -1 in the places left over of two for each triangle around it.
+static CwStatus list_near(void *context, int32_t v, void *out) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = context;
+  const CwLayerInput *in = work->in;
+  int32_t *list = out, count = 0, room = 2 * (work->face_start[v + 1] - work->face_start[v]);
+  CW_TRY(check_vertex(in, v));
+  CW_REQUIRE(room > 0, CW_ERR_INPUT, "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v,
+             in->x[v][0] * 1e3, in->x[v][1] * 1e3, in->x[v][2] * 1e3);
+  for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
+    const int32_t *corner = in->triangle[work->face[k]];
+    for (int i = 0; i < 3; i++) {
+      if (corner[i] != v) count = insert(list, count, corner[i]);
+    }
+  }
+  while (count < room) list[count++] = -1;
+done:
+  return status;
+}
+
 static CwStatus lists(CwLayerWork *work) {
   CwStatus status = CW_OK;
   const CwLayerInput *in = work->in;
   CwIncident around = {0};
-  int32_t *end = NULL, *last = NULL, count = 0; // of each list: its end, and the vertex that was last there
+  int32_t *start = NULL, count = 0; // of the lists as they come
   CW_TRY(cw_incident_make(work->n, in->triangle_count, in->triangle, &around));
   work->face_start = around.start;
   work->face = around.triangle;
   CW_NEW_UNSET(work->near_start, work->n + 1);
-  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count + (size_t)work->n); // at first one to spare on each list
-  CW_NEW_UNSET(end, work->n);
-  CW_NEW_UNSET(last, work->n);
-  for (int32_t v = 0; v < work->n; v++) {
-    CW_REQUIRE(work->face_start[v + 1] > work->face_start[v], CW_ERR_INPUT,
-               "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v, in->x[v][0] * 1e3,
-               in->x[v][1] * 1e3, in->x[v][2] * 1e3);
-    end[v] = 2 * work->face_start[v] + v;
-    last[v] = -1;
-  }
-  for (int32_t v = 0; v < work->n; v++) {
-    for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
-      const int32_t *corner = in->triangle[work->face[k]];
-      for (int i = 0; i < 3; i++) {
-        int32_t w = corner[i];
-        work->near[end[w]] = v;
-        end[w] += (last[w] != v) & (w != v);
-        last[w] = v;
-      }
-    }
-  }
+  CW_NEW_UNSET(work->near, 6 * (size_t)in->triangle_count);
+  CW_NEW_UNSET(start, work->n + 1);
+  for (int32_t v = 0; v <= work->n; v++) start[v] = 2 * work->face_start[v];
+  CW_TRY(cw_share_lists("layers: neighbours", work->n, start, sizeof *work->near, list_near, work, work->near));
   for (int32_t v = 0; v < work->n; v++) {
     work->near_start[v] = count;
-    for (int32_t k = 2 * work->face_start[v] + v; k < end[v]; k++) work->near[count++] = work->near[k];
+    for (int32_t k = start[v]; k < start[v + 1] && work->near[k] >= 0; k++) work->near[count++] = work->near[k];
   }
   work->near_start[work->n] = count;
 done:
-  free(end);
-  free(last);
+  free(start);
   return status;
 }
 
@@ -154,7 +167,7 @@ CwStatus cw_layers_topology(const CwLayerInput *input, CwLayerWork *work) {
   CwStatus status = CW_OK;
   work->in = input;
   work->n = input->point_count;
-  CW_TRY(check_input(input));
+  CW_TRY(check_triangles(input));
   CW_TRY(lists(work));
   CW_NEW_UNSET(work->face_normal, input->triangle_count);
   CW_TRY(cw_share("layers: normals", input->triangle_count, sizeof *work->face_normal, find_normal, work,

@@ -29,31 +29,49 @@ static int32_t regions_of(const CwPlan *plan, int32_t node) {
   return regions_of(plan, plan->node[node].child[0]) + regions_of(plan, plan->node[node].child[1]);
 }
 
-// Weighs the planes and regions of a subtree with this cell. Notes work and angles in the plan. May stop at any cost of
-// `most` or more.
-static CwStatus weigh(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, double most,
-                      Worth *worth) {
+// What a region is worth. Notes its work in the plan.
+static Worth weigh_region(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t region) {
+  plan->predicted_cells[region] = part->work;
+  return (Worth){cw_plan_unevenness(part->work, model->mean_work, 1), 1};
+}
+
+// What the plane of a node alone is worth in this cell. Notes its angle in the plan. May stop at any cost of `most` or
+// more.
+static CwStatus weigh_plane(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, double most,
+                            Worth *worth) {
   CwStatus status = CW_OK;
-  CwPlanPart half = {0};
   CwPlanLines lines = {0, 1};
-  if (node < 0) {
-    plan->predicted_cells[-1 - node] = part->work;
-    *worth = (Worth){cw_plan_unevenness(part->work, model->mean_work, 1), 1};
-    return CW_OK;
-  }
   const CwPlane *plane = &plan->node[node].plane;
   CwPlanPlace place = cw_plan_place(model, part, plane, NULL);
   plan->worst_angle[node] = place.worst;
   double cost = cw_plan_place_cost(place) + cw_plan_touch_cost(cw_plan_touch(model, part, plane, NULL));
   if (cost < most) CW_TRY(cw_plan_lines(model, plan, node, part, plane, most - cost, &lines));
   *worth = (Worth){cost + lines.cost + LEANING_COST * fmax(0, UPRIGHT - lines.cosine), lines.cosine};
+done:
+  return status;
+}
+
+static void add_worth(const Worth *further, Worth *worth) {
+  worth->cost += further->cost;
+  worth->cosine = fmin(worth->cosine, further->cosine);
+}
+
+// Weighs the planes and regions of a subtree with this cell. May stop at any cost of `most` or more.
+static CwStatus weigh(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, double most,
+                      Worth *worth) {
+  CwStatus status = CW_OK;
+  CwPlanPart half = {0};
+  if (node < 0) {
+    *worth = weigh_region(model, plan, part, -1 - node);
+    return CW_OK;
+  }
+  CW_TRY(weigh_plane(model, plan, part, node, most, worth));
   for (int s = 0; s < 2 && worth->cost < most; s++) {
     Worth further;
-    CW_TRY(cw_plan_part_clip(model, part, plane, s, &half));
+    CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half));
     CW_TRY(weigh(model, plan, &half, plan->node[node].child[s], most - worth->cost, &further));
     cw_plan_part_free(&half);
-    worth->cost += further.cost;
-    worth->cosine = fmin(worth->cosine, further.cosine);
+    add_worth(&further, worth);
   }
 done:
   cw_plan_part_free(&half);
@@ -98,13 +116,14 @@ static CwPlane moved(const CwPlane *plane, const double centre[3], double reach,
   return made;
 }
 
-// Moves the plane of `node` step by step to where its subtree costs less, where some line in it leans.
-static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node) {
+// Moves the plane of `node` step by step to where its subtree, of which *worth is given and kept true, costs less,
+// where some line in it leans.
+static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node,
+                              Worth *worth) {
   CwStatus status = CW_OK;
   CwPlane *plane = &plan->node[node].plane;
   double centre[3], reach, size = cbrt(part->volume);
-  Worth least, worth;
-  CW_TRY(weigh(model, plan, part, node, INFINITY, &least));
+  Worth least = *worth, tried;
   if (least.cosine > LEANING) goto done;
   for (double step = FIRST_STEP * size; step > LAST_STEP * size;) {
     CwPlane best = *plane;
@@ -113,31 +132,44 @@ static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPl
     find_cut(model, part, plane, centre, &reach);
     for (int move = 1; move < MOVES; move++) {
       *plane = moved(&from, centre, reach, move, step);
-      CW_TRY(weigh(model, plan, part, node, least.cost, &worth));
-      if (worth.cost < least.cost - WORTH) {
-        least = worth;
+      CW_TRY(weigh(model, plan, part, node, least.cost, &tried));
+      if (tried.cost < least.cost - WORTH) {
+        least = tried;
         best = *plane;
       }
     }
     *plane = best;
     if (!(least.cost < before)) step /= 2;
   }
-  CW_TRY(weigh(model, plan, part, node, INFINITY, &least)); // notes what came of it
+  CW_TRY(weigh(model, plan, part, node, INFINITY, worth)); // notes what came of it
 done:
   return status;
 }
 
-CwStatus cw_plan_improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node) {
+// Improves a subtree from its leaves up. *worth: of what came of it, where it has no more than REGIONS_MOST regions.
+static CwStatus improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, Worth *worth) {
   CwStatus status = CW_OK;
   CwPlanPart half = {0};
-  if (node < 0) goto done;
+  Worth below[2];
+  if (node < 0) {
+    *worth = weigh_region(model, plan, part, -1 - node);
+    goto done;
+  }
   for (int s = 0; s < 2; s++) {
     CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half));
-    CW_TRY(cw_plan_improve(model, plan, &half, plan->node[node].child[s]));
+    CW_TRY(improve(model, plan, &half, plan->node[node].child[s], &below[s]));
     cw_plan_part_free(&half);
   }
-  if (regions_of(plan, node) <= REGIONS_MOST) CW_TRY(improve_plane(model, plan, part, node));
+  if (regions_of(plan, node) > REGIONS_MOST) goto done;
+  CW_TRY(weigh_plane(model, plan, part, node, INFINITY, worth));
+  for (int s = 0; s < 2; s++) add_worth(&below[s], worth);
+  CW_TRY(improve_plane(model, plan, part, node, worth));
 done:
   cw_plan_part_free(&half);
   return status;
+}
+
+CwStatus cw_plan_improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node) {
+  Worth worth;
+  return improve(model, plan, part, node, &worth);
 }

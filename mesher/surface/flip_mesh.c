@@ -3,6 +3,9 @@
 
 #include <stdlib.h>
 
+#include "mesher/common/incident.h"
+#include "mesher/parallel/share.h"
+
 int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
   for (int k = 0; k < 3; k++) {
     if (mesh->triangle[t][k] == vertex) return k;
@@ -10,63 +13,52 @@ int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex) {
   return -1;
 }
 
-// An edge, listed with the lesser of its two vertices.
+// What the tasks below read.
 typedef struct {
-  int32_t other, next;   // its greater vertex; the next edge of the list, or -1
-  int32_t first, second; // its sides: 2 * (3 * triangle + side), and 1 more where it runs from lesser to greater
-} Edge;
+  const CwFlipMesh *mesh;
+  const CwIncident *around;
+  const uint8_t *wanted; // vertices
+} Edges;
 
-enum { NONE = -1, MANY = -2 }; // in place of a second side
-
-static void set_across(CwFlipMesh *mesh, int32_t side, int32_t triangle) {
-  mesh->near[side / 6][side / 2 % 3] = triangle;
+// The triangle across the edge from a to b of t.
+static int32_t find_across(const Edges *edges, int32_t t, int32_t a, int32_t b) {
+  int32_t across = -1, others = 0;
+  for (int32_t i = edges->around->start[a]; i < edges->around->start[a + 1]; i++) {
+    int32_t u = edges->around->triangle[i];
+    const int32_t *corner = edges->mesh->triangle[u];
+    int k = corner[0] == a ? 0 : corner[1] == a ? 1 : 2;
+    if (u == t || (corner[(k + 1) % 3] != b && corner[(k + 2) % 3] != b)) continue;
+    others++;
+    if (corner[(k + 2) % 3] == b) across = u; // it runs from b to a
+  }
+  return others == 1 ? across : -1;
 }
 
-// Another side of an edge.
-static void add_side(CwFlipMesh *mesh, Edge *edge, int32_t side) {
-  if (edge->second == NONE) {
-    edge->second = side;
-    if (!((edge->first ^ side) & 1)) return; // the same way twice
-    set_across(mesh, edge->first, side / 6);
-    set_across(mesh, side, edge->first / 6);
-  } else if (edge->second != MANY) {
-    set_across(mesh, edge->first, -1);
-    set_across(mesh, edge->second, -1);
-    edge->second = MANY;
+static CwStatus find_near(void *context, int32_t t, void *out) {
+  const Edges *edges = context;
+  const int32_t *corner = edges->mesh->triangle[t];
+  int32_t *near = out;
+  for (int k = 0; k < 3; k++) {
+    int32_t a = corner[k], b = corner[(k + 1) % 3];
+    near[k] = edges->wanted[a] || edges->wanted[b] ? find_across(edges, t, a, b) : -1;
   }
+  return CW_OK;
 }
 
 CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
-  int32_t *list = NULL, count = 0; // first edge of each vertex
-  uint8_t *wanted = NULL;          // vertices
-  Edge *edge = NULL;
+  CwIncident around = {0};
+  uint8_t *wanted = NULL;
   if (!mesh->near) CW_NEW_UNSET(mesh->near, triangle_count);
-  CW_NEW_UNSET(list, point_count);
-  CW_NEW_UNSET(edge, 3 * (size_t)triangle_count); // as a rule half as many
   CW_NEW(wanted, point_count);
   for (int32_t t = 0; t < triangle_count; t++) {
     for (int k = 0; k < 3; k++) wanted[mesh->triangle[t][k]] |= !group || group[t] >= 0;
   }
-  for (int32_t v = 0; v < point_count; v++) list[v] = -1;
-  for (int32_t t = 0; t < triangle_count; t++) {
-    for (int k = 0; k < 3; k++) {
-      int32_t a = mesh->triangle[t][k], b = mesh->triangle[t][(k + 1) % 3];
-      int32_t low = a < b ? a : b, high = a < b ? b : a, side = 2 * (3 * t + k) + (a < b), at;
-      mesh->near[t][k] = -1;
-      if (!wanted[a] && !wanted[b]) continue;
-      for (at = list[low]; at >= 0 && edge[at].other != high; at = edge[at].next) continue;
-      if (at >= 0) {
-        add_side(mesh, &edge[at], side);
-      } else {
-        edge[count] = (Edge){high, list[low], side, NONE};
-        list[low] = count++;
-      }
-    }
-  }
+  CW_TRY(cw_incident_make(point_count, triangle_count, (const int32_t(*)[3])mesh->triangle, &around));
+  Edges edges = {mesh, &around, wanted};
+  CW_TRY(cw_share("triangles across edges", triangle_count, sizeof *mesh->near, find_near, &edges, mesh->near));
 done:
-  free(list);
-  free(edge);
+  cw_incident_free(&around);
   free(wanted);
   return status;
 }

@@ -14,7 +14,7 @@ typedef struct {
 
 // Makes `near`, or brings a given one up to date (the caller frees it). Sides that run the same way twice, or that
 // three triangles share, have none; nor have those with no vertex of a triangle whose group is not below 0. group: may
-// be NULL.
+// be NULL. Collective.
 CwStatus cw_flip_neighbours(int32_t point_count, int32_t triangle_count, const int64_t *group, CwFlipMesh *mesh);
 // Place of a vertex in triangle t, or -1.
 int cw_flip_corner(const CwFlipMesh *mesh, int32_t t, int32_t vertex);
