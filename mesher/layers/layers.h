@@ -39,6 +39,7 @@ typedef struct {
   const int32_t (*triangle)[3]; // wall triangles, normal out of the domain
   const double *target;         // asked height of each vertex, normal to the wall, m
   const double *least;          // no column is thinned below this for a better shape of the front; NULL: 0
+  int layer_count;              // that columns are divided into, for the determinants of prisms; 0: not looked at
   // Guides: a vertex on a rim with a cap, or on a dividing plane, marches inside that surface. Up to two per
   // vertex:
   // none: free; one: stays in the tangent plane; two: stays on the line of both.

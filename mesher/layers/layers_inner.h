@@ -134,13 +134,21 @@ void cw_layers_crossing_free(CwLayerCrossing *crossing);
 // not known to be clear of one another. Collective.
 CwStatus cw_layers_crossing_find(CwLayerCrossing *crossing, const double (*front)[3], const uint8_t *moved);
 
-// layers_repair.c: makes prisms and front valid; fills `front`.
-// Quality (prism_quality.h) of the prism over triangle f with column ends `front`.
+// layers_turn.c
+#define CW_LAYER_GOOD 0.12 // quality of prisms and their fronts that is asked for
+// Quality (prism_quality.h) of the prism over triangle f with column ends `front`; what its front counts beside it; and
+// its shear, where it is `prism` itself: CW_LAYER_GOOD where no determinant is small.
 double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
-// How good the column of v is: by the worst prism around it, and where all are good by their front too; no more than
-// `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and then the one
-// that was the worst: most other directions fail there too.
+double cw_layers_front_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]);
+double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double (*front)[3], double prism);
+// How good the column of v is: by the worst prism around it, and where all are good by their front and shear too; no
+// more than `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and
+// then the one that was the worst: most other directions fail there too.
 double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first);
+// Tries directions of the column of v near the present one; keeps the best.
+void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3]);
+
+// layers_repair.c: makes prisms and front valid; fills `front`.
 // Takes the tree of walls and obstacles over.
 CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds);
 

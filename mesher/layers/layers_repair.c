@@ -5,98 +5,13 @@
 #include "mesher/parallel/schedule.h"
 
 enum { ROUNDS = 40, TURNS = 4, REFAN = 3 };
-enum { TOGETHER = 16 };                       // columns at least that are turned in one task
-enum { MANY = 2048 };                         // prisms that are worth handing round the ranks
-enum { FOR_SHAPE = 1, FOR_SOUNDNESS };        // what a column is turned and thinned for
-static const double GOOD = 0.12, FAIR = 0.05; // least prism quality
+enum { TOGETHER = 16 };                 // columns at least that are turned in one task
+enum { MANY = 2048 };                   // prisms that are worth handing round the ranks
+enum { FOR_SHAPE = 1, FOR_SOUNDNESS };  // what a column is turned and thinned for
+static const double FAIR = 0.05;        // least prism quality, where CW_LAYER_GOOD cannot be had
 static const double KEPT = 0.08;        // the same where columns would have to give up their first height for more
-static const double FRONT = 0.4;        // what the quality of the front counts beside that of prisms: 0.3 is good
-static const double MUCH = 100;         // more than any quality
 static const double THIN = 0.8;         // what a thinned column keeps
-static const double LEAST_COSINE = 0.3; // of a direction that the search may choose
 static const double LEAST_SHARE = 0.01; // of its target: a column this thin that still crosses will not get clear
-
-double cw_layers_prism_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
-  const int32_t *v = work->in->triangle[f];
-  const double(*x)[3] = work->in->x;
-  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
-  return cw_prism_quality(wall, end);
-}
-
-// What the front of a prism counts beside it.
-static double front_quality(const CwLayerWork *work, int32_t f, const double (*front)[3]) {
-  const int32_t *v = work->in->triangle[f];
-  const double(*x)[3] = work->in->x;
-  const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
-  return FRONT * cw_prism_front_quality(wall, end);
-}
-
-double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {
-  double prism = INFINITY, end = INFINITY, quality = INFINITY;
-  int32_t start = work->face_start[v], count = work->face_start[v + 1] - start, worst = *first;
-  for (int32_t i = 0; i < count && quality > floor; i++) {
-    int32_t at = (*first + i) % count, f = work->face[start + at];
-    double q = cw_layers_prism_quality(work, f, front), before = quality;
-    if (q < prism) prism = q;
-    if (prism < GOOD) {
-      quality = prism - MUCH;
-    } else {
-      q = front_quality(work, f, front);
-      if (q < end) end = q;
-      quality = end < prism ? end : prism;
-    }
-    if (quality < before) worst = at;
-  }
-  *first = worst;
-  return quality;
-}
-
-// Tries directions near the present one; keeps the best.
-static void turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
-  const CwLayerInput *in = work->in;
-  const double step[2] = {0.25, 0.1};
-  int guides = in->guide_count ? in->guide_count[v] : 0;
-  if (guides == 2) return;
-  int32_t first = 0;
-  double best = cw_layers_around(work, v, (const double(*)[3])front, -INFINITY, &first), kept[3], column[3];
-  double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
-  memcpy(kept, front[v], sizeof kept);
-  memcpy(column, work->column[v], sizeof column);
-  for (int s = 0; s < 2; s++) {
-    double g[3] = {column[0], column[1], column[2]}, side[3], up[3];
-    unit3(g);
-    if (guides == 1) {
-      cross3(g, in->guide_normal[v][0], side);
-      memset(up, 0, sizeof up);
-    } else {
-      int axis = fabs(g[0]) < 0.6 ? 0 : 1;
-      double e[3] = {0};
-      e[axis] = 1;
-      cross3(g, e, side);
-    }
-    unit3(side);
-    if (guides == 0) cross3(g, side, up);
-    double slope = tan(step[s]);
-    for (int i = 0; i < 8; i++) {
-      if (guides == 1 && i % 4) continue;
-      double angle = i * M_PI / 4, c = cos(angle), d = sin(angle), trial[3];
-      for (int k = 0; k < 3; k++) trial[k] = g[k] + slope * (c * side[k] + d * up[k]);
-      unit3(trial);
-      double cosine = cw_layers_least_cosine(work, v, trial);
-      if (cosine < least_cosine) continue;
-      for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
-      cw_layers_place(work, v, front[v]);
-      double quality = cw_layers_around(work, v, (const double(*)[3])front, best, &first);
-      if (quality > best) {
-        best = quality;
-        memcpy(kept, front[v], sizeof kept);
-        memcpy(column, work->column[v], sizeof column);
-      }
-    }
-  }
-  memcpy(front[v], kept, sizeof kept);
-  memcpy(work->column[v], column, sizeof column);
-}
 
 typedef struct {
   CwLayerWork *work;
@@ -118,16 +33,20 @@ static double least_height(const CwLayerWork *work, int32_t v) {
   return work->in->least ? work->in->least[v] : 0;
 }
 
-// The front, and rounder prisms, count as long as one of the columns can still give way.
+// The front, and rounder prisms, count as long as one of the columns can still give way. What is good but for its shear
+// is CW_LAYER_GOOD: such columns are turned once more at the end, but never thinned.
 static double judge(const Repair *repair, int32_t f) {
   const CwLayerWork *work = repair->work;
   const double(*front)[3] = (const double(*)[3])repair->front;
-  double prism = cw_layers_prism_quality(work, f, front);
+  double prism = cw_layers_prism_quality(work, f, front), quality = prism < KEPT ? prism : CW_LAYER_GOOD;
   for (int k = 0; k < 3; k++) {
     int32_t v = work->in->triangle[f][k];
-    if (work->t[v] > least_height(work, v)) return fmin(prism, front_quality(work, f, front));
+    if (work->t[v] <= least_height(work, v)) continue;
+    quality = fmin(prism, cw_layers_front_quality(work, f, front));
+    break;
   }
-  return prism < KEPT ? prism : GOOD;
+  if (quality <= CW_LAYER_GOOD) return quality;
+  return cw_layers_shear_quality(work, f, front, prism) < CW_LAYER_GOOD ? CW_LAYER_GOOD : quality;
 }
 
 static CwStatus judge_stale(void *context, int32_t i, void *out) {
@@ -318,7 +237,7 @@ static CwStatus turn_group(void *context, int32_t group, void **bytes, int64_t *
   for (int32_t i = 0; i < count; i++) {
     int32_t v = groups->vertex[first + i];
     memcpy(made[i].front, front[v], sizeof *front);
-    turn(work, v, front);
+    cw_layers_turn(work, v, front);
     made[i].changed = memcmp(made[i].front, front[v], sizeof *front) != 0;
     memcpy(made[i].front, front[v], sizeof *front);
     memcpy(made[i].column, work->column[v], sizeof made[i].column);
@@ -380,8 +299,9 @@ done:
   return status;
 }
 
-// Turns once more the columns that keep their first height although prism or front could be better: those were turned
-// last while they were taller. *turned: whether any did. Collective.
+// Turns once more the columns that keep their first height although prism or front could be better (those were turned
+// last while they were taller), and those that lean so much that determinants are small. *turned: whether any did.
+// Collective.
 static CwStatus turn_kept(Repair *repair, int *turned) {
   CwStatus status = CW_OK;
   const CwLayerWork *work = repair->work;
@@ -391,8 +311,10 @@ static CwStatus turn_kept(Repair *repair, int *turned) {
     int marked = 0;
     memset(repair->mark, 0, (size_t)work->n);
     for (int32_t f = 0; f < work->in->triangle_count; f++) {
-      if (repair->quality[f] != GOOD) continue;
-      if (fmin(cw_layers_prism_quality(work, f, front), front_quality(work, f, front)) >= GOOD) continue;
+      if (repair->quality[f] != CW_LAYER_GOOD) continue;
+      double prism = cw_layers_prism_quality(work, f, front);
+      double shape = fmin(prism, cw_layers_front_quality(work, f, front));
+      if (fmin(shape, cw_layers_shear_quality(work, f, front, prism)) >= CW_LAYER_GOOD) continue;
       for (int k = 0; k < 3; k++) repair->mark[work->in->triangle[f][k]] = FOR_SHAPE;
       marked = 1;
     }
@@ -430,11 +352,11 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   for (int32_t f = 0; f < in->triangle_count; f++) repair.stale[f] = f;
   CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_stale, &repair, repair.quality));
   for (int32_t f = 0; f < in->triangle_count; f++) {
-    if (repair.quality[f] < GOOD) repair.bad[repair.bad_count++] = f;
+    if (repair.quality[f] < CW_LAYER_GOOD) repair.bad[repair.bad_count++] = f;
   }
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
-    repair.limit = *rounds < ROUNDS / 2 ? GOOD : FAIR;
+    repair.limit = *rounds < ROUNDS / 2 ? CW_LAYER_GOOD : FAIR;
     CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
       for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {

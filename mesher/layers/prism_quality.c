@@ -2,6 +2,9 @@
 #include "mesher/layers/prism_quality.h"
 
 #include "mesher/common/vec.h"
+#include "mesher/layers/thin_prism.h"
+
+static const double ENOUGH = 1.05 * CW_SMALL_DETERMINANT;
 
 double cw_prism_quality(const double *const wall[3], const double *const front[3]) {
   double least = INFINITY, d[3][3], e[3][3], de[3][3], sine[3], height[3], length[3];
@@ -51,6 +54,35 @@ double cw_prism_front_quality(const double *const wall[3], const double *const f
     }
     double q = scale[1] > 0 ? cw_dot(c[0], c[1]) / cw_dot(c[0], c[0]) * scale[0] / scale[1] : -1;
     if (q < least) least = q;
+  }
+  return least;
+}
+
+// Determinant of the right prism with the base's triangle and as high as the top is over it, in the mean.
+static double right_determinant(const double base[3][3], const double top[3][3], int on_wall) {
+  double side[3][3], normal[3], height = 0, d[3];
+  for (int k = 0; k < 3; k++) cw_sub(base[(k + 1) % 3], base[k], side[k]);
+  cw_cross(side[0], side[1], normal);
+  double twice_area = cw_unit(normal);
+  for (int k = 0; k < 3; k++) {
+    cw_sub(top[k], base[k], d);
+    height += cw_dot(d, normal) / 3;
+  }
+  return cw_thin_prism_determinant(0.5 * twice_area, cw_norm(side[0]) + cw_norm(side[1]) + cw_norm(side[2]),
+                                   fabs(height), on_wall);
+}
+
+double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers) {
+  double least = 1;
+  for (int on_wall = 0; on_wall < 2; on_wall++) {
+    double base[3][3], top[3][3], low = on_wall ? 0 : 1 - 1.0 / layers;
+    for (int k = 0; k < 3; k++) {
+      cw_lerp(wall[k], front[k], low, base[k]);
+      cw_lerp(wall[k], front[k], low + 1.0 / layers, top[k]);
+    }
+    const double(*b)[3] = (const double(*)[3])base, (*t)[3] = (const double(*)[3])top;
+    if (right_determinant(b, t, on_wall) < ENOUGH) continue;
+    least = fmin(least, cw_prism_determinant(b, t, on_wall) / ENOUGH);
   }
   return least;
 }

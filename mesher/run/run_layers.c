@@ -61,7 +61,8 @@ static CwStatus grow(void *context, int32_t d) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[d];
-  CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least));
+  CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least,
+                          domain->layer_count));
   cw_ledger_part("layers: room");
   CW_TRY(cw_column_heights_room(&domain->heights, &domain->skeleton));
   cw_ledger_part("layers: small prisms");

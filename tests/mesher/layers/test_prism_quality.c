@@ -38,7 +38,29 @@ static void front_by_hand(void **state) {
   }
 }
 
+// On a triangle with sides of 3, 4 and 5: upright; sheared across the side of 4 by 30, as one layer and as two; upright
+// and as sheared, but too thin in any case.
+static void shear_by_hand(void **state) {
+  const double wall[3][3] = {{0, 0, 0}, {0, 4, 0}, {3, 0, 0}}, *const a[3] = {wall[0], wall[1], wall[2]};
+  const struct {
+    double height, shift;
+    int layers;
+  } prism[] = {{2, 0, 1}, {2, 30, 1}, {2, 30, 2}, {0.02, 0, 1}, {0.02, 0.1, 1}};
+  for (size_t i = 0; i < sizeof prism / sizeof *prism; i++) {
+    double x[3][3], h = prism[i].height / prism[i].layers, s = prism[i].shift / prism[i].layers;
+    for (int k = 0; k < 3; k++)
+      for (int c = 0; c < 3; c++) x[k][c] = wall[k][c] + (c == 0 ? prism[i].shift : c == 2 ? prism[i].height : 0);
+    // The lowest, on the wall, is the least: 3/2 A^4 h^4 / a^6, a the mean of its triangle and its sides.
+    double mean = (6 + 3 * h + 4 * hypot(h, s) + 5 * hypot(h, 0.8 * s)) / 4;
+    double wanted = i == 1 || i == 2 ? 1.5 * pow(6 * h, 4) / pow(mean, 6) / 1.05e-3 : 1;
+    const double *const b[3] = {x[0], x[1], x[2]};
+    assert_float_equal(cw_prism_shear_quality(a, b, prism[i].layers), wanted, 1e-12);
+    assert_true(wanted == 1 || wanted < 0.1);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(prisms_by_hand), cmocka_unit_test(front_by_hand)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(prisms_by_hand), cmocka_unit_test(front_by_hand),
+                                     cmocka_unit_test(shear_by_hand)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
