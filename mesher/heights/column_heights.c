@@ -264,32 +264,45 @@ done:
   return status;
 }
 
-// The finer one holds where patches meet; away from there the first height grows no faster than columns whose layers
-// grow a little can.
+// The finer one holds where patches meet.
+static CwStatus find_asked(void *context, int32_t v, void *out) {
+  CwStatus status = CW_OK;
+  const Columns *columns = context;
+  const double *x = columns->skeleton->wall_x[v];
+  CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY};
+  int32_t before = -1;
+  for (int32_t i = columns->around->start[v]; i < columns->around->start[v + 1]; i++) {
+    int32_t face = columns->skeleton->wall_face[columns->around->triangle[i]];
+    if (face == before) continue;
+    before = face;
+    of.first_height = fmin(of.first_height, columns->layers[face].first_height);
+    of.thickness = fmin(of.thickness, columns->layers[face].thickness);
+    of.growth = fmax(of.growth, columns->layers[face].growth);
+  }
+  CW_REQUIRE(isfinite(of.thickness), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
+             1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  *(CwLayerTarget *)out = of;
+done:
+  return status;
+}
+
+// Away from where patches meet the first height grows no faster than columns whose layers grow a little can.
 static CwStatus take_asked(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
                            CwColumnHeights *heights) {
   CwStatus status = CW_OK;
+  CwLayerTarget *asked = NULL;
+  Columns columns = {.skeleton = skeleton, .around = around, .layers = layers};
+  CW_NEW_UNSET(asked, skeleton->wall_count);
+  CW_TRY(cw_share("heights: asked", skeleton->wall_count, sizeof *asked, find_asked, &columns, asked));
   for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY};
-    int32_t before = -1;
-    for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
-      int32_t face = skeleton->wall_face[around->triangle[i]];
-      if (face == before) continue;
-      before = face;
-      of.first_height = fmin(of.first_height, layers[face].first_height);
-      of.thickness = fmin(of.thickness, layers[face].thickness);
-      of.growth = fmax(of.growth, layers[face].growth);
-    }
-    heights->first_height[v] = of.first_height, heights->target[v] = of.thickness, heights->growth[v] = of.growth;
+    heights->first_height[v] = asked[v].first_height;
+    heights->target[v] = asked[v].thickness;
+    heights->growth[v] = asked[v].growth;
   }
   CW_TRY(grade(skeleton, around, HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
                heights->first_height));
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    const double *x = skeleton->wall_x[v];
-    CW_REQUIRE(isfinite(heights->target[v]), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
-               1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
-  }
 done:
+  free(asked);
   return status;
 }
 
@@ -309,11 +322,11 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
   CwStatus status = CW_OK;
   double *fair = NULL;
   *heights = (CwColumnHeights){.layer_count = layer_count};
-  CW_NEW(heights->first_height, skeleton->wall_count);
-  CW_NEW(heights->growth, skeleton->wall_count);
-  CW_NEW(heights->target, skeleton->wall_count);
-  CW_NEW(heights->least, skeleton->wall_count);
-  CW_NEW(fair, skeleton->wall_count);
+  CW_NEW_UNSET(heights->first_height, skeleton->wall_count);
+  CW_NEW_UNSET(heights->growth, skeleton->wall_count);
+  CW_NEW_UNSET(heights->target, skeleton->wall_count);
+  CW_NEW_UNSET(heights->least, skeleton->wall_count);
+  CW_NEW_UNSET(fair, skeleton->wall_count);
   CW_TRY(take_asked(skeleton, around, layers, heights));
   Columns columns = {.skeleton = skeleton, .around = around, .heights = heights};
   CW_TRY(cw_share("heights: fair ones", skeleton->wall_count, sizeof *fair, find_fair, &columns, fair));
@@ -358,8 +371,8 @@ CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleto
   CwStatus status = CW_OK;
   double *graded = NULL;
   Taken *of = NULL, sum = {0};
-  CW_NEW(graded, skeleton->wall_count);
-  CW_NEW(of, skeleton->wall_triangle_count);
+  CW_NEW_UNSET(graded, skeleton->wall_count);
+  CW_NEW_UNSET(of, skeleton->wall_triangle_count);
   memcpy(graded, heights->target, (size_t)skeleton->wall_count * sizeof *graded);
   CW_TRY(grade(skeleton, around, HEIGHT_SLOPE, graded));
   Columns columns = {.skeleton = skeleton, .heights = heights, .layers = layers, .graded = graded};

@@ -116,6 +116,11 @@ static void place_changed(Repair *repair) {
   }
 }
 
+static CwStatus find_end(void *context, int32_t v, void *out) {
+  cw_layers_place(context, v, out);
+  return CW_OK;
+}
+
 static CwStatus thin_marked(Repair *repair) {
   CwStatus status = CW_OK;
   CwLayerWork *work = repair->work;
@@ -334,21 +339,20 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
   Repair repair = {.work = work, .front = front};
   int32_t crossing = 0;
   int once_more = 0;
-  CW_NEW(repair.quality, in->triangle_count);
+  CW_NEW_UNSET(repair.quality, in->triangle_count);
   CW_NEW(repair.mark, work->n);
   CW_NEW(repair.moved, work->n);
   CW_NEW(repair.moved_list, work->n);
-  CW_NEW(repair.bad, in->triangle_count);
-  CW_NEW(repair.stale, in->triangle_count);
+  CW_NEW_UNSET(repair.bad, in->triangle_count);
+  CW_NEW_UNSET(repair.stale, in->triangle_count);
   CW_NEW(repair.uncrossed, work->n);
   memset(repair.uncrossed, 1, (size_t)work->n);
-  CW_NEW(repair.height, work->n);
+  CW_NEW_UNSET(repair.height, work->n);
   CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
   repair.crossing.tree = *tree; // the prisms stand where the walls do
   memset(tree, 0, sizeof *tree);
-  place_changed(&repair); // no height is 0: all of them
-  memset(repair.moved, 0, (size_t)work->n);
-  repair.moved_count = 0;
+  CW_TRY(cw_share("layers: ends", work->n, sizeof *front, find_end, work, front));
+  memcpy(repair.height, work->t, (size_t)work->n * sizeof *repair.height);
   for (int32_t f = 0; f < in->triangle_count; f++) repair.stale[f] = f;
   CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_stale, &repair, repair.quality));
   for (int32_t f = 0; f < in->triangle_count; f++) {

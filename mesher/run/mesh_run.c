@@ -171,9 +171,9 @@ done:
 // *tight: places where layers leave no room on the planes; then there are no inner surfaces.
 static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
   CwStatus status = CW_OK;
-  CwResults caps = {0}, interfaces = {0};
-  CwMeshTask *task = NULL;
-  int32_t count, made = 0, counts[CW_DOMAINS_MOST];
+  CwResults results = {0}; // of each domain first those of its faces
+  CwMeshTask *cap = NULL, *task = NULL;
+  int32_t caps, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   cw_ledger_part("free curves");
   *tight = 0;
   for (int d = 0; d < run->domains.count; d++) {
@@ -181,35 +181,34 @@ static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
     *tight += run->domain[d].skeleton.tight_count;
   }
   if (*tight > 0) goto done;
-  cw_face_counts(run, counts);
-  CW_TRY(cw_results_make(&caps, run->domains.count, counts));
-  CW_TRY(face_tasks(run, 0, &count, &task));
-  CW_TRY(cw_run_step(run, "caps", "faces", cw_step_cap, count, task, NULL, caps.bytes, NULL));
-  free(task);
-  task = NULL;
-  count = 0;
+  cw_face_counts(run, faces);
+  CW_TRY(face_tasks(run, 0, &caps, &cap));
+  count = caps;
   for (int d = 0; d < run->domains.count; d++) {
-    counts[d] = run->domain[d].skeleton.outline_count;
-    count += counts[d];
+    parts[d] = faces[d] + run->domain[d].skeleton.outline_count;
+    count += run->domain[d].skeleton.outline_count;
   }
-  CW_TRY(cw_results_make(&interfaces, run->domains.count, counts));
+  CW_TRY(cw_results_make(&results, run->domains.count, parts));
   CW_NEW(task, count);
+  memcpy(task, cap, (size_t)caps * sizeof *task);
+  count = caps;
   for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeletonOrbits *orbits = &run->domain[d].skeleton.orbits;
-    for (int32_t i = 0; i < counts[d]; i++) {
-      if (cw_orbit_turns(orbits, &orbits->outline, i) > 0) continue;
-      task[made++] = (CwMeshTask){d, i, run->domain[d].skeleton.outline[i].corner_count};
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    for (int32_t i = 0; i < skeleton->outline_count; i++) {
+      if (cw_orbit_turns(&skeleton->orbits, &skeleton->orbits.outline, i) > 0) continue;
+      // Takes about as long as a cap of as many triangles.
+      task[count++] = (CwMeshTask){d, faces[d] + i, skeleton->outline[i].corner_count};
     }
   }
-  CW_TRY(cw_run_step(run, "interfaces", "polygons", cw_step_interface, made, task, NULL, interfaces.bytes, NULL));
+  CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
   cw_ledger_part("inner surfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, caps.bytes[d], interfaces.bytes[d]));
+    CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, results.bytes[d], results.bytes[d] + faces[d]));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
-  cw_results_free(&caps);
-  cw_results_free(&interfaces);
+  cw_results_free(&results);
+  free(cap);
   free(task);
   return status;
 }

@@ -72,8 +72,8 @@ CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64
 CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
-CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+// A cap, or after all faces an interface polygon.
+CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
 

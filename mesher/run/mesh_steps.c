@@ -29,12 +29,11 @@ CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *si
   return cw_skeleton_mesh_wall(&run->domain[task.domain].skeleton, task.index, bytes, size);
 }
 
-CwStatus cw_step_cap(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_skeleton_mesh_cap(&run->domain[task.domain].skeleton, task.index, bytes, size);
-}
-
-CwStatus cw_step_interface(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
-  return cw_skeleton_mesh_interface(&run->domain[task.domain].skeleton, task.index, bytes, size);
+CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {
+  const CwSkeleton *skeleton = &run->domain[task.domain].skeleton;
+  int32_t faces = cw_cad_face_count(skeleton->cad);
+  return task.index < faces ? cw_skeleton_mesh_cap(skeleton, task.index, bytes, size)
+                            : cw_skeleton_mesh_interface(skeleton, task.index - faces, bytes, size);
 }
 
 CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {

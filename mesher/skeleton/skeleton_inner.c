@@ -113,11 +113,11 @@ static CwStatus add_curve_node(CwSkeleton *skeleton, const CwCurve *curve, const
 }
 
 // All edges of the network on one plane. A wall cut, a cap cut and the line with an ancestor bound the interface; the
-// line with a plane below only divides it.
+// line with a plane below only divides it. The outline is started, and may hold another plane's.
 static CwStatus plane_outline(const CwSkeleton *skeleton, int32_t node, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[node].plane);
-  CW_TRY(cw_outline_start(outline, skeleton->node_count));
+  cw_outline_clear(outline);
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
     const CwCurve *curve = &skeleton->network.curve[i];
     if (curve->plane[0] != node && curve->plane[1] != node) continue;
@@ -150,16 +150,15 @@ done:
   return status;
 }
 
-// The interface polygons of one plane, kept as outlines of skeleton nodes.
-static CwStatus find_polygons(CwSkeleton *skeleton, int32_t node) {
+// The interface polygons of one plane, kept as outlines of skeleton nodes. `outline`: room for that of a plane.
+static CwStatus find_polygons(CwSkeleton *skeleton, int32_t node, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CwPatchOutline outline = {0};
   CwPolygons polygons = {0};
-  CW_TRY(plane_outline(skeleton, node, &outline));
-  CW_TRY(find_crossings(skeleton, &outline));
+  CW_TRY(plane_outline(skeleton, node, outline));
+  CW_TRY(find_crossings(skeleton, outline));
   if (skeleton->tight_count > 0) goto done;
-  CW_TRY(cw_polygons_find(outline.point_count, (const double(*)[2])outline.uv, outline.edge_count,
-                          (const int32_t(*)[2])outline.edge, outline.boundary, &polygons));
+  CW_TRY(cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
+                          (const int32_t(*)[2])outline->edge, outline->boundary, &polygons));
   if (polygons.polygon_count == 0) goto done;
   CwInterfaceOutline *grown = realloc(skeleton->outline, (size_t)(skeleton->outline_count + polygons.polygon_count) *
                                                              sizeof *skeleton->outline);
@@ -173,16 +172,16 @@ static CwStatus find_polygons(CwSkeleton *skeleton, int32_t node) {
     CW_NEW(made->loop_start, last - first + 1);
     CW_NEW(made->corner, end - start);
     for (int32_t l = first; l <= last; l++) made->loop_start[l - first] = polygons.loop_start[l] - start;
-    for (int32_t c = start; c < end; c++) made->corner[c - start] = outline.node[polygons.corner[c]];
+    for (int32_t c = start; c < end; c++) made->corner[c - start] = outline->node[polygons.corner[c]];
   }
 done:
   cw_polygons_free(&polygons);
-  cw_outline_free(&outline);
   return status;
 }
 
 CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
   CW_TRY(start_nodes(skeleton));
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
     const CwSkeletonOrbits *orbits = &skeleton->orbits;
@@ -192,9 +191,11 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
     CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->corner_node, &skeleton->node_x, add_curve_node));
   }
   if (skeleton->tight_count > 0) goto done; // not all curves are divided
-  for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node));
+  CW_TRY(cw_outline_start(&outline, skeleton->node_count));
+  for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node, &outline));
   if (skeleton->tight_count == 0 && skeleton->orbits.symmetry) status = cw_orbit_outlines(skeleton);
 done:
+  cw_outline_free(&outline);
   return status;
 }
 

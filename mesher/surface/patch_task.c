@@ -11,10 +11,15 @@ CwStatus cw_outline_start(CwPatchOutline *outline, int32_t node_count) {
   CwStatus status = CW_OK;
   memset(outline, 0, sizeof *outline);
   outline->node_count = node_count;
-  CW_NEW(outline->local, node_count);
+  CW_NEW_UNSET(outline->local, node_count);
   for (int32_t i = 0; i < node_count; i++) outline->local[i] = -1;
 done:
   return status;
+}
+
+void cw_outline_clear(CwPatchOutline *outline) {
+  for (int32_t i = 0; i < outline->point_count; i++) outline->local[outline->node[i]] = -1;
+  outline->point_count = outline->edge_count = 0;
 }
 
 CwStatus cw_outline_point(CwPatchOutline *outline, int32_t node, const double uv[2], const double x[3],

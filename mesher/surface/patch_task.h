@@ -18,6 +18,8 @@ typedef struct {
 } CwPatchOutline;
 
 CwStatus cw_outline_start(CwPatchOutline *outline, int32_t node_count);
+// Empties it, for another patch of the same nodes.
+void cw_outline_clear(CwPatchOutline *outline);
 // Adds the point of `node` unless it is there; returns its local number through *local.
 CwStatus cw_outline_point(CwPatchOutline *outline, int32_t node, const double uv[2], const double x[3], int32_t *local);
 CwStatus cw_outline_edge(CwPatchOutline *outline, int32_t a, int32_t b, int boundary);
