@@ -17,6 +17,8 @@
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
+// What `least_regions` asks beyond FREE_REGIONS has at least so many cells: planes through fewer meet in too few edges.
+static const double FREE_REGIONS = 4, FEWEST_CELLS = 5000;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
 static const double LONGEST_ON_WALL = 30;   // of second heights: inside, prisms of the second layer are the thinnest
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
@@ -303,7 +305,8 @@ static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
-  double regions = fmax(ceil(cells / cells_per_region(table)), table->mesh.least_regions);
+  double least_regions = fmin(table->mesh.least_regions, fmax(FREE_REGIONS, floor(cells / FEWEST_CELLS)));
+  double regions = fmax(ceil(cells / cells_per_region(table)), least_regions);
   double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
   CW_NEW(least, cw_cad_patch_count(domain->cad));

@@ -133,6 +133,8 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   return result;
 }
 
+static const double REMEDY_MOST = 100; // times the first height that anyone would ask for
+
 // One line for the user on all patches that have thin prisms.
 static void warn_of_thin(const char *domain, const json_t *coverage) {
   char where[64 * CW_PATCH_LIMIT] = "";
@@ -152,9 +154,13 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
     sum += thin;
   }
   if (sum == 0) return;
+  char remedy[96] = "fewer layers, or far more cells";
+  if (wanted < REMEDY_MOST)
+    snprintf(remedy, sizeof remedy, "%.1f times the first height, or with edges as much shorter",
+             0.1 * ceil(10 * wanted));
   cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s). They "
-              "are sound; it would name none with %.1f times the first height, or with edges as much shorter",
-              domain, (long long)sum, where, 0.1 * ceil(10 * wanted));
+              "are sound; it would name none with %s",
+              domain, (long long)sum, where, remedy);
 }
 
 static json_t *domain_json(const CwMeshRun *run, int d) {

@@ -45,20 +45,22 @@ Pair sorted_pair(int32_t a, int32_t b) {
 
 // The place of a point for messages: mm, and (u,v).
 #define PLACE "(%.6g, %.6g, %.6g) mm, (u,v) = (%.9g, %.9g)"
+// What helps where edges are too long for what they go round.
+#define ADVICE "; ask for more cells, or for fewer regions"
 #define PLACE_OF(p) 1e3 * input->x[p][0], 1e3 * input->x[p][1], 1e3 * input->x[p][2], input->uv[p][0], input->uv[p][1]
 
 CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {
   CwStatus status = CW_OK;
-  CW_REQUIRE(scale[0] > 0 && scale[1] > 0 && std::isfinite(scale[0]) && std::isfinite(scale[1]), CW_ERR_INPUT,
+  CW_REQUIRE(scale[0] > 0 && scale[1] > 0 && std::isfinite(scale[0]) && std::isfinite(scale[1]), CW_ERR_MESH,
              "patch %s: scales %g, %g of the parameter plane are not above 0: the surface map is degenerate",
              input->name, scale[0], scale[1]);
   for (int32_t p = 0; p < input->point_count; p++)
     for (int k = 0; k < 3; k++)
-      CW_REQUIRE(std::isfinite(input->x[p][k]) && std::isfinite(input->uv[p][k % 2]), CW_ERR_INPUT,
+      CW_REQUIRE(std::isfinite(input->x[p][k]) && std::isfinite(input->uv[p][k % 2]), CW_ERR_MESH,
                  "patch %s: point %d at " PLACE " is not finite", input->name, p, PLACE_OF(p));
   for (int32_t e = 0; e < input->edge_count; e++) {
     int32_t a = input->edge[e][0], b = input->edge[e][1];
-    CW_REQUIRE(a >= 0 && b >= 0 && a < input->point_count && b < input->point_count && a != b, CW_ERR_INPUT,
+    CW_REQUIRE(a >= 0 && b >= 0 && a < input->point_count && b < input->point_count && a != b, CW_ERR_MESH,
                "patch %s: edge %d joins points %d and %d: allowed are two different points of 0 to %d", input->name, e,
                a, b, input->point_count - 1);
   }
@@ -73,7 +75,7 @@ CwStatus check_closed(const CwPatchInput *input) {
   for (int32_t e = 0; e < input->edge_count; e++)
     for (int k = 0; input->boundary[e] && k < 2; k++) edges[size_t(input->edge[e][k])]++;
   for (int32_t p = 0; p < input->point_count; p++)
-    CW_REQUIRE(edges[size_t(p)] % 2 == 0, CW_ERR_INPUT,
+    CW_REQUIRE(edges[size_t(p)] % 2 == 0, CW_ERR_MESH,
                "patch %s: the boundary is open at point %d, " PLACE " (%d boundary edges meet there; allowed: an even "
                "number)",
                input->name, p, PLACE_OF(p), edges[size_t(p)]);
@@ -88,8 +90,8 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
   auto at = [&](int32_t p) { return vertex[size_t(p)]->point(); };
   for (int32_t p = 0; p < input->point_count; p++)
     if (p != a && p != b && CGAL::are_strictly_ordered_along_line(at(a), at(p), at(b)))
-      return CW_FAIL(CW_ERR_INPUT, "patch %s: point %d at " PLACE " lies on edge %d (points %d and %d)", input->name, p,
-                     PLACE_OF(p), e, a, b);
+      return CW_FAIL(CW_ERR_MESH, "patch %s: point %d at " PLACE " lies on edge %d (points %d and %d)" ADVICE,
+                     input->name, p, PLACE_OF(p), e, a, b);
   for (int32_t f = 0; f < input->edge_count; f++) {
     int32_t c = input->edge[f][0], d = input->edge[f][1];
     if (f == e || c == a || c == b || d == a || d == b) continue;
@@ -100,11 +102,12 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
     double t = ca == cb ? 0.5 : ca / (ca - cb), x[3], uv[2];
     for (int k = 0; k < 3; k++) x[k] = 1e3 * ((1 - t) * input->x[a][k] + t * input->x[b][k]);
     for (int k = 0; k < 2; k++) uv[k] = (1 - t) * input->uv[a][k] + t * input->uv[b][k];
-    return CW_FAIL(CW_ERR_INPUT, "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE,
+    return CW_FAIL(CW_ERR_MESH,
+                   "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE ADVICE,
                    input->name, e, a, b, f, c, d, x[0], x[1], x[2], uv[0], uv[1]);
   }
-  return CW_FAIL(CW_ERR_INPUT, "patch %s: edge %d (points %d and %d) crosses another near " PLACE, input->name, e, a, b,
-                 PLACE_OF(a));
+  return CW_FAIL(CW_ERR_MESH, "patch %s: edge %d (points %d and %d) crosses another near " PLACE ADVICE, input->name, e,
+                 a, b, PLACE_OF(a));
 }
 
 CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangulation &mesh,
@@ -117,8 +120,8 @@ CwStatus insert_points(const CwPatchInput *input, const double scale[2], Triangu
   vertex.assign(points.size(), Vertex());
   for (Vertex v : mesh.finite_vertex_handles()) vertex[size_t(v->info())] = v;
   for (int32_t p = 0; p < input->point_count; p++)
-    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_INPUT, "patch %s: point %d at " PLACE " coincides with another",
-               input->name, p, PLACE_OF(p));
+    CW_REQUIRE(vertex[size_t(p)] != Vertex(), CW_ERR_MESH,
+               "patch %s: point %d at " PLACE " coincides with another" ADVICE, input->name, p, PLACE_OF(p));
 done:
   return status;
 }
@@ -130,8 +133,8 @@ CwStatus insert_edges(const CwPatchInput *input, Triangulation &mesh, const std:
     pairs[size_t(e)] = {sorted_pair(input->edge[e][0], input->edge[e][1]), e};
   std::sort(pairs.begin(), pairs.end());
   for (size_t k = 1; k < pairs.size(); k++)
-    CW_REQUIRE(pairs[k].first != pairs[k - 1].first, CW_ERR_INPUT,
-               "patch %s: the edge of points %d and %d at " PLACE " is given twice (%d and %d)", input->name,
+    CW_REQUIRE(pairs[k].first != pairs[k - 1].first, CW_ERR_MESH,
+               "patch %s: the edge of points %d and %d at " PLACE " is given twice (%d and %d)" ADVICE, input->name,
                pairs[k].first.first, pairs[k].first.second, PLACE_OF(pairs[k].first.first), pairs[k - 1].second,
                pairs[k].second);
   for (int32_t e = 0; e < input->edge_count; e++) {
@@ -189,7 +192,7 @@ CwStatus take_inside(const CwPatchInput *input, Triangulation &mesh, CwCdt *cdt)
   }
   std::sort(inside.begin(), inside.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
   size_t count = inside.size();
-  CW_REQUIRE(count > 0, CW_ERR_INPUT, "patch %s: nothing lies inside its boundary (%d points, %d edges)", input->name,
+  CW_REQUIRE(count > 0, CW_ERR_MESH, "patch %s: nothing lies inside its boundary (%d points, %d edges)", input->name,
              input->point_count, input->edge_count);
   take_memory(&cdt->triangle, count);
   take_memory(&cdt->neighbour, count);

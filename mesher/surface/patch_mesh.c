@@ -59,7 +59,7 @@ CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh) {
   CwPatchWork work = {0};
   double scale[2];
   *mesh = (CwPatchMesh){0};
-  CW_REQUIRE(input->point_count >= 3 && input->edge_count >= 3, CW_ERR_INPUT,
+  CW_REQUIRE(input->point_count >= 3 && input->edge_count >= 3, CW_ERR_MESH,
              "patch %s: %d points and %d edges bound nothing: at least 3 of each are needed", input->name,
              input->point_count, input->edge_count);
   find_scale(input, scale);

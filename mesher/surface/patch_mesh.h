@@ -50,7 +50,7 @@ typedef struct {
   double folded_at[3];
 } CwPatchMesh;
 
-// Fails with CW_ERR_INPUT where edges cross or the boundary is open, naming the patch and the coordinates.
+// Fails with CW_ERR_MESH where edges cross or the boundary is open, naming the patch and the coordinates.
 // Deterministic: equal input gives equal bits.
 CwStatus cw_patch_mesh(const CwPatchInput *input, CwPatchMesh *mesh);
 void cw_patch_mesh_free(CwPatchMesh *mesh);

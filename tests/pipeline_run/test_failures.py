@@ -7,7 +7,8 @@ import time
 import unittest
 from pathlib import Path
 
-from cutwater import CELLS, PAPER, RUN, digests, done, error_lines, fresh, ranks_of, stage, start, state, with_geometry
+from cutwater import (CELLS, PAPER, RUN, digests, done, error_lines, fresh, ranks_of, record, stage, start, state,
+                      with_geometry)
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
@@ -128,6 +129,15 @@ class BadInput(unittest.TestCase):
         shutil.rmtree(run / "geometry")
         shutil.copytree(RUN / "geometry", run / "geometry")
         done(self, "mesh", run, case=case, ranks=2)
+
+    def test_more_regions_than_the_cells_are_for(self):
+        run = with_geometry("many-regions")
+        case = run / "case.yaml"
+        case.write_text(PAPER.read_text().replace("\nmesh:", "\nmesh:\n  least_regions: 1000", 1))
+        done(self, "mesh", run, case=case, cells=60000, ranks=2)
+        for domain in record(run, "mesh")["results"]["domains"]:
+            self.assertGreaterEqual(domain["regions"], 4)
+            self.assertLessEqual(domain["regions"], 12 + 6, "one for 5000 cells, and a whole one in each passage")
 
 
 class Failures(unittest.TestCase):

@@ -522,7 +522,7 @@ static void random_stars(void **state) {
 static void expect_refusal(Plan *plan, const char *text, const char *place) {
   CwPatchMesh mesh;
   cw_fail_clear();
-  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_ERR_INPUT);
+  assert_int_equal(cw_patch_mesh(&plan->input, &mesh), CW_ERR_MESH);
   if (!strstr(cw_fail_message(), "patch lid") || !strstr(cw_fail_message(), text) || !strstr(cw_fail_message(), place))
     fail_msg("unexpected message: %s", cw_fail_message());
   assert_null(mesh.triangle);
