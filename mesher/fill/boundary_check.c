@@ -52,10 +52,12 @@ CwStatus cw_boundary_check(const CwFillInput *input) {
       CW_REQUIRE(p[k] >= 0 && p[k] < input->point_count && p[k] != p[(k + 1) % 3], CW_ERR_MESH,
                  "%s: boundary triangle %d has points %d, %d, %d; three different ones from 0 to %d are allowed",
                  input->name, t, p[0], p[1], p[2], input->point_count - 1);
+    if (!has_no_area(input->x[p[0]], input->x[p[1]], input->x[p[2]])) continue;
     middle(input, t, mm);
-    CW_REQUIRE(!has_no_area(input->x[p[0]], input->x[p[1]], input->x[p[2]]), CW_ERR_MESH,
-               "%s: the boundary triangle at (%.6g, %.6g, %.6g) mm has no area: its corners lie on one line",
-               input->name, mm[0], mm[1], mm[2]);
+    status = CW_FAIL(CW_ERR_MESH,
+                     "%s: the boundary triangle at (%.6g, %.6g, %.6g) mm has no area: its corners lie on one line",
+                     input->name, mm[0], mm[1], mm[2]);
+    goto done;
   }
   CW_TRY(cw_fill_check_closed(input));
 done:

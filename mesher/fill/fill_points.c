@@ -28,7 +28,7 @@ static const Box nowhere = {GUARDS - UNITS, 0};
 
 // What reaches a cell of the octree that is not cut for the sake of the boundary any more.
 typedef struct {
-  int32_t count; // items, from list
+  int32_t triangles, count; // items, from list: so many triangles, and with the places of the row
   int64_t list;
   int whole; // none reaches it: all of it is inside
   int clear; // none is in it
@@ -104,7 +104,7 @@ static CwStatus reach_of(Tree *tree, int32_t t, CwReachBox *box, double *area, d
   double u[3], v[3], normal[3], mean[3], h;
   for (int i = 0; i < 3; i++) mean[i] = (a[i] + b[i] + c[i]) / 3.0;
   CW_TRY(cw_lattice_size(input, mean, &h));
-  cw_reach_of_triangle(a, b, c, 1.3 * fmax(h, size_at(input, a)), tree->clearance, box, &tree->ball[t]);
+  cw_reach_of_triangle(a, b, c, 1.5 * h, tree->clearance, box, &tree->ball[t]);
   cw_sub(b, a, u);
   cw_sub(c, a, v);
   cw_cross(u, v, normal);
@@ -121,31 +121,38 @@ static double distance_square(const double a[3], const double b[3]) {
   return cw_dot(d, d);
 }
 
-// Whether an item of the cell keeps a point of the lattice, or of the row, away from x.
+// Of these items those whose boxes hold a place, into tree->near.
+static int32_t find_near(const Tree *tree, const int32_t *list, int32_t count, uint64_t place) {
+  int32_t near = 0;
+  for (int32_t k = 0; k < count; k++) {
+    tree->near[near] = list[k];
+    near += (int32_t)cw_number(holds(&tree->reach[list[k]], place));
+  }
+  return near;
+}
+
+// Whether an item of the cell keeps a point of the lattice, or of the row, away from x: the row first, which is soon
+// asked, then spheres, and at last distances.
 static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int of_row) {
   const CwFillInput *input = tree->input;
-  double apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
-  uint64_t place = pack(tree, x[0], x[1], x[2]);
   const int32_t *list = tree->list + reached->list;
-  int32_t near = 0, k = 0;
-  for (int32_t i = reached->count - 1; i >= 0; i--) { // the row first: it is soon asked
-    tree->near[near] = list[i];
-    near += (int32_t)cw_number(holds(&tree->reach[list[i]], place));
-  }
-  for (; k < near && tree->near[k] >= input->triangle_count; k++) {
+  uint64_t place = pack(tree, x[0], x[1], x[2]);
+  double apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
+  int32_t near = find_near(tree, list + reached->triangles, reached->count - reached->triangles, place);
+  for (int32_t k = 0; k < near; k++) {
     const CwRowPlace *point = &tree->row[tree->near[k] - input->triangle_count];
     double nearest = apart * point->spacing;
     if (distance_square(x, point->x) < nearest * nearest) return 1;
   }
-  if (k == near) return 0;
+  near = find_near(tree, list, reached->triangles, place);
   int32_t first_open = of_row ? input->triangle_count : input->triangle_count - input->open_count;
-  for (int32_t i = k; i < near; i++) {
-    if (tree->near[i] < first_open && cw_reach_in_ball(&tree->ball[tree->near[i]], x)) return 1;
+  for (int32_t k = 0; k < near && tree->near[k] < first_open; k++) {
+    if (cw_reach_in_ball(&tree->ball[tree->near[k]], x)) return 1;
   }
-  double h = tree->clearance * size_at(input, x);
-  for (int32_t i = k; i < near; i++) {
-    const int32_t *q = input->triangle[tree->near[i]];
-    const CwReachBall *ball = &tree->ball[tree->near[i]];
+  double h = near ? tree->clearance * size_at(input, x) : 0.0;
+  for (int32_t k = 0; k < near; k++) {
+    const int32_t *q = input->triangle[tree->near[k]];
+    const CwReachBall *ball = &tree->ball[tree->near[k]];
     if (cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], ball, h, tree->clearance, x)) return 1;
   }
   return 0;
@@ -226,8 +233,14 @@ static CwStatus add_cell(Tree *tree, const int32_t at[3], int level, int64_t lis
   CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
   CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
   CW_GROW(tree->list, tree->list_space, tree->list_count + list_count);
-  if (list_count) memcpy(tree->list + tree->list_count, tree->open + list, (size_t)list_count * sizeof *tree->list);
-  tree->reached[tree->cell_count] = (Reached){list_count, tree->list_count, list_count == 0, clear};
+  int32_t *its = tree->list + tree->list_count, triangles = list_count, first = tree->input->triangle_count;
+  if (list_count) memcpy(its, tree->open + list, (size_t)list_count * sizeof *its);
+  const Box box = {pack_cell(at, 0), pack_cell(at, (1 << level) - 1)};
+  for (; triangles > 0 && its[triangles - 1] >= first; triangles--) { // the row comes last
+    int32_t item = its[triangles - 1];
+    if (holds(&box, tree->own[item].low)) tree->row_cell[item - first] = tree->cell_count;
+  }
+  tree->reached[tree->cell_count] = (Reached){triangles, list_count, tree->list_count, list_count == 0, clear};
   tree->cell[tree->cell_count++] = (CwLatticeCell){{at[0], at[1], at[2]}, level, inside};
   tree->list_count += list_count;
 done:
@@ -259,18 +272,16 @@ done:
   return status;
 }
 
-// Which cell each place of the row lies in.
-static void find_cells(Tree *tree) {
-  for (int32_t p = 0; p < tree->input->row_count; p++) tree->row_cell[p] = -1;
+// Takes the places that were not chosen out of the lists.
+static void shorten_lists(Tree *tree) {
   for (int32_t c = 0; c < tree->cell_count; c++) {
-    const CwLatticeCell *cell = &tree->cell[c];
-    const Reached *reached = &tree->reached[c];
-    const Box box = {pack_cell(cell->at, 0), pack_cell(cell->at, (1 << cell->level) - 1)};
-    for (int32_t k = reached->count - 1; k >= 0; k--) { // the row comes last
-      int32_t item = tree->list[reached->list + k];
-      if (item < tree->input->triangle_count) break;
-      if (holds(&box, tree->own[item].low)) tree->row_cell[item - tree->input->triangle_count] = c;
+    Reached *reached = &tree->reached[c];
+    int32_t *list = tree->list + reached->list, count = reached->triangles;
+    for (int32_t k = count; k < reached->count; k++) {
+      list[count] = list[k];
+      count += tree->chosen[list[k] - tree->input->triangle_count];
     }
+    reached->count = count;
   }
 }
 
@@ -280,7 +291,6 @@ static CwStatus choose_row(Tree *tree, int32_t *chosen) {
   CwStatus status = CW_OK;
   Box *reach = tree->reach + tree->input->triangle_count;
   *chosen = 0;
-  find_cells(tree);
   for (int32_t p = 0; p < tree->input->row_count; p++) reach[p] = nowhere;
   for (int32_t p = 0; p < tree->input->row_count; p++) {
     const double *x = tree->row[p].x;
@@ -292,6 +302,7 @@ static CwStatus choose_row(Tree *tree, int32_t *chosen) {
     tree->chosen[p] = 1;
     ++*chosen;
   }
+  shorten_lists(tree);
 done:
   return status;
 }
@@ -315,16 +326,18 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
     const CwLatticePlace *place = &places[k];
     const Reached *reached = &tree->reached[place->cell];
     double p[3], fixed[3];
-    cw_lattice_point(&tree->frame, place, fixed, p);
     if (!reached->whole) {
+      cw_lattice_fixed(&tree->frame, place->key, fixed);
       if (place->key >> 21 != cut) {
         cut = place->key >> 21;
         CW_TRY(cw_columns_cut(tree->columns, fixed[0], fixed[1], &crossings, &z));
       }
       int inside = 0;
       for (int32_t c = 0; c < crossings; c++) inside ^= z[c] > fixed[2];
-      if (!inside || is_forbidden(tree, reached, p, 0)) continue;
+      if (!inside) continue;
     }
+    cw_lattice_point(&tree->frame, place, p);
+    if (!reached->whole && is_forbidden(tree, reached, p, 0)) continue;
     if (site) sites[kept] = (CwLatticeSite){place->key, place->level, reached->clear};
     memcpy(points[kept++], p, sizeof p);
   }
@@ -389,6 +402,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CW_NEW_UNSET(tree->own, items);
   CW_NEW_UNSET(tree->ball, input->triangle_count);
   CW_NEW_UNSET(tree->row_cell, input->row_count);
+  memset(tree->row_cell, -1, (size_t)input->row_count * sizeof *tree->row_cell);
   CW_NEW(tree->chosen, input->row_count);
   CW_NEW_UNSET(tree->near, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {

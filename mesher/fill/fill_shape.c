@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/mix.h"
+
 // Corners of the face opposite corner i, outward.
 static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
@@ -13,28 +15,38 @@ typedef struct {
   int32_t sign; // +1: towards it
 } Directed;
 
-static int compare_places(const void *left, const void *right) {
-  const double *a = *(const double *const *)left, *b = *(const double *const *)right;
-  for (int i = 0; i < 3; i++) {
-    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
-  }
-  return 0;
+static int same_place(const double a[3], const double b[3]) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+static uint64_t scatter(const double x[3]) {
+  uint64_t hash = 0;
+  for (int i = 0; i < 3; i++) {
+    double value = x[i] + 0.0; // -0 is 0
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    hash = cw_mix(hash + CW_MIX_STEP + bits);
+  }
+  return hash;
+}
+
+// Fails where two points are at one place: they meet in a hash table.
 static CwStatus check_points(const CwFillInput *input) {
   CwStatus status = CW_OK;
-  const double **place = NULL;
-  CW_NEW(place, input->point_count);
-  for (int32_t p = 0; p < input->point_count; p++) place[p] = input->x[p];
-  qsort(place, (size_t)input->point_count, sizeof *place, compare_places);
-  for (int32_t p = 1; p < input->point_count; p++) {
-    const double *x = place[p];
-    CW_REQUIRE(compare_places(&place[p - 1], &place[p]), CW_ERR_MESH,
-               "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, 1e3 * x[0], 1e3 * x[1],
-               1e3 * x[2]);
+  int32_t *table = NULL; // 1 + point
+  uint64_t space = 2 * (uint64_t)input->point_count + 1;
+  CW_NEW(table, space);
+  for (int32_t p = 0; p < input->point_count; p++) {
+    const double *x = input->x[p];
+    uint64_t k = (scatter(x) >> 32) * space >> 32;
+    for (; table[k]; k = k + 1 < space ? k + 1 : 0)
+      CW_REQUIRE(!same_place(input->x[table[k] - 1], x), CW_ERR_MESH,
+                 "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, 1e3 * x[0],
+                 1e3 * x[1], 1e3 * x[2]);
+    table[k] = 1 + p;
   }
 done:
-  free(place);
+  free(table);
   return status;
 }
 

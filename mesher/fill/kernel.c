@@ -55,14 +55,19 @@ static void give_back(void) {
 enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { INNER = 16, OUTSIDE = 32 };      // of a tetrahedron, and bit i: its face i is a facet
+static const uint64_t MARKED = (uint64_t)1 << 63;
 
-// Stands in the square, as a number below 0.
-static int place_of(const CwDelaunayTet *tet) {
-  return tet->square < 0.0 ? -(int)tet->square : 0;
+// Stands in the bits of the square, with the sign set, which no square has: whether a tetrahedron has one is as good as
+// random, and this takes no branch.
+static unsigned place_of(const CwDelaunayTet *tet) {
+  uint64_t bits;
+  memcpy(&bits, &tet->square, sizeof bits);
+  return (unsigned)(bits & -(bits >> 63)) & (INNER | OUTSIDE | 15);
 }
 
-static void add_place(CwDelaunayTet *tet, int place) {
-  tet->square = -(double)(place_of(tet) | place);
+static void add_place(CwDelaunayTet *tet, unsigned place) {
+  uint64_t bits = MARKED | place_of(tet) | place;
+  memcpy(&tet->square, &bits, sizeof bits);
 }
 
 // A point that hangs together with a corner of the tetrahedron that encloses all.
@@ -104,8 +109,8 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     CwDelaunayTet *inside = &mesh->tet[inner / 4], *outside = &mesh->tet[outer / 4];
     const double *y = mesh->point[facets->corner[f][0]].x;
     if (!(place_of(outside) & OUTSIDE)) enclosing |= add_outside(mesh, outer / 4, &waiting);
-    add_place(inside, INNER | 1 << inner % 4);
-    add_place(outside, 1 << outer % 4);
+    add_place(inside, INNER | 1u << inner % 4);
+    add_place(outside, 1u << outer % 4);
     CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
@@ -116,7 +121,7 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     const CwDelaunayTet *tet = &mesh->tet[t];
     waiting = tet->corner[1];
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0 || place_of(tet) & 1 << i) continue;
+      if (tet->neighbour[i] < 0 || place_of(tet) & 1u << i) continue;
       CwDelaunayTet *next = &mesh->tet[tet->neighbour[i] / 4];
       const double *y = mesh->point[tet->corner[0]].x;
       CW_REQUIRE((place_of(next) & INNER) == 0, CW_ERR_MESH,

@@ -84,8 +84,8 @@ static CwStatus make_tables(CwFacets *facets, int32_t count) {
   free(facets->table);
   free(facets->edge);
   facets->edge = NULL;
-  facets->table_space = 2 * (uint32_t)count + 16;
-  facets->edge_space = 2 * (uint32_t)count + 16; // 1.5 edges a triangle, seldom asked for
+  facets->table_space = 4 * (uint32_t)count + 16; // most faces that are looked for are no facets
+  facets->edge_space = 2 * (uint32_t)count + 16;  // 1.5 edges a triangle, seldom asked for
   facets->table_used = facets->edge_used = 0;
   CW_NEW(facets->table, facets->table_space);
   CW_NEW(facets->edge, facets->edge_space);

@@ -183,11 +183,13 @@ static double shake(uint64_t key, int axis) { // in [-1, 1), from the place alon
   return (double)(z >> 11) * 0x1p-52 - 1.0;
 }
 
-void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double fixed[3], double x[3]) {
+void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]) {
   int32_t half[3];
-  cw_lattice_at(place->key, half);
-  for (int i = 0; i < 3; i++) {
-    fixed[i] = frame->origin[i] + frame->unit * 0.5 * half[i];
-    x[i] = fixed[i] + frame->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
-  }
+  cw_lattice_at(key, half);
+  for (int i = 0; i < 3; i++) x[i] = frame->origin[i] + frame->unit * 0.5 * half[i];
+}
+
+void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double x[3]) {
+  cw_lattice_fixed(frame, place->key, x);
+  for (int i = 0; i < 3; i++) x[i] += frame->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
 }

@@ -42,9 +42,11 @@ CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *si
 CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
                            const CwLatticeCell *cell, int64_t *count, CwLatticePlace **place);
 
-// Where a place is, and where its point: beside it by up to a thousandth of the cell, by its key alone, since points of
+// Where a place is.
+void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]);
+// Where its point is: beside it by up to a thousandth of the cell, by its key alone, since points of
 // a lattice lie on common spheres.
-void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double fixed[3], double x[3]);
+void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double x[3]);
 
 #ifdef __cplusplus
 }

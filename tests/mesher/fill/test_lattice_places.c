@@ -42,7 +42,8 @@ static void even_field_gives_corners_and_centres(void **unused) {
   assert_int_equal(count, 17 * 81 + 1024);
   for (int64_t k = 0; k < count; k++) {
     double fixed[3], x[3];
-    cw_lattice_point(&frame, &place[k], fixed, x);
+    cw_lattice_fixed(&frame, place[k].key, fixed);
+    cw_lattice_point(&frame, &place[k], x);
     assert_int_equal(place[k].level, 2);
     assert_int_equal(place[k].cell, fixed[0] > 8);
     for (int i = 0; i < 3; i++) {
