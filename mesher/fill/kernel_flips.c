@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/ring.h"
 
@@ -48,6 +49,12 @@ static int corner_of(const CwDelaunayTet *tet, int32_t point) {
   return -1;
 }
 
+// The same where it is a corner, without branches, which would be taken at random.
+static inline int sure_corner_of(const CwDelaunayTet *tet, int32_t point) {
+  return (int)(cw_number(tet->corner[1] == point) + 2 * cw_number(tet->corner[2] == point) +
+               3 * cw_number(tet->corner[3] == point));
+}
+
 static CwStatus push(CwFlips *flips, int32_t t) {
   CwStatus status = CW_OK;
   CW_GROW(flips->star, flips->star_space, flips->star_count + 1);
@@ -89,13 +96,13 @@ int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int mos
   // The other two corners in the order that makes (i, j, first, second) an even permutation.
   static const int8_t first_of[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
   const CwDelaunayTet *now = &flips->mesh->tet[t];
-  int i = corner_of(now, a), j = corner_of(now, b), first = first_of[i][j], count = 0;
+  int i = sure_corner_of(now, a), j = sure_corner_of(now, b), first = first_of[i][j], count = 0;
   int32_t from = now->corner[first], to = now->corner[6 - i - j - first], start = t;
   do {
     if (count == most) return 0;
     tet[count] = t;
     ring[count++] = from;
-    int32_t next = now->neighbour[corner_of(now, from)];
+    int32_t next = now->neighbour[sure_corner_of(now, from)];
     if (next < 0) return 0;
     t = next / 4;
     now = &flips->mesh->tet[t];

@@ -8,10 +8,18 @@
 #include "mesher/fill/tet_work.h"
 
 static const double insert_limit = 0.4226, round_limit = 0.38;
-enum { PASSES = 5, EVENINGS = 2 };
+enum { PASSES = 5, EVENINGS = 1 };
 
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int8_t cw_tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+void cw_tet_work_free(CwTetWork *w) {
+  free(w->bad);
+  free(w->next);
+  free(w->slender.tet);
+  free(w->place);
+  free(w->irregular);
+}
 
 CwStatus cw_tet_push(CwTetWork *w, int32_t t) {
   CwStatus status = CW_OK;
@@ -26,7 +34,6 @@ done:
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
   CwDelaunayTet *tet = &w->mesh->tet[t];
   tet->square = quality;
-  tet->centre[2] = 1.0;
   for (int i = 0; i < 4; i++) w->mesh->point[tet->corner[i]].mark = w->pass;
   return quality < w->limit ? cw_tet_push(w, t) : CW_OK;
 }
@@ -91,16 +98,11 @@ done:
   return status;
 }
 
-// All below the limit are in the list: only where it is empty must the others be asked.
+// All below the limit are in the list.
 static double least_quality(const CwTetWork *w) {
-  double least = 1.0;
+  double least = CW_TET_IMPROVE;
   for (int32_t k = 0; k < w->next_count; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[w->next[k]];
-    if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->square);
-  }
-  for (int32_t t = 0; t < w->mesh->tet_count && least >= CW_TET_IMPROVE; t++) {
-    const CwDelaunayTet *tet = &w->mesh->tet[t];
-    cw_delaunay_ask_ahead(tet);
     if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->square);
   }
   return least;
@@ -115,6 +117,7 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
                  .limit = CW_TET_IMPROVE,
                  .insert = insert_limit,
                  .insert_round = round_limit};
+  CW_NEW(w.irregular, mesh->point_count);
   CW_TRY(cw_tet_scan(&w));
   w.count.least_before = least_quality(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
@@ -130,8 +133,7 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
   *source_count = w.source_count;
   if (improved) *improved = w.count;
 done:
-  free(w.bad);
-  free(w.next);
+  cw_tet_work_free(&w);
   return status;
 }
 

@@ -5,67 +5,177 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/four.h"
 #include "mesher/common/number.h"
 
 static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
-static const double regular = 0.8;        // a point stays where all round it are above; 0.866 in a lattice
-static const double pull = 0.1;           // of an edge
+static const float regular = 0.8f;        // a point stays where all round it are above; 0.866 in a lattice
+static const double unsure = 1e-3;        // of a quality in single precision, by far
+static const double blurred = 1e-4;       // of the extent of all: edges for which single precision will not do
+static const float pull = 0.25f;          // of an edge
+enum { SHARPNESS = 4 };                   // squarings, by which edges that are not quite the extreme ones count less
 enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
-enum { LANES = 8 };
+enum { BLOCK = 128, PAD = 3 };            // tetrahedra that are looked for together; room behind a list
 
-// Tetrahedra side by side, so that a processor's instructions for two or four numbers have as many of them at once.
-// Those behind `count` are of no meaning.
+// Four tetrahedra side by side in single precision, which is enough for where points should go and for what is well
+// shaped: the ways from their first corners to the others, by corner and coordinate.
 typedef struct {
-  int count;
-  int32_t tet[LANES];
-  double x[4][3][LANES], quality[LANES], slender[LANES];
-} Lanes;
+  CwFour arm[3][4];
+} Group;
 
-static inline void add_lane(const CwTetWork *w, int32_t t, Lanes *s) {
-  for (int c = 0; c < 4; c++) {
-    const double *x = cw_tet_at(w, w->mesh->tet[t].corner[c]);
-    for (int i = 0; i < 3; i++) s->x[c][i][s->count] = x[i];
-  }
-  s->tet[s->count++] = t;
+static inline CwFour place_of(const CwTetWork *w, const double x[3]) {
+  return cw_four_way(w->middle, x);
 }
 
-static void judge_lanes(Lanes *s) {
-  for (int k = 0; k < LANES; k++) {
-    double a[3], b[3], c[3], d[3], shortest, longest;
-    for (int i = 0; i < 3; i++) a[i] = s->x[0][i][k], b[i] = s->x[1][i][k], c[i] = s->x[2][i][k], d[i] = s->x[3][i][k];
-    CwTetMeasures measures = cw_tet_measures(a, b, c, d);
-    cw_tet_edges(&measures, &shortest, &longest);
-    s->slender[k] = longest > CW_TET_LONG * CW_TET_LONG * shortest ? 1.0 : 0.0;
-    s->quality[k] = cw_tet_quality_by(&measures);
-  }
-}
-
-typedef struct {
-  int32_t *tet, count, space;
-} List;
-
-// Whether moves made a tetrahedron worse than it may be.
-static int is_spoilt(const CwTetWork *w, int32_t t, const double (*old)[3]) {
-  const CwDelaunayTet *tet = &w->mesh->tet[t];
-  return tet->square < floor_quality && tet->square < cw_tet_quality(old[tet->corner[0]], old[tet->corner[1]],
-                                                                     old[tet->corner[2]], old[tet->corner[3]]);
-}
-
-// Sets the quality of those in the lanes and whether they are slender, and puts them into the list where they are below
-// the limit, and into that of the spoilt ones where that is so and `old` places are given. Empties the lanes.
-static CwStatus judge(CwTetWork *w, Lanes *s, const double (*old)[3], List *spoilt) {
+static CwStatus set_places(CwTetWork *w) {
   CwStatus status = CW_OK;
-  int count = s->count;
-  s->count = 0;
-  if (count) judge_lanes(s);
+  const CwDelaunay *mesh = w->mesh;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0.0;
+  CW_GROW(w->place, w->place_space, mesh->point_count);
+  for (int32_t p = 0; p < mesh->point_count; p++) {
+    if (mesh->source[p] < 0) continue;
+    for (int i = 0; i < 3; i++) {
+      low[i] = cw_tet_less(low[i], mesh->point[p].x[i]);
+      high[i] = cw_tet_more(high[i], mesh->point[p].x[i]);
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    w->middle[i] = 0.5 * (low[i] + high[i]);
+    extent = cw_tet_more(extent, high[i] - low[i]);
+  }
+  w->blurred = blurred * blurred * extent * extent;
+  for (int32_t p = 0; p < mesh->point_count; p++) w->place[p] = place_of(w, mesh->point[p].x);
+done:
+  return status;
+}
+
+static inline void take_group(const CwTetWork *w, const int32_t list[4], Group *g) {
+  for (int k = 0; k < 4; k++) {
+    const int32_t *corner = w->mesh->tet[list[k]].corner;
+    CwFour from = w->place[corner[0]];
+    for (int c = 0; c < 3; c++) g->arm[c][k] = w->place[corner[c + 1]] - from;
+  }
+  for (int c = 0; c < 3; c++) cw_four_turn(g->arm[c]);
+}
+
+// A list of tetrahedra is taken by fours: the last one stands for those that lack.
+static inline void pad_list(int32_t *list, int count) {
+  for (int k = 0; k < PAD && count; k++) list[count + k] = list[count - 1];
+}
+
+// Those of the next BLOCK tetrahedra that have a marked point, or all where no marks are given. Returns their number.
+// Without branches, which would be taken at random.
+static inline int list_marked(const CwDelaunay *mesh, int32_t from, const uint8_t *marked, int32_t list[BLOCK + PAD]) {
+  int32_t to = mesh->tet_count - from < BLOCK ? mesh->tet_count : from + BLOCK;
+  int count = 0;
+  for (int32_t t = from; t < to; t++) {
+    const int32_t *c = mesh->tet[t].corner, used = ~(c[0] >> 31);
+    uint8_t mark = 1;
+    cw_delaunay_ask_ahead(&mesh->tet[t]);
+    if (marked) mark = marked[c[0] & used] | marked[c[1] & used] | marked[c[2] & used] | marked[c[3] & used];
+    list[count] = t;
+    count += used & (mark != 0);
+  }
+  pad_list(list, count);
+  return count;
+}
+
+// The edges and their squares in the order of cw_tet_edge.
+static inline void find_edges(const Group *g, CwFour edge[6][3], CwFour square[6]) {
+  const CwFour *a = g->arm[0], *b = g->arm[1], *c = g->arm[2];
+  for (int i = 0; i < 3; i++) {
+    edge[0][i] = a[i], edge[1][i] = b[i], edge[2][i] = c[i];
+    edge[3][i] = b[i] - a[i], edge[4][i] = c[i] - a[i], edge[5][i] = c[i] - b[i];
+  }
+  for (int e = 0; e < 6; e++) square[e] = cw_four_dot(edge[e], edge[e]);
+}
+
+static inline void find_extremes(const CwFour square[6], CwFour *least, CwFour *most) {
+  *least = *most = square[0];
+  for (int e = 1; e < 6; e++) {
+    *least = cw_four_less(*least, square[e]);
+    *most = cw_four_more(*most, square[e]);
+  }
+}
+
+// As cw_tet_quality, but for rounding where that is above 0.1 or so, and what is less, or not a number, elsewhere; 0
+// where edges are too short to tell.
+static inline CwFour qualities_of(const Group *g, double too_short, CwFourMask *slender) {
+  CwFour edge[6][3], l[6], face[4][3], n[4], shortest, longest;
+  find_edges(g, edge, l);
+  find_extremes(l, &shortest, &longest);
+  cw_four_cross(g->arm[1], g->arm[2], face[1]);
+  cw_four_cross(g->arm[2], g->arm[0], face[2]);
+  cw_four_cross(g->arm[0], g->arm[1], face[3]);
+  for (int i = 0; i < 3; i++) face[0][i] = face[1][i] + face[2][i] + face[3][i];
+  CwFour scale = 1.0f / longest, six = scale * cw_four_dot(g->arm[2], face[3]);
+  for (int f = 0; f < 4; f++) n[f] = scale * scale * cw_four_dot(face[f], face[f]);
+  CwFour least = cw_four_less(cw_four_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
+                              cw_four_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
+  least = cw_four_less(least, cw_four_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
+  least = six * six * scale * (scale * least) / (n[0] * n[1] * n[2] * n[3]);
+  CwFour aspect = (float)CW_TET_ASPECT * shortest * scale;
+  CwFour counted = cw_four_more(aspect, cw_four_sqrt((float)CW_TET_SLENDER * aspect)); // the root, below that
+  *slender = longest > (float)(CW_TET_LONG * CW_TET_LONG) * shortest;
+  return cw_four_if((six > 0.0f) & (shortest > (float)too_short), cw_four_sqrt(cw_four_less(least, counted)));
+}
+
+// Where a point is to go: from its place by what it has moved in single precision.
+static inline void find_goal(const CwTetWork *w, int32_t p, double goal[3]) {
+  const double *x = cw_tet_at(w, p);
+  CwFour way = w->place[p] - place_of(w, x);
+  for (int i = 0; i < 3; i++) goal[i] = x[i] + (double)way[i];
+}
+
+static double quality_at_goals(const CwTetWork *w, const int32_t corner[4]) {
+  double x[4][3];
+  for (int k = 0; k < 4; k++) find_goal(w, corner[k], x[k]);
+  return cw_tet_quality(x[0], x[1], x[2], x[3]);
+}
+
+// Whether moves make a tetrahedron worse than it may be.
+static int is_spoilt(const CwTetWork *w, int32_t t) {
+  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  const int32_t *c = tet->corner;
+  return tet->square < floor_quality && tet->square < cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
+}
+
+// Marks the points of a group where it is irregular, and adds the slender ones to their list, without branches.
+static inline void note_shapes(CwTetWork *w, const int32_t *list, int count, CwFourMask irregular, CwFourMask slender) {
+  for (int k = 0; k < 4 && w->irregular; k++) {
+    const int32_t *c = w->mesh->tet[list[k]].corner;
+    for (int i = 0; i < 4; i++) w->irregular[c[i]] |= (uint8_t)(irregular[k] & 1);
+  }
   for (int k = 0; k < count; k++) {
-    CwDelaunayTet *tet = &w->mesh->tet[s->tet[k]];
-    tet->centre[2] = s->slender[k];
-    tet->square = s->quality[k];
-    if (tet->square < w->limit) CW_TRY(cw_tet_push(w, s->tet[k]));
-    if (!old || !is_spoilt(w, s->tet[k], old)) continue;
-    CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
-    spoilt->tet[spoilt->count++] = s->tet[k];
+    w->slender.tet[w->slender.count] = list[k];
+    w->slender.count -= slender[k];
+  }
+}
+
+// Sets the quality of some tetrahedra as it is to be, in a list with PAD more, and puts them into the list where they
+// are below the limit, into that of the slender ones and, where given, into that of the spoilt ones.
+static CwStatus judge(CwTetWork *w, const int32_t *list, int count, CwTetList *spoilt) {
+  CwStatus status = CW_OK;
+  CW_GROW(w->slender.tet, w->slender.space, w->slender.count + count + 1);
+  for (int from = 0; from < count; from += 4) {
+    Group g;
+    CwFourMask slender;
+    int some = count - from < 4 ? count - from : 4;
+    take_group(w, list + from, &g);
+    CwFour quality = qualities_of(&g, w->blurred, &slender);
+    CwFourMask sure = quality > (float)(w->limit + unsure);
+    note_shapes(w, list + from, some, quality < regular, slender);
+    for (int k = 0; k < some; k++) {
+      int32_t t = list[from + k];
+      CwDelaunayTet *tet = &w->mesh->tet[t];
+      tet->square = (double)quality[k];
+      if (sure[k]) continue;
+      tet->square = quality_at_goals(w, tet->corner);
+      if (tet->square < w->limit) CW_TRY(cw_tet_push(w, t));
+      if (!spoilt || !is_spoilt(w, t)) continue;
+      CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
+      spoilt->tet[spoilt->count++] = t;
+    }
   }
 done:
   return status;
@@ -73,157 +183,130 @@ done:
 
 CwStatus cw_tet_scan(CwTetWork *w) {
   CwStatus status = CW_OK;
-  Lanes lanes = {0};
+  int32_t list[BLOCK + PAD];
+  CW_TRY(set_places(w));
+  w->slender.count = 0;
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
-  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
-    CwDelaunayTet *tet = &w->mesh->tet[t];
-    cw_delaunay_ask_ahead(tet);
-    tet->centre[0] = 0.0;
-    tet->centre[1] = -1.0;
-    if (tet->corner[0] >= 0) add_lane(w, t, &lanes);
-    if (lanes.count == LANES) CW_TRY(judge(w, &lanes, NULL, NULL));
+  for (int32_t t = 0; t < w->mesh->tet_count; t += BLOCK) {
+    int count = list_marked(w->mesh, t, NULL, list);
+    for (int k = 0; k < count; k++) w->mesh->tet[list[k]].centre[0] = 0.0, w->mesh->tet[list[k]].centre[1] = -1.0;
+    CW_TRY(judge(w, list, count, NULL));
   }
-  CW_TRY(judge(w, &lanes, NULL, NULL));
 done:
   return status;
 }
 
-// Of a point's tetrahedra: sum of weights times the ways to the places they want it at, and of the weights.
-typedef struct {
-  float way[3], weight;
-} Sum;
+// Adds what each corner of a group is to have, by coordinates: the weighted way to where it is wanted, and the weight.
+static inline void add_sums(const CwTetWork *w, const int32_t *list, int count, CwFour part[4][4], CwFour *sum) {
+  for (int c = 0; c < 4; c++) cw_four_turn(part[c]);
+  for (int k = 0; k < count; k++) {
+    const int32_t *corner = w->mesh->tet[list[k]].corner;
+    for (int c = 0; c < 4; c++) sum[corner[c]] += part[c][k];
+  }
+}
 
 // A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the cube of
 // its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing
 // for flat ones, whose spheres are anywhere.
-static inline void add_centre(const CwTetWork *w, const int32_t corner[4], Sum *sum) {
-  const double *o = cw_tet_at(w, corner[0]);
-  double a[3], b[3], c[3], bc[3], ca[3], ab[3];
+static inline void find_centres(const Group *g, CwFour part[4][4]) {
+  CwFour edge[6][3], l[6], bc[3], ca[3], ab[3];
+  find_edges(g, edge, l);
+  cw_four_cross(g->arm[1], g->arm[2], bc);
+  cw_four_cross(g->arm[2], g->arm[0], ca);
+  cw_four_cross(g->arm[0], g->arm[1], ab);
+  CwFour squares = l[0] + l[1] + l[2] + l[3] + l[4] + l[5];
+  CwFour scale = 1.0f / (squares * cw_four_sqrt(squares)), weight = scale * cw_four_dot(g->arm[0], bc);
   for (int i = 0; i < 3; i++) {
-    a[i] = cw_tet_at(w, corner[1])[i] - o[i];
-    b[i] = cw_tet_at(w, corner[2])[i] - o[i];
-    c[i] = cw_tet_at(w, corner[3])[i] - o[i];
+    CwFour way = 0.5f * scale * (l[0] * bc[i] + l[1] * ca[i] + l[2] * ab[i]);
+    part[0][i] = way;
+    for (int m = 0; m < 3; m++) part[m + 1][i] = way - weight * g->arm[m][i];
   }
-  bc[0] = b[1] * c[2] - b[2] * c[1], bc[1] = b[2] * c[0] - b[0] * c[2], bc[2] = b[0] * c[1] - b[1] * c[0];
-  ca[0] = c[1] * a[2] - c[2] * a[1], ca[1] = c[2] * a[0] - c[0] * a[2], ca[2] = c[0] * a[1] - c[1] * a[0];
-  ab[0] = a[1] * b[2] - a[2] * b[1], ab[1] = a[2] * b[0] - a[0] * b[2], ab[2] = a[0] * b[1] - a[1] * b[0];
-  double aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2], bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
-  double cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-  double products =
-      a[0] * (b[0] + c[0]) + a[1] * (b[1] + c[1]) + a[2] * (b[2] + c[2]) + b[0] * c[0] + b[1] * c[1] + b[2] * c[2];
-  double squares = 3.0 * (aa + bb + cc) - 2.0 * products; // of all six edges
-  double scale = 1.0 / (squares * sqrt(squares)), way[3];
-  double weight = scale * (a[0] * bc[0] + a[1] * bc[1] + a[2] * bc[2]);
-  for (int i = 0; i < 3; i++) way[i] = 0.5 * scale * (aa * bc[i] + bb * ca[i] + cc * ab[i]);
-  for (int k = 0; k < 4; k++) {
-    Sum *s = &sum[corner[k]];
-    const double *from = k == 0 ? NULL : k == 1 ? a : k == 2 ? b : c;
-    for (int i = 0; i < 3; i++) s->way[i] += (float)(from ? way[i] - weight * from[i] : way[i]);
-    s->weight += (float)weight;
-  }
+  for (int m = 0; m < 4; m++) part[m][3] = weight;
 }
 
-// A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart.
-static inline void add_pull(const CwTetWork *w, const int32_t c[4], Sum *sum) {
-  const double *x[4];
-  double least = INFINITY, most = 0.0;
-  unsigned shortest = 0, longest = 0;
-  for (int k = 0; k < 4; k++) x[k] = cw_tet_at(w, c[k]);
-  for (unsigned e = 0; e < 6; e++) { // without branches: they would be taken at random
-    const double *p = x[cw_tet_edge[e][0]], *q = x[cw_tet_edge[e][1]];
-    double u = q[0] - p[0], v = q[1] - p[1], z = q[2] - p[2], square = u * u + v * v + z * z;
-    shortest ^= (shortest ^ e) & -cw_number(square < least);
-    longest ^= (longest ^ e) & -cw_number(square > most);
-    least = cw_tet_less(square, least);
-    most = cw_tet_more(square, most);
-  }
-  if (!(least > CW_TET_FLAT * most)) return;
-  for (int k = 0; k < 2; k++) {
-    unsigned e = k ? longest : shortest;
-    int a = cw_tet_edge[e][0], b = cw_tet_edge[e][1];
-    double weight = 1.0 / (k ? most : least), step = k ? weight * pull : -weight * pull;
-    Sum *p = &sum[c[a]], *q = &sum[c[b]];
+// A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart;
+// of those nearly as long or short, too, so that points do not go to and fro.
+static inline void find_pulls(const Group *g, CwFour part[4][4]) {
+  CwFour edge[6][3], square[6], least, most;
+  memset(part, 0, 4 * sizeof *part);
+  find_edges(g, edge, square);
+  find_extremes(square, &least, &most);
+  static const int8_t end[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+  CwFourMask sound = least > (float)CW_TET_FLAT * most;
+  for (int e = 0; e < 6; e++) {
+    CwFour over = 1.0f / square[e], in = square[e] / most, out = least * over;
+    for (int k = 0; k < SHARPNESS; k++) in *= in, out *= out;
+    in = cw_four_if(sound, in * over);
+    out = cw_four_if(sound, out * over);
+    CwFour weight = in + out, step = pull * (in - out);
+    CwFour *p = part[end[e][0]], *q = part[end[e][1]];
     for (int i = 0; i < 3; i++) {
-      float way = (float)(step * (x[b][i] - x[a][i]));
-      p->way[i] += way;
-      q->way[i] -= way;
+      CwFour way = step * edge[e][i];
+      p[i] += way;
+      q[i] -= way;
     }
-    p->weight += (float)weight;
-    q->weight += (float)weight;
+    p[3] += weight;
+    q[3] += weight;
   }
-}
-
-// Marks the inner points that are not in a lattice.
-static void find_irregular(const CwTetWork *w, uint8_t *moved) {
-  CwDelaunay *mesh = w->mesh;
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const int32_t *c = mesh->tet[t].corner;
-    cw_delaunay_ask_ahead(&mesh->tet[t]);
-    if (c[0] < 0) continue;
-    uint8_t irregular = MOVED * (uint8_t)cw_number(mesh->tet[t].square < regular);
-    for (int i = 0; i < 4; i++) moved[c[i]] |= irregular;
-  }
-  for (int32_t p = 0; p < mesh->point_count; p++) moved[p] = moved[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
 }
 
 // Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
-static inline void move_all(CwTetWork *w, void (*add)(const CwTetWork *, const int32_t[4], Sum *), const uint8_t *moved,
-                            Sum *sum) {
+static inline void move_all(CwTetWork *w, void (*find)(const Group *, CwFour[4][4]), const uint8_t *moved,
+                            CwFour *sum) {
   CwDelaunay *mesh = w->mesh;
+  int32_t list[BLOCK + PAD];
   memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const int32_t *c = mesh->tet[t].corner;
-    cw_delaunay_ask_ahead(&mesh->tet[t]);
-    if (c[0] >= 0 && (moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) add(w, c, sum);
+  for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) {
+    int count = list_marked(mesh, t, moved, list);
+    for (int from = 0; from < count; from += 4) {
+      Group group;
+      CwFour part[4][4];
+      take_group(w, list + from, &group);
+      find(&group, part);
+      add_sums(w, list + from, count - from < 4 ? count - from : 4, part, sum);
+    }
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    for (int i = 0; i < 3 && moved[p] && sum[p].weight > 0.0f; i++)
-      mesh->point[p].x[i] += (double)(sum[p].way[i] / sum[p].weight);
+    if (moved[p] && sum[p][3] > 0.0f) w->place[p] += cw_four_if((CwFourMask){-1, -1, -1, 0}, sum[p] / sum[p][3]);
   }
 }
 
-// A point of t goes back to where it stood. *whole: its tetrahedra are too many to be judged here.
-static CwStatus put_back(CwTetWork *w, int32_t t, int32_t point, const double (*old)[3], List *spoilt, int *whole) {
+// A point of t is to stay where it is. *whole: its tetrahedra are too many to be judged here.
+static CwStatus put_back(CwTetWork *w, int32_t t, int32_t point, CwTetList *spoilt, int *whole) {
   CwStatus status = CW_OK;
-  int32_t star[CW_TET_STAR];
-  Lanes lanes = {0};
-  memcpy(w->mesh->point[point].x, old[point], sizeof *old);
+  int32_t star[CW_TET_STAR + PAD];
+  w->place[point] = place_of(w, cw_tet_at(w, point));
   int count = cw_tet_star(w, t, point, star);
   *whole |= count == 0;
-  for (int k = 0; k < count; k++) {
-    add_lane(w, star[k], &lanes);
-    if (lanes.count == LANES || k + 1 == count) CW_TRY(judge(w, &lanes, old, spoilt));
-  }
+  pad_list(star, count);
+  CW_TRY(judge(w, star, count, spoilt));
 done:
   return status;
 }
 
 // Judges all tetrahedra of the moved points. Where one is spoilt its points go back, and those of others that are
 // spoilt by this.
-static CwStatus take_back(CwTetWork *w, const double (*old)[3], uint8_t *moved) {
+static CwStatus take_back(CwTetWork *w, uint8_t *moved) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
-  List spoilt = {0};
-  Lanes lanes = {0};
+  CwTetList spoilt = {0};
+  int32_t list[BLOCK + PAD];
   int whole;
   do {
     whole = 0;
-    for (int32_t t = 0; t < mesh->tet_count; t++) {
-      const int32_t *c = mesh->tet[t].corner;
-      cw_delaunay_ask_ahead(&mesh->tet[t]);
-      if (c[0] < 0 || !(moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]])) continue;
-      add_lane(w, t, &lanes);
-      if (lanes.count == LANES) CW_TRY(judge(w, &lanes, old, &spoilt));
+    w->slender.count = 0;
+    for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) {
+      int count = list_marked(mesh, t, moved, list);
+      CW_TRY(judge(w, list, count, &spoilt));
     }
-    CW_TRY(judge(w, &lanes, old, &spoilt));
     while (spoilt.count) {
       int32_t t = spoilt.tet[--spoilt.count];
-      for (int i = 0; i < 4 && is_spoilt(w, t, old); i++) {
+      for (int i = 0; i < 4 && is_spoilt(w, t); i++) {
         int32_t point = mesh->tet[t].corner[i];
         if (moved[point] != MOVED) continue;
         moved[point] = RETURNED;
         w->count.points_moved--;
-        CW_TRY(put_back(w, t, point, old, &spoilt, &whole));
+        CW_TRY(put_back(w, t, point, &spoilt, &whole));
       }
     }
   } while (whole);
@@ -238,23 +321,27 @@ done:
 CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
-  Sum *sum = NULL;
-  double(*old)[3] = NULL;
+  CwFour *sum = NULL;
   uint8_t *moved = NULL;
   CW_NEW(sum, mesh->point_count);
-  CW_NEW(old, mesh->point_count);
   CW_NEW(moved, mesh->point_count);
-  find_irregular(w, moved);
+  CW_TRY(set_places(w));
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    memcpy(old[p], mesh->point[p].x, sizeof *old);
+    moved[p] = w->irregular[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
+    w->irregular[p] = 0;
     w->count.points_moved += moved[p];
   }
-  move_all(w, add_centre, moved, sum);
-  for (int k = 0; k < evenings; k++) move_all(w, add_pull, moved, sum);
-  CW_TRY(take_back(w, (const double(*)[3])old, moved));
+  move_all(w, find_centres, moved, sum);
+  for (int k = 0; k < evenings; k++) move_all(w, find_pulls, moved, sum);
+  CW_TRY(take_back(w, moved));
+  for (int32_t p = 0; p < mesh->point_count; p++) {
+    double goal[3];
+    if (moved[p] != MOVED) continue;
+    find_goal(w, p, goal);
+    memcpy(mesh->point[p].x, goal, sizeof goal);
+  }
 done:
   free(sum);
-  free(old);
   free(moved);
   return status;
 }

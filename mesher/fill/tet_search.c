@@ -389,7 +389,6 @@ CwStatus cw_tet_search(CwTetWork *w) {
   CW_TRY(search_places(&s));
 done:
   cw_delaunay_free(&s.trial);
-  free(s.work.bad);
-  free(s.work.next);
+  cw_tet_work_free(&s.work);
   return status;
 }

@@ -26,6 +26,19 @@ static double excess_of(const CwTetWork *w, const int32_t c[4]) {
   return sqrt(longest / shortest) - usual;
 }
 
+// Asks the memory for the neighbours of one that comes a little later in the list, and for one that comes later still.
+static inline void ask_ahead(const CwTetWork *w, int32_t k) {
+  const CwTetList *list = &w->slender;
+  const CwDelaunayTet *tet = w->mesh->tet;
+  if (k + 16 < list->count) __builtin_prefetch(&tet[list->tet[k + 16]], 1);
+  if (k + 8 < list->count) {
+    for (int i = 0; i < 4; i++) {
+      int32_t next = tet[list->tet[k + 8]].neighbour[i];
+      if (next >= 0) __builtin_prefetch(&tet[next / 4], 1);
+    }
+  }
+}
+
 // Removes the edge a-b of t, whose square is given.
 static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, double square) {
   CwStatus status = CW_OK;
@@ -60,10 +73,11 @@ done:
 
 CwStatus cw_tet_shorten(CwTetWork *w) {
   CwStatus status = CW_OK;
-  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
+  for (int32_t k = 0; k < w->slender.count; k++) {
+    int32_t t = w->slender.tet[k];
+    ask_ahead(w, k);
     const int32_t *c = w->mesh->tet[t].corner;
-    cw_delaunay_ask_ahead(&w->mesh->tet[t]);
-    if (c[0] < 0 || w->mesh->tet[t].centre[2] == 0.0) continue;
+    if (c[0] < 0) continue;
     double square, shortest = INFINITY, longest = 0.0;
     int32_t a = -1, b = -1;
     for (int e = 0; e < 6; e++) {

@@ -8,6 +8,7 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/common/four.h"
 #include "mesher/fill/kernel_flips.h"
 #include "mesher/fill/tet_improve.h"
 #include "mesher/fill/tet_quality.h"
@@ -28,9 +29,12 @@ extern "C" {
 
 enum { CW_TET_STAR = 96 };
 
+typedef struct {
+  int32_t *tet, count, space;
+} CwTetList;
+
 // The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it
-// into the list for the next in centre[1], in centre[2] 0 where it was not slender when all were judged, and the pass
-// in which something changed at a point in the point's mark.
+// into the list for the next in centre[1], and the pass in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
@@ -41,6 +45,11 @@ typedef struct {
   uint64_t pass;
   int32_t *bad, bad_count, bad_space; // to look at in this pass
   int32_t *next, next_count, next_space;
+  CwTetList slender;  // when all were judged
+  uint8_t *irregular; // by point, where relaxing is to follow: 1 where one round it is not as in a lattice
+  CwFour *place;      // of each point when they were last judged or moved together, from `middle`
+  int32_t place_space;
+  double middle[3], blurred; // square of an edge that is too short for such places
   CwTetImproved count;
 } CwTetWork;
 
@@ -61,6 +70,9 @@ static inline const double *cw_tet_at(const CwTetWork *w, int32_t p) {
 static inline double cw_tet_quality_of(const CwTetWork *w, int32_t a, int32_t b, int32_t c, int32_t d) {
   return cw_tet_quality(cw_tet_at(w, a), cw_tet_at(w, b), cw_tet_at(w, c), cw_tet_at(w, d));
 }
+
+// Frees what belongs to the work, not its mesh.
+void cw_tet_work_free(CwTetWork *w);
 
 // Puts a place into the list for the next pass, once.
 CwStatus cw_tet_push(CwTetWork *w, int32_t t);

@@ -71,8 +71,7 @@ static CwTetWork lump(int spoilt, CwTetPatch *patch) {
 }
 
 static void finish(CwTetWork *w, CwTetPatch *patch) {
-  free(w->bad);
-  free(w->next);
+  cw_tet_work_free(w);
   cw_tet_patch_free(patch);
 }
 
