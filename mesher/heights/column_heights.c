@@ -25,6 +25,8 @@ static const double FINE = 0.5;             // of the wanted length: columns of 
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
 static const double LITTLE_GROWTH = 1.1;
+static const double KEPT_GROWTH = 0.7;  // least in columns thinned for their shape, above CW_LEAST_GROWTH: thinned
+                                        // further, some made angles of 16 degrees where others have 19
 static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
 static const double LEAST_APART = 0.25; // of that on the wall: distance of columns that nearly meet (layers_gap)
 
@@ -334,7 +336,7 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
   heights->target = fair;
   fair = NULL;
   turn_copies(&skeleton->orbits, skeleton->wall_count, heights);
-  double lowest = cw_layer_thickness(1, layer_count, CW_LEAST_GROWTH);
+  double lowest = cw_layer_thickness(1, layer_count, KEPT_GROWTH);
   for (int32_t v = 0; v < skeleton->wall_count; v++) heights->least[v] = lowest * heights->first_height[v];
 done:
   free(fair);

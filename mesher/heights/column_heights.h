@@ -21,7 +21,7 @@ typedef struct {
   double *first_made;   // the same by which the column is divided, once it stands (even_columns.h), m
   double *growth;       // largest ratio of neighbouring layers
   double *target;       // height, m
-  double *least;        // height of the lowest column with that first height, m
+  double *least;        // height down to which a column is thinned for its shape: it has that first height, m
   double *room;         // how tall the column could be, once the layers are grown, m
 } CwColumnHeights;
 

@@ -23,7 +23,7 @@ double cw_layer_thickness(double first, int count, double growth);
 // growth ratio: in columns too short for even layers it is below 1, the outer layers give way. Where it would exceed
 // `growth_max`, or fall below CW_LEAST_GROWTH, it stays there and the first height follows the column. Returns the
 // first height it came to, m.
-#define CW_LEAST_GROWTH 0.7
+#define CW_LEAST_GROWTH 0.6
 enum { CW_LAYERS_MOST = 200 }; // count of layers
 double cw_layer_fractions(double height, double first, int count, double growth_max, double *fraction);
 

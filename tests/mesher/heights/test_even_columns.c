@@ -41,12 +41,13 @@ static double determinant(double height) {
 }
 
 static void short_ones_until_none_is_small(void **state) {
-  const double short_one = 0.06, start = short_one / 1.7; // layers that shrink by 0.7 at most
+  const double short_one = 0.06, start = short_one / (1 + CW_LEAST_GROWTH);
   double made[4];
-  assert_true(determinant(0.7 * start) < CW_SMALL_DETERMINANT && determinant(short_one / 2) > CW_SMALL_DETERMINANT);
+  assert_true(determinant(CW_LEAST_GROWTH * start) < CW_SMALL_DETERMINANT &&
+              determinant(short_one / 2) > CW_SMALL_DETERMINANT);
   make((double[4]){short_one, short_one, short_one, short_one}, made);
   for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
-  NEAR(made[0], start * 0.95 * 0.95);
+  NEAR(made[0], start * pow(0.95, 4));
   assert_true(determinant(short_one - made[0]) > CW_SMALL_DETERMINANT);
   assert_true(determinant(short_one - made[0] / 0.95) < 1.05 * CW_SMALL_DETERMINANT);
 }
@@ -62,7 +63,7 @@ static void others_stay(void **state) {
   }
   // A tall column among short ones keeps its first height.
   make((double[4]){0.06, 0.06, 0.06, 0.11}, made);
-  assert_true(made[1] < 0.06 / 1.7);
+  assert_true(made[1] < 0.06 / (1 + CW_LEAST_GROWTH));
   NEAR(made[3], 0.05);
 }
 

@@ -57,10 +57,10 @@ static void a_short_column_gives_up_its_outer_layers(void **state) {
   NEAR(f[1], 1.0 / 2.952, 1e-14);
   NEAR(f[2], 1.8 / 2.952, 1e-14);
   NEAR(f[3], 2.44 / 2.952, 1e-14);
-  // 1 + 0.7 + 0.49 + 0.343 = 2.533 is the least that holds it: half of that halves every layer.
-  NEAR(cw_layer_fractions(2.533, 1.0, 4, 1.2, f), 1.0, 1e-14);
-  NEAR(cw_layer_fractions(2.533 / 2, 1.0, 4, 1.2, f), 0.5, 1e-14);
-  NEAR(f[1], 1.0 / 2.533, 1e-14);
+  // 1 + 0.6 + 0.36 + 0.216 = 2.176 is the least that holds it: half of that halves every layer.
+  NEAR(cw_layer_fractions(2.176, 1.0, 4, 1.2, f), 1.0, 1e-14);
+  NEAR(cw_layer_fractions(2.176 / 2, 1.0, 4, 1.2, f), 0.5, 1e-14);
+  NEAR(f[1], 1.0 / 2.176, 1e-14);
 }
 
 static void one_layer_is_the_whole_column(void **state) {
