@@ -406,8 +406,11 @@ static void count_thin(const CwSkeleton *skeleton, int32_t t, const double *heig
   for (int k = 0; k < layer_count; k++) {
     double determinant = cw_thin_prism_determinant(area, around, height[k], k == 0);
     if (determinant >= CW_SMALL_DETERMINANT) continue;
+    double wanted = cw_thin_prism_wanted(determinant);
     of->thin++;
-    of->thin_wanted = fmax(of->thin_wanted, cw_thin_prism_wanted(determinant));
+    if (wanted <= of->thin_wanted) continue;
+    of->thin_wanted = wanted;
+    cw_copy(x[corner[0]], of->thin_at);
   }
 }
 

@@ -105,6 +105,7 @@ typedef struct {
   double thickness, least;          // sum over the faces, least of all, m
   int64_t thin;                     // prisms whose determinant checkMesh calls small (thin_prism)
   double thin_wanted;               // how many times as tall the thinnest would have to be
+  double thin_at[3];                // and a corner of its wall triangle, m
 } CwLayerCoverage;
 // Of the patches up to `patches`, zeroed before.
 void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwLayerCoverage *coverage);

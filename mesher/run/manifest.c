@@ -101,7 +101,9 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
       sum.missed[i] += made->missed[i];
     }
     sum.thin += made->thin;
-    sum.thin_wanted = fmax(sum.thin_wanted, made->thin_wanted);
+    if (made->thin_wanted <= sum.thin_wanted) continue;
+    sum.thin_wanted = made->thin_wanted;
+    memcpy(sum.thin_at, made->thin_at, sizeof sum.thin_at);
   }
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
     const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
@@ -124,7 +126,12 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   json_object_set_new(result, "first_height_missed_by_repair_faces",
                       json_integer((json_int_t)sum.missed[CW_LAYER_REPAIR]));
   json_object_set_new(result, "thin_prisms", json_integer((json_int_t)sum.thin));
-  if (sum.thin > 0) json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
+  if (sum.thin > 0) {
+    json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
+    json_object_set_new(result, "thinnest_prism_at_m",
+                        json_pack("[o, o, o]", cw_json_number(sum.thin_at[0]), cw_json_number(sum.thin_at[1]),
+                                  cw_json_number(sum.thin_at[2])));
+  }
   const int64_t *bin = ratio.bin;
   json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
   json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
@@ -140,7 +147,7 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
   char where[64 * CW_PATCH_LIMIT] = "";
   int length = 0;
   json_int_t sum = 0;
-  double wanted = 0;
+  double wanted = 0, at[3] = {0};
   size_t k;
   json_t *patch;
   json_array_foreach(coverage, k, patch) {
@@ -150,17 +157,21 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
     int added = snprintf(where + length, (size_t)left, "%s%.40s %lld", sum ? ", " : "",
                          json_string_value(json_object_get(patch, "patch")), (long long)thin);
     length += added < left ? added : left - 1;
-    wanted = fmax(wanted, json_number_value(json_object_get(patch, "thin_prisms_height_wanted")));
     sum += thin;
+    double own = json_number_value(json_object_get(patch, "thin_prisms_height_wanted"));
+    if (own <= wanted) continue;
+    wanted = own;
+    const json_t *place = json_object_get(patch, "thinnest_prism_at_m");
+    for (size_t c = 0; c < 3; c++) at[c] = json_number_value(json_array_get(place, c));
   }
   if (sum == 0) return;
   char remedy[96] = "fewer layers, or far more cells";
   if (wanted < REMEDY_MOST)
     snprintf(remedy, sizeof remedy, "%.1f times the first height, or with edges as much shorter",
              0.1 * ceil(10 * wanted));
-  cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s). They "
-              "are sound; it would name none with %s",
-              domain, (long long)sum, where, remedy);
+  cw_log_warn("%s: %lld prisms are so long for their height that checkMesh calls their determinant small (%s; the "
+              "thinnest at (%.3f, %.3f, %.3f) mm). They are sound; it would name none with %s",
+              domain, (long long)sum, where, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], remedy);
 }
 
 static json_t *domain_json(const CwMeshRun *run, int d) {

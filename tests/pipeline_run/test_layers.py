@@ -56,11 +56,15 @@ class Layers(unittest.TestCase):
         case.write_text(PAPER.read_text().replace("y_plus_volute: 30", "first_height_volute_um: 40", 1))
         done(self, "mesh", folder, case=case, cells=100000)
         results, warnings = (record(folder, "mesh")[key] for key in ("results", "warnings"))
-        thin = {patch["patch"]: patch["thin_prisms"] for patch in results["domains"][1]["layer_coverage"]}
+        coverage = results["domains"][1]["layer_coverage"]
+        thin = {patch["patch"]: patch["thin_prisms"] for patch in coverage}
         self.assertGreater(thin["volute"], 1000)
         told = [line for line in warnings if line.startswith(f"stator: {sum(thin.values())} prisms")]
         self.assertEqual(len(told), 1, warnings)
         self.assertIn(f"volute {thin['volute']}", told[0])
+        worst = max((patch for patch in coverage if patch["thin_prisms"]), key=lambda p: p["thin_prisms_height_wanted"])
+        place = ", ".join(f"{1e3 * c:.3f}" for c in worst["thinnest_prism_at_m"])
+        self.assertIn(f"the thinnest at ({place}) mm", told[0])
 
 
 if __name__ == "__main__":
