@@ -8,12 +8,19 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/common/clip.h"
 #include "mesher/common/size_at.h"
 #include "mesher/fill/lattice_core.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+// What lies within `reach` (m) of a plane.
+typedef struct {
+  CwPlane plane;
+  double reach;
+} CwFillSlab;
 
 typedef struct {
   int32_t point_count;
@@ -30,6 +37,9 @@ typedef struct {
   int32_t row_count, interface_count, open_count, inner_count;
   const double (*inner)[3];
   const CwLatticeSite *inner_site;
+  // Where cw_fill_points is to give points: in any of these slabs, where there are some; else everywhere.
+  int32_t slab_count;
+  const CwFillSlab *slab;
 } CwFillInput;
 
 // How the boundary was recovered.

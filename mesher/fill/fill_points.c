@@ -307,8 +307,15 @@ done:
   return status;
 }
 
-// Of the places of the lattice those that are inside and not forbidden. A line along z is cut once for all its
-// places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
+static int is_asked(const CwFillInput *input, const double x[3]) {
+  for (int32_t s = 0; s < input->slab_count; s++) {
+    if (fabs(cw_plane_distance(&input->slab[s].plane, x)) <= input->slab[s].reach) return 1;
+  }
+  return input->slab_count == 0;
+}
+
+// Of the places of the lattice those that are asked for, inside and not forbidden. A line along z is cut once for all
+// its places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
 static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *places, int32_t *count, double (**x)[3],
                         CwLatticeSite **site) {
   CwStatus status = CW_OK;
@@ -337,12 +344,12 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
       if (!inside) continue;
     }
     cw_lattice_point(&tree->frame, place, p);
-    if (!reached->whole && is_forbidden(tree, reached, p, 0)) continue;
+    if (!is_asked(tree->input, p) || (!reached->whole && is_forbidden(tree, reached, p, 0))) continue;
     if (site) sites[kept] = (CwLatticeSite){place->key, place->level, reached->clear};
     memcpy(points[kept++], p, sizeof p);
   }
   for (int32_t p = 0; p < tree->input->row_count; p++) {
-    if (!tree->chosen[p]) continue;
+    if (!tree->chosen[p] || !is_asked(tree->input, tree->row[p].x)) continue;
     if (site) sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
     memcpy(points[kept++], tree->row[p].x, sizeof *points);
   }

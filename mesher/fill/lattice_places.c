@@ -83,11 +83,23 @@ done:
   return status;
 }
 
+// Whether none of the places in a cell are asked for.
+static int is_far(const Lattice *lattice, const CwLatticeCell *cell) {
+  double edge = lattice->frame->unit * (double)(1 << cell->level), centre[3];
+  for (int i = 0; i < 3; i++) centre[i] = lattice->frame->origin[i] + lattice->frame->unit * cell->at[i] + 0.5 * edge;
+  for (int32_t s = 0; s < lattice->input->slab_count; s++) {
+    const CwFillSlab *slab = &lattice->input->slab[s];
+    // Half a diagonal, and what places are shaken by.
+    if (fabs(cw_plane_distance(&slab->plane, centre)) <= slab->reach + 0.9 * edge) return 0;
+  }
+  return lattice->input->slab_count > 0;
+}
+
 static CwStatus cut_all(Lattice *lattice, int32_t count, const CwLatticeCell *cell, int store) {
   CwStatus status = CW_OK;
   lattice->wanted = lattice->found = 0.0;
   for (int32_t c = 0; c < count; c++) {
-    if (!store && !cell[c].counts) continue;
+    if (store ? is_far(lattice, &cell[c]) : !cell[c].counts) continue;
     Asked *asked = &lattice->asked[c];
     if (asked->own == 0.0) CW_TRY(asked_in(lattice, cell[c].at, cell[c].level, &asked->own));
     CW_TRY(cut(lattice, c, cell[c].at, cell[c].level, asked->own, asked, store));

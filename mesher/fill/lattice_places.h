@@ -36,9 +36,9 @@ typedef struct {
 // Length that the field of the input wants at x, m. Fails (CW_ERR_MESH) where it gives none.
 CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size);
 
-// Places in all cells, by ascending keys, each once, as of the first cell that has it. The spacing is fitted so that
-// the cells that count get as many leaves as the field asks for, whatever powers of two are near it. Caller frees
-// *place.
+// Places in all cells that a slab of the input reaches, by ascending keys, each once, as of the first cell that has it.
+// The spacing is fitted so that the cells that count get as many leaves as the field asks for, whatever powers of two
+// are near it. Caller frees *place.
 CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
                            const CwLatticeCell *cell, int64_t *count, CwLatticePlace **place);
 

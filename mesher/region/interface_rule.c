@@ -23,13 +23,16 @@ int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, in
 }
 
 // Candidates of the region: no nearer to its boundary than the fill allows, and outside the spheres of front and caps.
-static CwStatus candidates(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t *count,
-                           double (**x)[3], CwLatticeSite **site) {
+// Where there are slabs, those in them.
+static CwStatus candidates(const CwSkeleton *skeleton, int32_t region, const char *name, int32_t slab_count,
+                           const CwFillSlab *slab, int32_t *count, double (**x)[3], CwLatticeSite **site) {
   CwStatus status = CW_OK;
   CwRegionBoundary boundary = {0};
   CW_TRY(cw_region_boundary_make(skeleton, region, 1, &boundary));
   CwFillInput input = cw_region_fill_input(skeleton, &boundary, name);
   input.open_count = boundary.interface_count;
+  input.slab_count = slab_count;
+  input.slab = slab;
   CW_TRY(cw_fill_points(&input, 1.0, count, x, site));
 done:
   cw_region_boundary_free(&boundary);
@@ -92,8 +95,19 @@ done:
   return status;
 }
 
-static CwStatus refine(const CwSkeleton *skeleton, int32_t index, int32_t count, const double (*candidate)[3],
-                       char **bytes, int64_t *size) {
+// How far from the plane of an interface points may lie that count there. Inserting centres makes no circle larger; the
+// constrained Delaunay triangulation may differ a little from the planned one before.
+static CwFillSlab beside_interface(const CwSkeleton *skeleton, const CwInterfaceOutline *interface) {
+  const CwPlane *plane = &skeleton->plan->node[interface->node].plane;
+  CwPlaneMap map = cw_plane_map_of(plane);
+  double radius = largest_radius(&map, interface->triangle_count,
+                                 (const int32_t(*)[3])skeleton->interface_triangle + interface->triangle_start,
+                                 (const double(*)[3])skeleton->node_x);
+  return (CwFillSlab){*plane, 2 * radius};
+}
+
+static CwStatus refine(const CwSkeleton *skeleton, int32_t index, double reach, int32_t count,
+                       const double (*candidate)[3], char **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   const CwInterfaceOutline *interface = &skeleton->outline[index];
   CwPatchOutline outline = {0};
@@ -101,12 +115,7 @@ static CwStatus refine(const CwSkeleton *skeleton, int32_t index, int32_t count,
   CwEncroachRefined refined = {0};
   CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
   CW_TRY(planned_points(skeleton, interface, &map, &outline));
-  // Inserting centres makes no circle larger; the constrained Delaunay triangulation may differ a little from the
-  // planned one before.
-  double reach = largest_radius(&map, interface->triangle_count,
-                                (const int32_t(*)[3])skeleton->interface_triangle + interface->triangle_start,
-                                (const double(*)[3])skeleton->node_x);
-  CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, 2 * reach, count, candidate, &beside));
+  CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, count, candidate, &beside));
   CwPatchInput patch = {.surface = cw_plane_map,
                         .surface_context = &map,
                         .size = skeleton->size_at,
@@ -131,23 +140,31 @@ CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, in
                            void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   double(*candidate)[3] = NULL;
+  CwFillSlab *slab = NULL;
   char *made = NULL;
-  int32_t count = 0, owned = 0;
+  int32_t count = 0, owned = 0, *outline = NULL;
   *bytes = NULL;
   *size = 0;
   CW_NEW(made, sizeof owned);
   *size = sizeof owned;
-  CW_TRY(candidates(skeleton, region, name, &count, &candidate, NULL));
+  CW_NEW(outline, skeleton->outline_count);
+  CW_NEW(slab, skeleton->outline_count);
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
     if (cw_interface_owner(skeleton, number, i) != region) continue;
-    CW_TRY(refine(skeleton, i, count, (const double(*)[3])candidate, &made, size));
-    owned++;
+    slab[owned] = beside_interface(skeleton, &skeleton->outline[i]);
+    outline[owned++] = i;
+  }
+  CW_TRY(candidates(skeleton, region, name, owned, slab, &count, &candidate, NULL));
+  for (int32_t i = 0; i < owned; i++) {
+    CW_TRY(refine(skeleton, outline[i], slab[i].reach, count, (const double(*)[3])candidate, &made, size));
   }
   memcpy(made, &owned, sizeof owned);
   *bytes = made;
   made = NULL;
 done:
   free(candidate);
+  free(slab);
+  free(outline);
   free(made);
   return status;
 }
@@ -216,7 +233,7 @@ CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, co
   CwBeside beside = {0};
   uint8_t *dropped = NULL;
   int32_t kept = 0;
-  CW_TRY(candidates(skeleton, region, name, count, x, site));
+  CW_TRY(candidates(skeleton, region, name, 0, NULL, count, x, site));
   CW_NEW(dropped, *count);
   for (int32_t i = 0; i < skeleton->outline_count; i++) {
     const CwInterfaceOutline *interface = &skeleton->outline[i];

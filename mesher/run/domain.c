@@ -238,15 +238,15 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double
   CwMeshTable mesh = table->mesh;
   mesh.gradation = gradation;
   if (part >= SIZE_FIELDS) return measure_face(domain, part - SIZE_FIELDS, bytes, byte_count);
-  double *rim = NULL, *wall = NULL;
+  double *rim = NULL, *wall = NULL; // no wall is limited where wall_scale is 0
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(rim, patches);
-  CW_NEW(wall, patches);
+  if (wall_scale > 0) CW_NEW(wall, patches);
   for (int p = 0; p < patches; p++) {
     rim[p] = LONGEST_AT_RIM * domain->patch_layers[p].first_height;
-    wall[p] = longest_on_wall(domain, p) / wall_scale;
+    if (wall) wall[p] = longest_on_wall(domain, p) / wall_scale;
   }
-  CwSizeLimits limits = {rim, wall_scale > 0 ? wall : NULL};
+  CwSizeLimits limits = {rim, wall};
   CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, BASE_SIZE, &limits, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:

@@ -8,7 +8,7 @@
 
 // Of the work, what every rank of a group does for itself, and of that on a wall triangle what one takes that is a
 // turned copy. Measured from 0.3 to 21 million cells.
-static const double OWN_HEIGHTS = 0.3, COPIED_HEIGHTS = 0.15, OWN_LAYERS = 0.1, COPIED_LAYERS = 0.6;
+static const double OWN_HEIGHTS = 0.3, COPIED_HEIGHTS = 0.15, OWN_LAYERS = 0.05, COPIED_LAYERS = 0.65;
 
 // Returns the wall triangles.
 static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DOMAINS_MOST]) {

@@ -195,6 +195,34 @@ static void row_stands_over_the_last_triangles(void **unused) {
   surface_free(&s);
 }
 
+// In slabs just those of all points that lie there, in their order.
+static void slabs_hold_their_points_alone(void **unused) {
+  Surface s = {0};
+  const CwFillSlab slab[2] = {{{{1, 0, 0}, 0.02}, 0.003}, {{{0, 0.6, 0.8}, -0.01}, 0.002}};
+  double(*all)[3], (*some)[3];
+  int32_t count, slab_count, found = 0;
+  surface_add_sphere(&s, origin, 0.05, 4, 1);
+  Field field = {0.002, 0.05, 0};
+  CwFillInput input = input_of(&s, &field);
+  input.row_count = s.triangle_count / 2;
+  assert_int_equal(cw_fill_points(&input, 1.0, &count, &all, NULL), CW_OK);
+  input.slab_count = 2;
+  input.slab = slab;
+  assert_int_equal(cw_fill_points(&input, 1.0, &slab_count, &some, NULL), CW_OK);
+  for (int32_t p = 0; p < count; p++) {
+    int within = 0;
+    for (int k = 0; k < 2; k++) within |= fabs(cw_plane_distance(&slab[k].plane, all[p])) <= slab[k].reach;
+    if (!within) continue;
+    assert_true(found < slab_count);
+    assert_memory_equal(some[found++], all[p], sizeof *all);
+  }
+  assert_int_equal(found, slab_count);
+  assert_true(found > 100 && found < count / 2);
+  free(all);
+  free(some);
+  surface_free(&s);
+}
+
 static void wrong_size_field_is_an_error(void **unused) {
   Surface s = {0};
   double(*x)[3];
@@ -236,6 +264,7 @@ int main(void) {
       cmocka_unit_test(clearance_keeps_points_away),
       cmocka_unit_test(equal_bits_twice_and_no_duplicates),
       cmocka_unit_test(row_stands_over_the_last_triangles),
+      cmocka_unit_test(slabs_hold_their_points_alone),
       cmocka_unit_test(wrong_size_field_is_an_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
