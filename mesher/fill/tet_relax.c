@@ -51,7 +51,9 @@ done:
 
 static inline void take_group(const CwTetWork *w, const int32_t list[4], Group *g) {
   for (int k = 0; k < 4; k++) {
-    const int32_t *corner = w->mesh->tet[list[k]].corner;
+    const CwDelaunayTet *tet = &w->mesh->tet[list[k]];
+    const int32_t *corner = tet->corner;
+    __builtin_prefetch(tet + BLOCK, 1); // of the next block, while this one is reckoned with
     CwFour from = w->place[corner[0]];
     for (int c = 0; c < 3; c++) g->arm[c][k] = w->place[corner[c + 1]] - from;
   }
@@ -63,18 +65,27 @@ static inline void pad_list(int32_t *list, int count) {
   for (int k = 0; k < PAD && count; k++) list[count + k] = list[count - 1];
 }
 
-// Those of the next BLOCK tetrahedra that have a marked point, or all where no marks are given. Returns their number.
-// Without branches, which would be taken at random.
-static inline int list_marked(const CwDelaunay *mesh, int32_t from, const uint8_t *marked, int32_t list[BLOCK + PAD]) {
-  int32_t to = mesh->tet_count - from < BLOCK ? mesh->tet_count : from + BLOCK;
-  int count = 0;
-  for (int32_t t = from; t < to; t++) {
+// The tetrahedra from one on that are listed together end here.
+static inline int32_t block_end(const CwDelaunay *mesh, int32_t from) {
+  return mesh->tet_count - from < BLOCK ? mesh->tet_count : from + BLOCK;
+}
+
+// Marks those of the next BLOCK tetrahedra that have a point to move.
+static inline void mark_moving(CwDelaunay *mesh, int32_t from, const uint8_t *moved) {
+  for (int32_t t = from, end = block_end(mesh, from); t < end; t++) {
     const int32_t *c = mesh->tet[t].corner, used = ~(c[0] >> 31);
-    uint8_t mark = 1;
-    cw_delaunay_ask_ahead(&mesh->tet[t]);
-    if (marked) mark = marked[c[0] & used] | marked[c[1] & used] | marked[c[2] & used] | marked[c[3] & used];
+    uint8_t mark = moved[c[0] & used] | moved[c[1] & used] | moved[c[2] & used] | moved[c[3] & used];
+    mesh->tet[t].centre[2] = (double)(used & (mark != 0));
+  }
+}
+
+// Those of the next BLOCK tetrahedra that are marked. Returns their number. Without branches, which would be taken at
+// random.
+static inline int list_moving(const CwDelaunay *mesh, int32_t from, int32_t list[BLOCK + PAD]) {
+  int count = 0;
+  for (int32_t t = from, end = block_end(mesh, from); t < end; t++) {
     list[count] = t;
-    count += used & (mark != 0);
+    count += (int)cw_number(mesh->tet[t].centre[2] > 0.0);
   }
   pad_list(list, count);
   return count;
@@ -188,8 +199,13 @@ CwStatus cw_tet_scan(CwTetWork *w) {
   w->slender.count = 0;
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
   for (int32_t t = 0; t < w->mesh->tet_count; t += BLOCK) {
-    int count = list_marked(w->mesh, t, NULL, list);
-    for (int k = 0; k < count; k++) w->mesh->tet[list[k]].centre[0] = 0.0, w->mesh->tet[list[k]].centre[1] = -1.0;
+    for (int32_t k = t, end = block_end(w->mesh, t); k < end; k++) {
+      CwDelaunayTet *tet = &w->mesh->tet[k];
+      tet->centre[0] = 0.0;
+      tet->centre[1] = -1.0;
+      tet->centre[2] = (double)(tet->corner[0] >= 0);
+    }
+    int count = list_moving(w->mesh, t, list);
     CW_TRY(judge(w, list, count, NULL));
   }
 done:
@@ -227,37 +243,41 @@ static inline void find_centres(const Group *g, CwFour part[4][4]) {
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart;
 // of those nearly as long or short, too, so that points do not go to and fro.
 static inline void find_pulls(const Group *g, CwFour part[4][4]) {
-  CwFour edge[6][3], square[6], least, most;
-  memset(part, 0, 4 * sizeof *part);
+  CwFour edge[6][3], square[6], step[6], weight[6], way[6], least, most;
   find_edges(g, edge, square);
   find_extremes(square, &least, &most);
-  static const int8_t end[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   CwFourMask sound = least > (float)CW_TET_FLAT * most;
+  CwFour longer = 1.0f / most;
   for (int e = 0; e < 6; e++) {
-    CwFour over = 1.0f / square[e], in = square[e] / most, out = least * over;
+    CwFour over = 1.0f / square[e], in = longer * square[e], out = least * over;
     for (int k = 0; k < SHARPNESS; k++) in *= in, out *= out;
-    in = cw_four_if(sound, in * over);
-    out = cw_four_if(sound, out * over);
-    CwFour weight = in + out, step = pull * (in - out);
-    CwFour *p = part[end[e][0]], *q = part[end[e][1]];
-    for (int i = 0; i < 3; i++) {
-      CwFour way = step * edge[e][i];
-      p[i] += way;
-      q[i] -= way;
-    }
-    p[3] += weight;
-    q[3] += weight;
+    over = cw_four_if(sound, over);
+    weight[e] = (in + out) * over;
+    step[e] = pull * (in - out) * over;
   }
+  for (int i = 0; i < 3; i++) {
+    for (int e = 0; e < 6; e++) way[e] = step[e] * edge[e][i];
+    part[0][i] = way[0] + way[1] + way[2];
+    part[1][i] = way[3] + way[4] - way[0];
+    part[2][i] = way[5] - way[1] - way[3];
+    part[3][i] = -way[2] - way[4] - way[5];
+  }
+  part[0][3] = weight[0] + weight[1] + weight[2];
+  part[1][3] = weight[3] + weight[4] + weight[0];
+  part[2][3] = weight[5] + weight[1] + weight[3];
+  part[3][3] = weight[2] + weight[4] + weight[5];
 }
 
-// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at.
-static inline void move_all(CwTetWork *w, void (*find)(const Group *, CwFour[4][4]), const uint8_t *moved,
+// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at; these are to
+// be marked before.
+static inline void move_all(CwTetWork *w, int mark, void (*find)(const Group *, CwFour[4][4]), const uint8_t *moved,
                             CwFour *sum) {
   CwDelaunay *mesh = w->mesh;
   int32_t list[BLOCK + PAD];
   memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
   for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) {
-    int count = list_marked(mesh, t, moved, list);
+    if (mark) mark_moving(mesh, t, moved);
+    int count = list_moving(mesh, t, list);
     for (int from = 0; from < count; from += 4) {
       Group group;
       CwFour part[4][4];
@@ -296,7 +316,7 @@ static CwStatus take_back(CwTetWork *w, uint8_t *moved) {
     whole = 0;
     w->slender.count = 0;
     for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) {
-      int count = list_marked(mesh, t, moved, list);
+      int count = list_moving(mesh, t, list);
       CW_TRY(judge(w, list, count, &spoilt));
     }
     while (spoilt.count) {
@@ -331,8 +351,8 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
     w->irregular[p] = 0;
     w->count.points_moved += moved[p];
   }
-  move_all(w, find_centres, moved, sum);
-  for (int k = 0; k < evenings; k++) move_all(w, find_pulls, moved, sum);
+  move_all(w, 1, find_centres, moved, sum);
+  for (int k = 0; k < evenings; k++) move_all(w, 0, find_pulls, moved, sum);
   CW_TRY(take_back(w, moved));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double goal[3];

@@ -34,7 +34,8 @@ typedef struct {
 } CwTetList;
 
 // The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it
-// into the list for the next in centre[1], and the pass in which something changed at a point in the point's mark.
+// into the list for the next in centre[1], in centre[2] 1 where it was judged last or points of it move, else 0, and the
+// pass in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
