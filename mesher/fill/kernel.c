@@ -55,6 +55,7 @@ static void give_back(void) {
 enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { INNER = 16, OUTSIDE = 32 };      // of a tetrahedron, and bit i: its face i is a facet
+enum { SOON = 8, LATER = 16 }; // facets ahead of which the memory is asked, for the outer and the inner tetrahedron
 static const uint64_t MARKED = (uint64_t)1 << 63;
 
 // Stands in the bits of the square, with the sign set, which no square has: whether a tetrahedron has one is as good as
@@ -89,7 +90,10 @@ static const double *find_enclosed(const CwDelaunay *mesh) {
 static int add_outside(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
   CwDelaunayTet *tet = &mesh->tet[t];
   int enclosing = 0;
-  for (int i = 0; i < 4; i++) enclosing |= tet->corner[i] < CW_DELAUNAY_CORNERS;
+  for (int i = 0; i < 4; i++) {
+    enclosing |= tet->corner[i] < CW_DELAUNAY_CORNERS;
+    __builtin_prefetch(&mesh->tet[tet->neighbour[i] >> 2]); // asked for soon
+  }
   add_place(tet, OUTSIDE);
   tet->corner[1] = *waiting;
   *waiting = t;
@@ -105,6 +109,10 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
   int enclosing = 0;
   int32_t waiting = -1, freed = 0;
   for (int32_t f = 0; f < facets->count; f++) {
+    int32_t soon = facets->inner[f + SOON < facets->count ? f + SOON : f];
+    int32_t later = facets->inner[f + LATER < facets->count ? f + LATER : f];
+    __builtin_prefetch(&mesh->tet[later / 4]);
+    __builtin_prefetch(&mesh->tet[mesh->tet[soon / 4].neighbour[soon % 4] / 4]);
     int32_t inner = facets->inner[f], outer = mesh->tet[inner / 4].neighbour[inner % 4];
     CwDelaunayTet *inside = &mesh->tet[inner / 4], *outside = &mesh->tet[outer / 4];
     const double *y = mesh->point[facets->corner[f][0]].x;
