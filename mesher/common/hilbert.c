@@ -7,7 +7,7 @@
 #include "mesher/common/mix.h"
 #include "mesher/common/radix.h"
 
-enum { BITS = 13 };
+enum { BITS = 13, LANES = 8 };
 
 // Two zeros before each of 21 bits.
 static uint64_t spread(uint64_t a) {
@@ -19,23 +19,33 @@ static uint64_t spread(uint64_t a) {
 }
 
 // J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004): Gray code of the interleaved bits,
-// each cube turned so that its part of the curve begins where the one before ends.
-uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
-  uint32_t c[3] = {cell[0], cell[1], cell[2]};
+// each cube turned so that its part of the curve begins where the one before ends. For LANES cells side by side, in
+// loops that compilers turn into instructions for several at once.
+static void find_places(uint32_t c[3][LANES], int bits, uint64_t place[LANES]) {
   for (int b = bits - 1; b > 0; b--) {
     uint32_t below = (1u << b) - 1;
-    for (int i = 0; i < 3; i++) {
+    for (int l = 0; l < LANES; l++) c[0][l] ^= below & -(c[0][l] >> b & 1);
+    for (int i = 1; i < 3; i++) {
       // Where the bit is set the bits below it are turned over, else exchanged; without a branch, for it is random.
-      uint32_t set = -(c[i] >> b & 1), t = (c[0] ^ c[i]) & below & ~set;
-      c[0] ^= t | (below & set);
-      c[i] ^= t;
+      for (int l = 0; l < LANES; l++) {
+        uint32_t set = -(c[i][l] >> b & 1), t = (c[0][l] ^ c[i][l]) & below & ~set;
+        c[0][l] ^= t | (below & set);
+        c[i][l] ^= t;
+      }
     }
   }
-  c[1] ^= c[0];
-  c[2] ^= c[1];
-  uint32_t turn = c[2] >> 1; // each bit: whether those of c[2] above it are odd in number
-  for (int step = 1; step < bits; step *= 2) turn ^= turn >> step;
-  return spread(c[0] ^ turn) << 2 | spread(c[1] ^ turn) << 1 | spread(c[2] ^ turn);
+  for (int l = 0; l < LANES; l++) {
+    uint32_t y = c[1][l] ^ c[0][l], z = c[2][l] ^ y, turn = z >> 1;
+    for (int step = 1; step < bits; step *= 2) turn ^= turn >> step; // whether the bits of z above are odd in number
+    place[l] = spread(c[0][l] ^ turn) << 2 | spread(y ^ turn) << 1 | spread(z ^ turn);
+  }
+}
+
+uint64_t cw_hilbert_place(const uint32_t cell[3], int bits) {
+  uint32_t c[3][LANES] = {{cell[0]}, {cell[1]}, {cell[2]}};
+  uint64_t place[LANES];
+  find_places(c, bits, place);
+  return place[0];
 }
 
 // Every point stays with probability 7/8 for the last round, every other one for the round before, and so on.
@@ -51,10 +61,10 @@ static int round_of(uint64_t number, int rounds) {
 
 CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
   CwStatus status = CW_OK;
-  CwRadix *place = NULL;
+  CwRadix *record = NULL;
   double low[3] = {INFINITY, INFINITY, INFINITY}, extent = 0.0;
   int rounds = 1;
-  CW_NEW_UNSET(place, count);
+  CW_NEW_UNSET(record, count);
   for (int i = 0; i < 3; i++) {
     double high = -INFINITY;
     for (int32_t p = 0; p < count; p++) {
@@ -65,18 +75,25 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
   }
   for (int32_t n = count; n > 64; n /= 8) rounds++;
   double cells = extent > 0.0 ? (double)(1 << BITS) / extent : 0.0;
-  for (int32_t p = 0; p < count; p++) {
-    uint32_t cell[3];
-    for (int i = 0; i < 3; i++) {
-      double along = (x[p][i] - low[i]) * cells;
-      cell[i] = along < (double)((1 << BITS) - 1) ? (uint32_t)along : (1u << BITS) - 1;
+  for (int32_t first = 0; first < count; first += LANES) {
+    int32_t lanes = count - first < LANES ? count - first : LANES;
+    uint32_t cell[3][LANES] = {{0}};
+    uint64_t place[LANES];
+    for (int l = 0; l < lanes; l++) {
+      for (int i = 0; i < 3; i++) {
+        double along = (x[first + l][i] - low[i]) * cells;
+        cell[i][l] = along < (double)((1 << BITS) - 1) ? (uint32_t)along : (1u << BITS) - 1;
+      }
     }
-    place[p].key = (uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | cw_hilbert_place(cell, BITS);
-    place[p].item = p;
+    find_places(cell, BITS, place);
+    for (int l = 0; l < lanes; l++) {
+      int32_t p = first + l;
+      record[p] = (CwRadix){(uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | place[l], p};
+    }
   }
-  CW_TRY(cw_radix_sort(count, place));
-  for (int32_t k = 0; k < count; k++) order[k] = place[k].item;
+  CW_TRY(cw_radix_sort(count, record));
+  for (int32_t k = 0; k < count; k++) order[k] = record[k].item;
 done:
-  free(place);
+  free(record);
   return status;
 }

@@ -382,6 +382,7 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   if (!(reach > 0.0)) reach = 1.0;
   for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
     for (int i = 0; i < 3; i++) mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
+    mesh->point[k].mark = 0;
     mesh->source[k] = -1;
   }
 done:
@@ -408,14 +409,15 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh
   memset(mesh, 0, sizeof *mesh);
   CW_REQUIRE(count > 0 && count < INT32_MAX / 32, CW_ERR_MESH, "%d points to connect; 1 to %d are allowed", count,
              INT32_MAX / 32 - 1);
-  CW_NEW(order, count);
+  CW_NEW_UNSET(order, count);
   CW_TRY(cw_hilbert_order(count, x, order));
-  CW_NEW(mesh->point, count + CW_DELAUNAY_CORNERS);
-  CW_NEW(mesh->source, count + CW_DELAUNAY_CORNERS);
+  CW_NEW_UNSET(mesh->point, count + CW_DELAUNAY_CORNERS);
+  CW_NEW_UNSET(mesh->source, count + CW_DELAUNAY_CORNERS);
   mesh->point_count = mesh->point_space = count + CW_DELAUNAY_CORNERS;
   CW_TRY(enclose(mesh, count, x));
   for (int32_t k = 0; k < count; k++) {
     memcpy(mesh->point[CW_DELAUNAY_CORNERS + k].x, x[order[k]], sizeof *x);
+    mesh->point[CW_DELAUNAY_CORNERS + k].mark = 0;
     mesh->source[CW_DELAUNAY_CORNERS + k] = order[k];
   }
 done:

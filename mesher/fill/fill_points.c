@@ -327,8 +327,8 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
   CW_TRY(choose_row(tree, &chosen));
   CW_REQUIRE(place_count < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
-  CW_NEW(points, place_count + chosen);
-  if (site) CW_NEW(sites, place_count + chosen);
+  CW_NEW_UNSET(points, place_count + chosen);
+  if (site) CW_NEW_UNSET(sites, place_count + chosen);
   for (int64_t k = 0; k < place_count; k++) {
     const CwLatticePlace *place = &places[k];
     const Reached *reached = &tree->reached[place->cell];
