@@ -117,14 +117,15 @@ static CwPlane moved(const CwPlane *plane, const double centre[3], double reach,
 }
 
 // Moves the plane of `node` step by step to where its subtree, of which *worth is given and kept true, costs less,
-// where some line in it leans.
+// where some line in it leans; then *moves becomes 1.
 static CwStatus improve_plane(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node,
-                              Worth *worth) {
+                              Worth *worth, int *moves) {
   CwStatus status = CW_OK;
   CwPlane *plane = &plan->node[node].plane;
   double centre[3], reach, size = cbrt(part->volume);
   Worth least = *worth, tried;
   if (least.cosine > LEANING) goto done;
+  *moves = 1;
   for (double step = FIRST_STEP * size; step > LAST_STEP * size;) {
     CwPlane best = *plane;
     const CwPlane from = best;
@@ -147,23 +148,32 @@ done:
 }
 
 // Improves a subtree from its leaves up. *worth: of what came of it, where it has no more than REGIONS_MOST regions.
-static CwStatus improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, Worth *worth) {
+// *moves: whether planes may have moved.
+static CwStatus improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node, Worth *worth,
+                        int *moves) {
   CwStatus status = CW_OK;
   CwPlanPart half = {0};
   Worth below[2];
+  *moves = 0;
   if (node < 0) {
     *worth = weigh_region(model, plan, part, -1 - node);
     goto done;
   }
   for (int s = 0; s < 2; s++) {
     CW_TRY(cw_plan_part_clip(model, part, &plan->node[node].plane, s, &half));
-    CW_TRY(improve(model, plan, &half, plan->node[node].child[s], &below[s]));
+    int moved_below;
+    CW_TRY(improve(model, plan, &half, plan->node[node].child[s], &below[s], &moved_below));
     cw_plan_part_free(&half);
+    *moves |= moved_below;
   }
   if (regions_of(plan, node) > REGIONS_MOST) goto done;
-  CW_TRY(weigh_plane(model, plan, part, node, INFINITY, worth));
-  for (int s = 0; s < 2; s++) add_worth(&below[s], worth);
-  CW_TRY(improve_plane(model, plan, part, node, worth));
+  if (*moves) { // what one side was worth beside the planes of the other as they were
+    CW_TRY(weigh(model, plan, part, node, INFINITY, worth));
+  } else {
+    CW_TRY(weigh_plane(model, plan, part, node, INFINITY, worth));
+    for (int s = 0; s < 2; s++) add_worth(&below[s], worth);
+  }
+  CW_TRY(improve_plane(model, plan, part, node, worth, moves));
 done:
   cw_plan_part_free(&half);
   return status;
@@ -171,5 +181,6 @@ done:
 
 CwStatus cw_plan_improve(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t node) {
   Worth worth;
-  return improve(model, plan, part, node, &worth);
+  int moves;
+  return improve(model, plan, part, node, &worth, &moves);
 }
