@@ -385,7 +385,7 @@ CwStatus cw_tet_search(CwTetWork *w) {
   s.determinants = 1;
   s.begin = s.work.insert = s.work.insert_round = bad;
   s.again = bad;
-  s.tries = FEWEST;
+  s.tries = 2 * FEWEST;
   CW_TRY(search_places(&s));
 done:
   cw_delaunay_free(&s.trial);

@@ -101,7 +101,7 @@ CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move);
 // times; what is better in all is kept. The same every time. A place below 12 degrees is begun with again while the
 // boundary allows clearly more than is reached. There are no more than 600 disturbances in all, or one for 500
 // tetrahedra, and 200 where nothing is below 13 degrees: a search takes about half as long as their fill. Then the
-// same, 600 at most, where checkMesh calls determinants small; no angle below 18 degrees becomes less for them.
+// same, 1200 at most, where checkMesh calls determinants small; no angle below 18 degrees becomes less for them.
 CwStatus cw_tet_search(CwTetWork *w);
 
 // Tetrahedra of an inner point of t; 0 where there are more than CW_TET_STAR.
