@@ -38,6 +38,7 @@ static CwStatus hand_heights(void *context, const CwSideHand *hand) {
   CW_SIDE_ARRAY(hand, heights->first_height, n);
   CW_SIDE_ARRAY(hand, heights->growth, n);
   CW_SIDE_ARRAY(hand, heights->target, n);
+  CW_SIDE_ARRAY(hand, heights->least, n);
   cw_side_give(hand, &domain->layer_share, sizeof domain->layer_share);
 done:
   return status;
