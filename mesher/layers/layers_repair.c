@@ -164,8 +164,9 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
       }
     }
     CW_REQUIRE(share > LEAST_SHARE, CW_ERR_MESH,
-               "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made", x[0] * 1e3,
-               x[1] * 1e3, x[2] * 1e3,
+               "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made; ask for more "
+               "cells",
+               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3,
                pair->kind_g == 0   ? "itself"
                : pair->kind_g == 1 ? "the wall"
                                    : "a cap");

@@ -489,6 +489,18 @@ static void failures(void **state) {
   print_message("  %s\n", cw_fail_message());
   case_free(&fold);
 
+  // A cap that pierces the floor: no front is clear of it.
+  Case pierced = {.target = 0.6 * MM};
+  const double corner[3][3] = {{0.005, 0.005, -0.002}, {0.005, 0.005, 0.002}, {0.007, 0.006, 0}};
+  surface_box(&pierced.wall, low, high, 1 * MM, 63, 0);
+  for (int i = 0; i < 3; i++) surface_point(&pierced.cap, corner[i]);
+  surface_triangle(&pierced.cap, 0, 1, 2);
+  assert_int_equal(case_make(&pierced), CW_ERR_MESH);
+  assert_non_null(strstr(cw_fail_message(), "the front crosses a cap"));
+  assert_non_null(strstr(cw_fail_message(), "ask for more cells"));
+  print_message("  %s\n", cw_fail_message());
+  case_free(&pierced);
+
   Case zero = {.target = 0};
   surface_box(&zero.wall, low, high, 1 * MM, 63, 0);
   assert_int_equal(case_make(&zero), CW_ERR_INPUT);
