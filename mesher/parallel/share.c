@@ -62,7 +62,7 @@ CwStatus cw_share_lists(const char *step, int32_t count, const int32_t *start, s
   CwSchedule schedule = {.step = step, .count = blocks, .run = run_block, .context = &share, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
   for (int32_t i = 0; i < blocks; i++) {
-    memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
+    if (size[i] > 0) memcpy((char *)out + place_of(&share, i * share.block), bytes[i], (size_t)size[i]);
   }
 done:
   for (int32_t i = 0; bytes && i < blocks; i++) free(bytes[i]);

@@ -4,7 +4,10 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include "launch.h"
+#include "mesher/parallel/schedule.h"
 #include "mesher/parallel/share.h"
+#include "pipeline/log.h"
 
 enum { COUNT = 10000 }; // more than one block, and one that is not full
 
@@ -48,6 +51,38 @@ static void lists_stand_one_after_the_other(void **state) {
   }
 }
 
+static CwStatus mark(void *context, int32_t item, void *out) {
+  (void)context;
+  if (item >= COUNT - 100) *(int64_t *)out = item;
+  return CW_OK;
+}
+
+// Lists of the last items alone: whole blocks of the ranks are empty.
+static int be_a_rank(int argc, char **argv) {
+  static int32_t start[COUNT + 1];
+  int64_t out[100] = {0};
+  int rank, ranks, wrong = 0;
+  cw_mpi_start(&argc, &argv, &rank, &ranks);
+  cw_log_open("test", NULL, rank == 0, 0);
+  for (int32_t i = 0; i < COUNT; i++) start[i + 1] = start[i] + (i >= COUNT - 100);
+  CwStatus status = cw_share_lists("lists", COUNT, start, sizeof *out, mark, NULL, out);
+  if (status != CW_OK) return cw_mpi_fail(status);
+  for (int k = 0; k < 100; k++) wrong += out[k] != COUNT - 100 + k;
+  printf("RANK %d WRONG %d\n", rank, wrong);
+  cw_log_close();
+  cw_mpi_end();
+  return wrong != 0;
+}
+
+static void blocks_may_be_empty(void **state) {
+  char output[2000];
+  int lines;
+  (void)state;
+  assert_int_equal(launch(3, "empty", output, sizeof output), 0);
+  assert_int_equal(sum_of(output, " WRONG ", &lines), 0);
+  assert_int_equal(lines, 3);
+}
+
 static void a_failure_is_given_back(void **state) {
   static int64_t out[COUNT];
   (void)state;
@@ -55,9 +90,10 @@ static void a_failure_is_given_back(void **state) {
   assert_string_equal(cw_fail_message(), "item 9000");
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+  if (launched(argc)) return be_a_rank(argc, argv);
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_has_its_place),
                                      cmocka_unit_test(lists_stand_one_after_the_other),
-                                     cmocka_unit_test(a_failure_is_given_back)};
+                                     cmocka_unit_test(blocks_may_be_empty), cmocka_unit_test(a_failure_is_given_back)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
