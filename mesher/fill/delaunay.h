@@ -14,13 +14,15 @@ extern "C" {
 #endif
 
 enum { CW_DELAUNAY_CORNERS = 4 }; // of the enclosing tetrahedron
+// In place of a neighbour: there is none in this mesh, but there are cells of the whole one; there are none at all.
+enum { CW_BESIDE_OTHERS = -1, CW_BESIDE_NOTHING = -2 };
 
 // One cache line, so that the test of a sphere touches no other.
 typedef struct {
   double centre[3], square; // of the circumscribed sphere, radius^2; square is NaN where it is not known well
                             // enough; of no use once the mesh is made, and free for marks
   int32_t corner[4];        // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
-  int32_t neighbour[4];     // 4 * tetrahedron + its face, at the face opposite each corner; -1 outside of all
+  int32_t neighbour[4];     // 4 * tetrahedron + its face, at the face opposite each corner; else CW_BESIDE_...
 } CwDelaunayTet;
 
 typedef struct {

@@ -35,6 +35,8 @@ typedef struct {
   // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the
   // inner points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
   int32_t row_count, interface_count, open_count, inner_count;
+  // From `bare_first` on, so many triangles have no cells behind them either: faces of the whole mesh's boundary.
+  int32_t bare_first, bare_count;
   const double (*inner)[3];
   const CwLatticeSite *inner_site;
   // Where cw_fill_points is to give points: in any of these slabs, where there are some; else everywhere.

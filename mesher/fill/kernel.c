@@ -122,7 +122,9 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
-    mesh->tet[inner / 4].neighbour[inner % 4] = -1;
+    // Parts of a bare one that was divided count as others; they are few.
+    int bare = f >= input->bare_first && f < input->bare_first + input->bare_count;
+    mesh->tet[inner / 4].neighbour[inner % 4] = bare ? CW_BESIDE_NOTHING : CW_BESIDE_OTHERS;
   }
   while (waiting >= 0) {
     int32_t t = waiting;

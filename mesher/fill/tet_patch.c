@@ -86,9 +86,9 @@ CwStatus cw_tet_patch_take(const CwDelaunay *whole, int32_t t, int32_t count, in
   for (int32_t k = 0; k < patch->tet_count; k++) {
     const CwDelaunayTet *old = &whole->tet[patch->tet[k]];
     for (int i = 0; i < 4; i++) {
-      int32_t next = old->neighbour[i] < 0 ? -1 : find(tet_number, patch->tet_count, old->neighbour[i] / 4);
+      int32_t beside = old->neighbour[i], next = beside < 0 ? -1 : find(tet_number, patch->tet_count, beside / 4);
       mesh->tet[k].corner[i] = find(point_number, patch->point_count, old->corner[i]);
-      mesh->tet[k].neighbour[i] = next < 0 ? -1 : 4 * next + old->neighbour[i] % 4;
+      mesh->tet[k].neighbour[i] = beside < 0 ? beside : next < 0 ? CW_BESIDE_OTHERS : 4 * next + beside % 4;
     }
     for (int i = 0; i < 12; i++) {
       if (mesh->tet[k].neighbour[i / 3] < 0) mesh->source[mesh->tet[k].corner[cw_tet_face[i / 3][i % 3]]] = 0;

@@ -17,6 +17,7 @@ static const double worthwhile = 0.85; // less than so much of the angle that th
 static const double beyond = 0.0170;   // a degree: a search ends so much above where it begins
 static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again, where it is worthwhile
 static const double counted = 0.3746;  // 22 degrees: what is less counts in a patch
+static const double given = 0.95;      // of the least sine: what a search for determinants leaves of it
 static const double sound = 0.02;      // what a disturbance leaves, at least; flatter ones are no matter of this search
 static const double alike = 0.05;      // above the worst: those that are disturbed, too
 static const double shaken = 0.3;      // of an edge: the farthest that points are moved by a disturbance
@@ -82,15 +83,13 @@ static double least_sine(const CwTetMeasures *m) {
 }
 
 // The least sine or, where the search is for determinants, less where checkMesh calls that small: `bad` at its limit.
-// Of flat tetrahedra it goes with the fourth power of their angles, and those of 13 to 17 degrees may be called so. A
-// face without a neighbour is left out as on a cap, though layers or more of the mesh may lie behind it: no small one
-// is missed.
+// Of flat tetrahedra it goes with the fourth power of their angles, and those of 13 to 17 degrees may be called so.
 static double judge(const Search *s, const CwDelaunay *mesh, int32_t t, double *sine) {
   CwTetMeasures m = measures_of(mesh, t);
   int open = 0;
   *sine = least_sine(&m);
   if (!s->determinants || *sine < 0.0) return *sine;
-  for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] < 0) << i;
+  for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] == CW_BESIDE_NOTHING) << i;
   double determinant = cw_tet_determinant(&m, open);
   return determinant > 0.0 ? fmin(*sine, bad * sqrt(sqrt(determinant / small_determinant))) : *sine;
 }
@@ -249,12 +248,13 @@ static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
   *best = rate(s, &s->now.patch.mesh);
   s->now.gain = best->deficit;
+  double allowed = fmin(given * best->sine, wanted);
   for (int k = 0, idle = 0; best->least < s->begin + beyond && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
     s->tries--;
     s->whole->count.search_tries++;
     CW_TRY(try_disturbed(s, best->least, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
-    if (trial.sine < fmin(best->sine, wanted)) continue; // no angle is given up for a determinant
+    if (trial.sine < allowed) continue;
     CwDelaunay swap = s->now.patch.mesh;
     s->now.patch.mesh = s->trial;
     s->trial = swap;
@@ -381,7 +381,7 @@ CwStatus cw_tet_search(CwTetWork *w) {
     if (least >= bad) s.tries = MILD;
     CW_TRY(search_places(&s));
   }
-  // After the angles, with tries of its own: else the many on layers that only look small would use them up.
+  // After the angles, with tries of its own.
   s.determinants = 1;
   s.begin = s.work.insert = s.work.insert_round = bad;
   s.again = bad;

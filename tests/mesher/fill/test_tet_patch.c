@@ -134,8 +134,47 @@ static void other_hull_is_refused(void **state) {
   free(x);
 }
 
+static int32_t beside_count(const CwDelaunay *mesh, int32_t beside) {
+  int32_t count = 0;
+  for (int32_t k = 0; k < 4 * mesh->tet_count; k++)
+    count += mesh->tet[k / 4].corner[0] >= 0 && mesh->tet[k / 4].neighbour[k % 4] == beside;
+  return count;
+}
+
+// Where the patch was cut out, there are others; where there is nothing beside the mesh, there is nothing beside the
+// patch, nor beside what comes back.
+static void nothing_beside_stays_nothing(void **state) {
+  double(*x)[3];
+  int32_t outside, count = shaken_lattice(4, 0.1, &outside, &x), sources = count, *place = NULL;
+  CwDelaunay whole;
+  CwTetPatch patch;
+  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
+  for (int32_t k = 0; k < 4 * whole.tet_count; k++) {
+    if (whole.tet[k / 4].corner[0] >= 0 && whole.tet[k / 4].neighbour[k % 4] < 0)
+      whole.tet[k / 4].neighbour[k % 4] = CW_BESIDE_NOTHING;
+  }
+  assert_int_equal(beside_count(&whole, CW_BESIDE_NOTHING), 4); // the faces of the enclosing tetrahedron
+  int32_t used = used_count(&whole), first = 0;
+  while (whole.tet[first].corner[0] < 0) first++;
+  assert_int_equal(cw_tet_patch_take(&whole, first, used, outside, &patch), CW_OK);
+  assert_int_equal(patch.tet_count, used);
+  assert_int_equal(beside_count(&patch.mesh, CW_BESIDE_NOTHING), 4);
+  assert_int_equal(beside_count(&patch.mesh, CW_BESIDE_OTHERS), 0);
+  assert_int_equal(cw_tet_patch_put(&patch, &whole, &sources, &place), CW_OK);
+  assert_int_equal(beside_count(&whole, CW_BESIDE_NOTHING), 4);
+  cw_tet_patch_free(&patch);
+  free(place);
+  while (whole.tet[first].corner[0] < 0) first++;
+  assert_int_equal(cw_tet_patch_take(&whole, first, used / 2, outside, &patch), CW_OK);
+  assert_true(beside_count(&patch.mesh, CW_BESIDE_OTHERS) > 0);
+  cw_tet_patch_free(&patch);
+  cw_delaunay_free(&whole);
+  free(x);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nothing_beside_stays_nothing),
       cmocka_unit_test(patch_goes_out_and_back),
       cmocka_unit_test(other_hull_is_refused),
   };
