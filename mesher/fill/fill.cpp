@@ -206,9 +206,11 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   if (status != CW_OK) goto done;
   CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
   fill->way.tetgen = 1;
-  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d added, least sine %.3g to %.3g",
+  cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d removed, %d added, least sine "
+               "%.3g to %.3g",
                input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
-               improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+               improved.points_moved, improved.points_removed, improved.points_added, improved.least_before,
+               improved.least_after);
 done:
   if (status != CW_OK) cw_fill_free(fill);
   return status;

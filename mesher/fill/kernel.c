@@ -231,11 +231,12 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   if (raised) CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
   CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
-  cw_log_debug(
-      "%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d added, least "
-      "sine %.3g to %.3g",
-      input->name, fill->tetrahedron_count, core.tet_count, improved.edges_removed, improved.faces_removed,
-      improved.points_moved, improved.points_added, improved.least_before, improved.least_after);
+  cw_log_debug("%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
+               "removed, %d added, least "
+               "sine %.3g to %.3g",
+               input->name, fill->tetrahedron_count, core.tet_count, improved.edges_removed, improved.faces_removed,
+               improved.points_moved, improved.points_removed, improved.points_added, improved.least_before,
+               improved.least_after);
 done:
   cw_splits_free(&splits);
   cw_facets_free(&facets);

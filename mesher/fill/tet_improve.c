@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/fill/tet_improve.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +9,10 @@
 #include "mesher/fill/tet_work.h"
 
 static const double insert_limit = 0.4226, round_limit = 0.38;
-enum { PASSES = 5, EVENINGS = 1 };
+// Share of slender tetrahedra above which their shapes are worth more time: before the first round, and after it.
+static const double needy_first = 0.20, needy = 0.14;
+static const double gain = 0.05; // of their number: where a round makes it no less by so much there is no further one
+enum { PASSES = 5, ROUNDS = 4, EVENINGS = 1, NEEDY_EVENINGS = 3 };
 
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int8_t cw_tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
@@ -108,6 +112,27 @@ static double least_quality(const CwTetWork *w) {
   return least;
 }
 
+// Moves points and takes away edges, and points where many tetrahedra are slender, for the mean ratio of edges. One
+// round will do for most; more where many are slender still.
+static CwStatus even_out(CwTetWork *w) {
+  CwStatus status = CW_OK;
+  double before = INFINITY;
+  CW_TRY(cw_tet_relax(w, 0));
+  for (int round = 0; round < ROUNDS; round++) {
+    int is_needy = w->slender.count > (round ? needy : needy_first) * w->tet_count;
+    if (round && (!is_needy || w->slender.count > (1.0 - gain) * before)) break;
+    before = w->slender.count;
+    if (is_needy) {
+      CW_TRY(cw_tet_improve_list(w, 1, 0));
+      CW_TRY(cw_tet_collapse(w));
+    }
+    CW_TRY(cw_tet_shorten(w));
+    CW_TRY(cw_tet_relax(w, is_needy ? NEEDY_EVENINGS : EVENINGS));
+  }
+done:
+  return status;
+}
+
 CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count, CwTetImproved *improved) {
   CwStatus status = CW_OK;
   CwTetWork w = {.flips = {.mesh = mesh},
@@ -122,9 +147,7 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
   w.count.least_before = least_quality(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_TURN;
-  CW_TRY(cw_tet_relax(&w, 0));
-  CW_TRY(cw_tet_shorten(&w));
-  CW_TRY(cw_tet_relax(&w, EVENINGS));
+  CW_TRY(even_out(&w));
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_IMPROVE;
   CW_TRY(cw_tet_improve_list(&w, PASSES, 1));

@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 typedef struct {
-  int32_t edges_removed, faces_removed, points_moved, points_added, search_tries, patches_changed;
+  int32_t edges_removed, faces_removed, points_moved, points_removed, points_added, search_tries, patches_changed;
   double least_before, least_after; // least quality, as cw_tet_quality; 0.4226 where none is below
 } CwTetImproved;
 

@@ -196,7 +196,7 @@ CwStatus cw_tet_scan(CwTetWork *w) {
   CwStatus status = CW_OK;
   int32_t list[BLOCK + PAD];
   CW_TRY(set_places(w));
-  w->slender.count = 0;
+  w->slender.count = w->tet_count = 0;
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
   for (int32_t t = 0; t < w->mesh->tet_count; t += BLOCK) {
     for (int32_t k = t, end = block_end(w->mesh, t); k < end; k++) {
@@ -207,6 +207,7 @@ CwStatus cw_tet_scan(CwTetWork *w) {
     }
     int count = list_moving(w->mesh, t, list);
     CW_TRY(judge(w, list, count, NULL));
+    w->tet_count += count;
   }
 done:
   return status;

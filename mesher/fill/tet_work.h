@@ -4,6 +4,7 @@
 #ifndef CUTWATER_MESHER_FILL_TET_WORK_H
 #define CUTWATER_MESHER_FILL_TET_WORK_H
 
+#include <math.h>
 #include <stdint.h>
 
 #include "pipeline/status.h"
@@ -24,6 +25,8 @@ extern "C" {
 #define CW_TET_TURN 0.48
 // Longest over shortest edge above which a tetrahedron is slender: its longest edge may go (cw_tet_shorten).
 #define CW_TET_LONG 1.6
+// The ratio of a tetrahedron that neither helps nor hinders, so that the number of them does not count.
+#define CW_TET_USUAL 1.4
 // Least improvement, so that no two changes undo one another for ever.
 #define CW_TET_GAIN 1e-6
 
@@ -34,12 +37,13 @@ typedef struct {
 } CwTetList;
 
 // The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it
-// into the list for the next in centre[1], in centre[2] 1 where it was judged last or points of it move, else 0, and the
-// pass in which something changed at a point in the point's mark.
+// into the list for the next in centre[1], in centre[2] 1 where it was judged last or points of it move, else 0, and
+// the pass in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
   int32_t fixed_count, source_count;
+  int32_t tet_count; // without free places, when all were judged first
   double stamp;
   double limit;                // quality below which tetrahedra are in the list
   double insert, insert_round; // and those for which a new point is tried, and at places round about
@@ -68,8 +72,58 @@ static inline const double *cw_tet_at(const CwTetWork *w, int32_t p) {
   return w->mesh->point[p].x;
 }
 
+static inline double cw_tet_square_of(const CwTetWork *w, int32_t p, int32_t q) {
+  const double *x = cw_tet_at(w, p), *y = cw_tet_at(w, q);
+  double u = y[0] - x[0], v = y[1] - x[1], z = y[2] - x[2];
+  return u * u + v * v + z * z;
+}
+
 static inline double cw_tet_quality_of(const CwTetWork *w, int32_t a, int32_t b, int32_t c, int32_t d) {
   return cw_tet_quality(cw_tet_at(w, a), cw_tet_at(w, b), cw_tet_at(w, c), cw_tet_at(w, d));
+}
+
+// The shortest and the longest edge of a tetrahedron: squares and ends.
+typedef struct {
+  double shortest, longest;
+  int32_t near[2], far[2];
+} CwTetEnds;
+
+static inline CwTetEnds cw_tet_ends(const CwTetWork *w, const int32_t corner[4]) {
+  CwTetEnds ends = {INFINITY, 0.0, {-1, -1}, {-1, -1}};
+  for (int e = 0; e < 6; e++) {
+    int32_t p = corner[cw_tet_edge[e][0]], q = corner[cw_tet_edge[e][1]];
+    double square = cw_tet_square_of(w, p, q);
+    if (square < ends.shortest) ends.shortest = square, ends.near[0] = p, ends.near[1] = q;
+    if (square > ends.longest) ends.longest = square, ends.far[0] = p, ends.far[1] = q;
+  }
+  return ends;
+}
+
+static inline int cw_tet_is_slender(const CwTetEnds *ends) {
+  return ends->longest > CW_TET_LONG * CW_TET_LONG * ends->shortest;
+}
+
+// Longest over shortest edge, less the usual.
+static inline double cw_tet_excess(const CwTetWork *w, const int32_t corner[4]) {
+  double shortest = INFINITY, longest = 0.0;
+  for (int e = 0; e < 6; e++) {
+    double square = cw_tet_square_of(w, corner[cw_tet_edge[e][0]], corner[cw_tet_edge[e][1]]);
+    shortest = cw_tet_less(shortest, square);
+    longest = cw_tet_more(longest, square);
+  }
+  return sqrt(longest / shortest) - CW_TET_USUAL;
+}
+
+// Asks the memory for the neighbours of one that comes a little later in the list, and for one that comes later still.
+static inline void cw_tet_ask_ahead(const CwTetWork *w, const CwTetList *list, int32_t k) {
+  const CwDelaunayTet *tet = w->mesh->tet;
+  if (k + 16 < list->count) __builtin_prefetch(&tet[list->tet[k + 16]], 1);
+  if (k + 8 < list->count) {
+    for (int i = 0; i < 4; i++) {
+      int32_t next = tet[list->tet[k + 8]].neighbour[i];
+      if (next >= 0) __builtin_prefetch(&tet[next / 4], 1);
+    }
+  }
 }
 
 // Frees what belongs to the work, not its mesh.
@@ -118,6 +172,10 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings);
 // Goes once over the slender tetrahedra. Three or four round their longest edge are made anew without it where the
 // ratio becomes less in the mean; the least quality of those may fall, to 0.3.
 CwStatus cw_tet_shorten(CwTetWork *w);
+// Takes away inner points with edges that are the shortest ones of five slender tetrahedra and more: a point goes into
+// the other end of its shortest one where the ratios, less the usual one, become less in the sum, or by so little more
+// that relaxing makes up for it. The least quality of its tetrahedra may fall, to 0.3. All are to be judged anew then.
+CwStatus cw_tet_collapse(CwTetWork *w);
 // Sets all qualities and finds the tetrahedra below the limit.
 CwStatus cw_tet_scan(CwTetWork *w);
 

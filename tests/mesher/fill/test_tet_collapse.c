@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "mesher/fill/tet_work.h"
+#include "shaken_lattice.h"
+
+typedef struct {
+  int count, used; // tetrahedra, and points that they have
+  double six, excess, least;
+} Shape;
+
+static Shape shape_of(const CwTetWork *w) {
+  Shape shape = {.least = 1.0};
+  char *used = calloc((size_t)w->mesh->point_count, 1);
+  assert_non_null(used);
+  for (int32_t t = 0; t < w->mesh->tet_count; t++) {
+    const int32_t *c = w->mesh->tet[t].corner;
+    if (c[0] < 0) continue;
+    double quality = cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
+    shape.six += cw_tet_six(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+    shape.excess += cw_tet_excess(w, c);
+    shape.least = fmin(shape.least, quality);
+    shape.count++;
+    for (int i = 0; i < 4; i++) {
+      shape.used += !used[c[i]];
+      used[c[i]] = 1;
+      int32_t next = w->mesh->tet[t].neighbour[i]; // neighbours know one another
+      assert_true(next < 0 || w->mesh->tet[next / 4].neighbour[next % 4] == 4 * t + i);
+    }
+  }
+  free(used);
+  return shape;
+}
+
+// A shaken lattice of unit cubes with one point more beside an inner one, shifted by so much, twice and three times
+// that: before and after.
+static void collapse_in_lattice(double shift, int all_fixed, Shape *before, Shape *after, int *removed) {
+  double(*x)[3];
+  int32_t outside, count = shaken_lattice(8, 0.05, &outside, &x), inner = (outside + count) / 2;
+  CwDelaunay mesh;
+  x = realloc(x, (size_t)(count + 1) * sizeof *x);
+  assert_non_null(x);
+  memcpy(x[count], x[inner], sizeof *x);
+  for (int i = 0; i < 3; i++) x[count][i] += shift * (i + 1);
+  assert_int_equal(cw_delaunay_make(count + 1, (const double(*)[3])x, &mesh), CW_OK);
+  CwTetWork w = {.flips = {.mesh = &mesh},
+                 .mesh = &mesh,
+                 .limit = CW_TET_TURN,
+                 .fixed_count = all_fixed ? count + 1 : outside,
+                 .source_count = count + 1};
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  *before = shape_of(&w);
+  assert_int_equal(w.tet_count, before->count);
+  assert_int_equal(cw_tet_collapse(&w), CW_OK);
+  *after = shape_of(&w);
+  *removed = w.count.points_removed;
+  cw_tet_work_free(&w);
+  cw_delaunay_free(&mesh);
+  free(x);
+}
+
+static void a_point_too_near_goes(void **state) {
+  Shape before, after;
+  int removed;
+  collapse_in_lattice(0.05, 0, &before, &after, &removed);
+  assert_int_equal(removed, 1);
+  assert_int_equal(after.used, before.used - 1);
+  assert_true(after.count < before.count);
+  assert_true(fabs(after.six / before.six - 1.0) < 1e-12);
+  assert_true(after.excess < before.excess);
+  assert_true(after.least >= fmin(before.least, 0.3));
+}
+
+static void points_of_the_boundary_stay(void **state) {
+  Shape before, after;
+  int removed;
+  collapse_in_lattice(0.05, 1, &before, &after, &removed);
+  assert_int_equal(removed, 0);
+  assert_int_equal(after.used, before.used);
+  assert_int_equal(after.count, before.count);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_point_too_near_goes),
+      cmocka_unit_test(points_of_the_boundary_stay),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
