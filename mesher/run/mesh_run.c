@@ -40,7 +40,7 @@ static double tets_per_volume(const CwMeshRun *run, double scale) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);
   }
-  return 8.2 + 1.33 * log(fmin((double)run->table->mesh.cells, 1.5e6) / 1e6) + 4.55 * scale * walls / volume;
+  return 8.2 + 1.33 * log(fmin((double)run->table->mesh.cells, 1.5e6) / 1e6) + 4.65 * scale * walls / volume;
 }
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
