@@ -12,6 +12,27 @@
 static const double LEAST = 1.05 * CW_SMALL_DETERMINANT; // asked for
 static const double STEP = 0.05;                         // of a first height, in a round
 
+// First height of the column as divided, m; fraction: of its layers.
+static double divide(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t v, double first,
+                     double *fraction) {
+  return cw_layer_fractions(skeleton->height[v], first, heights->layer_count, heights->growth[v], fraction);
+}
+
+void cw_column_determinants(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t t,
+                            const double first[3], double *determinant) {
+  double fraction[3][CW_LAYERS_MOST + 1], x[2][3][3];
+  for (int k = 0; k < 3; k++) divide(heights, skeleton, skeleton->wall_triangle[t][k], first[k], fraction[k]);
+  for (int level = 0; level <= heights->layer_count; level++) {
+    double(*base)[3] = x[(level + 1) % 2], (*top)[3] = x[level % 2];
+    for (int k = 0; k < 3; k++) {
+      int32_t v = skeleton->wall_triangle[t][k];
+      cw_lerp(skeleton->wall_x[v], skeleton->front[v], fraction[k][level], top[k]);
+    }
+    if (level > 0)
+      determinant[level - 1] = cw_prism_determinant((const double(*)[3])base, (const double(*)[3])top, level == 1);
+  }
+}
+
 // Over columns that stay as they are; not small, or small whatever the division; small, and not so in even columns.
 typedef enum { FIXED, LEFT, SMALL } Judgement;
 
@@ -21,13 +42,7 @@ typedef struct {
   const int32_t *triangle; // to judge; NULL: all
 } Columns;
 
-// First height of the column as divided, m; fraction: of its layers.
-static double divide(const Columns *columns, int32_t v, double first, double *fraction) {
-  const CwColumnHeights *heights = columns->heights;
-  return cw_layer_fractions(columns->skeleton->height[v], first, heights->layer_count, heights->growth[v], fraction);
-}
-
-// The same of the column as even as it may become: one whose layers grow stays as it is.
+// First height of the column as even as it may become: one whose layers grow stays as it is.
 static double even_first(const Columns *columns, int32_t v) {
   const CwColumnHeights *heights = columns->heights;
   return fmin(columns->skeleton->height[v] / heights->layer_count, heights->first_height[v]);
@@ -35,19 +50,9 @@ static double even_first(const Columns *columns, int32_t v) {
 
 // Least determinant of the prisms over a wall triangle whose columns have these first heights.
 static double least_determinant(const Columns *columns, int32_t t, const double first[3]) {
-  const CwSkeleton *skeleton = columns->skeleton;
-  int layers = columns->heights->layer_count;
-  double fraction[3][CW_LAYERS_MOST + 1], x[2][3][3], least = INFINITY;
-  for (int k = 0; k < 3; k++) divide(columns, skeleton->wall_triangle[t][k], first[k], fraction[k]);
-  for (int level = 0; level <= layers; level++) {
-    double(*base)[3] = x[(level + 1) % 2], (*top)[3] = x[level % 2];
-    for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      cw_lerp(skeleton->wall_x[v], skeleton->front[v], fraction[k][level], top[k]);
-    }
-    if (level > 0)
-      least = fmin(least, cw_prism_determinant((const double(*)[3])base, (const double(*)[3])top, level == 1));
-  }
+  double determinant[CW_LAYERS_MOST], least = INFINITY;
+  cw_column_determinants(columns->heights, columns->skeleton, t, first, determinant);
+  for (int k = 0; k < columns->heights->layer_count; k++) least = fmin(least, determinant[k]);
   return least;
 }
 
@@ -84,7 +89,8 @@ static void even_marked(const Columns *columns, const uint8_t *mark, double *fir
     for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1))
       marked |= mark[at];
     if (!marked) continue;
-    first_made[v] = fmax((1 - STEP) * divide(columns, v, first_made[v], fraction), even_first(columns, v));
+    first_made[v] = fmax((1 - STEP) * divide(columns->heights, columns->skeleton, v, first_made[v], fraction),
+                         even_first(columns, v));
     for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1))
       first_made[at] = first_made[v];
   }

@@ -7,6 +7,11 @@
 
 #include "mesher/heights/column_heights.h"
 
+// checkMesh's determinants of the prisms over a wall triangle, from the wall on, whose columns are divided by these
+// first heights (m).
+void cw_column_determinants(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t t,
+                            const double first[3], double *determinant);
+
 // Sets first_made of all columns, once they stand: the first height or, around prisms of small determinants that more
 // even layers cure, less in steps of a twentieth until they do. Turned copies get that of their first. Collective.
 CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skeleton);

@@ -8,6 +8,7 @@
 
 #include "mesher/cad/background_tessellate.h"
 #include "mesher/common/vec.h"
+#include "mesher/heights/even_columns.h"
 #include "mesher/heights/layer_heights.h"
 #include "mesher/layers/layers.h"
 #include "mesher/layers/thin_prism.h"
@@ -393,24 +394,19 @@ done:
   return status;
 }
 
-// Adds the thin prisms over a wall triangle; height: mean one of each layer, m.
-static void count_thin(const CwSkeleton *skeleton, int32_t t, const double *height, int layer_count,
-                       CwLayerCoverage *of) {
+// Adds the prisms over a wall triangle that are thin for their length, or sheared: of small determinants.
+static void count_thin(const CwSkeleton *skeleton, int32_t t, const CwColumnHeights *heights, CwLayerCoverage *of) {
   const int32_t *corner = skeleton->wall_triangle[t];
-  const double(*x)[3] = (const double(*)[3])skeleton->wall_x;
-  double u[3], v[3], normal[3];
-  cw_sub(x[corner[1]], x[corner[0]], u);
-  cw_sub(x[corner[2]], x[corner[0]], v);
-  cw_cross(u, v, normal);
-  double area = 0.5 * cw_norm(normal), around = cw_norm(u) + cw_norm(v) + cw_distance(x[corner[1]], x[corner[2]]);
-  for (int k = 0; k < layer_count; k++) {
-    double determinant = cw_thin_prism_determinant(area, around, height[k], k == 0);
-    if (determinant >= CW_SMALL_DETERMINANT) continue;
-    double wanted = cw_thin_prism_wanted(determinant);
+  double determinant[CW_LAYERS_MOST], first[3];
+  for (int k = 0; k < 3; k++) first[k] = heights->first_made[corner[k]];
+  cw_column_determinants(heights, skeleton, t, first, determinant);
+  for (int k = 0; k < heights->layer_count; k++) {
+    if (determinant[k] >= CW_SMALL_DETERMINANT) continue;
+    double wanted = cw_thin_prism_wanted(determinant[k]);
     of->thin++;
     if (wanted <= of->thin_wanted) continue;
     of->thin_wanted = wanted;
-    cw_copy(x[corner[0]], of->thin_at);
+    cw_copy(skeleton->wall_x[corner[0]], of->thin_at);
   }
 }
 
@@ -424,14 +420,12 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
     if (patch >= patches) continue;
     CwLayerCoverage *of = &coverage[patch];
     int full = 1, met = 1, worst = 0;
-    double layer[CW_LAYERS_MOST] = {0};
     for (int k = 0; k < 3; k++) {
       int32_t v = skeleton->wall_triangle[t][k];
       double height = skeleton->height[v];
       double wanted = heights->first_height[v];
       double first =
           cw_layer_fractions(height, heights->first_made[v], heights->layer_count, heights->growth[v], fraction);
-      for (int l = 0; l < heights->layer_count; l++) layer[l] += height * (fraction[l + 1] - fraction[l]) / 3;
       full &= height >= 0.99 * heights->target[v];
       met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;
       if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
@@ -443,7 +437,7 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
     of->first_met += met;
     of->reason[full ? 0 : worst]++;
     if (!met) of->missed[worst]++;
-    count_thin(skeleton, t, layer, heights->layer_count, of);
+    count_thin(skeleton, t, heights, of);
   }
 }
 
