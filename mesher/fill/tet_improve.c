@@ -17,12 +17,21 @@ enum { PASSES = 5, ROUNDS = 4, EVENINGS = 1, NEEDY_EVENINGS = 3 };
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int8_t cw_tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-void cw_tet_work_free(CwTetWork *w) {
-  free(w->bad);
-  free(w->next);
+// What only relaxing needs; the search that comes after it asks for memory of its own.
+static void free_shapes(CwTetWork *w) {
   free(w->slender.tet);
   free(w->place);
   free(w->irregular);
+  w->slender = (CwTetList){0};
+  w->place = NULL;
+  w->place_space = 0;
+  w->irregular = NULL;
+}
+
+void cw_tet_work_free(CwTetWork *w) {
+  free(w->bad);
+  free(w->next);
+  free_shapes(w);
 }
 
 CwStatus cw_tet_push(CwTetWork *w, int32_t t) {
@@ -148,6 +157,7 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *sou
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_TURN;
   CW_TRY(even_out(&w));
+  free_shapes(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   w.limit = CW_TET_IMPROVE;
   CW_TRY(cw_tet_improve_list(&w, PASSES, 1));
