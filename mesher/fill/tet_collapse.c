@@ -30,7 +30,7 @@ static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
 static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
   CwStatus status = CW_OK;
   int32_t star[CW_TET_STAR], made[CW_FLIP][4];
-  double sum = 0.0, quality[CW_FLIP], least = least_quality;
+  double sum = 0.0, least = least_quality;
   int count = 0, n = cw_tet_star(w, t, p, star);
   if (n == 0 || n > CW_FLIP) goto done;
   for (int k = 0; k < n; k++) {
@@ -46,12 +46,7 @@ static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
   }
   for (int k = 0; k < count; k++) sum += cw_tet_excess(w, (const int32_t *)made[k]);
   if (!(sum < loss)) goto done;
-  for (int k = 0; k < count; k++) {
-    quality[k] = cw_tet_quality_of(w, made[k][0], made[k][1], made[k][2], made[k][3]);
-    if (!(quality[k] > 0.0 && quality[k] >= least)) goto done;
-  }
-  CW_TRY(cw_tet_replace(w, n, star, count, (const int32_t(*)[4])made, quality));
-  w->count.points_removed++;
+  CW_TRY(cw_tet_replace_sound(w, n, star, count, (const int32_t(*)[4])made, least, &w->count.points_removed));
 done:
   return status;
 }

@@ -61,6 +61,20 @@ done:
   return status;
 }
 
+CwStatus cw_tet_replace_sound(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                              double least, int32_t *replaced) {
+  CwStatus status = CW_OK;
+  double quality[CW_FLIP];
+  for (int k = 0; k < count; k++) {
+    quality[k] = cw_tet_quality_of(w, corner[k][0], corner[k][1], corner[k][2], corner[k][3]);
+    if (!(quality[k] > 0.0 && quality[k] >= least)) goto done;
+  }
+  CW_TRY(cw_tet_replace(w, old_count, old, count, corner, quality));
+  ++*replaced;
+done:
+  return status;
+}
+
 // One try at a tetrahedron: the first change that helps.
 static CwStatus improve_one(CwTetWork *w, int32_t t, int move, int insert, int *done_it) {
   CwStatus status = CW_OK;

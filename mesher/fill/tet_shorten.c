@@ -12,7 +12,7 @@ enum { RING = 4 }; // tetrahedra round an edge, at most: of removals with five o
 static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, double square) {
   CwStatus status = CW_OK;
   int32_t old[CW_RING], ring[CW_RING], made[RING][4];
-  double before = 0.0, after = 0.0, quality[RING], least = least_quality;
+  double before = 0.0, after = 0.0, least = least_quality;
   int n = cw_flips_ring(&w->flips, t, a, b, RING, old, ring), count = n == 3 ? 2 : 4, first = 0;
   if (n < 3) goto done;
   if (n == 4) { // the shorter one of the two edges that may come
@@ -30,12 +30,7 @@ static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, doubl
     after += cw_tet_excess(w, made[k]);
   }
   if (!(after < before - gain)) goto done;
-  for (int k = 0; k < count; k++) {
-    quality[k] = cw_tet_quality_of(w, made[k][0], made[k][1], made[k][2], made[k][3]);
-    if (!(quality[k] > 0.0 && quality[k] >= least)) goto done;
-  }
-  CW_TRY(cw_tet_replace(w, n, old, count, (const int32_t(*)[4])made, quality));
-  w->count.edges_removed++;
+  CW_TRY(cw_tet_replace_sound(w, n, old, count, (const int32_t(*)[4])made, least, &w->count.edges_removed));
 done:
   return status;
 }

@@ -136,6 +136,10 @@ CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality);
 CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
                         const double *quality);
 
+// The same where all that comes is positive and of this quality at least; then *replaced goes up by one.
+CwStatus cw_tet_replace_sound(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
+                              double least, int32_t *replaced);
+
 // Removes the edge a-b of t.
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it);
 // Two tetrahedra at face i of t become three round a new edge.
