@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/vec.h"
 
 struct CwInside {
@@ -37,15 +38,11 @@ CwStatus cw_inside_make(int32_t point_count, const double (*x)[3], int32_t trian
   inside->x = x;
   inside->triangle = triangle;
   int32_t side = (int32_t)ceil(sqrt(0.5 * triangle_count)) + 1;
+  CwBox box = cw_box_of_points(point_count, x);
   for (int i = 0; i < 2; i++) {
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t p = 0; p < point_count; p++) {
-      low = cw_lesser(low, x[p][i]);
-      high = cw_greater(high, x[p][i]);
-    }
-    inside->low[i] = point_count ? low : 0.0;
+    inside->low[i] = point_count ? box.low[i] : 0.0;
     inside->cells[i] = side;
-    inside->cell[i] = point_count && high > low ? (high - low) / side : 1.0;
+    inside->cell[i] = box.high[i] > box.low[i] ? (box.high[i] - box.low[i]) / side : 1.0;
   }
   CW_NEW(inside->start, (int64_t)side * side + 1);
   for (int pass = 0; pass < 2; pass++) {

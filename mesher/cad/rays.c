@@ -4,20 +4,17 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/vec.h"
 
 enum { LEAF_SIZE = 4, STACK_SIZE = 64 };
-
-typedef struct {
-  double low[3], high[3];
-} Box;
 
 // Triangles stand in the order of a space-filling curve; node n of the tree covers a half of its parent's
 // run, its children are nodes 2n + 1 and 2n + 2.
 struct CwRays {
   const CwBackground *background;
   int32_t *order;
-  Box *box;
+  CwBox *box;
 };
 
 typedef struct {
@@ -31,18 +28,7 @@ static int by_key(const void *a, const void *b) {
   return p->triangle < q->triangle ? -1 : p->triangle > q->triangle;
 }
 
-static Box empty_box(void) {
-  return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
-
-static void box_add(Box *box, const double x[3]) {
-  for (int k = 0; k < 3; k++) {
-    box->low[k] = cw_lesser(box->low[k], x[k]);
-    box->high[k] = cw_greater(box->high[k], x[k]);
-  }
-}
-
-static uint64_t morton(const Box *all, const double x[3]) {
+static uint64_t morton(const CwBox *all, const double x[3]) {
   uint64_t key = 0;
   uint32_t place[3];
   for (int k = 0; k < 3; k++) {
@@ -57,9 +43,9 @@ static uint64_t morton(const Box *all, const double x[3]) {
 static CwStatus sort_triangles(const CwBackground *background, int32_t *order) {
   CwStatus status = CW_OK;
   Place *place = NULL;
-  Box all = empty_box();
+  CwBox all = cw_box_empty();
   CW_NEW(place, background->triangle_count);
-  for (int32_t i = 0; i < background->point_count; i++) box_add(&all, background->x[i]);
+  for (int32_t i = 0; i < background->point_count; i++) cw_box_add_point(&all, background->x[i]);
   for (int32_t t = 0; t < background->triangle_count; t++) {
     const int32_t *n = background->triangle[t];
     double centre[3];
@@ -76,19 +62,19 @@ done:
 }
 
 static void build(CwRays *rays, size_t node, int32_t first, int32_t last) {
-  Box box = empty_box();
+  CwBox box = cw_box_empty();
   if (last - first <= LEAF_SIZE) {
     for (int32_t i = first; i < last; i++) {
       const int32_t *n = rays->background->triangle[rays->order[i]];
-      for (int k = 0; k < 3; k++) box_add(&box, rays->background->x[n[k]]);
+      for (int k = 0; k < 3; k++) cw_box_add_point(&box, rays->background->x[n[k]]);
     }
   } else {
     int32_t mid = first + (last - first) / 2;
     build(rays, 2 * node + 1, first, mid);
     build(rays, 2 * node + 2, mid, last);
     for (size_t child = 2 * node + 1; child <= 2 * node + 2; child++) {
-      box_add(&box, rays->box[child].low);
-      box_add(&box, rays->box[child].high);
+      cw_box_add_point(&box, rays->box[child].low);
+      cw_box_add_point(&box, rays->box[child].high);
     }
   }
   rays->box[node] = box;
@@ -120,7 +106,7 @@ void cw_rays_free(CwRays **rays) {
   *rays = NULL;
 }
 
-static int meets_box(const Box *box, const double x[3], const double inverse[3], double from, double to) {
+static int meets_box(const CwBox *box, const double x[3], const double inverse[3], double from, double to) {
   for (int k = 0; k < 3; k++) {
     double a = (box->low[k] - x[k]) * inverse[k], b = (box->high[k] - x[k]) * inverse[k];
     double enters = a < b ? a : b, leaves = a < b ? b : a;

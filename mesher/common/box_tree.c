@@ -50,13 +50,6 @@ done:
   return status;
 }
 
-void cw_box_add(CwBox *sum, const CwBox *box) {
-  for (int k = 0; k < 3; k++) {
-    if (box->low[k] < sum->low[k]) sum->low[k] = box->low[k];
-    if (box->high[k] > sum->high[k]) sum->high[k] = box->high[k];
-  }
-}
-
 // What the tasks below read.
 typedef struct {
   CwBoxOf box_of;

@@ -4,18 +4,14 @@
 #ifndef CUTWATER_MESHER_COMMON_BOX_TREE_H
 #define CUTWATER_MESHER_COMMON_BOX_TREE_H
 
-#include <math.h>
 #include <stdint.h>
 
+#include "mesher/common/box.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct {
-  double low[3], high[3];
-} CwBox;
 
 typedef struct {
   int32_t count;  // items
@@ -44,39 +40,6 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
 // Visits the items of every leaf whose box the ray x + s g, 0 <= s <= *far, meets; the visitor may lower *far.
 void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3], const double *far, CwBoxVisit visit,
                      void *context);
-
-// Widens a box by another one, or by a point.
-void cw_box_add(CwBox *sum, const CwBox *box);
-
-static inline void cw_box_add_point(CwBox *box, const double x[3]) {
-  for (int k = 0; k < 3; k++) {
-    box->low[k] = x[k] < box->low[k] ? x[k] : box->low[k];
-    box->high[k] = x[k] > box->high[k] ? x[k] : box->high[k];
-  }
-}
-
-static inline CwBox cw_box_of_point(const double x[3]) {
-  return (CwBox){{x[0], x[1], x[2]}, {x[0], x[1], x[2]}};
-}
-
-static inline CwBox cw_box_of_triangle(const double a[3], const double b[3], const double c[3]) {
-  CwBox box = cw_box_of_point(a);
-  cw_box_add_point(&box, b);
-  cw_box_add_point(&box, c);
-  return box;
-}
-
-// Holds nothing: what to begin with.
-static inline CwBox cw_box_empty(void) {
-  return (CwBox){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
-
-static inline int cw_boxes_meet(const CwBox *a, const CwBox *b) {
-  for (int k = 0; k < 3; k++) {
-    if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) return 0;
-  }
-  return 1;
-}
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/box.h"
+
 enum { ALONG_MOST = 256 };
 
 static size_t cube_of(const CwCubes *cubes, const double x[3]) {
@@ -19,20 +21,13 @@ static size_t cube_of(const CwCubes *cubes, const double x[3]) {
 CwStatus cw_cubes_make(int32_t count, const double (*x)[3], double size, CwCubes *cubes) {
   CwStatus status = CW_OK;
   size_t *of = NULL; // of each point
-  double high[3];
+  CwBox box = count ? cw_box_of_points(count, x) : (CwBox){{0}, {0}};
   size_t all = 1;
   memset(cubes, 0, sizeof *cubes);
-  cubes->size = size;
-  for (int k = 0; k < 3; k++) cubes->low[k] = high[k] = count ? x[0][k] : 0;
-  for (int32_t i = 0; i < count; i++) {
-    for (int k = 0; k < 3; k++) {
-      cubes->low[k] = x[i][k] < cubes->low[k] ? x[i][k] : cubes->low[k];
-      high[k] = x[i][k] > high[k] ? x[i][k] : high[k];
-    }
-  }
-  for (int k = 0; k < 3; k++) cubes->size = fmax(cubes->size, (high[k] - cubes->low[k]) / ALONG_MOST);
+  cubes->size = fmax(size, cw_box_longest(&box) / ALONG_MOST);
   for (int k = 0; k < 3; k++) {
-    cubes->count[k] = (int32_t)((high[k] - cubes->low[k]) / cubes->size) + 1;
+    cubes->low[k] = box.low[k];
+    cubes->count[k] = (int32_t)((box.high[k] - box.low[k]) / cubes->size) + 1;
     all *= (size_t)cubes->count[k];
   }
   CW_NEW(cubes->start, all + 1);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/mix.h"
 #include "mesher/common/radix.h"
 
@@ -62,17 +63,10 @@ static int round_of(uint64_t number, int rounds) {
 CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
   CwStatus status = CW_OK;
   CwRadix *record = NULL;
-  double low[3] = {INFINITY, INFINITY, INFINITY}, extent = 0.0;
+  CwBox box = cw_box_of_points(count, x);
+  double extent = cw_box_longest(&box);
   int rounds = 1;
   CW_NEW_UNSET(record, count);
-  for (int i = 0; i < 3; i++) {
-    double high = -INFINITY;
-    for (int32_t p = 0; p < count; p++) {
-      low[i] = x[p][i] < low[i] ? x[p][i] : low[i];
-      high = x[p][i] > high ? x[p][i] : high;
-    }
-    extent = fmax(extent, high - low[i]);
-  }
   for (int32_t n = count; n > 64; n /= 8) rounds++;
   double cells = extent > 0.0 ? (double)(1 << BITS) / extent : 0.0;
   for (int32_t first = 0; first < count; first += LANES) {
@@ -81,7 +75,7 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
     uint64_t place[LANES];
     for (int l = 0; l < lanes; l++) {
       for (int i = 0; i < 3; i++) {
-        double along = (x[first + l][i] - low[i]) * cells;
+        double along = (x[first + l][i] - box.low[i]) * cells;
         cell[i][l] = along < (double)((1 << BITS) - 1) ? (uint32_t)along : (1u << BITS) - 1;
       }
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/hilbert.h"
 #include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
@@ -367,15 +368,13 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   CwStatus status = CW_OK;
   static const int sign[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
   double middle[3], reach = 0.0, size = 0.0;
+  for (int32_t p = 0; p < count; p++)
+    CW_REQUIRE(isfinite(x[p][0] + x[p][1] + x[p][2]), CW_ERR_MESH, "point %d is not finite", p);
+  CwBox box = cw_box_of_points(count, x);
   for (int i = 0; i < 3; i++) {
-    double low = x[0][i], high = x[0][i];
-    for (int32_t p = 0; p < count; p++) {
-      CW_REQUIRE(isfinite(x[p][i]), CW_ERR_MESH, "point %d is not finite", p);
-      low = x[p][i] < low ? x[p][i] : low;
-      high = x[p][i] > high ? x[p][i] : high;
-    }
-    middle[i] = 0.5 * (low + high);
-    reach += 0.25 * (high - low) * (high - low);
+    double side = box.high[i] - box.low[i];
+    middle[i] = 0.5 * (box.low[i] + box.high[i]);
+    reach += 0.25 * side * side;
     size = fmax(size, fabs(middle[i]));
   }
   reach = 4.0 * sqrt(reach) + 1e-3 * size;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/number.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_columns.h"
@@ -369,14 +370,8 @@ static void name_boxes(Tree *tree, const CwReachBox *reach) {
   const CwFillInput *input = tree->input;
   for (int32_t t = 0; t < input->triangle_count; t++) {
     const int32_t *q = input->triangle[t];
-    const double *a = input->x[q[0]], *b = input->x[q[1]], *c = input->x[q[2]];
-    double low[3], high[3];
-    for (int i = 0; i < 3; i++) {
-      low[i] = a[i] < b[i] ? a[i] : b[i];
-      high[i] = a[i] < b[i] ? b[i] : a[i];
-      low[i] = c[i] < low[i] ? c[i] : low[i];
-      high[i] = c[i] > high[i] ? c[i] : high[i];
-    }
+    CwBox own = cw_box_of_triangle(input->x[q[0]], input->x[q[1]], input->x[q[2]]);
+    const double *low = own.low, *high = own.high;
     tree->reach[t] = pack_box(tree, &reach[t]);
     tree->own[t] = (Box){pack(tree, low[0], low[1], low[2]), pack(tree, high[0], high[1], high[2])};
   }
@@ -396,8 +391,8 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CwReachBox *box = NULL;
   CwLatticePlace *place = NULL;
   int64_t places;
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  double area = 0.0, weight = 0.0, extent = 0.0;
+  CwBox within = cw_box_empty();
+  double area = 0.0, weight = 0.0;
   int above = 0;
   *count = 0;
   *x = NULL;
@@ -414,14 +409,10 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CW_NEW_UNSET(tree->near, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     CW_TRY(reach_of(tree, t, &box[t], &area, &weight));
-    for (int k = 0; k < 9; k++) {
-      double value = input->x[input->triangle[t][k / 3]][k % 3];
-      low[k % 3] = value < low[k % 3] ? value : low[k % 3];
-      high[k % 3] = value > high[k % 3] ? value : high[k % 3];
-    }
+    for (int k = 0; k < 3; k++) cw_box_add_point(&within, input->x[input->triangle[t][k]]);
   }
   CW_TRY(cw_row_places(input, &tree->row));
-  for (int i = 0; i < 3; i++) extent = fmax(extent, high[i] - low[i]);
+  double extent = cw_box_longest(&within);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
   double edge = CW_LATTICE_CONSTANT * exp(weight / area);
   while (edge * (double)(1 << above) < 1.001 * extent) {
@@ -431,7 +422,8 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   int below = DEPTH - above < 8 ? DEPTH - above : 8;
   tree->frame.unit = edge / (double)(1 << below);
   for (int i = 0; i < 3; i++) {
-    tree->frame.origin[i] = 0.5 * (low[i] + high[i]) - 0.5 * tree->frame.unit * (double)(1 << (above + below));
+    tree->frame.origin[i] =
+        0.5 * (within.low[i] + within.high[i]) - 0.5 * tree->frame.unit * (double)(1 << (above + below));
   }
   tree->per_unit = 1.0 / tree->frame.unit;
   name_boxes(tree, box);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/four.h"
 #include "mesher/common/number.h"
 
@@ -30,19 +31,13 @@ static inline CwFour place_of(const CwTetWork *w, const double x[3]) {
 static CwStatus set_places(CwTetWork *w) {
   CwStatus status = CW_OK;
   const CwDelaunay *mesh = w->mesh;
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0.0;
+  CwBox box = cw_box_empty();
   CW_GROW(w->place, w->place_space, mesh->point_count);
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    if (mesh->source[p] < 0) continue;
-    for (int i = 0; i < 3; i++) {
-      low[i] = cw_tet_less(low[i], mesh->point[p].x[i]);
-      high[i] = cw_tet_more(high[i], mesh->point[p].x[i]);
-    }
+    if (mesh->source[p] >= 0) cw_box_add_point(&box, mesh->point[p].x);
   }
-  for (int i = 0; i < 3; i++) {
-    w->middle[i] = 0.5 * (low[i] + high[i]);
-    extent = cw_tet_more(extent, high[i] - low[i]);
-  }
+  for (int i = 0; i < 3; i++) w->middle[i] = 0.5 * (box.low[i] + box.high[i]);
+  double extent = cw_box_longest(&box);
   w->blurred = blurred * blurred * extent * extent;
   for (int32_t p = 0; p < mesh->point_count; p++) w->place[p] = place_of(w, mesh->point[p].x);
 done:

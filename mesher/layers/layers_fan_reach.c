@@ -63,14 +63,8 @@ static void measure(Spread *spread, int32_t first, int32_t last) {
   const CwFans *fans = spread->blocks->fans;
   const CwLayerWork *work = fans->work;
   CwBox *box = &spread->box;
-  *box = (CwBox){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-  for (int32_t i = first; i < last; i++) {
-    const double *x = work->in->x[work->curve[i]];
-    for (int k = 0; k < 3; k++) {
-      if (x[k] < box->low[k]) box->low[k] = x[k];
-      if (x[k] > box->high[k]) box->high[k] = x[k];
-    }
-  }
+  *box = cw_box_empty();
+  for (int32_t i = first; i < last; i++) cw_box_add_point(box, work->in->x[work->curve[i]]);
   for (int32_t i = 0; i < fans->source_count; i++) {
     double way = (1 + ROUNDING) * REACH * fans->source[i].height;
     if (way > spread->most && distance_to(box, work->in->x[fans->source[i].vertex]) <= way) spread->most = way;

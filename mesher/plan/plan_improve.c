@@ -95,9 +95,10 @@ static void find_cut(const CwPlanModel *model, const CwPlanPart *part, const CwP
         square += volume * cw_dot(d, d);
       }
     }
-    for (int k = 0; k < 3 && pass == 0; k++) centre[k] = all > 0 ? sum[k] / all : (part->low[k] + part->high[k]) / 2;
+    for (int k = 0; k < 3 && pass == 0; k++)
+      centre[k] = all > 0 ? sum[k] / all : (part->box.low[k] + part->box.high[k]) / 2;
   }
-  *reach = all > 0 ? sqrt(square / all) : cw_distance(part->low, part->high) / 4;
+  *reach = all > 0 ? sqrt(square / all) : cw_distance(part->box.low, part->box.high) / 4;
 }
 
 // The plane after a move of this length: shifted, turned about two directions through the middle of its cut, or several

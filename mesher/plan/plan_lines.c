@@ -71,9 +71,9 @@ static void cut_to_cell(Line *line, int32_t node, const CwPlanPart *part) {
   line->from = -INFINITY;
   line->to = INFINITY;
   for (int k = 0; k < 3; k++) {
-    CwPlane side = {{k == 0, k == 1, k == 2}, part->high[k] + 2 * line->model->sample_spacing};
+    CwPlane side = {{k == 0, k == 1, k == 2}, part->box.high[k] + 2 * line->model->sample_spacing};
     cut(line, &side, 0);
-    side.offset = part->low[k] - 2 * line->model->sample_spacing;
+    side.offset = part->box.low[k] - 2 * line->model->sample_spacing;
     cut(line, &side, 1);
   }
   const CwPlan *plan = line->plan;

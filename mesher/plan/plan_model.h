@@ -51,7 +51,7 @@ typedef struct {
   int32_t sample_count, *sample;
   int32_t edge_count, *edge; // points of CAD edges in the cell or so near that they count
   double work, volume;       // cells; m3
-  double low[3], high[3];    // box of the samples
+  CwBox box;                 // of the samples
 } CwPlanPart;
 
 // True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.

@@ -58,15 +58,12 @@ done:
 // Sums and box, once the lists are made.
 static void part_measure(const CwPlanModel *model, CwPlanPart *part) {
   part->work = part->volume = 0;
-  for (int k = 0; k < 3; k++) part->low[k] = INFINITY, part->high[k] = -INFINITY;
+  part->box = cw_box_empty();
   for (int32_t i = 0; i < part->sample_count; i++) {
     int32_t s = part->sample[i];
     part->work += model->sample_work[s];
     part->volume += model->sample_volume[s];
-    for (int k = 0; k < 3; k++) {
-      part->low[k] = fmin(part->low[k], model->sample_x[s][k]);
-      part->high[k] = fmax(part->high[k], model->sample_x[s][k]);
-    }
+    cw_box_add_point(&part->box, model->sample_x[s]);
   }
   for (int32_t i = 0; i < part->pieces.count; i++) part->work += part->pieces.work[i];
 }

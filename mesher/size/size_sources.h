@@ -36,9 +36,6 @@ typedef struct CwSizeSurface CwSizeSurface;
 CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **surface);
 void cw_size_surface_free(CwSizeSurface **surface);
 
-// Box of the domain, m.
-void cw_size_box(const CwBackground *background, double low[3], double high[3]);
-
 // The grid over the domain, without values; every rank comes to the same one.
 void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mesher/cad/rays.h"
+#include "mesher/common/box.h"
 #include "mesher/common/cubes.h"
 #include "mesher/size/size_sources.h"
 
@@ -242,20 +243,13 @@ static void seed_triangle(Surface *surface, int32_t t) {
   }
 }
 
-void cw_size_box(const CwBackground *background, double low[3], double high[3]) {
-  for (int k = 0; k < 3; k++) low[k] = INFINITY, high[k] = -INFINITY;
-  for (int32_t i = 0; i < background->point_count; i++) {
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], background->x[i][k]);
-      high[k] = fmax(high[k], background->x[i][k]);
-    }
-  }
+static CwBox domain_box(const CwBackground *background) {
+  return cw_box_of_points(background->point_count, (const double(*)[3])background->x);
 }
 
 void cw_size_surface_grid(const CwSizeInput *input, CwSizeGrid *grid) {
-  double low[3], high[3];
-  cw_size_box(input->background, low, high);
-  cw_size_grid_shape(low, high, spacing_share * input->base_size, node_limit, grid);
+  CwBox box = domain_box(input->background);
+  cw_size_grid_shape(box.low, box.high, spacing_share * input->base_size, node_limit, grid);
 }
 
 CwStatus cw_size_surface_make(const CwSizeInput *input, CwSizeSurface **result) {
@@ -301,17 +295,13 @@ void cw_size_surface_free(CwSizeSurface **surface) {
 static void box_of_face(const Surface *surface, int face, int32_t from[3], int32_t to[3]) {
   const CwSizeGrid *grid = &surface->grid;
   const CwBackground *b = surface->input.background;
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  CwBox box = cw_box_empty();
   for (int32_t i = surface->face_start[face]; i < surface->face_start[face + 1]; i++) {
-    for (int c = 0; c < 9; c++) {
-      double x = b->x[b->triangle[surface->face_triangle[i]][c / 3]][c % 3];
-      low[c % 3] = fmin(low[c % 3], x);
-      high[c % 3] = fmax(high[c % 3], x);
-    }
+    for (int c = 0; c < 3; c++) cw_box_add_point(&box, b->x[b->triangle[surface->face_triangle[i]][c]]);
   }
   for (int k = 0; k < 3; k++) {
-    from[k] = (int32_t)fmax(floor((low[k] - grid->low[k]) / grid->spacing) - 1, 0);
-    to[k] = (int32_t)fmin(ceil((high[k] - grid->low[k]) / grid->spacing) + 1, grid->count[k] - 1);
+    from[k] = (int32_t)fmax(floor((box.low[k] - grid->low[k]) / grid->spacing) - 1, 0);
+    to[k] = (int32_t)fmin(ceil((box.high[k] - grid->low[k]) / grid->spacing) + 1, grid->count[k] - 1);
   }
 }
 
@@ -366,9 +356,8 @@ done:
 }
 
 CwStatus cw_size_surface_lines(const CwSizeSurface *surface, CwScanlines *lines) {
-  double low[3], high[3];
-  cw_size_box(surface->input.background, low, high);
-  return cw_scanlines_make(surface->input.background, &low[1], &high[1], surface->grid.spacing, lines);
+  CwBox box = domain_box(surface->input.background);
+  return cw_scanlines_make(surface->input.background, &box.low[1], &box.high[1], surface->grid.spacing, lines);
 }
 
 void cw_size_take_seeds(CwSizeGrid *grid, const void *bytes, double most) {

@@ -17,6 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "mesher/common/box.h"
 #include "mesher/common/quality.h"
 #include "mesher/fill/fill.h"
 #include "mesher/fill/fill_shape.h"
@@ -202,27 +203,17 @@ static double size_at(const void *context, const double x[3]) {
   return cw_size_grid_at(context, x);
 }
 
-static void find_box(const Mesh *mesh, double low[3], double high[3]) {
-  for (int i = 0; i < 3; i++) {
-    low[i] = high[i] = mesh->x[0][i];
-    for (int32_t p = 0; p < mesh->point_count; p++) {
-      low[i] = fmin(low[i], mesh->x[p][i]);
-      high[i] = fmax(high[i], mesh->x[p][i]);
-    }
-  }
-}
-
 // Sizes as the surface has them, growing by `growth` a length into the inside.
 static void make_size(const Mesh *mesh, double growth, CwSizeGrid *grid) {
-  double low[3], high[3], mean = 0.0;
-  find_box(mesh, low, high);
+  CwBox box = cw_box_of_points(mesh->point_count, (const double(*)[3])mesh->x);
+  double mean = 0.0;
   double *length = take((size_t)mesh->triangle_count, sizeof *length);
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     for (int k = 0; k < 3; k++)
       length[t] += distance(mesh->x[mesh->triangle[t][k]], mesh->x[mesh->triangle[t][(k + 1) % 3]]) / 3.0;
     mean += length[t] / mesh->triangle_count;
   }
-  check(cw_size_grid_make(low, high, mean, 2000000, grid));
+  check(cw_size_grid_make(box.low, box.high, mean, 2000000, grid));
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
     double x[3] = {0, 0, 0};
     for (int k = 0; k < 9; k++) x[k % 3] += mesh->x[mesh->triangle[t][k / 3]][k % 3] / 3.0;
@@ -258,13 +249,12 @@ static void fill_box(void) {
 // On a regular grid over the surface: corner, spacing and number of nodes, then the sizes, the last axis first.
 static void write_sizes(const char *path, const Mesh *mesh, const CwSizeGrid *grid, double scale) {
   enum { NODES = 96 }; // along the longest side
-  double low[3], high[3], step = 0.0;
+  CwBox box = cw_box_of_points(mesh->point_count, (const double(*)[3])mesh->x);
+  const double *low = box.low, step = cw_box_longest(&box) / (NODES - 1);
   int nodes[3];
-  find_box(mesh, low, high);
-  for (int i = 0; i < 3; i++) step = fmax(step, (high[i] - low[i]) / (NODES - 1));
   FILE *file = fopen(path, "w");
   if (!file) perror(path), exit(4);
-  for (int i = 0; i < 3; i++) nodes[i] = 2 + (int)((high[i] - low[i]) / step);
+  for (int i = 0; i < 3; i++) nodes[i] = 2 + (int)((box.high[i] - low[i]) / step);
   fprintf(file, "%.17g %.17g %.17g\n%.17g %.17g %.17g\n%d %d %d\n", low[0], low[1], low[2], step, step, step, nodes[0],
           nodes[1], nodes[2]);
   for (int k = 0; k < nodes[0] * nodes[1] * nodes[2]; k++) {
