@@ -60,16 +60,17 @@ double cw_prism_front_quality(const double *const wall[3], const double *const f
 
 // Determinant of the right prism with the base's triangle and as high as the top is over it, in the mean.
 static double right_determinant(const double base[3][3], const double top[3][3], int on_wall) {
-  double side[3][3], normal[3], height = 0, d[3];
-  for (int k = 0; k < 3; k++) cw_sub(base[(k + 1) % 3], base[k], side[k]);
-  cw_cross(side[0], side[1], normal);
-  double twice_area = cw_unit(normal);
+  double a[3], b[3], normal[3], height = 0, right[3][3];
+  cw_sub(base[1], base[0], a);
+  cw_sub(base[2], base[0], b);
+  cw_cross(a, b, normal);
+  cw_unit(normal);
   for (int k = 0; k < 3; k++) {
-    cw_sub(top[k], base[k], d);
-    height += cw_dot(d, normal) / 3;
+    cw_sub(top[k], base[k], a);
+    height += cw_dot(a, normal) / 3;
   }
-  return cw_thin_prism_determinant(0.5 * twice_area, cw_norm(side[0]) + cw_norm(side[1]) + cw_norm(side[2]),
-                                   fabs(height), on_wall);
+  for (int k = 0; k < 9; k++) right[k / 3][k % 3] = base[k / 3][k % 3] + height * normal[k % 3];
+  return cw_prism_determinant(base, (const double(*)[3])right, on_wall);
 }
 
 double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers) {

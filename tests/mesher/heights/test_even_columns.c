@@ -37,7 +37,9 @@ static void make(const double height[4], double made[4]) {
 }
 
 static double determinant(double height) {
-  return cw_thin_prism_determinant(0.5, 2 + sqrt(2), height, 0);
+  const double base[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  const double top[3][3] = {{0, 0, height}, {1, 0, height}, {1, 1, height}};
+  return cw_prism_determinant(base, top, 0);
 }
 
 static void short_ones_until_none_is_small(void **state) {
