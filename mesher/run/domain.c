@@ -303,11 +303,14 @@ static int fixed_faces_fit(const CwDomain *domain, const CwPlan *plan) {
   return 1;
 }
 
+int cw_domain_least_regions(const CwCase *table, double cells) {
+  return (int)fmin(table->mesh.least_regions, fmax(FREE_REGIONS, floor(cells / FEWEST_CELLS)));
+}
+
 CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
-  double least_regions = fmin(table->mesh.least_regions, fmax(FREE_REGIONS, floor(cells / FEWEST_CELLS)));
-  double regions = fmax(ceil(cells / cells_per_region(table)), least_regions);
+  double regions = fmax(ceil(cells / cells_per_region(table)), cw_domain_least_regions(table, cells));
   double *thickness = NULL, *least = NULL;
   CW_NEW(thickness, cw_cad_patch_count(domain->cad));
   CW_NEW(least, cw_cad_patch_count(domain->cad));

@@ -77,6 +77,9 @@ void cw_domain_walls_ask(const CwDomain *domain, double scale, double *wanted, d
 // tetrahedra follows from.
 double cw_domain_tet_integral(const CwDomain *domain, double scale);
 
+// What `least_regions` of the case comes to in a domain of so many predicted cells.
+int cw_domain_least_regions(const CwCase *table, double cells);
+
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
 // the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan;
 // CW_RETRY where none can be had.

@@ -264,6 +264,14 @@ done:
   return status;
 }
 
+static void warn_of_few_cells(const CwMeshRun *run, int d) {
+  double cells = cw_predicted_cells(run, d);
+  int asked = run->table->mesh.least_regions, least = cw_domain_least_regions(run->table, cells);
+  if (least == asked) return;
+  cw_log_warn("%s: mesh.least_regions is %d, %d are taken: its %.0f predicted cells are too few for more",
+              run->domain[d].name, asked, least, cells);
+}
+
 static CwStatus plan_side(void *context, int32_t d) {
   return plan_domain(context, d);
 }
@@ -307,6 +315,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   cw_progress_end();
   for (int d = 0; d < run->domains.count; d++) {
     if (outcome[d] == CW_RETRY) CW_TRY(plan_whole(run, d));
+    warn_of_few_cells(run, d);
     log_plan(run, d);
   }
   if (run->rank == 0) {

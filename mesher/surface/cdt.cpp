@@ -45,8 +45,8 @@ Pair sorted_pair(int32_t a, int32_t b) {
 
 // The place of a point for messages: mm, and (u,v).
 #define PLACE "(%.6g, %.6g, %.6g) mm, (u,v) = (%.9g, %.9g)"
-// What helps where edges are too long for what they go round.
-#define ADVICE "; ask for more cells, or for fewer regions"
+// What helps where edges are too long for what they go round, or cuts leave the layers no room.
+#define ADVICE "; ask for more cells, for fewer regions or for thinner layers"
 #define PLACE_OF(p) 1e3 * input->x[p][0], 1e3 * input->x[p][1], 1e3 * input->x[p][2], input->uv[p][0], input->uv[p][1]
 
 CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {

@@ -134,7 +134,9 @@ class BadInput(unittest.TestCase):
         run = with_geometry("many-regions")
         case = run / "case.yaml"
         case.write_text(PAPER.read_text().replace("\nmesh:", "\nmesh:\n  least_regions: 1000", 1))
-        done(self, "mesh", run, case=case, cells=60000, ranks=2)
+        warned = [line for line in done(self, "mesh", run, case=case, cells=60000, ranks=2).stdout.splitlines()
+                  if "mesh.least_regions is 1000" in line]
+        self.assertEqual(len(warned), 2, "a line for each domain")
         for domain in record(run, "mesh")["results"]["domains"]:
             self.assertGreaterEqual(domain["regions"], 4)
             self.assertLessEqual(domain["regions"], 12 + 6, "one for 5000 cells, and a whole one in each passage")
