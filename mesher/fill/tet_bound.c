@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mesher/common/quality.h"
 #include "mesher/common/vec.h"
 
 // The edge of the neighbour at each edge, as 3 * triangle + edge; -1 where there is not just one. Edges stand in lists
@@ -52,42 +51,20 @@ static void normal_of(const CwFillInput *boundary, int32_t t, double n[3]) {
   cw_cross(u, v, n);
 }
 
-// Inner angle at an edge between two triangles with these normals, degrees; 90 where it is more.
-static double inner_angle(const double from[3], const double to[3], const double m[3], const double n[3]) {
-  double turn[3], along[3], cosine = cw_dot(m, n);
-  if (cosine >= 0.0) return 90.0;
-  cw_sub(to, from, along);
-  cw_cross(m, n, turn);
-  double sine = cw_dot(turn, along) / cw_norm(along); // above 0 where the boundary bends away from its normals
-  return sine > 0.0 ? 180.0 - atan2(sine, cosine) / CW_DEGREE : 90.0;
-}
-
 // Bound of the tetrahedron on a triangle; anything not below `least` where it is none of the worst.
 static double bound_of(const CwFillInput *boundary, const double (*normal)[3], int32_t t, const int32_t neighbour[3],
                        double least) {
-  const int32_t *corner = boundary->triangle[t];
   const double(*at)[3] = boundary->x;
-  double angle[3], best = CW_TET_BOUND_MOST;
+  const double *corner[3];
+  CwBoundSide side[3];
+  for (int e = 0; e < 3; e++) corner[e] = at[boundary->triangle[t][e]];
   for (int e = 0; e < 3; e++) {
-    const double *from = at[corner[e]], *to = at[corner[(e + 1) % 3]];
-    angle[e] = neighbour[e] >= 0 ? inner_angle(from, to, normal[t], normal[neighbour[e] / 3]) : 90.0;
-    best = fmin(best, 0.5 * angle[e]);
-  }
-  for (int e = 0; e < 3 && best < least; e++) {
+    side[e] = (CwBoundSide){.angle = 90.0, .apex = -1};
     if (neighbour[e] < 0) continue;
-    int32_t apex = boundary->triangle[neighbour[e] / 3][(neighbour[e] + 2) % 3];
-    // The normal points outward: (c - a) x (b - a) towards the fourth corner.
-    const double *x[4] = {at[corner[0]], at[corner[2]], at[corner[1]], at[apex]};
-    CwTetShape shape;
-    cw_tet_shape(x, &shape);
-    double single = shape.dihedral_least;
-    for (int k = 0; k < 3; k++) {
-      int shared = neighbour[k] >= 0 && boundary->triangle[neighbour[k] / 3][(neighbour[k] + 2) % 3] == apex;
-      if (!shared) single = fmin(single, 0.5 * angle[k]);
-    }
-    best = fmax(best, single);
+    int32_t other = neighbour[e] / 3, apex = boundary->triangle[other][(neighbour[e] + 2) % 3];
+    side[e] = (CwBoundSide){cw_inner_angle(corner[e], corner[(e + 1) % 3], normal[t], normal[other]), apex, at[apex]};
   }
-  return best;
+  return cw_triangle_bound(corner, side, least);
 }
 
 CwStatus cw_tet_bound(const CwFillInput *boundary, double *degrees, int32_t *worst) {

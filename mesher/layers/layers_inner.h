@@ -145,8 +145,11 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
 // more than `floor` where one is no better, not looking at the others. *first: which of them is looked at first, and
 // then the one that was the worst: most other directions fail there too.
 double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first);
+// How good the column of v is, as cw_layers_around.
+typedef double (*CwLayerJudge)(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor,
+                               int32_t *first);
 // Tries directions of the column of v near the present one; keeps the best.
-void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3]);
+void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3], CwLayerJudge judge);
 
 // layers_repair.c: makes prisms and front valid; fills `front`.
 // Takes the tree of walls and obstacles over.

@@ -243,7 +243,7 @@ static CwStatus turn_group(void *context, int32_t group, void **bytes, int64_t *
   for (int32_t i = 0; i < count; i++) {
     int32_t v = groups->vertex[first + i];
     memcpy(made[i].front, front[v], sizeof *front);
-    cw_layers_turn(work, v, front);
+    cw_layers_turn(work, v, front, cw_layers_around);
     made[i].changed = memcmp(made[i].front, front[v], sizeof *front) != 0;
     memcpy(made[i].front, front[v], sizeof *front);
     memcpy(made[i].column, work->column[v], sizeof made[i].column);

@@ -51,13 +51,13 @@ double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front
   return quality;
 }
 
-void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
+void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3], CwLayerJudge judge) {
   const CwLayerInput *in = work->in;
   const double step[2] = {0.25, 0.1};
   int guides = in->guide_count ? in->guide_count[v] : 0;
   if (guides == 2) return;
   int32_t first = 0;
-  double best = cw_layers_around(work, v, (const double(*)[3])front, -INFINITY, &first), kept[3], column[3];
+  double best = judge(work, v, (const double(*)[3])front, -INFINITY, &first), kept[3], column[3];
   double least_cosine = fmin(LEAST_COSINE, 0.9 * work->base_cos[v]);
   memcpy(kept, front[v], sizeof kept);
   memcpy(column, work->column[v], sizeof column);
@@ -85,7 +85,7 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3]) {
       if (cosine < least_cosine) continue;
       for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);
       cw_layers_place(work, v, front[v]);
-      double quality = cw_layers_around(work, v, (const double(*)[3])front, best, &first);
+      double quality = judge(work, v, (const double(*)[3])front, best, &first);
       if (quality > best) {
         best = quality;
         memcpy(kept, front[v], sizeof kept);

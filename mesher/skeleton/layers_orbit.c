@@ -7,6 +7,7 @@
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/ledger.h"
 #include "mesher/skeleton/orbit_skeleton.h"
+#include "mesher/skeleton/wall_part.h"
 #include "pipeline/log.h"
 
 enum { ROUNDS = 20, SWEEPS = 2 }; // of thinning; over the seams, to choose their columns
@@ -20,30 +21,13 @@ static const double SAME = 1e-9; // m: fronts that differ less are the same
 typedef struct {
   const CwSkeleton *skeleton;
   const CwLayerInput *whole;
-  CwLayerInput in;
-  uint8_t *is_first;       // of each point of the whole: on a face that is the first of its orbit
-  int32_t *global, *local; // of each point of the part; of the whole, -1: not in it
-  double (*x)[3], *target, *least, (*guide_normal)[2][3];
-  int32_t (*triangle)[3], *guide_count;
-  uint8_t *guide_stays;
+  uint8_t *is_first; // of each point of the whole: on a face that is the first of its orbit
+  CwWallPart wall;
 } Part;
 
 static void part_free(Part *part) {
   free(part->is_first);
-  free(part->global);
-  free(part->local);
-  free(part->x);
-  free(part->target);
-  free(part->least);
-  free(part->guide_normal);
-  free(part->triangle);
-  free(part->guide_count);
-  free(part->guide_stays);
-}
-
-static void snap(const void *context, int32_t vertex, double x[3]) {
-  const Part *part = context;
-  part->whole->snap(part->whole->snap_context, part->global[vertex], x);
+  cw_wall_part_free(&part->wall);
 }
 
 // The first ones.
@@ -122,69 +106,22 @@ done:
 
 static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole, Part *part) {
   CwStatus status = CW_OK;
-  int32_t points = 0, triangles = 0;
   uint8_t *near = NULL;
   part->skeleton = skeleton;
   part->whole = whole;
   CW_NEW(near, whole->point_count);
   CW_NEW(part->is_first, whole->point_count);
   CW_TRY(mark_near(skeleton, whole, part->is_first, near));
-  CW_NEW(part->global, whole->point_count);
-  CW_NEW(part->local, whole->point_count);
-  CW_NEW(part->triangle, whole->triangle_count);
-  for (int32_t v = 0; v < whole->point_count; v++) part->local[v] = -1;
-  for (int32_t t = 0; t < whole->triangle_count; t++) {
-    const int32_t *corner = whole->triangle[t];
-    if (!near[corner[0]] && !near[corner[1]] && !near[corner[2]]) continue;
-    for (int k = 0; k < 3; k++) {
-      if (part->local[corner[k]] < 0) {
-        part->global[points] = corner[k];
-        part->local[corner[k]] = points++;
-      }
-      part->triangle[triangles][k] = part->local[corner[k]];
-    }
-    triangles++;
-  }
-  CW_NEW(part->x, points);
-  CW_NEW(part->target, points);
-  if (whole->least) {
-    CW_NEW(part->least, points);
-  }
-  CW_NEW(part->guide_count, points);
-  CW_NEW(part->guide_normal, points);
-  CW_NEW(part->guide_stays, points);
-  for (int32_t i = 0; i < points; i++) {
-    int32_t v = part->global[i];
-    memcpy(part->x[i], whole->x[v], sizeof *part->x);
-    part->target[i] = whole->target[v];
-    if (whole->least) part->least[i] = whole->least[v];
-    part->guide_count[i] = whole->guide_count[v];
-    memcpy(part->guide_normal[i], whole->guide_normal[v], sizeof *part->guide_normal);
-    part->guide_stays[i] = whole->guide_stays[v];
-  }
-  part->in = *whole;
-  part->in.point_count = points;
-  part->in.x = (const double(*)[3])part->x;
-  part->in.triangle_count = triangles;
-  part->in.triangle = (const int32_t(*)[3])part->triangle;
-  part->in.target = part->target;
-  part->in.least = part->least;
-  part->in.guide_count = part->guide_count;
-  part->in.guide_normal = (const double(*)[2][3])part->guide_normal;
-  part->in.guide_stays = part->guide_stays;
-  part->in.snap = snap;
-  part->in.snap_context = part;
+  CW_TRY(cw_wall_part_make(whole, near, &part->wall));
 done:
   free(near);
   return status;
 }
 
-// The first of the members of the orbit of v that are on first faces.
-static int32_t first_member(const Part *part, int32_t v) {
-  const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
-  int32_t first = part->is_first[v] ? v : -1;
+int32_t cw_orbit_first_member(const CwSkeletonOrbits *orbits, const uint8_t *is_first, int32_t v) {
+  int32_t first = is_first[v] ? v : -1;
   for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
-    if (part->is_first[at] && (first < 0 || at < first)) first = at;
+    if (is_first[at] && (first < 0 || at < first)) first = at;
   }
   return first;
 }
@@ -196,8 +133,8 @@ static void turn_from(const Part *part, const CwLayers *made, int32_t from, int3
   int32_t at = v, turns = 0;
   do {
     cw_orbit_point(orbits, turns++, end, layers->front[at]);
-    layers->height[at] = made->height[part->local[from]];
-    layers->reason[at] = made->reason[part->local[from]];
+    layers->height[at] = made->height[part->wall.local[from]];
+    layers->reason[at] = made->reason[part->wall.local[from]];
     at = cw_orbit_node(orbits, at, 1);
   } while (at >= 0 && at != v);
 }
@@ -211,7 +148,7 @@ static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers)
   CW_NEW(placed, part->whole->point_count);
   for (int32_t v = 0; v < part->whole->point_count; v++) {
     if (!part->is_first[v] || placed[v]) continue;
-    turn_from(part, made, v, v, made->front[part->local[v]], layers);
+    turn_from(part, made, v, v, made->front[part->wall.local[v]], layers);
     int32_t at = v;
     do {
       placed[at] = 1;
@@ -231,7 +168,7 @@ static double place_orbit(const Part *part, const CwLayerWork *work, int32_t v, 
   for (int around = 0; around < 2; around++) { // all are placed before prisms are looked at
     int32_t at = v, turns = 0;
     do {
-      int32_t local = part->local[at], first = 0;
+      int32_t local = part->wall.local[at], first = 0;
       if (!around && local >= 0) cw_orbit_point(orbits, turns, end, front[local]);
       if (around && part->is_first[at]) {
         least = fmin(least, cw_layers_around(work, local, (const double(*)[3])front, -INFINITY, &first));
@@ -251,22 +188,23 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
   int32_t count = orbits->symmetry ? orbits->symmetry->count : 1;
   CwIncident incident = {0};
   double(*front)[3] = NULL;
-  CW_TRY(cw_incident_make(part->in.point_count, part->in.triangle_count, part->in.triangle, &incident));
+  CW_TRY(cw_incident_make(part->wall.in.point_count, part->wall.in.triangle_count, part->wall.in.triangle, &incident));
   CwLayerWork work = {
-      .in = &part->in, .n = part->in.point_count, .face_start = incident.start, .face = incident.triangle};
-  CW_NEW_UNSET(front, part->in.point_count);
-  for (int32_t i = 0; i < part->in.point_count; i++) memcpy(front[i], layers->front[part->global[i]], sizeof *front);
+      .in = &part->wall.in, .n = part->wall.in.point_count, .face_start = incident.start, .face = incident.triangle};
+  CW_NEW_UNSET(front, part->wall.in.point_count);
+  for (int32_t i = 0; i < part->wall.in.point_count; i++)
+    memcpy(front[i], layers->front[part->wall.global[i]], sizeof *front);
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     for (int32_t v = 0; v < part->whole->point_count; v++) {
-      if (!part->is_first[v] || first_member(part, v) != v) continue;
-      const double *own = made->front[part->local[v]];
+      if (!part->is_first[v] || cw_orbit_first_member(orbits, part->is_first, v) != v) continue;
+      const double *own = made->front[part->wall.local[v]];
       double best = -INFINITY, kept[3], end[3];
       int32_t from = v, turns = 0;
       memcpy(kept, layers->front[v], sizeof kept);
       for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
         turns++;
         if (!part->is_first[at]) continue;
-        cw_orbit_point(orbits, count - turns, made->front[part->local[at]], end);
+        cw_orbit_point(orbits, count - turns, made->front[part->wall.local[at]], end);
         if (distance3(end, own) < SAME) continue;
         if (best == -INFINITY) best = place_orbit(part, &work, v, kept, front);
         for (int k = 0; k < 2; k++) {
@@ -291,7 +229,7 @@ done:
 }
 
 static void mark(const Part *part, int32_t triangle, uint8_t *bad) {
-  for (int k = 0; k < 3; k++) bad[part->global[part->in.triangle[triangle][k]]] = 1;
+  for (int k = 0; k < 3; k++) bad[part->wall.global[part->wall.in.triangle[triangle][k]]] = 1;
 }
 
 // The part with the columns as they were spread.
@@ -312,11 +250,11 @@ typedef struct {
 
 static CwStatus check_triangle(void *context, int32_t f, void *out) {
   const Spread *spread = context;
-  const int32_t *corner = spread->part->in.triangle[f];
+  const int32_t *corner = spread->part->wall.in.triangle[f];
   Checked *made = out;
   int beside = 0, changed = 0;
   for (int k = 0; k < 3; k++) {
-    beside |= spread->part->is_first[spread->part->global[corner[k]]];
+    beside |= spread->part->is_first[spread->part->wall.global[corner[k]]];
     changed |= spread->moved[corner[k]];
   }
   for (int k = 0; k < 3 && beside; k++) made->off = fmax(made->off, spread->off[corner[k]]);
@@ -330,7 +268,7 @@ static CwStatus check_triangle(void *context, int32_t f, void *out) {
 static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *layers, double least, uint8_t *bad,
                       int32_t *bad_count) {
   CwStatus status = CW_OK;
-  const CwLayerInput *in = &part->in;
+  const CwLayerInput *in = &part->wall.in;
   Spread spread = {.part = part, .work = {.in = in, .n = in->point_count}, .least = least};
   CwLayerCrossing crossing = {0};
   Checked *checked = NULL;
@@ -342,7 +280,7 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
   CW_NEW_UNSET(spread.moved, in->point_count);
   CW_NEW_UNSET(checked, in->triangle_count);
   for (int32_t i = 0; i < in->point_count; i++) {
-    memcpy(spread.front[i], layers->front[part->global[i]], sizeof *spread.front);
+    memcpy(spread.front[i], layers->front[part->wall.global[i]], sizeof *spread.front);
     spread.off[i] = distance3(spread.front[i], made->front[i]);
     spread.moved[i] = spread.off[i] >= SAME;
   }
@@ -378,7 +316,7 @@ done:
 static void lower(const Part *part, int32_t v, double height, CwLayers *layers, uint8_t *lowered) {
   const CwLayerInput *whole = part->whole;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
-  int32_t first = first_member(part, v);
+  int32_t first = cw_orbit_first_member(orbits, part->is_first, v);
   double *end = layers->front[first], share = height / layers->height[first];
   for (int k = 0; k < 3; k++) end[k] = whole->x[first][k] + share * (end[k] - whole->x[first][k]);
   if (whole->guide_count[first]) whole->snap(whole->snap_context, first, end);
@@ -404,10 +342,10 @@ static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
   }
   for (int again = 1; again;) {
     again = 0;
-    for (int32_t f = 0; f < part->in.triangle_count; f++) {
-      const int32_t *corner = part->in.triangle[f];
+    for (int32_t f = 0; f < part->wall.in.triangle_count; f++) {
+      const int32_t *corner = part->wall.in.triangle[f];
       for (int k = 0; k < 6; k++) { // either way along each edge
-        int32_t v = part->global[corner[k / 2]], w = part->global[corner[(k / 2 + 1 + k % 2) % 3]];
+        int32_t v = part->wall.global[corner[k / 2]], w = part->wall.global[corner[(k / 2 + 1 + k % 2) % 3]];
         if (!lowered[v]) continue;
         double most = layers->height[v] + SLOPE * distance3(whole->x[v], whole->x[w]);
         if (layers->height[w] <= most) continue;
@@ -434,7 +372,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   CW_NEW(bad, input->point_count);
   cw_ledger_part("layers: copies");
   CW_TRY(part_make(skeleton, input, &part));
-  CW_TRY(cw_layers_make(&part.in, &made));
+  CW_TRY(cw_layers_make(&part.wall.in, &made));
   cw_ledger_part("layers: copies");
   CW_TRY(spread(&part, &made, layers));
   CW_TRY(choose(&part, &made, layers));

@@ -20,6 +20,9 @@ CwStatus cw_orbit_outlines(CwSkeleton *skeleton);
 // or no column leaves the wall on a plane.
 CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers);
 
+// The least of the members of the orbit of wall vertex v that are on first faces (is_first), -1 where none is.
+int32_t cw_orbit_first_member(const CwSkeletonOrbits *orbits, const uint8_t *is_first, int32_t v);
+
 // Makes the wall triangles that are copies anew, from those that they are copies of.
 void cw_orbit_copy_triangles(CwSkeleton *skeleton);
 

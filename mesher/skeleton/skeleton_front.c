@@ -9,6 +9,7 @@
 #include "mesher/layers/layers.h"
 #include "mesher/layers/wall_unfold.h"
 #include "mesher/parallel/ledger.h"
+#include "mesher/skeleton/front_open.h"
 #include "mesher/skeleton/orbit_skeleton.h"
 #include "mesher/skeleton/skeleton.h"
 #include "pipeline/log.h"
@@ -185,7 +186,7 @@ done:
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
                           const double *least, int layer_count) {
   CwStatus status = CW_OK;
-  int32_t n = skeleton->wall_count, caps = 0;
+  int32_t n = skeleton->wall_count, caps = 0, opened;
   int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
   double(*guide_normal)[2][3] = NULL;
   uint8_t *guide_stays = NULL;
@@ -230,6 +231,8 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   layers = (CwLayers){0};
   cw_ledger_part("layers: front flipped");
   CW_TRY(flip_front(skeleton, group, &mesh));
+  cw_ledger_part("layers: grooves");
+  CW_TRY(cw_front_open(skeleton, &input, &opened));
 done:
   free(mesh.near);
   free(group);
