@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Compares the patch mesher with gmsh (frontal, Delaunay) on a flat square, uniform and graded, on one core.
 
-Use, from the top of the source: tests/bench/patch_mesh.py BUILD_DIR [EDGE_LENGTH ...]
-"""
+patch_mesh.py [--build build] [EDGE_LENGTH ...]"""
+import argparse
 import math
 import re
 import shutil
@@ -62,17 +62,19 @@ def run_gmsh(folder, title, algorithm, length, graded):
 
 
 def main():
-    build = Path(sys.argv[1] if len(sys.argv) > 1 else SOURCE / "build")
-    lengths = [float(word) for word in sys.argv[2:]] or [0.01, 0.003]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("lengths", nargs="*", type=float, default=[0.01, 0.003], metavar="EDGE_LENGTH")
+    parser.add_argument("--build", type=Path, default=SOURCE / "build")
+    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         program = folder / "patch_mesh"
         subprocess.run(["cc", "-std=gnu11", "-O2", f"-I{SOURCE}", str(SOURCE / "tests/bench/patch_mesh.c"),
-                        "-o", str(program), str(build / "mesher/libcutwater_mesher_room.a"),
-                        str(build / "pipeline/libcutwater_pipeline.a"), "-lstdc++", "-lgmp", "-lmpfr", "-lm"],
+                        "-o", str(program), str(options.build / "mesher/libcutwater_mesher_room.a"),
+                        str(options.build / "pipeline/libcutwater_pipeline.a"), "-lstdc++", "-lgmp", "-lmpfr", "-lm"],
                        check=True)
         for graded in (0, 1):
-            for length in lengths:
+            for length in options.lengths:
                 print(f"{'graded' if graded else 'uniform'} square, edge length {length}\n"
                       f"{'':24s} {'triangles':>9s} {'per second':>12s} {'least':>6s} {'1 %':>6s} "
                       f"{'mean':>6s}  (least angle)")
