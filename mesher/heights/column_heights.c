@@ -12,7 +12,7 @@
 #include "mesher/parallel/share.h"
 
 static const double TALLER_COLUMN = 3.25;   // of the wanted length, where the last layer would else be below LOW_LAST
-static const double TALLEST_AT_BEND = 2;    // the same and that of all where the wall bends: there columns crowd
+static const double TALLEST_AT_BEND = 2;    // the same and that of all where the wall bends up: there columns crowd
 static const double BEND = 0.94;            // least cosine of the normals about a vertex of a wall as good as flat
 static const double HOLLOW = 0.25;          // least rise of an edge over its length at a bend that is concave
 static const double LAST_LAYER = 1.0;       // its height over that of a regular tetrahedron above, at most
@@ -121,7 +121,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   const double *x = skeleton->wall_x[v];
   if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
   Bend bend = bend_at(skeleton, columns->around, v);
-  int bent = bend.cosine < BEND;
+  int bent = bend.cosine < BEND, crowded = bent && bend.rise > 0;
   double size = size_at(skeleton, x), height = 0, last = LAST_LAYER;
   if (bent && bend.rise > HOLLOW) {
     int fine = cw_column_height_least(heights->first_height[v], heights->layer_count) < FINE * size;
@@ -132,7 +132,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
     for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend.normal[k];
     double above = fmin(fmax(size, size_at(skeleton, end)), size + HEIGHT_SLOPE * height);
     height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last,
-                         bent ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, bent ? TALLEST_AT_BEND : TALLER_COLUMN);
+                         crowded ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, crowded ? TALLEST_AT_BEND : TALLER_COLUMN);
   }
   *(double *)out = fmin(heights->target[v], height);
   return CW_OK;

@@ -114,9 +114,10 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
   free_wall(&wall, &heights);
 }
 
-// A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below a hollow.
-static double roof_height(double size, int fluid_above) {
-  double x[5][3] = {{0, 0, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 0, -1}, {1, 0, -1}};
+// A roof whose two planes fall by 45 degrees, seen at the middle of its ridge: with fluid below a hollow. One end of
+// the ridge lies higher by `lift`.
+static double roof_height(double size, int fluid_above, double lift) {
+  double x[5][3] = {{0, 0, 0}, {0, -1, lift}, {0, 1, 0}, {-1, 0, -1}, {1, 0, -1}};
   int32_t triangle[4][3] = {{1, 4, 0}, {0, 4, 2}, {2, 3, 0}, {0, 3, 1}}, face[4] = {0};
   Wall wall;
   CwColumnHeights heights = {0};
@@ -133,12 +134,13 @@ static double roof_height(double size, int fluid_above) {
 
 static void bends_of_the_wall(void **state) {
   // In the hollow the last layer is 0.65 cos 45 of the tetrahedron: 2.25, after 1 and 1.5.
-  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 0), 4.75);
+  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 0, 0), 4.75);
   // 0.8 cos 45 where three even layers are lower than half a length: 3.61, after 1 and 1.9.
-  NEAR(roof_height(3.61 / (0.8 * sqrt(0.5) * 0.816), 0), 6.51);
-  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 1), 7);
-  NEAR(roof_height(2.25 / 0.816, 1), 4.75);
-  NEAR(roof_height(1.8, 1), 3.6); // no taller than two wanted lengths
+  NEAR(roof_height(3.61 / (0.8 * sqrt(0.5) * 0.816), 0, 0), 6.51);
+  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 1, 0), 7);
+  NEAR(roof_height(2.25 / 0.816, 1, 0), 4.75);
+  NEAR(roof_height(1.8, 1, 0), 1 + sqrt(1.8 * 0.816) + 1.8 * 0.816); // columns part: up to 2.5 wanted lengths
+  NEAR(roof_height(1.8, 1, 0.1), 3.6); // no taller than two where the wall rises to one side
 }
 
 static void a_vertex_without_triangle_is_an_error(void **state) {
