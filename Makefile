@@ -4,7 +4,7 @@
 #   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
 #   make check                               the quick tests, with everything they need
 #   make check-long                          the long ones
-#   make check-sanitized                     the quick ones of single modules, under sanitizers, in build/sanitized
+#   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
 #   make -C cases NAME                       another case; `make -C cases` lists them
 #   make clean                               removes build/ (runs/ stays)
 #
@@ -30,7 +30,7 @@ check check-long:
 	  --output-junit $(BUILD)/$@.xml; python3 $(ROOT)/tests/tally.py $@ $(BUILD)/$@.xml; }
 check-sanitized:
 	@$(MAKE) --no-print-directory check BUILD=$(BUILD)/sanitized OPTIONS=-DCUTWATER_SANITIZE=ON \
-	  CHOICE='-L quick -R /test_'
+	  CHOICE='-L quick -R "/test_|^run/quick$$$$"'
 
 clean:
 	@rm -rf $(BUILD)
