@@ -297,23 +297,24 @@ static int32_t region_at(const void *plan, const double x[3]) {
   return cw_plan_locate(plan, x);
 }
 
-// Meshes a CAD face inside an outline; the label of each triangle is its region.
-static CwStatus mesh_face(const CwSkeleton *skeleton, int32_t face, const CwPatchOutline *outline, void **bytes,
+// Meshes a CAD face inside its outline; the label of each triangle is its region.
+static CwStatus mesh_face(const CwSkeleton *skeleton, int32_t face,
+                          CwStatus (*outline_of)(const CwSkeleton *, int32_t, CwPatchOutline *), void **bytes,
                           int64_t *size) {
-  FaceMap map = {skeleton->cad, face};
-  return cw_patch_task(outline, face_map, &map, skeleton->size_at, skeleton->size,
-                       cw_cad_face_reversed(skeleton->cad, face), region_at, skeleton->plan,
-                       cw_cad_face_name(skeleton->cad, face), bytes, size);
-}
-
-CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  CW_TRY(wall_outline(skeleton, face, &outline));
-  CW_TRY(mesh_face(skeleton, face, &outline, bytes, size));
+  FaceMap map = {skeleton->cad, face};
+  CW_TRY(outline_of(skeleton, face, &outline));
+  CW_TRY(cw_patch_task(&outline, face_map, &map, skeleton->size_at, skeleton->size,
+                       cw_cad_face_reversed(skeleton->cad, face), region_at, skeleton->plan,
+                       cw_cad_face_name(skeleton->cad, face), bytes, size));
 done:
   cw_outline_free(&outline);
   return status;
+}
+
+CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
+  return mesh_face(skeleton, face, wall_outline, bytes, size);
 }
 
 // No triangle may reach over a dividing plane: then a cut curve is missing. Turned copies are as their first.
@@ -463,11 +464,5 @@ done:
 }
 
 CwStatus cw_skeleton_mesh_cap(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
-  CwStatus status = CW_OK;
-  CwPatchOutline outline = {0};
-  CW_TRY(cap_outline(skeleton, face, &outline));
-  CW_TRY(mesh_face(skeleton, face, &outline, bytes, size));
-done:
-  cw_outline_free(&outline);
-  return status;
+  return mesh_face(skeleton, face, cap_outline, bytes, size);
 }
