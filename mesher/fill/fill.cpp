@@ -189,6 +189,7 @@ done:
 CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
   CwTetImproved improved;
+  uint8_t *on_plane = nullptr;
   CwFillInput away = *input;
   away.inner = nullptr;
   away.open_count = away.row_count = 0;
@@ -204,7 +205,8 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     if (status == CW_ERR_MESH) status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }
   if (status != CW_OK) goto done;
-  CW_TRY(cw_tet_improve(input->point_count, fill, &improved));
+  CW_TRY(cw_fill_on_planes(input, input->point_count, &on_plane));
+  CW_TRY(cw_tet_improve(input->point_count, on_plane, fill, &improved));
   fill->way.tetgen = 1;
   cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d removed, %d added, least sine "
                "%.3g to %.3g",
@@ -212,6 +214,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
                improved.points_moved, improved.points_removed, improved.points_added, improved.least_before,
                improved.least_after);
 done:
+  free(on_plane);
   if (status != CW_OK) cw_fill_free(fill);
   return status;
 }

@@ -202,6 +202,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwSplits splits = {0};
   CwTetImproved improved;
   CwFillWay way = {0};
+  uint8_t *on_plane = NULL;
   int32_t count = 0, raised = 0;
   int good = 1;
   memset(fill, 0, sizeof *fill);
@@ -217,7 +218,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   give_back();
   if (splits.count) {
     // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
-    CW_TRY(cw_tet_improve_mesh(&mesh, count, &count, &improved));
+    CW_TRY(cw_tet_improve_mesh(&mesh, count, NULL, &count, &improved));
     CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
     CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
   }
@@ -226,9 +227,10 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
     status = CW_RETRY;
     goto done;
   }
-  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
+  CW_TRY(cw_fill_on_planes(input, core.fixed_count, &on_plane));
+  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &improved));
   CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
-  if (raised) CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, &count, &improved));
+  if (raised) CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &improved));
   CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
   cw_log_debug("%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
@@ -238,6 +240,7 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
                improved.points_moved, improved.points_removed, improved.points_added, improved.least_before,
                improved.least_after);
 done:
+  free(on_plane);
   cw_splits_free(&splits);
   cw_facets_free(&facets);
   cw_kernel_core_free(&core);

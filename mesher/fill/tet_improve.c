@@ -156,11 +156,13 @@ done:
   return status;
 }
 
-CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count, CwTetImproved *improved) {
+CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, const uint8_t *on_plane, int32_t *source_count,
+                             CwTetImproved *improved) {
   CwStatus status = CW_OK;
   CwTetWork w = {.flips = {.mesh = mesh},
                  .mesh = mesh,
                  .fixed_count = fixed_count,
+                 .on_plane = on_plane,
                  .source_count = *source_count,
                  .limit = CW_TET_IMPROVE,
                  .insert = insert_limit,
@@ -184,14 +186,14 @@ done:
   return status;
 }
 
-CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improved) {
+CwStatus cw_tet_improve(int32_t fixed_count, const uint8_t *on_plane, CwFill *fill, CwTetImproved *improved) {
   CwStatus status = CW_OK;
   CwDelaunay mesh;
   int32_t count = fill->point_count;
   status = cw_tet_mesh_make(fill, &mesh);
   cw_fill_free(fill);
   CW_TRY(status);
-  CW_TRY(cw_tet_improve_mesh(&mesh, fixed_count, &count, improved));
+  CW_TRY(cw_tet_improve_mesh(&mesh, fixed_count, on_plane, &count, improved));
   CW_TRY(cw_tet_mesh_take(&mesh, fixed_count, count, fill));
 done:
   cw_delaunay_free(&mesh);

@@ -22,13 +22,15 @@ typedef struct {
 } CwTetImproved;
 
 // All tetrahedra of *mesh are inside; their faces on the boundary have no neighbour. Points that come from
-// the first `fixed_count` given ones stay. New points have sources from *source_count on, which is counted
-// up. The least quality round any place never falls. Deterministic. `improved` may be NULL.
-CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, int32_t *source_count, CwTetImproved *improved);
+// the first `fixed_count` given ones stay; `on_plane`, of each of these 1 where it lies on a dividing plane, may be
+// NULL. New points have sources from *source_count on, which is counted up. The least quality round any place never
+// falls. Deterministic. `improved` may be NULL.
+CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, const uint8_t *on_plane, int32_t *source_count,
+                             CwTetImproved *improved);
 
 // The same for a fill whose first `fixed_count` points are those of the boundary. Where it fails *fill is
 // empty.
-CwStatus cw_tet_improve(int32_t fixed_count, CwFill *fill, CwTetImproved *improved);
+CwStatus cw_tet_improve(int32_t fixed_count, const uint8_t *on_plane, CwFill *fill, CwTetImproved *improved);
 
 #ifdef __cplusplus
 }

@@ -14,14 +14,17 @@ static const float regular = 0.8f;        // a point stays where all round it ar
 static const double unsure = 1e-3;        // of a quality in single precision, by far
 static const double blurred = 1e-4;       // of the extent of all: edges for which single precision will not do
 static const float pull = 0.25f;          // of an edge
+static const double beside_plane = 2.0;   // weight of tetrahedra beside dividing planes, when edges are made even
 enum { SHARPNESS = 4 };                   // squarings, by which edges that are not quite the extreme ones count less
+enum { BESIDE_EVENINGS = 2 };             // further steps of the points next to those planes
 enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
+enum { ON_PLANE = 4, BESIDE = 8 };        // a fixed point on a dividing plane; a free one of its tetrahedra
 enum { BLOCK = 128, PAD = 3 };            // tetrahedra that are looked for together; room behind a list
 
 // Four tetrahedra side by side in single precision, which is enough for where points should go and for what is well
-// shaped: the ways from their first corners to the others, by corner and coordinate.
+// shaped: the ways from their first corners to the others, by corner and coordinate, and their weights.
 typedef struct {
-  CwFour arm[3][4];
+  CwFour arm[3][4], weight;
 } Group;
 
 static inline CwFour place_of(const CwTetWork *w, const double x[3]) {
@@ -50,6 +53,7 @@ static inline void take_group(const CwTetWork *w, const int32_t list[4], Group *
     const int32_t *corner = tet->corner;
     __builtin_prefetch(tet + BLOCK, 1); // of the next block, while this one is reckoned with
     CwFour from = w->place[corner[0]];
+    g->weight[k] = (float)tet->centre[2];
     for (int c = 0; c < 3; c++) g->arm[c][k] = w->place[corner[c + 1]] - from;
   }
   for (int c = 0; c < 3; c++) cw_four_turn(g->arm[c]);
@@ -65,12 +69,13 @@ static inline int32_t block_end(const CwDelaunay *mesh, int32_t from) {
   return mesh->tet_count - from < BLOCK ? mesh->tet_count : from + BLOCK;
 }
 
-// Marks those of the next BLOCK tetrahedra that have a point to move.
-static inline void mark_moving(CwDelaunay *mesh, int32_t from, const uint8_t *moved) {
+// Marks those of the next BLOCK tetrahedra that have such a point with their weight.
+static inline void mark_moving(CwDelaunay *mesh, int32_t from, const uint8_t *moved, uint8_t which) {
+  const double weight[2] = {1.0, beside_plane};
   for (int32_t t = from, end = block_end(mesh, from); t < end; t++) {
     const int32_t *c = mesh->tet[t].corner, used = ~(c[0] >> 31);
-    uint8_t mark = moved[c[0] & used] | moved[c[1] & used] | moved[c[2] & used] | moved[c[3] & used];
-    mesh->tet[t].centre[2] = (double)(used & (mark != 0));
+    uint8_t any = moved[c[0] & used] | moved[c[1] & used] | moved[c[2] & used] | moved[c[3] & used];
+    mesh->tet[t].centre[2] = (double)(used & ((any & which) != 0)) * weight[(any & ON_PLANE) != 0];
   }
 }
 
@@ -237,19 +242,24 @@ static inline void find_centres(const Group *g, CwFour part[4][4]) {
 }
 
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart;
-// of those nearly as long or short, too, so that points do not go to and fro.
+// of those nearly as long or short, too, so that points do not go to and fro; all that are long count as much together
+// as all that are short: so the logarithm of the ratio falls fastest.
 static inline void find_pulls(const Group *g, CwFour part[4][4]) {
-  CwFour edge[6][3], square[6], step[6], weight[6], way[6], least, most;
+  CwFour edge[6][3], square[6], over[6], in[6], out[6], step[6], weight[6], way[6], least, most;
   find_edges(g, edge, square);
   find_extremes(square, &least, &most);
   CwFourMask sound = least > (float)CW_TET_FLAT * most;
   CwFour longer = 1.0f / most;
   for (int e = 0; e < 6; e++) {
-    CwFour over = 1.0f / square[e], in = longer * square[e], out = least * over;
-    for (int k = 0; k < SHARPNESS; k++) in *= in, out *= out;
-    over = cw_four_if(sound, over);
-    weight[e] = (in + out) * over;
-    step[e] = pull * (in - out) * over;
+    over[e] = 1.0f / square[e], in[e] = longer * square[e], out[e] = least * over[e];
+    for (int k = 0; k < SHARPNESS; k++) in[e] *= in[e], out[e] *= out[e];
+  }
+  CwFour long_share = g->weight / (in[0] + in[1] + in[2] + in[3] + in[4] + in[5]);
+  CwFour short_share = g->weight / (out[0] + out[1] + out[2] + out[3] + out[4] + out[5]);
+  for (int e = 0; e < 6; e++) {
+    over[e] = cw_four_if(sound, over[e]);
+    weight[e] = (long_share * in[e] + short_share * out[e]) * over[e];
+    step[e] = pull * (long_share * in[e] - short_share * out[e]) * over[e];
   }
   for (int i = 0; i < 3; i++) {
     for (int e = 0; e < 6; e++) way[e] = step[e] * edge[e][i];
@@ -264,15 +274,15 @@ static inline void find_pulls(const Group *g, CwFour part[4][4]) {
   part[3][3] = weight[2] + weight[4] + weight[5];
 }
 
-// Moves the marked points at once to the weighted mean of the places that their tetrahedra want them at; these are to
-// be marked before.
+// Moves such points at once to the weighted mean of the places that their tetrahedra want them at; these are to be
+// marked here, or were before.
 static inline void move_all(CwTetWork *w, int mark, void (*find)(const Group *, CwFour[4][4]), const uint8_t *moved,
-                            CwFour *sum) {
+                            uint8_t which, CwFour *sum) {
   CwDelaunay *mesh = w->mesh;
   int32_t list[BLOCK + PAD];
   memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
   for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) {
-    if (mark) mark_moving(mesh, t, moved);
+    if (mark) mark_moving(mesh, t, moved, which);
     int count = list_moving(mesh, t, list);
     for (int from = 0; from < count; from += 4) {
       Group group;
@@ -283,7 +293,8 @@ static inline void move_all(CwTetWork *w, int mark, void (*find)(const Group *, 
     }
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    if (moved[p] && sum[p][3] > 0.0f) w->place[p] += cw_four_if((CwFourMask){-1, -1, -1, 0}, sum[p] / sum[p][3]);
+    if ((moved[p] & which) && sum[p][3] > 0.0f)
+      w->place[p] += cw_four_if((CwFourMask){-1, -1, -1, 0}, sum[p] / sum[p][3]);
   }
 }
 
@@ -319,7 +330,7 @@ static CwStatus take_back(CwTetWork *w, uint8_t *moved) {
       int32_t t = spoilt.tet[--spoilt.count];
       for (int i = 0; i < 4 && is_spoilt(w, t); i++) {
         int32_t point = mesh->tet[t].corner[i];
-        if (moved[point] != MOVED) continue;
+        if (!(moved[point] & MOVED)) continue;
         moved[point] = RETURNED;
         w->count.points_moved--;
         CW_TRY(put_back(w, t, point, &spoilt, &whole));
@@ -329,6 +340,25 @@ static CwStatus take_back(CwTetWork *w, uint8_t *moved) {
 done:
   free(spoilt.tet);
   return status;
+}
+
+// Further steps of the points beside dividing planes alone: there triangles that both sides share hold tetrahedra more
+// than elsewhere.
+static void even_beside_planes(CwTetWork *w, uint8_t *moved, CwFour *sum) {
+  CwDelaunay *mesh = w->mesh;
+  int32_t count = 0;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const int32_t *c = mesh->tet[t].corner;
+    if (c[0] < 0 || !((moved[c[0]] | moved[c[1]] | moved[c[2]] | moved[c[3]]) & ON_PLANE)) continue;
+    for (int i = 0; i < 4; i++) {
+      if (!(moved[c[i]] & MOVED)) continue;
+      moved[c[i]] |= BESIDE;
+      count++;
+    }
+  }
+  if (count == 0) return;
+  for (int k = 0; k < BESIDE_EVENINGS; k++) move_all(w, k == 0, find_pulls, moved, BESIDE, sum);
+  for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) mark_moving(mesh, t, moved, MOVED);
 }
 
 // Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
@@ -343,16 +373,19 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
   CW_NEW(moved, mesh->point_count);
   CW_TRY(set_places(w));
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    moved[p] = w->irregular[p] && mesh->source[p] >= w->fixed_count ? MOVED : 0;
+    int32_t source = mesh->source[p], is_free = source >= w->fixed_count;
+    moved[p] = is_free && w->irregular[p] ? MOVED : 0;
+    if (!is_free && source >= 0 && w->on_plane && w->on_plane[source]) moved[p] = ON_PLANE;
     w->irregular[p] = 0;
-    w->count.points_moved += moved[p];
+    w->count.points_moved += moved[p] == MOVED;
   }
-  move_all(w, 1, find_centres, moved, sum);
-  for (int k = 0; k < evenings; k++) move_all(w, 0, find_pulls, moved, sum);
+  move_all(w, 1, find_centres, moved, MOVED, sum);
+  for (int k = 0; k < evenings; k++) move_all(w, 0, find_pulls, moved, MOVED, sum);
+  if (evenings && w->on_plane) even_beside_planes(w, moved, sum);
   CW_TRY(take_back(w, moved));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double goal[3];
-    if (moved[p] != MOVED) continue;
+    if (!(moved[p] & MOVED)) continue;
     find_goal(w, p, goal);
     memcpy(mesh->point[p].x, goal, sizeof goal);
   }

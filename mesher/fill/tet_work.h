@@ -37,13 +37,14 @@ typedef struct {
 } CwTetList;
 
 // The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it
-// into the list for the next in centre[1], in centre[2] 1 where it was judged last or points of it move, else 0, and
-// the pass in which something changed at a point in the point's mark.
+// into the list for the next in centre[1], in centre[2] its weight where it was judged last or points of it move, else
+// 0, and the pass in which something changed at a point in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
   int32_t fixed_count, source_count;
-  int32_t tet_count; // without free places, when all were judged first
+  const uint8_t *on_plane; // of the fixed points: 1 on a dividing plane; or NULL
+  int32_t tet_count;       // without free places, when all were judged first
   double stamp;
   double limit;                // quality below which tetrahedra are in the list
   double insert, insert_round; // and those for which a new point is tried, and at places round about
@@ -170,8 +171,8 @@ double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough);
 // Pattern search for the point of best least quality from p, which it moves; returns that quality.
 double cw_hollow_best(CwHollow *hollow, double p[3], double start);
 
-// Moves all inner points at once towards even spacing and then, in `evenings` steps, towards even edges; after that
-// every tetrahedron below the limit is in the list.
+// Moves all inner points at once towards even spacing and then, in `evenings` steps, towards even edges, those beside
+// dividing planes more; after that every tetrahedron below the limit is in the list.
 CwStatus cw_tet_relax(CwTetWork *w, int evenings);
 // Goes once over the slender tetrahedra. Three or four round their longest edge are made anew without it where the
 // ratio becomes less in the mean; the least quality of those may fall, to 0.3.

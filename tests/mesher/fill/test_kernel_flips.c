@@ -160,7 +160,7 @@ static void improvement_raises_the_least(void **unused) {
   assert_int_equal(cw_delaunay_make(1000, (const double(*)[3])x, &mesh), CW_OK);
   double six = check(&mesh);
   int32_t sources = 1000;
-  assert_int_equal(cw_tet_improve_mesh(&mesh, 100, &sources, &improved), CW_OK);
+  assert_int_equal(cw_tet_improve_mesh(&mesh, 100, NULL, &sources, &improved), CW_OK);
   assert_true(fabs(check(&mesh) / six - 1.0) < 1e-12);
   assert_true(improved.least_after > improved.least_before);
   assert_true(improved.edges_removed > 100 && improved.points_moved > 100);

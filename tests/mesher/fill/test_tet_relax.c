@@ -99,10 +99,61 @@ static void lattice_stays(void **state) {
   free(x);
 }
 
+// Mean ratio of the longest to the shortest edge of the tetrahedra with a corner on the side x = 0 and a free one, and
+// of the others with a free one.
+static void aspects_beside(int told, double *beside, double *apart) {
+  double(*x)[3], sum[2] = {0, 0};
+  int32_t outside, count = shaken_lattice(8, 0.25, &outside, &x), found[2] = {0, 0};
+  uint8_t *on_plane = calloc((size_t)outside, 1);
+  CwDelaunay mesh;
+  assert_non_null(on_plane);
+  for (int32_t p = 0; p < outside; p++) on_plane[p] = x[p][0] < 0.6;
+  assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
+  CwTetWork w = {.flips = {.mesh = &mesh},
+                 .mesh = &mesh,
+                 .limit = CW_TET_IMPROVE,
+                 .fixed_count = outside,
+                 .source_count = count,
+                 .on_plane = told ? on_plane : NULL};
+  w.irregular = calloc((size_t)mesh.point_count, 1);
+  assert_non_null(w.irregular);
+  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, 1), CW_OK);
+  for (int32_t t = 0; t < mesh.tet_count; t++) {
+    const int32_t *c = mesh.tet[t].corner;
+    int is_beside = 0, is_free = 0;
+    if (c[0] < 0) continue;
+    for (int i = 0; i < 4; i++) {
+      int32_t source = mesh.source[c[i]];
+      is_free |= source >= outside;
+      is_beside |= source < outside && on_plane[source];
+    }
+    if (!is_free) continue;
+    sum[is_beside] += cw_tet_excess(&w, c) + CW_TET_USUAL;
+    found[is_beside]++;
+  }
+  assert_true(found[0] > 2000 && found[1] > 200);
+  *beside = sum[1] / found[1];
+  *apart = sum[0] / found[0];
+  free(on_plane);
+  cw_tet_work_free(&w);
+  cw_delaunay_free(&mesh);
+  free(x);
+}
+
+// Tetrahedra there become better, the others worse by less in all.
+static void tetrahedra_beside_planes_count_more(void **state) {
+  double beside[2], apart[2];
+  for (int told = 0; told < 2; told++) aspects_beside(told, &beside[told], &apart[told]);
+  assert_true(beside[1] < beside[0] - 0.01);
+  assert_true(apart[1] < apart[0] + 0.003);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(shaken_points_become_even),
       cmocka_unit_test(lattice_stays),
+      cmocka_unit_test(tetrahedra_beside_planes_count_more),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
