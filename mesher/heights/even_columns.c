@@ -9,8 +9,11 @@
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/share.h"
 
-static const double LEAST = 1.05 * CW_SMALL_DETERMINANT; // asked for
-static const double STEP = 0.05;                         // of a first height, in a round
+static const double LEAST = 1.05 * CW_SMALL_DETERMINANT;   // asked for
+static const double ENOUGH = 1.005 * CW_SMALL_DETERMINANT; // of columns as even as they may become
+static const double STEP = 0.05;                           // of a first height, in a round
+static const double MORE = 1.09; // of the first height asked, at most: within the tenth that counts as met
+static const double LEAN = 20;   // a right prism of so many times LEAST: columns do not lean so much that it is small
 
 // First height of the column as divided, m; fraction: of its layers.
 static double divide(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t v, double first,
@@ -33,7 +36,8 @@ void cw_column_determinants(const CwColumnHeights *heights, const CwSkeleton *sk
   }
 }
 
-// Over columns that stay as they are; not small, or small whatever the division; small, and not so in even columns.
+// Over columns that stay as they are; not small, or small whatever the division; small, and not so in more even
+// columns.
 typedef enum { FIXED, LEFT, SMALL } Judgement;
 
 typedef struct {
@@ -42,10 +46,11 @@ typedef struct {
   const int32_t *triangle; // to judge; NULL: all
 } Columns;
 
-// First height of the column as even as it may become: one whose layers grow stays as it is.
+// First height of the column as even as it may become.
 static double even_first(const Columns *columns, int32_t v) {
   const CwColumnHeights *heights = columns->heights;
-  return fmin(columns->skeleton->height[v] / heights->layer_count, heights->first_height[v]);
+  double even = columns->skeleton->height[v] / heights->layer_count, asked = heights->first_height[v];
+  return even < asked ? even : fmin(even, MORE * asked);
 }
 
 // Least determinant of the prisms over a wall triangle whose columns have these first heights.
@@ -56,9 +61,25 @@ static double least_determinant(const Columns *columns, int32_t t, const double 
   return least;
 }
 
-static int is_short(const Columns *columns, int32_t v) {
+// Whether the layers over a wall triangle grow, and from first heights so great that no prism can be small.
+static int is_thick(const Columns *columns, int32_t t) {
   const CwColumnHeights *heights = columns->heights;
-  return columns->skeleton->height[v] < heights->layer_count * heights->first_height[v];
+  const CwSkeleton *skeleton = columns->skeleton;
+  const int32_t *corner = skeleton->wall_triangle[t];
+  double first = INFINITY, base[3][3], top[3][3], u[3], w[3], normal[3];
+  for (int k = 0; k < 3; k++) {
+    if (skeleton->height[corner[k]] < heights->layer_count * heights->first_height[corner[k]]) return 0;
+    first = fmin(first, heights->first_height[corner[k]]);
+    cw_copy(skeleton->wall_x[corner[k]], base[k]);
+  }
+  cw_sub(base[1], base[0], u);
+  cw_sub(base[2], base[0], w);
+  cw_cross(u, w, normal);
+  cw_unit(normal);
+  for (int k = 0; k < 3; k++) {
+    for (int c = 0; c < 3; c++) top[k][c] = base[k][c] - first * normal[c];
+  }
+  return cw_prism_determinant((const double(*)[3])base, (const double(*)[3])top, 0) > LEAN * LEAST;
 }
 
 // Copies are as their first.
@@ -70,36 +91,41 @@ static CwStatus judge(void *context, int32_t i, void *out) {
   const int32_t *corner = skeleton->wall_triangle[t];
   double first[3];
   if (skeleton->wall_source[t] != t) return CW_OK;
-  if (!is_short(columns, corner[0]) && !is_short(columns, corner[1]) && !is_short(columns, corner[2])) return CW_OK;
+  if (is_thick(columns, t)) return CW_OK;
   *made = LEFT;
   for (int k = 0; k < 3; k++) first[k] = columns->heights->first_made[corner[k]];
   if (least_determinant(columns, t, first) >= LEAST) return CW_OK;
   for (int k = 0; k < 3; k++) first[k] = even_first(columns, corner[k]);
-  if (least_determinant(columns, t, first) >= LEAST) *made = SMALL;
+  if (least_determinant(columns, t, first) >= ENOUGH) *made = SMALL;
   return CW_OK;
 }
 
-// Evens the columns at the corners of small ones out, alike in all copies.
-static void even_marked(const Columns *columns, const uint8_t *mark, double *first_made) {
+// Evens the columns at the corners of small ones out, alike in all copies. Returns how many changed.
+static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *first_made) {
   double fraction[CW_LAYERS_MOST + 1];
   const CwSkeletonOrbits *orbits = &columns->skeleton->orbits;
+  int32_t changed = 0;
   for (int32_t v = 0; v < columns->skeleton->wall_count; v++) {
     if (cw_orbit_node_turns(orbits, v) > 0) continue;
     int marked = mark[v];
     for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1))
       marked |= mark[at];
     if (!marked) continue;
-    first_made[v] = fmax((1 - STEP) * divide(columns->heights, columns->skeleton, v, first_made[v], fraction),
-                         even_first(columns, v));
+    double even = even_first(columns, v),
+           made = divide(columns->heights, columns->skeleton, v, first_made[v], fraction);
+    double next = even < made ? fmax((1 - STEP) * made, even) : fmin((1 + STEP) * made, even);
+    changed += next != first_made[v];
+    first_made[v] = next;
     for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1))
-      first_made[at] = first_made[v];
+      first_made[at] = next;
   }
+  return changed;
 }
 
 CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   Columns columns = {skeleton, heights, NULL};
-  int32_t *list = NULL, count = skeleton->wall_triangle_count, kept = 0;
+  int32_t *list = NULL, count = skeleton->wall_triangle_count, kept = 0, changed;
   uint8_t *judgement = NULL, *mark = NULL;
   CW_NEW_UNSET(heights->first_made, skeleton->wall_count);
   memcpy(heights->first_made, heights->first_height, (size_t)skeleton->wall_count * sizeof *heights->first_made);
@@ -113,18 +139,14 @@ CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skel
     list[kept++] = t;
   }
   columns.triangle = list;
-  for (;;) {
-    int small = 0;
+  do {
     memset(mark, 0, (size_t)skeleton->wall_count);
     for (int32_t i = 0; i < kept; i++) {
-      if (judgement[i] != SMALL) continue;
-      for (int k = 0; k < 3; k++) mark[skeleton->wall_triangle[list[i]][k]] = 1;
-      small = 1;
+      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[skeleton->wall_triangle[list[i]][k]] = 1;
     }
-    if (!small) break;
-    even_marked(&columns, mark, heights->first_made);
-    CW_TRY(cw_share("heights: small prisms", kept, sizeof *judgement, judge, &columns, judgement));
-  }
+    changed = even_marked(&columns, mark, heights->first_made);
+    if (changed) CW_TRY(cw_share("heights: small prisms", kept, sizeof *judgement, judge, &columns, judgement));
+  } while (changed);
 done:
   free(list);
   free(judgement);

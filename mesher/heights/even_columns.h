@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Short columns, whose outer layers give way for the first height, are divided more evenly where checkMesh would else
-// call the determinant of a prism small (thin_prism.h): on long edges, and where columns lean, outer layers of a
-// quarter of the first are too thin.
+// Columns are divided more evenly where checkMesh would else call the determinant of a prism small (thin_prism.h): on
+// long edges, and where columns lean. In short columns the outer layers, which give way for the first height, may be as
+// thin as a quarter of it; in those that grow the second is the thinnest for its kind, and the first may be a little
+// greater than asked.
 #ifndef CUTWATER_MESHER_HEIGHTS_EVEN_COLUMNS_H
 #define CUTWATER_MESHER_HEIGHTS_EVEN_COLUMNS_H
 
@@ -13,7 +14,8 @@ void cw_column_determinants(const CwColumnHeights *heights, const CwSkeleton *sk
                             const double first[3], double *determinant);
 
 // Sets first_made of all columns, once they stand: the first height or, around prisms of small determinants that more
-// even layers cure, less in steps of a twentieth until they do. Turned copies get that of their first. Collective.
+// even layers cure, less in short columns and up to 1.09 times as much in others, in steps of a twentieth until they
+// do. Turned copies get that of their first. Collective.
 CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skeleton);
 
 #endif

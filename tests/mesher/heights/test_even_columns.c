@@ -14,10 +14,10 @@
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
 
-// First height made of the four columns where 0.05 is asked; corners 0 and 2 are on both triangles.
-static void make(const double height[4], double made[4]) {
+// First height made of the four columns of so many layers where `asked` is; corners 0 and 2 are on both triangles.
+static void make(int layers, double asked, const double height[4], double made[4]) {
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, front[4][3];
-  double first[4] = {0.05, 0.05, 0.05, 0.05}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
+  double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
   int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
   CwSkeleton skeleton = {.wall_count = 4,
                          .wall_x = x,
@@ -26,7 +26,7 @@ static void make(const double height[4], double made[4]) {
                          .wall_source = source,
                          .front = front,
                          .height = own};
-  CwColumnHeights heights = {.layer_count = 2, .first_height = first, .growth = growth};
+  CwColumnHeights heights = {.layer_count = layers, .first_height = first, .growth = growth};
   memcpy(own, height, sizeof own);
   memcpy(front, x, sizeof front);
   for (int v = 0; v < 4; v++) front[v][2] = height[v];
@@ -47,7 +47,7 @@ static void short_ones_until_none_is_small(void **state) {
   double made[4];
   assert_true(determinant(CW_LEAST_GROWTH * start) < CW_SMALL_DETERMINANT &&
               determinant(short_one / 2) > CW_SMALL_DETERMINANT);
-  make((double[4]){short_one, short_one, short_one, short_one}, made);
+  make(2, 0.05, (double[4]){short_one, short_one, short_one, short_one}, made);
   for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
   NEAR(made[0], start * pow(0.95, 4));
   assert_true(determinant(short_one - made[0]) > CW_SMALL_DETERMINANT);
@@ -60,16 +60,35 @@ static void others_stay(void **state) {
   const double all[3] = {0.105, 0.09, 0.04};
   assert_true(determinant(0.04) > CW_SMALL_DETERMINANT && determinant(0.02) < CW_SMALL_DETERMINANT);
   for (int i = 0; i < 3; i++) {
-    make((double[4]){all[i], all[i], all[i], all[i]}, made);
+    make(2, 0.05, (double[4]){all[i], all[i], all[i], all[i]}, made);
     for (int v = 0; v < 4; v++) NEAR(made[v], 0.05);
   }
   // A tall column among short ones keeps its first height.
-  make((double[4]){0.06, 0.06, 0.06, 0.11}, made);
+  make(2, 0.05, (double[4]){0.06, 0.06, 0.06, 0.11}, made);
   assert_true(made[1] < 0.06 / (1 + CW_LEAST_GROWTH));
   NEAR(made[3], 0.05);
 }
 
+// Five layers that grow by 1.2, of which the second is the thinnest of the inner ones. With a greater first height it
+// is thicker, and the last one thinner.
+static void growing_ones_within_a_tenth(void **state) {
+  for (int curable = 0; curable < 2; curable++) {
+    double wanted = (curable ? 0.92 : 0.6) * CW_SMALL_DETERMINANT, second = 0.03, made[4], fraction[6];
+    for (int i = 0; i < 20; i++) second *= pow(wanted / determinant(second), 0.25);
+    double asked = second / 1.2, height = cw_layer_thickness(asked, 5, 1.2);
+    make(5, asked, (double[4]){height, height, height, height}, made);
+    cw_layer_fractions(height, made[0], 5, 1.2, fraction);
+    double now = determinant((fraction[2] - fraction[1]) * height);
+    print_message("  determinant %.5f, then %.5f with %.2f of the first height\n", wanted, now, made[0] / asked);
+    for (int v = 0; v < 4; v++) NEAR(made[v], made[0]);
+    assert_true(curable ? now > CW_SMALL_DETERMINANT : made[0] == asked);
+    assert_true(made[0] <= 1.09 * asked);
+  }
+  (void)state;
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small), cmocka_unit_test(others_stay)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(short_ones_until_none_is_small), cmocka_unit_test(others_stay),
+                                     cmocka_unit_test(growing_ones_within_a_tenth)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
