@@ -32,6 +32,14 @@ typedef enum {
   CW_LAYER_REPAIR     // limited by validity of the prisms or of the front
 } CwLayerReason;
 
+// How columns are divided, for the determinants of prisms.
+typedef struct {
+  int count; // of layers; 0: determinants are not looked at
+  // Share that the last layer takes of the column over a vertex where that is so high (m); NULL: even layers.
+  double (*last)(const void *context, int32_t vertex, double height);
+  const void *context;
+} CwLayerDivision;
+
 typedef struct {
   int32_t point_count;
   const double (*x)[3]; // wall vertices, m
@@ -39,7 +47,7 @@ typedef struct {
   const int32_t (*triangle)[3]; // wall triangles, normal out of the domain
   const double *target;         // asked height of each vertex, normal to the wall, m
   const double *least;          // no column is thinned below this for a better shape of the front; NULL: 0
-  int layer_count;              // that columns are divided into, for the determinants of prisms; 0: not looked at
+  CwLayerDivision division;
   // Guides: a vertex on a rim with a cap, or on a dividing plane, marches inside that surface. Up to two per
   // vertex:
   // none: free; one: stays in the tangent plane; two: stays on the line of both.

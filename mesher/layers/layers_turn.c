@@ -25,8 +25,19 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
   const int32_t *v = work->in->triangle[f];
   const double(*x)[3] = work->in->x;
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
-  if (work->in->layer_count < 1 || prism > UPRIGHT) return CW_LAYER_GOOD;
-  return CW_LAYER_GOOD * cw_prism_shear_quality(wall, end, work->in->layer_count);
+  const CwLayerDivision *division = &work->in->division;
+  if (division->count < 1 || prism > UPRIGHT) return CW_LAYER_GOOD;
+  double last[3], u[3], w[3], normal[3], column[3];
+  sub3(wall[1], wall[0], u);
+  sub3(wall[2], wall[0], w);
+  cross3(u, w, normal);
+  unit3(normal);
+  for (int k = 0; k < 3; k++) {
+    sub3(wall[k], end[k], column);
+    last[k] =
+        division->last ? division->last(division->context, v[k], fabs(dot3(column, normal))) : 1.0 / division->count;
+  }
+  return CW_LAYER_GOOD * cw_prism_shear_quality(wall, end, division->count, last);
 }
 
 double cw_layers_around(const CwLayerWork *work, int32_t v, const double (*front)[3], double floor, int32_t *first) {

@@ -73,13 +73,14 @@ static double right_determinant(const double base[3][3], const double top[3][3],
   return cw_prism_determinant(base, (const double(*)[3])right, on_wall);
 }
 
-double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers) {
+double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers,
+                              const double last[3]) {
   double least = 1;
   for (int on_wall = 0; on_wall < 2; on_wall++) {
-    double base[3][3], top[3][3], low = on_wall ? 0 : 1 - 1.0 / layers;
+    double base[3][3], top[3][3];
     for (int k = 0; k < 3; k++) {
-      cw_lerp(wall[k], front[k], low, base[k]);
-      cw_lerp(wall[k], front[k], low + 1.0 / layers, top[k]);
+      cw_lerp(wall[k], front[k], on_wall ? 0 : 1 - last[k], base[k]);
+      cw_lerp(wall[k], front[k], on_wall ? 1.0 / layers : 1, top[k]);
     }
     const double(*b)[3] = (const double(*)[3])base, (*t)[3] = (const double(*)[3])top;
     if (right_determinant(b, t, on_wall) < ENOUGH) continue;

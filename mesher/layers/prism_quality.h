@@ -13,9 +13,11 @@ double cw_prism_quality(const double *const wall[3], const double *const front[3
 // and their front all the same needles or folds, on which only flat tetrahedra fit.
 double cw_prism_front_quality(const double *const wall[3], const double *const front[3]);
 
-// Least determinant (thin_prism.h) of the lowest and the highest of `layers` even layers between wall and front, over
-// what checkMesh asks for; 1 where it is enough. Layers so thin that right prisms would be small too do not count: what
-// is left are columns that lean so much that the sides of their prisms are large for base and height.
-double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers);
+// Least determinant (thin_prism.h) of the lowest of `layers` even layers between wall and front and of the highest,
+// which takes the shares `last` of its columns, over what checkMesh asks for; 1 where it is enough. Layers so thin that
+// right prisms would be small too do not count: what is left are columns that lean so much that the sides of their
+// prisms are large for base and height.
+double cw_prism_shear_quality(const double *const wall[3], const double *const front[3], int layers,
+                              const double last[3]);
 
 #endif

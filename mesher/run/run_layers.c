@@ -2,6 +2,7 @@
 #include "mesher/run/run_layers.h"
 
 #include "mesher/heights/even_columns.h"
+#include "mesher/heights/layer_heights.h"
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/sides.h"
 #include "pipeline/log.h"
@@ -58,12 +59,21 @@ CwStatus cw_run_heights(CwMeshRun *run) {
   return cw_sides_run(&sides, outcome);
 }
 
+// Share of the column over a vertex that its last layer takes where it is so high.
+static double last_layer(const void *context, int32_t vertex, double height) {
+  const CwColumnHeights *heights = context;
+  double fraction[CW_LAYERS_MOST + 1];
+  cw_layer_fractions(height, heights->first_height[vertex], heights->layer_count, heights->growth[vertex], fraction);
+  return 1 - fraction[heights->layer_count - 1];
+}
+
 static CwStatus grow(void *context, int32_t d) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[d];
+  CwLayerDivision division = {domain->layer_count, last_layer, &domain->heights};
   CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least,
-                          domain->layer_count));
+                          &division));
   cw_ledger_part("layers: room");
   CW_TRY(cw_column_heights_room(&domain->heights, &domain->skeleton));
   cw_ledger_part("layers: small prisms");

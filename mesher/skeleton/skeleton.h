@@ -12,6 +12,7 @@
 #define CUTWATER_MESHER_SKELETON_SKELETON_H
 
 #include "mesher/common/polygons.h"
+#include "mesher/layers/layers.h"
 #include "mesher/network/network.h"
 #include "mesher/network/orbit.h"
 #include "mesher/surface/patch_mesh.h"
@@ -95,11 +96,11 @@ CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
 // Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front; for its shape columns
-// are thinned down to `least` (NULL: 0), and for the determinants of `layer_count` layers turned (0: not). Collective:
-// all ranks work on it and have the same result. CW_RETRY, on all ranks, where no symmetric front is found or no column
-// leaves the wall on a plane.
+// are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
+// Collective: all ranks work on it and have the same result. CW_RETRY, on all ranks, where no symmetric front is found
+// or no column leaves the wall on a plane.
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          const double *least, int layer_count);
+                          const double *least, const CwLayerDivision *division);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
 // Where layers leave no room for that, it only collects the places (skeleton->tight): the layers there want to be

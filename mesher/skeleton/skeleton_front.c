@@ -184,7 +184,7 @@ done:
 }
 
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          const double *least, int layer_count) {
+                          const double *least, const CwLayerDivision *division) {
   CwStatus status = CW_OK;
   int32_t n = skeleton->wall_count, caps = 0, opened;
   int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
@@ -214,7 +214,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
                         .triangle = (const int32_t(*)[3])skeleton->wall_triangle,
                         .target = target,
                         .least = least,
-                        .layer_count = layer_count,
+                        .division = division ? *division : (CwLayerDivision){0},
                         .guide_count = guide_count,
                         .guide_normal = (const double(*)[2][3])guide_normal,
                         .guide_stays = guide_stays,

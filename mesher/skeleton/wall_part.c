@@ -22,6 +22,12 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
   part->whole->snap(part->whole->snap_context, part->global[vertex], x);
 }
 
+static double last_layer(const void *context, int32_t vertex, double height) {
+  const CwWallPart *part = context;
+  const CwLayerDivision *division = &part->whole->division;
+  return division->last(division->context, part->global[vertex], height);
+}
+
 CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWallPart *part) {
   CwStatus status = CW_OK;
   int32_t points = 0, triangles = 0;
@@ -69,6 +75,10 @@ CwStatus cw_wall_part_make(const CwLayerInput *whole, const uint8_t *near, CwWal
   part->in.guide_count = part->guide_count;
   part->in.guide_normal = (const double(*)[2][3])part->guide_normal;
   part->in.guide_stays = part->guide_stays;
+  if (whole->division.last) {
+    part->in.division.last = last_layer;
+    part->in.division.context = part;
+  }
   if (whole->snap) {
     part->in.snap = snap;
     part->in.snap_context = part;

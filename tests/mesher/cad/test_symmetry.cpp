@@ -289,7 +289,7 @@ static void fill_the_tank(bool divided) {
   check(cw_skeleton_merge_walls(&skeleton, walls.data()));
   std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4),
       growth(skeleton.wall_count, 1.5);
-  check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), nullptr, 0));
+  check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), nullptr, nullptr));
   check(cw_skeleton_free_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
     if (orbits.symmetry->face.first[f] != f) continue;

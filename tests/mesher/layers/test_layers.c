@@ -333,7 +333,7 @@ static void sheared_prism(void **state) {
     const double x[3][3] = {{0, 0, 0}, {5 * MM, 1 * MM, 0}, {10 * MM, 0, 0}};
     surface_triangle(&c.wall, surface_point(&c.wall, x[0]), surface_point(&c.wall, x[1]), surface_point(&c.wall, x[2]));
     assert_int_equal(case_make(&c), CW_OK);
-    c.in.layer_count = layers;
+    c.in.division.count = layers;
     CwLayerWork work = {0};
     CwBoxTree tree = {0};
     assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
@@ -345,15 +345,16 @@ static void sheared_prism(void **state) {
     }
     assert_int_equal(cw_layers_repair(&work, &tree, front, &rounds), CW_OK);
     const int32_t *corner = c.wall.triangle[0];
-    const double *wall[3], *end[3];
+    const double *wall[3], *end[3], whole[3] = {1, 1, 1};
     for (int k = 0; k < 3; k++) {
       wall[k] = c.wall.x[corner[k]], end[k] = front[corner[k]];
       assert_float_equal(end[k][2], c.target, 1e-15);
       if (!layers) assert_true(fabs(end[k][1] - wall[k][1] - c.target * lean[1]) < 1e-12);
     }
     assert_true(cw_prism_front_quality(wall, end) >= 0.3);
-    print_message("  sheared prism: %.3f of the determinant asked for\n", cw_prism_shear_quality(wall, end, 1));
-    assert_true(layers ? cw_prism_shear_quality(wall, end, 1) == 1 : cw_prism_shear_quality(wall, end, 1) < 0.1);
+    print_message("  sheared prism: %.3f of the determinant asked for\n", cw_prism_shear_quality(wall, end, 1, whole));
+    assert_true(layers ? cw_prism_shear_quality(wall, end, 1, whole) == 1
+                       : cw_prism_shear_quality(wall, end, 1, whole) < 0.1);
     cw_box_tree_free(&tree);
     cw_layers_work_free(&work);
     case_free(&c);

@@ -53,10 +53,23 @@ static void shear_by_hand(void **state) {
     // The lowest, on the wall, is the least: 3/2 A^4 h^4 / a^6, a the mean of its triangle and its sides.
     double mean = (6 + 3 * h + 4 * hypot(h, s) + 5 * hypot(h, 0.8 * s)) / 4;
     double wanted = i == 1 || i == 2 ? 1.5 * pow(6 * h, 4) / pow(mean, 6) / 1.05e-3 : 1;
-    const double *const b[3] = {x[0], x[1], x[2]};
-    assert_float_equal(cw_prism_shear_quality(a, b, prism[i].layers), wanted, 1e-12);
+    const double *const b[3] = {x[0], x[1], x[2]}, part = 1.0 / prism[i].layers, even[3] = {part, part, part};
+    assert_float_equal(cw_prism_shear_quality(a, b, prism[i].layers, even), wanted, 1e-12);
     assert_true(wanted == 1 || wanted < 0.1);
   }
+  // Sheared by 10: five even layers are fine; were the last one the whole column, it would not be. It is an inner one:
+  // 3 A^4 h^4 / a^6.
+  double x[3][3], h = 2, s = 10;
+  for (int k = 0; k < 3; k++)
+    for (int c = 0; c < 3; c++) x[k][c] = wall[k][c] + (c == 0 ? s : c == 2 ? h : 0);
+  const double *const b[3] = {x[0], x[1], x[2]}, even[3] = {0.2, 0.2, 0.2}, whole[3] = {1, 1, 1};
+  double mean = (2 * 6 + 3 * h + 4 * hypot(h, s) + 5 * hypot(h, 0.8 * s)) / 5;
+  double wanted = 3 * pow(6 * h, 4) / pow(mean, 6) / 1.05e-3;
+  print_message("  sheared: %.2f of what is asked with one layer to the top, %.2f with even ones\n", wanted,
+                cw_prism_shear_quality(a, b, 5, even));
+  assert_true(wanted < 1);
+  assert_float_equal(cw_prism_shear_quality(a, b, 5, whole), wanted, 1e-12);
+  assert_float_equal(cw_prism_shear_quality(a, b, 5, even), 1, 1e-12);
 }
 
 int main(void) {

@@ -204,7 +204,7 @@ static void make_layers(Box &box) {
   }
   Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
   std::vector<double> target(skeleton.wall_count, 1.5e-3);
-  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), nullptr, 0));
+  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), nullptr, nullptr));
   for (void *bytes : walls) free(bytes);
 }
 

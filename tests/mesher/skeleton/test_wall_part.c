@@ -14,6 +14,10 @@ static void note(const void *context, int32_t vertex, double x[3]) {
   x[0] = vertex;
 }
 
+static double last(const void *context, int32_t vertex, double height) {
+  return *(const double *)context + 10 * vertex + height;
+}
+
 // A strip of four triangles over points 0 to 5, of which the last touches what is marked by one corner alone.
 static void a_part_of_a_strip(void **state) {
   const double x[6][3] = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0}};
@@ -28,12 +32,14 @@ static void a_part_of_a_strip(void **state) {
                               .guide_count = guides,
                               .guide_normal = normal,
                               .guide_stays = stays,
+                              .division = {5, last, target},
                               .snap = note};
   CwWallPart part;
   assert_int_equal(cw_wall_part_make(&whole, near, &part), CW_OK);
   assert_int_equal(part.in.triangle_count, 2);
   assert_int_equal(part.in.point_count, 4);
   assert_null(part.in.least);
+  assert_int_equal(part.in.division.count, 5);
   for (int t = 0; t < 2; t++) {
     for (int k = 0; k < 3; k++) assert_int_equal(part.global[part.in.triangle[t][k]], triangle[t + 2][k]);
   }
@@ -44,6 +50,7 @@ static void a_part_of_a_strip(void **state) {
     double moved[3] = {0};
     part.in.snap(part.in.snap_context, i, moved);
     assert_true(moved[0] == v);
+    assert_true(part.in.division.last(part.in.division.context, i, 0.5) == 1 + 10 * v + 0.5);
     assert_int_equal(part.global[i], v);
     assert_memory_equal(part.in.x[i], x[v], sizeof x[v]);
     assert_true(part.in.target[i] == target[v]);
