@@ -11,18 +11,22 @@
 #include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
 
-// Relative band of the stored sphere within which the exact predicate decides, and the two conditions under
-// which the error of the sphere is within it: with P the product of the three edge lengths from one corner,
-// the error of the centre is below 32 eps P / |det| radii plus eps of its coordinates, and counts four times.
-static const double band = 1e-9;
-static const double slender = 2.4e9;    // on P^2 / det^2
-static const double far_centre = 5e-12; // on radius^2 / centre^2
+// Spheres stand in single precision, seen from the middle of all points and in a unit of which no point is farther from
+// it than one. With u = 2^-24 centres and points are rounded by u (1 + r) and u at most, r being the radius; so the
+// square of a distance of r from the true centre, less that of the radius, is off by less than u (4 r + 8 r^2), of
+// which the square is below u^2 r^2 (32 + 128 r^2). A quarter more leaves room for errors of second order and of the
+// sphere in double precision; what is nearer is left to the exact predicate.
+static const float unsure_near = 40.0f * 0x1p-48f, unsure_far = 160.0f * 0x1p-48f;
+// Two conditions for that: u is little beside r; and, with P the product of the three edge lengths from one corner, the
+// error of the centre in double precision, which is below 32 eps P / |det| radii and counts four times, is so beside u.
+static const double small = 1e-10;    // below radius^2
+static const double slender = 2.4e11; // above P^2 / det^2
 
 // Corners of the face opposite corner i, outward.
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 enum { WITHIN = 1, BEYOND = 2, TAKEN = 4 }; // of a sphere, and in the cavity already
-enum { LARGE_PAGE = 1 << 21 };
+enum { LARGE_PAGE = 1 << 21, CACHE_LINE = 64 };
 enum { LOCAL = 64 }; // points round a cavity that the edge table holds
 
 typedef struct {
@@ -36,7 +40,13 @@ typedef struct {
   int32_t low, high, owner;
 } Edge;
 
+// Where spheres are seen from, and one over their unit.
 typedef struct {
+  double middle[3], scale;
+} Frame;
+
+typedef struct {
+  Frame frame;
   int32_t *cavity, cavity_count, cavity_space;
   Side *side;
   int32_t side_count, side_space;
@@ -54,7 +64,7 @@ typedef struct {
 static CwStatus make_pool(CwDelaunay *mesh, int64_t space, int64_t sure) {
   CwStatus status = CW_OK;
   CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
-  size_t large = sure * (int64_t)sizeof *mesh->tet >= LARGE_PAGE ? LARGE_PAGE : sizeof *mesh->tet;
+  size_t large = sure * (int64_t)sizeof *mesh->tet >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
   size_t size = ((size_t)space * sizeof *mesh->tet + large - 1) / large * large;
   CwDelaunayTet *pool = aligned_alloc(large, size);
   CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
@@ -147,20 +157,40 @@ static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, con
   return cw_insphere(at(mesh, c[0]), at(mesh, c[1]), at(mesh, c[2]), at(mesh, c[3]), p) > 0;
 }
 
-static inline double square_from_centre(const CwDelaunayTet *t, const double p[3]) {
-  double x = p[0] - t->centre[0], y = p[1] - t->centre[1], z = p[2] - t->centre[2];
-  return x * x + y * y + z * z;
+static inline void place_in(const Frame *frame, const double x[3], double place[3]) {
+  for (int i = 0; i < 3; i++) place[i] = (x[i] - frame->middle[i]) * frame->scale;
 }
 
-static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
-  double square = square_from_centre(t, p);
-  if (square > t->square * (1.0 + band)) return 0;
-  if (square < t->square * (1.0 - band)) return 1;
-  return in_sphere_exactly(mesh, t, p);
+// The square of a radius has its sign set, also where it is not a number, once the tetrahedron is in the cavity.
+static inline uint32_t sign_of(const CwDelaunayTet *t) {
+  uint32_t bits;
+  memcpy(&bits, &t->radius_square, sizeof bits);
+  return bits >> 31;
 }
 
-// The sphere through p and three points at a, b, c from it.
-static inline void set_sphere(CwDelaunayTet *t, const double p[3], const double a[4], const double b[4],
+static inline void add_sign(CwDelaunayTet *t, uint32_t sign) {
+  uint32_t bits;
+  memcpy(&bits, &t->radius_square, sizeof bits);
+  bits |= sign << 31;
+  memcpy(&t->radius_square, &bits, sizeof bits);
+}
+
+// Where a place lies to a sphere: WITHIN or BEYOND, neither where that is not sure; and TAKEN.
+static inline unsigned compare(const CwDelaunayTet *t, const float place[3]) {
+  float x = place[0] - t->centre[0], y = place[1] - t->centre[1], z = place[2] - t->centre[2],
+        square = t->radius_square;
+  float over = x * x + y * y + z * z - square;
+  unsigned sure = cw_number(over * over > square * (unsure_far * square + unsure_near));
+  return sure + (sure & cw_number(over > 0.0f)) + TAKEN * sign_of(t);
+}
+
+static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3], const float place[3]) {
+  unsigned known = compare(t, place);
+  return known ? known == WITHIN : in_sphere_exactly(mesh, t, p);
+}
+
+// The sphere through the point at `place` and three points at a, b, c from it.
+static inline void set_sphere(CwDelaunayTet *t, const double place[3], const double a[4], const double b[4],
                               const double c[4]) {
   double bcx = b[1] * c[2] - b[2] * c[1], bcy = b[2] * c[0] - b[0] * c[2], bcz = b[0] * c[1] - b[1] * c[0];
   double cax = c[1] * a[2] - c[2] * a[1], cay = c[2] * a[0] - c[0] * a[2], caz = c[0] * a[1] - c[1] * a[0];
@@ -170,22 +200,22 @@ static inline void set_sphere(CwDelaunayTet *t, const double p[3], const double 
   double y = (a[3] * bcy + b[3] * cay + c[3] * aby) * half;
   double z = (a[3] * bcz + b[3] * caz + c[3] * abz) * half;
   double square = x * x + y * y + z * z;
-  t->centre[0] = x += p[0];
-  t->centre[1] = y += p[1];
-  t->centre[2] = z += p[2];
-  int good = a[3] * b[3] * c[3] < slender * det * det && square > far_centre * (x * x + y * y + z * z);
-  t->square = good ? square : NAN;
+  int good = a[3] * b[3] * c[3] < slender * det * det && square > small;
+  t->centre[0] = (float)(place[0] + x);
+  t->centre[1] = (float)(place[1] + y);
+  t->centre[2] = (float)(place[2] + z);
+  t->radius_square = good ? (float)square : NAN;
 }
 
 // A tetrahedron whose sphere holds p, from `start`: towards p through any face that has p beyond it. -1: p is
 // a corner of *last.
-static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], int32_t *last) {
+static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], const float place[3], int32_t *last) {
   int32_t t = start, from = -1;
   uint32_t turn = 0;
   int exact = 0;
   for (int64_t step = 0;; step++) {
     const CwDelaunayTet *tet = &mesh->tet[t];
-    if (in_sphere(mesh, tet, p)) return t;
+    if (in_sphere(mesh, tet, p, place)) return t;
     int32_t next = -1;
     exact |= step > 4 * (int64_t)mesh->tet_count; // rounding might lead in circles
     for (int again = exact; again < 2 && next < 0; again++) {
@@ -218,15 +248,15 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], in
   }
 }
 
-// All tetrahedra whose spheres hold p, from one of them; their square becomes -1. Whether a face leads to one more, to
-// one outside or to one that was met before is as good as random, and as branches half of them were foretold wrongly,
-// which took a third of the time: instead both lists are written to, and one of them, or none, keeps it.
-static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3]) {
+// All tetrahedra whose spheres hold p, from one of them, which are taken then. Whether a face leads to one more, to one
+// outside or to one that was met before is as good as random, and as branches half of them were foretold wrongly, which
+// took a third of the time: instead both lists are written to, and one of them, or none, keeps it.
+static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
   CwStatus status = CW_OK;
   work->cavity_count = work->side_count = 0;
   CW_GROW(work->cavity, work->cavity_space, 1);
   work->cavity[work->cavity_count++] = start;
-  mesh->tet[start].square = -1.0;
+  add_sign(&mesh->tet[start], 1);
   for (int32_t head = 0; head < work->cavity_count; head++) {
     const CwDelaunayTet *tet = &mesh->tet[work->cavity[head]];
     CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
@@ -236,11 +266,9 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
       unsigned known = BEYOND;
       if (outer >= 0) {
         CwDelaunayTet *next = &mesh->tet[outer >> 2];
-        double square = square_from_centre(next, p), limit = next->square;
-        known = cw_number(square < limit * (1.0 - band)) | cw_number(square > limit * (1.0 + band)) << 1 |
-                cw_number(limit < 0.0) << 2;
+        known = compare(next, place);
         if (known == 0) known = in_sphere_exactly(mesh, next, p) ? WITHIN : BEYOND;
-        next->square = (double[2]){limit, -1.0}[known & WITHIN];
+        add_sign(next, known & WITHIN);
       }
       work->cavity[work->cavity_count] = outer >> 2;
       work->cavity_count += known & WITHIN;
@@ -285,7 +313,7 @@ done:
 }
 
 // Tetrahedra from the new point to all sides of the cavity, which it sees.
-static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
+static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
   CwStatus status = CW_OK;
   const double *p = mesh->point[point].x;
   int32_t locals = 0, *table = work->table;
@@ -307,11 +335,14 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
     else
       CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
   }
-  for (int32_t k = work->side_count; k < work->cavity_count; k++) cw_delaunay_free_tet(mesh, work->cavity[k]);
+  for (int32_t k = work->side_count; k < work->cavity_count; k++) {
+    mesh->tet[work->cavity[k]].radius_square = 0.0f; // without its sign
+    cw_delaunay_free_tet(mesh, work->cavity[k]);
+  }
   for (int32_t l = 0; l < locals; l++) {
     const double *x = mesh->point[work->round[l]].x;
     double *arm = work->arm[l];
-    for (int i = 0; i < 3; i++) arm[i] = x[i] - p[i];
+    for (int i = 0; i < 3; i++) arm[i] = (x[i] - p[i]) * work->frame.scale;
     arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
   }
   int tabled = locals <= LOCAL;
@@ -325,7 +356,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point) {
     tet->corner[3] = point;
     tet->neighbour[3] = side->outer;
     if (side->outer >= 0) mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
-    set_sphere(tet, p, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
+    set_sphere(tet, place, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
     if (!tabled) continue;
     table[l[1] * LOCAL + l[2]] = 4 * side->tet;
     table[l[2] * LOCAL + l[0]] = 4 * side->tet + 2;
@@ -390,7 +421,7 @@ done:
 
 static void first_tet(CwDelaunay *mesh) {
   CwDelaunayTet *tet = &mesh->tet[0];
-  *tet = (CwDelaunayTet){.square = NAN};
+  *tet = (CwDelaunayTet){.radius_square = NAN};
   for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
     tet->neighbour[k] = -1;
     tet->corner[k] = k;
@@ -400,6 +431,15 @@ static void first_tet(CwDelaunay *mesh) {
     tet->corner[1] = 0;
   }
   mesh->tet_count = 1;
+}
+
+// From the corners, as `enclose` has set them.
+static void set_frame(const CwDelaunay *mesh, Work *work) {
+  for (int i = 0; i < 3; i++) {
+    work->frame.middle[i] = 0.0;
+    for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) work->frame.middle[i] += 0.25 * at(mesh, k)[i];
+  }
+  work->frame.scale = 8.0 / (at(mesh, 0)[0] - at(mesh, 1)[0]);
 }
 
 CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
@@ -432,20 +472,24 @@ CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
   CW_NEW(work, 1);
   // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
   CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
+  set_frame(mesh, work);
   first_tet(mesh);
   mesh->point_count = CW_DELAUNAY_CORNERS;
   for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
     int32_t point = mesh->point_count, found = 0;
     mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
     mesh->source[point] = mesh->source[k];
-    int32_t start = walk(mesh, last, mesh->point[point].x, &found);
+    double place[3];
+    place_in(&work->frame, mesh->point[point].x, place);
+    const float seen[3] = {(float)place[0], (float)place[1], (float)place[2]};
+    int32_t start = walk(mesh, last, mesh->point[point].x, seen, &found);
     if (start < 0) {
       CW_TRY(note_duplicate(mesh, mesh->source[k], point, &mesh->tet[found], &duplicate_space));
       continue;
     }
     mesh->point_count++;
-    CW_TRY(find_cavity(mesh, work, start, mesh->point[point].x));
-    CW_TRY(fill_cavity(mesh, work, point));
+    CW_TRY(find_cavity(mesh, work, start, mesh->point[point].x, seen));
+    CW_TRY(fill_cavity(mesh, work, point, place));
     last = work->side[0].tet;
   }
 done:

@@ -56,19 +56,16 @@ enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free a
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { INNER = 16, OUTSIDE = 32 };      // of a tetrahedron, and bit i: its face i is a facet
 enum { SOON = 8, LATER = 16 }; // facets ahead of which the memory is asked, for the outer and the inner tetrahedron
-static const uint64_t MARKED = (uint64_t)1 << 63;
 
-// Stands in the bits of the square, with the sign set, which no square has: whether a tetrahedron has one is as good as
-// random, and this takes no branch.
+// Stands where the square of the sphere's radius stood, and has its sign set, which no square has: whether a
+// tetrahedron has one is as good as random, and this takes no branch.
 static unsigned place_of(const CwDelaunayTet *tet) {
-  uint64_t bits;
-  memcpy(&bits, &tet->square, sizeof bits);
-  return (unsigned)(bits & -(bits >> 63)) & (INNER | OUTSIDE | 15);
+  return tet->pass & -(unsigned)(tet->weight >> 1);
 }
 
 static void add_place(CwDelaunayTet *tet, unsigned place) {
-  uint64_t bits = MARKED | place_of(tet) | place;
-  memcpy(&tet->square, &bits, sizeof bits);
+  tet->pass = place_of(tet) | place;
+  tet->weight = 2;
 }
 
 // A point that hangs together with a corner of the tetrahedron that encloses all.

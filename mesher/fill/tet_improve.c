@@ -36,8 +36,8 @@ void cw_tet_work_free(CwTetWork *w) {
 
 CwStatus cw_tet_push(CwTetWork *w, int32_t t) {
   CwStatus status = CW_OK;
-  if (w->mesh->tet[t].centre[1] == (double)w->pass) goto done;
-  w->mesh->tet[t].centre[1] = (double)w->pass;
+  if (w->mesh->tet[t].pass == w->pass) goto done;
+  w->mesh->tet[t].pass = w->pass & CW_TET_NO_PASS;
   CW_GROW(w->next, w->next_space, w->next_count + 1);
   w->next[w->next_count++] = t;
 done:

@@ -33,8 +33,8 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
   CwDelaunay *mesh = w->mesh;
   int32_t open[4 * CAVITY];
   int opened = 0, kept = 0;
-  w->stamp += 1.0;
-  mesh->tet[t].centre[0] = w->stamp;
+  w->stamp++;
+  mesh->tet[t].star = w->stamp;
   cavity->tet[0] = t;
   cavity->count = 1;
   cavity->side_count = 0;
@@ -42,7 +42,7 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
   for (int i = 0; i < 4; i++) open[opened++] = 4 * t + i;
   for (int head = 0; head < opened; head++) {
     int32_t side = open[head], other = mesh->tet[side / 4].neighbour[side % 4];
-    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp) continue;
+    if (other >= 0 && mesh->tet[other / 4].star == w->stamp) continue;
     double quality = side_quality(w, side, p);
     if (quality > enough) {
       open[kept++] = side; // never ahead of head
@@ -51,7 +51,7 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
     }
     grown->crossed = fmax(grown->crossed, quality);
     if (other < 0 || cavity->count == CAVITY) return 0;
-    mesh->tet[other / 4].centre[0] = w->stamp;
+    mesh->tet[other / 4].star = w->stamp;
     cavity->tet[cavity->count++] = other / 4;
     for (int i = 0; i < 4; i++) {
       if (i != other % 4) open[opened++] = other / 4 * 4 + i;
@@ -59,7 +59,7 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
   }
   for (int k = 0; k < kept; k++) {
     int32_t other = mesh->tet[open[k] / 4].neighbour[open[k] % 4];
-    if (other >= 0 && mesh->tet[other / 4].centre[0] == w->stamp) continue; // what lies behind was taken later
+    if (other >= 0 && mesh->tet[other / 4].star == w->stamp) continue; // what lies behind was taken later
     if (cavity->side_count == SIDES) return 0;
     cavity->side[cavity->side_count++] = open[k];
   }

@@ -68,17 +68,17 @@ double cw_hollow_best(CwHollow *hollow, double p[3], double start) {
 int cw_tet_star(CwTetWork *w, int32_t t, int32_t point, int32_t star[CW_TET_STAR]) {
   CwDelaunay *mesh = w->mesh;
   int count = 1;
-  w->stamp += 1.0;
+  w->stamp++;
   star[0] = t;
-  mesh->tet[t].centre[0] = w->stamp;
+  mesh->tet[t].star = w->stamp;
   for (int head = 0; head < count; head++) {
     const CwDelaunayTet *tet = &mesh->tet[star[head]];
     for (int i = 0; i < 4; i++) {
       if (tet->corner[i] == point || tet->neighbour[i] < 0) continue;
       CwDelaunayTet *next = &mesh->tet[tet->neighbour[i] / 4];
-      if (next->centre[0] == w->stamp) continue;
+      if (next->star == w->stamp) continue;
       if (count == CW_TET_STAR) return 0;
-      next->centre[0] = w->stamp;
+      next->star = w->stamp;
       star[count++] = tet->neighbour[i] / 4;
     }
   }

@@ -14,7 +14,7 @@ static const float regular = 0.8f;        // a point stays where all round it ar
 static const double unsure = 1e-3;        // of a quality in single precision, by far
 static const double blurred = 1e-4;       // of the extent of all: edges for which single precision will not do
 static const float pull = 0.25f;          // of an edge
-static const double beside_plane = 2.0;   // weight of tetrahedra beside dividing planes, when edges are made even
+static const uint32_t beside_plane = 2;   // weight of tetrahedra beside dividing planes, when edges are made even
 enum { SHARPNESS = 4 };                   // squarings, by which edges that are not quite the extreme ones count less
 enum { BESIDE_EVENINGS = 2 };             // further steps of the points next to those planes
 enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
@@ -48,14 +48,16 @@ done:
 }
 
 static inline void take_group(const CwTetWork *w, const int32_t list[4], Group *g) {
+  CwFour weight = {0};
   for (int k = 0; k < 4; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[list[k]];
     const int32_t *corner = tet->corner;
     __builtin_prefetch(tet + BLOCK, 1); // of the next block, while this one is reckoned with
     CwFour from = w->place[corner[0]];
-    g->weight[k] = (float)tet->centre[2];
+    weight[k] = (float)tet->weight;
     for (int c = 0; c < 3; c++) g->arm[c][k] = w->place[corner[c + 1]] - from;
   }
+  g->weight = weight;
   for (int c = 0; c < 3; c++) cw_four_turn(g->arm[c]);
 }
 
@@ -71,11 +73,11 @@ static inline int32_t block_end(const CwDelaunay *mesh, int32_t from) {
 
 // Marks those of the next BLOCK tetrahedra that have such a point with their weight.
 static inline void mark_moving(CwDelaunay *mesh, int32_t from, const uint8_t *moved, uint8_t which) {
-  const double weight[2] = {1.0, beside_plane};
+  const uint32_t weight[2] = {1, beside_plane};
   for (int32_t t = from, end = block_end(mesh, from); t < end; t++) {
     const int32_t *c = mesh->tet[t].corner, used = ~(c[0] >> 31);
     uint8_t any = moved[c[0] & used] | moved[c[1] & used] | moved[c[2] & used] | moved[c[3] & used];
-    mesh->tet[t].centre[2] = (double)(used & ((any & which) != 0)) * weight[(any & ON_PLANE) != 0];
+    mesh->tet[t].weight = (uint32_t)(used & ((any & which) != 0)) * weight[(any & ON_PLANE) != 0];
   }
 }
 
@@ -85,7 +87,7 @@ static inline int list_moving(const CwDelaunay *mesh, int32_t from, int32_t list
   int count = 0;
   for (int32_t t = from, end = block_end(mesh, from); t < end; t++) {
     list[count] = t;
-    count += (int)cw_number(mesh->tet[t].centre[2] > 0.0);
+    count += (int)cw_number(mesh->tet[t].weight != 0);
   }
   pad_list(list, count);
   return count;
@@ -201,9 +203,9 @@ CwStatus cw_tet_scan(CwTetWork *w) {
   for (int32_t t = 0; t < w->mesh->tet_count; t += BLOCK) {
     for (int32_t k = t, end = block_end(w->mesh, t); k < end; k++) {
       CwDelaunayTet *tet = &w->mesh->tet[k];
-      tet->centre[0] = 0.0;
-      tet->centre[1] = -1.0;
-      tet->centre[2] = (double)(tet->corner[0] >= 0);
+      tet->star = 0;
+      tet->pass = CW_TET_NO_PASS;
+      tet->weight = tet->corner[0] >= 0;
     }
     int count = list_moving(w->mesh, t, list);
     CW_TRY(judge(w, list, count, NULL));

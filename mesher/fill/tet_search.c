@@ -229,8 +229,8 @@ static CwStatus put_back(Search *s) {
   for (int32_t k = 0; k < s->best.patch.mesh.tet_count; k++) {
     if (place[k] < 0) continue;
     const int32_t *c = w->mesh->tet[place[k]].corner;
-    w->mesh->tet[place[k]].centre[0] = 0.0;
-    w->mesh->tet[place[k]].centre[1] = -1.0;
+    w->mesh->tet[place[k]].star = 0;
+    w->mesh->tet[place[k]].pass = CW_TET_NO_PASS;
     CW_TRY(cw_tet_set_quality(w, place[k], cw_tet_quality_of(w, c[0], c[1], c[2], c[3])));
   }
   w->count.points_added += w->source_count - sources;

@@ -31,24 +31,25 @@ extern "C" {
 #define CW_TET_GAIN 1e-6
 
 enum { CW_TET_STAR = 96 };
+enum { CW_TET_NO_PASS = (1 << 30) - 1 }; // of a tetrahedron that no pass has put into a list
 
 typedef struct {
   int32_t *tet, count, space;
 } CwTetList;
 
-// The quality of a tetrahedron stands in its square, a mark of the last star in its centre[0], the pass that put it
-// into the list for the next in centre[1], in centre[2] its weight where it was judged last or points of it move, else
-// 0, and the pass in which something changed at a point in the point's mark.
+// The quality of a tetrahedron stands in its square, the pass that put it into the list for the next in its pass; it
+// has a weight where it was judged last or points of it move, else 0; the pass in which something changed at a point
+// stands in the point's mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;
   int32_t fixed_count, source_count;
-  const uint8_t *on_plane; // of the fixed points: 1 on a dividing plane; or NULL
-  int32_t tet_count;       // without free places, when all were judged first
-  double stamp;
+  const uint8_t *on_plane;     // of the fixed points: 1 on a dividing plane; or NULL
+  int32_t tet_count;           // without free places, when all were judged first
+  uint32_t stamp;              // of the last star
   double limit;                // quality below which tetrahedra are in the list
   double insert, insert_round; // and those for which a new point is tried, and at places round about
-  uint64_t pass;
+  uint32_t pass;
   int32_t *bad, bad_count, bad_space; // to look at in this pass
   int32_t *next, next_count, next_space;
   CwTetList slender;  // when all were judged

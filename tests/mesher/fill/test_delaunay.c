@@ -171,6 +171,22 @@ static void body_centred_grid(void **unused) {
   free(x);
 }
 
+// Grids shaken by 1e-8 to 1e-3 of a step, each as small as the rounding of a sphere far from the middle allows, or
+// smaller: what single precision cannot tell, the exact predicate has to.
+static void close_to_spheres(void **unused) {
+  enum { SIDE = 5, GRIDS = 4 };
+  static const double step[GRIDS] = {0.1, 1e-3, 1e-5, 1e-7}, shaken[GRIDS] = {1e-8, 1e-6, 1e-4, 1e-3};
+  double(*x)[3] = malloc(GRIDS * SIDE * SIDE * SIDE * sizeof *x);
+  int32_t count = 0;
+  state = 17;
+  for (int k = 0; k < GRIDS * SIDE * SIDE * SIDE; k++, count++) {
+    int g = k / (SIDE * SIDE * SIDE), at[3] = {k % SIDE, k / SIDE % SIDE, k / (SIDE * SIDE) % SIDE};
+    for (int i = 0; i < 3; i++) x[count][i] = (i == g % 3) + step[g] * (at[i] + shaken[g] * draw());
+  }
+  connect_and_check(count, x, 0);
+  free(x);
+}
+
 // All on one sphere, and on one circle, one line, one plane.
 static void on_one_shape(void **unused) {
   double(*x)[3] = malloc(300 * sizeof *x);
@@ -273,6 +289,7 @@ int main(void) {
       cmocka_unit_test(packed),
       cmocka_unit_test(grid),
       cmocka_unit_test(body_centred_grid),
+      cmocka_unit_test(close_to_spheres),
       cmocka_unit_test(on_one_shape),
       cmocka_unit_test(small_sets),
       cmocka_unit_test(great_cavity),
