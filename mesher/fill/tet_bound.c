@@ -10,7 +10,10 @@
 // of their lower ends, which are short.
 static CwStatus find_neighbours(const CwFillInput *boundary, int32_t (*neighbour)[3]) {
   CwStatus status = CW_OK;
-  int32_t *start = NULL, *list = NULL, count = 3 * boundary->triangle_count;
+  int32_t *start = NULL, count = 3 * boundary->triangle_count;
+  struct {
+    int32_t high, edge; // the other end; 3 * triangle + edge
+  } *list = NULL;
   const int32_t(*triangle)[3] = boundary->triangle;
   CW_NEW(start, boundary->point_count + 2);
   CW_NEW(list, count);
@@ -22,16 +25,16 @@ static CwStatus find_neighbours(const CwFillInput *boundary, int32_t (*neighbour
   for (int32_t p = 0; p < boundary->point_count; p++) start[p + 2] += start[p + 1];
   for (int32_t k = 0; k < count; k++) { // leaves start[p + 1] at the end of the list of p
     int32_t a = triangle[k / 3][k % 3], b = triangle[k / 3][(k + 1) % 3];
-    list[start[(a < b ? a : b) + 1]++] = k;
+    int32_t at = start[(a < b ? a : b) + 1]++;
+    list[at].high = a < b ? b : a;
+    list[at].edge = k;
   }
   for (int32_t p = 0; p < boundary->point_count; p++) {
     for (int32_t i = start[p]; i < start[p + 1]; i++) {
-      int32_t k = list[i], same = 0, other = -1;
-      int32_t high = triangle[k / 3][k % 3] + triangle[k / 3][(k + 1) % 3] - p;
+      int32_t k = list[i].edge, same = 0, other = -1;
       for (int32_t j = start[p]; j < start[p + 1]; j++) {
-        int32_t l = list[j];
-        if (l == k || triangle[l / 3][l % 3] + triangle[l / 3][(l + 1) % 3] - p != high) continue;
-        other = l;
+        if (j == i || list[j].high != list[i].high) continue;
+        other = list[j].edge;
         same++;
       }
       if (same == 1) neighbour[k / 3][k % 3] = other;

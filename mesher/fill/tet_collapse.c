@@ -3,9 +3,8 @@
 
 #include <stdlib.h>
 
-static const double loss = 1.0;          // at most, in the sum
-static const double least_quality = 0.3; // of what comes, or as it was before
-enum { CROWDED = 5 };                    // slender tetrahedra at their shortest edges with a point that is tried
+static const double loss = 1.0; // at most, in the sum
+enum { CROWDED = 5 };           // slender tetrahedra at their shortest edges with a point that is tried
 
 // The shortest edges of slender tetrahedra at a point.
 typedef struct {
@@ -30,7 +29,7 @@ static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
 static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
   CwStatus status = CW_OK;
   int32_t star[CW_TET_STAR], made[CW_FLIP][4];
-  double sum = 0.0, least = least_quality;
+  double sum = 0.0, least = w->floor;
   int count = 0, n = cw_tet_star(w, t, p, star);
   if (n == 0 || n > CW_FLIP) goto done;
   for (int k = 0; k < n; k++) {

@@ -10,9 +10,13 @@
 
 static const double insert_limit = 0.4226, round_limit = 0.38;
 // Share of slender tetrahedra above which their shapes are worth more time: before the first round, and after it.
-static const double needy_first = 0.20, needy = 0.14;
+static const double needy_first = 0.20, needy = 0.165;
 static const double gain = 0.05; // of their number: where a round makes it no less by so much there is no further one
-enum { PASSES = 5, ROUNDS = 4, EVENINGS = 1, NEEDY_EVENINGS = 3 };
+static const double loose = 0.3; // quality that may be left by what is done for the aspect, since flips follow
+static const CwTetMoves spread = {.centres = 1}, first_moves = {.centres = 1, .evenings = 1, .pull = 0.4};
+static const CwTetMoves only_moves = {.centres = 1, .evenings = 2, .pull = 0.2, .beside = 2},
+                        last_moves = {.evenings = 5, .pull = 0.2, .beside = 2};
+enum { PASSES = 5, ROUNDS = 2 };
 
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 const int8_t cw_tet_edge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
@@ -45,10 +49,17 @@ done:
 }
 
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
+  CwStatus status = CW_OK;
   CwDelaunayTet *tet = &w->mesh->tet[t];
   tet->square = quality;
   for (int i = 0; i < 4; i++) w->mesh->point[tet->corner[i]].mark = w->pass;
-  return quality < w->limit ? cw_tet_push(w, t) : CW_OK;
+  if (w->irregular) { // it may be slender now
+    CW_GROW(w->slender.tet, w->slender.space, w->slender.count + 1);
+    w->slender.tet[w->slender.count++] = t;
+  }
+  if (quality < w->limit) CW_TRY(cw_tet_push(w, t));
+done:
+  return status;
 }
 
 CwStatus cw_tet_replace(CwTetWork *w, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
@@ -137,21 +148,33 @@ static double least_quality(const CwTetWork *w) {
 
 // Moves points and takes away edges, and points where many tetrahedra are slender, for the mean ratio of edges. One
 // round will do for most; more where many are slender still.
-static CwStatus even_out(CwTetWork *w) {
+static CwStatus even_out(CwTetWork *w, int *was_needy) {
   CwStatus status = CW_OK;
   double before = INFINITY;
-  CW_TRY(cw_tet_relax(w, 0));
+  w->floor = loose;
+  CW_TRY(cw_tet_relax(w, spread));
   for (int round = 0; round < ROUNDS; round++) {
     int is_needy = w->slender.count > (round ? needy : needy_first) * w->tet_count;
     if (round && (!is_needy || w->slender.count > (1.0 - gain) * before)) break;
     before = w->slender.count;
-    if (is_needy) {
-      CW_TRY(cw_tet_improve_list(w, 1, 0));
-      CW_TRY(cw_tet_collapse(w));
-    }
+    if (is_needy) CW_TRY(cw_tet_collapse(w));
     CW_TRY(cw_tet_shorten(w));
-    CW_TRY(cw_tet_relax(w, is_needy ? NEEDY_EVENINGS : EVENINGS));
+    CW_TRY(cw_tet_relax(w, is_needy ? first_moves : only_moves));
+    *was_needy |= is_needy;
   }
+done:
+  return status;
+}
+
+// Flips and moves of single points for the angles make tetrahedra slender again; here nothing is left worse that would
+// have to be improved again.
+static CwStatus even_out_again(CwTetWork *w) {
+  CwStatus status = CW_OK;
+  w->floor = w->limit;
+  CW_GROW(w->irregular, w->irregular_space, w->mesh->point_count);
+  memset(w->irregular, 1, (size_t)w->mesh->point_count);
+  CW_TRY(cw_tet_shorten(w));
+  CW_TRY(cw_tet_relax(w, last_moves));
 done:
   return status;
 }
@@ -167,16 +190,16 @@ CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, const uint8_
                  .limit = CW_TET_IMPROVE,
                  .insert = insert_limit,
                  .insert_round = round_limit};
+  int was_needy = 0;
   CW_NEW(w.irregular, mesh->point_count);
+  w.irregular_space = mesh->point_count;
   CW_TRY(cw_tet_scan(&w));
   w.count.least_before = least_quality(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
-  w.limit = CW_TET_TURN;
-  CW_TRY(even_out(&w));
-  free_shapes(&w);
-  CW_TRY(cw_tet_improve_list(&w, 1, 0));
-  w.limit = CW_TET_IMPROVE;
+  CW_TRY(even_out(&w, &was_needy));
   CW_TRY(cw_tet_improve_list(&w, PASSES, 1));
+  if (was_needy) CW_TRY(even_out_again(&w));
+  free_shapes(&w);
   if (fixed_count < *source_count) CW_TRY(cw_tet_search(&w));
   w.count.least_after = least_quality(&w);
   *source_count = w.source_count;

@@ -9,17 +9,14 @@
 #include "mesher/common/four.h"
 #include "mesher/common/number.h"
 
-static const double floor_quality = 0.25; // below it no tetrahedron may become worse by relaxing
-static const float regular = 0.8f;        // a point stays where all round it are above; 0.866 in a lattice
-static const double unsure = 1e-3;        // of a quality in single precision, by far
-static const double blurred = 1e-4;       // of the extent of all: edges for which single precision will not do
-static const float pull = 0.25f;          // of an edge
-static const uint32_t beside_plane = 2;   // weight of tetrahedra beside dividing planes, when edges are made even
-enum { SHARPNESS = 4 };                   // squarings, by which edges that are not quite the extreme ones count less
-enum { BESIDE_EVENINGS = 2 };             // further steps of the points next to those planes
-enum { MOVED = 1, RETURNED = 2 };         // a point that is free to move
-enum { ON_PLANE = 4, BESIDE = 8 };        // a fixed point on a dividing plane; a free one of its tetrahedra
-enum { BLOCK = 128, PAD = 3 };            // tetrahedra that are looked for together; room behind a list
+static const float regular = 0.8f;      // a point stays where all round it are above; 0.866 in a lattice
+static const double unsure = 1e-3;      // of a quality in single precision, by far
+static const double blurred = 1e-4;     // of the extent of all: edges for which single precision will not do
+static const float decay = 0.7f;        // of each step towards even edges over the one before
+static const uint32_t beside_plane = 2; // weight of tetrahedra beside dividing planes, when edges are made even
+enum { MOVED = 1, RETURNED = 2 };       // a point that is free to move
+enum { ON_PLANE = 4, BESIDE = 8 };      // a fixed point on a dividing plane; a free one of its tetrahedra
+enum { BLOCK = 128, PAD = 3 };          // tetrahedra that are looked for together; room behind a list
 
 // Four tetrahedra side by side in single precision, which is enough for where points should go and for what is well
 // shaped: the ways from their first corners to the others, by corner and coordinate, and their weights.
@@ -150,7 +147,7 @@ static double quality_at_goals(const CwTetWork *w, const int32_t corner[4]) {
 static int is_spoilt(const CwTetWork *w, int32_t t) {
   const CwDelaunayTet *tet = &w->mesh->tet[t];
   const int32_t *c = tet->corner;
-  return tet->square < floor_quality && tet->square < cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
+  return tet->square < w->floor && tet->square < cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
 }
 
 // Marks the points of a group where it is irregular, and adds the slender ones to their list, without branches.
@@ -243,26 +240,16 @@ static inline void find_centres(const Group *g, CwFour part[4][4]) {
   for (int m = 0; m < 4; m++) part[m][3] = weight;
 }
 
-// A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart;
-// of those nearly as long or short, too, so that points do not go to and fro; all that are long count as much together
-// as all that are short: so the logarithm of the ratio falls fastest.
+// A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart:
+// down the gradient of their ratio, so that slender ones count for more.
 static inline void find_pulls(const Group *g, CwFour part[4][4]) {
-  CwFour edge[6][3], square[6], over[6], in[6], out[6], step[6], weight[6], way[6], least, most;
+  CwFour edge[6][3], square[6], step[6], way[6], least, most;
   find_edges(g, edge, square);
   find_extremes(square, &least, &most);
   CwFourMask sound = least > (float)CW_TET_FLAT * most;
-  CwFour longer = 1.0f / most;
-  for (int e = 0; e < 6; e++) {
-    over[e] = 1.0f / square[e], in[e] = longer * square[e], out[e] = least * over[e];
-    for (int k = 0; k < SHARPNESS; k++) in[e] *= in[e], out[e] *= out[e];
-  }
-  CwFour long_share = g->weight / (in[0] + in[1] + in[2] + in[3] + in[4] + in[5]);
-  CwFour short_share = g->weight / (out[0] + out[1] + out[2] + out[3] + out[4] + out[5]);
-  for (int e = 0; e < 6; e++) {
-    over[e] = cw_four_if(sound, over[e]);
-    weight[e] = (long_share * in[e] + short_share * out[e]) * over[e];
-    step[e] = pull * (long_share * in[e] - short_share * out[e]) * over[e];
-  }
+  CwFour in = cw_four_if(sound, g->weight / cw_four_sqrt(least * most));
+  CwFour out = cw_four_if(sound, in * most / least);
+  for (int e = 0; e < 6; e++) step[e] = cw_four_if(square[e] == most, in) - cw_four_if(square[e] == least, out);
   for (int i = 0; i < 3; i++) {
     for (int e = 0; e < 6; e++) way[e] = step[e] * edge[e][i];
     part[0][i] = way[0] + way[1] + way[2];
@@ -270,16 +257,13 @@ static inline void find_pulls(const Group *g, CwFour part[4][4]) {
     part[2][i] = way[5] - way[1] - way[3];
     part[3][i] = -way[2] - way[4] - way[5];
   }
-  part[0][3] = weight[0] + weight[1] + weight[2];
-  part[1][3] = weight[3] + weight[4] + weight[0];
-  part[2][3] = weight[5] + weight[1] + weight[3];
-  part[3][3] = weight[2] + weight[4] + weight[5];
+  part[0][3] = part[1][3] = part[2][3] = part[3][3] = 0.5f * (in + out);
 }
 
-// Moves such points at once to the weighted mean of the places that their tetrahedra want them at; these are to be
-// marked here, or were before.
-static inline void move_all(CwTetWork *w, int mark, void (*find)(const Group *, CwFour[4][4]), const uint8_t *moved,
-                            uint8_t which, CwFour *sum) {
+// Moves such points at once towards the weighted mean of the places that their tetrahedra want them at, by `share` of
+// the way; these are to be marked here, or were before.
+static inline void move_all(CwTetWork *w, int mark, void (*find)(const Group *, CwFour[4][4]), float share,
+                            const uint8_t *moved, uint8_t which, CwFour *sum) {
   CwDelaunay *mesh = w->mesh;
   int32_t list[BLOCK + PAD];
   memset(sum, 0, (size_t)mesh->point_count * sizeof *sum);
@@ -295,8 +279,8 @@ static inline void move_all(CwTetWork *w, int mark, void (*find)(const Group *, 
     }
   }
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    if ((moved[p] & which) && sum[p][3] > 0.0f)
-      w->place[p] += cw_four_if((CwFourMask){-1, -1, -1, 0}, sum[p] / sum[p][3]);
+    if (!(moved[p] & which) || !(sum[p][3] > 0.0f)) continue;
+    w->place[p] += cw_four_if((CwFourMask){-1, -1, -1, 0}, share / sum[p][3] * sum[p]);
   }
 }
 
@@ -346,7 +330,7 @@ done:
 
 // Further steps of the points beside dividing planes alone: there triangles that both sides share hold tetrahedra more
 // than elsewhere.
-static void even_beside_planes(CwTetWork *w, uint8_t *moved, CwFour *sum) {
+static void even_beside_planes(CwTetWork *w, int evenings, float share, uint8_t *moved, CwFour *sum) {
   CwDelaunay *mesh = w->mesh;
   int32_t count = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
@@ -359,14 +343,14 @@ static void even_beside_planes(CwTetWork *w, uint8_t *moved, CwFour *sum) {
     }
   }
   if (count == 0) return;
-  for (int k = 0; k < BESIDE_EVENINGS; k++) move_all(w, k == 0, find_pulls, moved, BESIDE, sum);
+  for (int k = 0; k < evenings; k++, share *= decay) move_all(w, k == 0, find_pulls, share, moved, BESIDE, sum);
   for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) mark_moving(mesh, t, moved, MOVED);
 }
 
 // Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
-// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by short steps to where its tetrahedra's
-// edges are more even.
-CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
+// Optimal Delaunay triangulations, J. Comp. Math. 22, 2004), and from there by ever shorter steps to where its
+// tetrahedra's edges are more even.
+CwStatus cw_tet_relax(CwTetWork *w, CwTetMoves moves) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
   CwFour *sum = NULL;
@@ -381,9 +365,11 @@ CwStatus cw_tet_relax(CwTetWork *w, int evenings) {
     w->irregular[p] = 0;
     w->count.points_moved += moved[p] == MOVED;
   }
-  move_all(w, 1, find_centres, moved, MOVED, sum);
-  for (int k = 0; k < evenings; k++) move_all(w, 0, find_pulls, moved, MOVED, sum);
-  if (evenings && w->on_plane) even_beside_planes(w, moved, sum);
+  float share = (float)moves.pull;
+  if (moves.centres) move_all(w, 1, find_centres, 1.0f, moved, MOVED, sum);
+  for (int k = 0; k < moves.evenings; k++, share *= decay)
+    move_all(w, !moves.centres && k == 0, find_pulls, share, moved, MOVED, sum);
+  if (moves.beside && w->on_plane) even_beside_planes(w, moves.beside, share, moved, sum);
   CW_TRY(take_back(w, moved));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double goal[3];

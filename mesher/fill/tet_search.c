@@ -313,17 +313,23 @@ static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, allowed;
   int32_t(*triangle)[3] = NULL, count = 0, worst;
-  for (int32_t k = 0; k < 4 * mesh->tet_count; k++)
-    count += mesh->tet[k / 4].corner[0] >= 0 && mesh->tet[k / 4].neighbour[k % 4] < 0;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    cw_delaunay_ask_ahead(tet);
+    for (int i = 0; i < 4; i++) count += tet->corner[0] >= 0 && tet->neighbour[i] < 0;
+  }
   CW_NEW(x, mesh->point_count);
   CW_NEW(triangle, count);
   for (int32_t p = 0; p < mesh->point_count; p++) memcpy(x[p], mesh->point[p].x, sizeof x[p]);
   count = 0;
-  for (int32_t k = 0; k < 4 * mesh->tet_count; k++) {
-    const CwDelaunayTet *tet = &mesh->tet[k / 4];
-    if (tet->corner[0] < 0 || tet->neighbour[k % 4] >= 0) continue;
-    for (int i = 0; i < 3; i++) triangle[count][i] = tet->corner[cw_tet_face[k % 4][i]];
-    count++;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    const CwDelaunayTet *tet = &mesh->tet[t];
+    cw_delaunay_ask_ahead(tet);
+    for (int i = 0; i < 4 && tet->corner[0] >= 0; i++) {
+      if (tet->neighbour[i] >= 0) continue;
+      for (int k = 0; k < 3; k++) triangle[count][k] = tet->corner[cw_tet_face[i][k]];
+      count++;
+    }
   }
   CwFillInput boundary = {.point_count = mesh->point_count,
                           .x = (const double(*)[3])x,

@@ -4,15 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-static const double gain = 1e-3;         // at least, in the sum
-static const double least_quality = 0.3; // of what comes, or as it was before
-enum { RING = 4 }; // tetrahedra round an edge, at most: of removals with five one in fifteen would help
+static const double gain = 1e-3; // at least, in the sum
+enum { RING = 4 };               // tetrahedra round an edge, at most: of removals with five one in fifteen would help
 
 // Removes the edge a-b of t, whose square is given.
 static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, double square) {
   CwStatus status = CW_OK;
   int32_t old[CW_RING], ring[CW_RING], made[RING][4];
-  double before = 0.0, after = 0.0, least = least_quality;
+  double before = 0.0, after = 0.0, least = w->floor;
   int n = cw_flips_ring(&w->flips, t, a, b, RING, old, ring), count = n == 3 ? 2 : 4, first = 0;
   if (n < 3) goto done;
   if (n == 4) { // the shorter one of the two edges that may come

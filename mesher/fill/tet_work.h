@@ -21,8 +21,6 @@ extern "C" {
 // Quality below which tetrahedra are improved: the sine of 25 (or 155) degrees. More costs time and gives no
 // better worst ones.
 #define CW_TET_IMPROVE 0.4226
-// The same for flips after points have moved: these are cheap.
-#define CW_TET_TURN 0.48
 // Longest over shortest edge above which a tetrahedron is slender: its longest edge may go (cw_tet_shorten).
 #define CW_TET_LONG 1.6
 // The ratio of a tetrahedron that neither helps nor hinders, so that the number of them does not count.
@@ -48,13 +46,15 @@ typedef struct {
   int32_t tet_count;           // without free places, when all were judged first
   uint32_t stamp;              // of the last star
   double limit;                // quality below which tetrahedra are in the list
+  double floor;                // and below which none becomes worse for the sake of the aspect
   double insert, insert_round; // and those for which a new point is tried, and at places round about
   uint32_t pass;
   int32_t *bad, bad_count, bad_space; // to look at in this pass
   int32_t *next, next_count, next_space;
-  CwTetList slender;  // when all were judged
+  CwTetList slender;  // when all were judged, and what has changed since, where relaxing is to follow
   uint8_t *irregular; // by point, where relaxing is to follow: 1 where one round it is not as in a lattice
-  CwFour *place;      // of each point when they were last judged or moved together, from `middle`
+  int32_t irregular_space;
+  CwFour *place; // of each point when they were last judged or moved together, from `middle`
   int32_t place_space;
   double middle[3], blurred; // square of an edge that is too short for such places
   CwTetImproved count;
@@ -172,15 +172,24 @@ double cw_hollow_quality(CwHollow *hollow, const double p[3], double enough);
 // Pattern search for the point of best least quality from p, which it moves; returns that quality.
 double cw_hollow_best(CwHollow *hollow, double p[3], double start);
 
-// Moves all inner points at once towards even spacing and then, in `evenings` steps, towards even edges, those beside
-// dividing planes more; after that every tetrahedron below the limit is in the list.
-CwStatus cw_tet_relax(CwTetWork *w, int evenings);
+// How all inner points move at once: towards even spacing first, where `centres` is set, then in `evenings` steps
+// towards even edges, of which the first goes `pull` of an edge and each further one 0.7 of the one before, and those
+// beside dividing planes in `beside` more.
+typedef struct {
+  int centres, evenings, beside;
+  double pull;
+} CwTetMoves;
+
+// Moves all inner points but those that are as in a lattice, where nothing is left worse below the floor; then every
+// tetrahedron below the limit is in the list.
+CwStatus cw_tet_relax(CwTetWork *w, CwTetMoves moves);
 // Goes once over the slender tetrahedra. Three or four round their longest edge are made anew without it where the
-// ratio becomes less in the mean; the least quality of those may fall, to 0.3.
+// ratio becomes less in the mean; the least quality of those may fall, to the floor.
 CwStatus cw_tet_shorten(CwTetWork *w);
 // Takes away inner points with edges that are the shortest ones of five slender tetrahedra and more: a point goes into
 // the other end of its shortest one where the ratios, less the usual one, become less in the sum, or by so little more
-// that relaxing makes up for it. The least quality of its tetrahedra may fall, to 0.3. All are to be judged anew then.
+// that relaxing makes up for it. The least quality of its tetrahedra may fall, to the floor. All are to be judged anew
+// then.
 CwStatus cw_tet_collapse(CwTetWork *w);
 // Sets all qualities and finds the tetrahedra below the limit.
 CwStatus cw_tet_scan(CwTetWork *w);

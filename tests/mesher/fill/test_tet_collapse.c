@@ -52,7 +52,8 @@ static void collapse_in_lattice(double shift, int all_fixed, Shape *before, Shap
   assert_int_equal(cw_delaunay_make(count + 1, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.flips = {.mesh = &mesh},
                  .mesh = &mesh,
-                 .limit = CW_TET_TURN,
+                 .limit = CW_TET_IMPROVE,
+                 .floor = 0.3,
                  .fixed_count = all_fixed ? count + 1 : outside,
                  .source_count = count + 1};
   assert_int_equal(cw_tet_scan(&w), CW_OK);

@@ -44,8 +44,12 @@ static void tetrahedra_become_less_slender(void **state) {
   int32_t outside, count = shaken_lattice(8, 0.15, &outside, &x);
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {
-      .flips = {.mesh = &mesh}, .mesh = &mesh, .limit = CW_TET_TURN, .fixed_count = outside, .source_count = count};
+  CwTetWork w = {.flips = {.mesh = &mesh},
+                 .mesh = &mesh,
+                 .limit = 0.48,
+                 .floor = 0.3,
+                 .fixed_count = outside,
+                 .source_count = count};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   Shape before = shape_of(&w);
   assert_int_equal(cw_tet_shorten(&w), CW_OK);
@@ -84,7 +88,7 @@ static void shorten_round(int n, const double (*round)[2], int *count, int *with
     memcpy(tet[k], (int32_t[4]){1, 0, 2 + k, 2 + (k + 1) % n}, sizeof *tet);
   }
   assert_int_equal(cw_tet_mesh_make(&fill, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh}, .mesh = &mesh, .fixed_count = 2 + n, .source_count = 2 + n};
+  CwTetWork w = {.flips = {.mesh = &mesh}, .mesh = &mesh, .floor = 0.3, .fixed_count = 2 + n, .source_count = 2 + n};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   double six = shape_of(&w).six;
   assert_int_equal(cw_tet_shorten(&w), CW_OK);
