@@ -10,7 +10,7 @@
 
 static const double insert_limit = 0.4226, round_limit = 0.38;
 // Share of slender tetrahedra above which their shapes are worth more time: before the first round, and after it.
-static const double needy_first = 0.20, needy = 0.165;
+static const double needy_first = 0.20, needy = 0.18;
 static const double gain = 0.05; // of their number: where a round makes it no less by so much there is no further one
 static const double loose = 0.3; // quality that may be left by what is done for the aspect, since flips follow
 static const CwTetMoves spread = {.centres = 1}, first_moves = {.centres = 1, .evenings = 1, .pull = 0.4};
