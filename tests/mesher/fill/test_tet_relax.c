@@ -137,7 +137,7 @@ static void aspects_beside(int told, double *beside, double *apart) {
     for (int i = 0; i < 4; i++) {
       int32_t source = mesh.source[c[i]];
       is_free |= source >= outside;
-      is_beside |= source < outside && on_plane[source];
+      is_beside |= source >= 0 && source < outside && on_plane[source]; // -1: a corner round all
     }
     if (!is_free) continue;
     sum[is_beside] += cw_tet_excess(&w, c) + CW_TET_USUAL;
