@@ -10,22 +10,11 @@
 #include "mesher/common/hilbert.h"
 #include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
-
-// Spheres stand in single precision, seen from the middle of all points and in a unit of which no point is farther from
-// it than one. With u = 2^-24 centres and points are rounded by u (1 + r) and u at most, r being the radius; so the
-// square of a distance of r from the true centre, less that of the radius, is off by less than u (4 r + 8 r^2), of
-// which the square is below u^2 r^2 (32 + 128 r^2). A quarter more leaves room for errors of second order and of the
-// sphere in double precision; what is nearer is left to the exact predicate.
-static const float unsure_near = 40.0f * 0x1p-48f, unsure_far = 160.0f * 0x1p-48f;
-// Two conditions for that: u is little beside r; and, with P the product of the three edge lengths from one corner, the
-// error of the centre in double precision, which is below 32 eps P / |det| radii and counts four times, is so beside u.
-static const double small = 1e-10;    // below radius^2
-static const double slender = 2.4e11; // above P^2 / det^2
+#include "mesher/fill/sphere.h"
 
 // Corners of the face opposite corner i, outward.
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-enum { WITHIN = 1, BEYOND = 2, TAKEN = 4 }; // of a sphere, and in the cavity already
 enum { LARGE_PAGE = 1 << 21, CACHE_LINE = 64 };
 enum { LOCAL = 64 }; // points round a cavity that the edge table holds
 
@@ -40,13 +29,8 @@ typedef struct {
   int32_t low, high, owner;
 } Edge;
 
-// Where spheres are seen from, and one over their unit.
 typedef struct {
-  double middle[3], scale;
-} Frame;
-
-typedef struct {
-  Frame frame;
+  CwSphereFrame frame;
   int32_t *cavity, cavity_count, cavity_space;
   Side *side;
   int32_t side_count, side_space;
@@ -90,7 +74,7 @@ CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
   if (mesh->tet_count == mesh->tet_space)
     CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64, 0));
   *tet = mesh->tet_count++;
-  mesh->tet[*tet] = (CwDelaunayTet){.square = 0.0};
+  mesh->tet[*tet] = (CwDelaunayTet){.stamp = 0};
 done:
   return status;
 }
@@ -157,54 +141,9 @@ static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, con
   return cw_insphere(at(mesh, c[0]), at(mesh, c[1]), at(mesh, c[2]), at(mesh, c[3]), p) > 0;
 }
 
-static inline void place_in(const Frame *frame, const double x[3], double place[3]) {
-  for (int i = 0; i < 3; i++) place[i] = (x[i] - frame->middle[i]) * frame->scale;
-}
-
-// The square of a radius has its sign set, also where it is not a number, once the tetrahedron is in the cavity.
-static inline uint32_t sign_of(const CwDelaunayTet *t) {
-  uint32_t bits;
-  memcpy(&bits, &t->radius_square, sizeof bits);
-  return bits >> 31;
-}
-
-static inline void add_sign(CwDelaunayTet *t, uint32_t sign) {
-  uint32_t bits;
-  memcpy(&bits, &t->radius_square, sizeof bits);
-  bits |= sign << 31;
-  memcpy(&t->radius_square, &bits, sizeof bits);
-}
-
-// Where a place lies to a sphere: WITHIN or BEYOND, neither where that is not sure; and TAKEN.
-static inline unsigned compare(const CwDelaunayTet *t, const float place[3]) {
-  float x = place[0] - t->centre[0], y = place[1] - t->centre[1], z = place[2] - t->centre[2],
-        square = t->radius_square;
-  float over = x * x + y * y + z * z - square;
-  unsigned sure = cw_number(over * over > square * (unsure_far * square + unsure_near));
-  return sure + (sure & cw_number(over > 0.0f)) + TAKEN * sign_of(t);
-}
-
 static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3], const float place[3]) {
-  unsigned known = compare(t, place);
-  return known ? known == WITHIN : in_sphere_exactly(mesh, t, p);
-}
-
-// The sphere through the point at `place` and three points at a, b, c from it.
-static inline void set_sphere(CwDelaunayTet *t, const double place[3], const double a[4], const double b[4],
-                              const double c[4]) {
-  double bcx = b[1] * c[2] - b[2] * c[1], bcy = b[2] * c[0] - b[0] * c[2], bcz = b[0] * c[1] - b[1] * c[0];
-  double cax = c[1] * a[2] - c[2] * a[1], cay = c[2] * a[0] - c[0] * a[2], caz = c[0] * a[1] - c[1] * a[0];
-  double abx = a[1] * b[2] - a[2] * b[1], aby = a[2] * b[0] - a[0] * b[2], abz = a[0] * b[1] - a[1] * b[0];
-  double det = a[0] * bcx + a[1] * bcy + a[2] * bcz, half = 0.5 / det;
-  double x = (a[3] * bcx + b[3] * cax + c[3] * abx) * half;
-  double y = (a[3] * bcy + b[3] * cay + c[3] * aby) * half;
-  double z = (a[3] * bcz + b[3] * caz + c[3] * abz) * half;
-  double square = x * x + y * y + z * z;
-  int good = a[3] * b[3] * c[3] < slender * det * det && square > small;
-  t->centre[0] = (float)(place[0] + x);
-  t->centre[1] = (float)(place[1] + y);
-  t->centre[2] = (float)(place[2] + z);
-  t->radius_square = good ? (float)square : NAN;
+  unsigned known = cw_sphere_compare(t, place);
+  return known ? known == CW_WITHIN : in_sphere_exactly(mesh, t, p);
 }
 
 // A tetrahedron whose sphere holds p, from `start`: towards p through any face that has p beyond it. -1: p is
@@ -256,26 +195,26 @@ static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const d
   work->cavity_count = work->side_count = 0;
   CW_GROW(work->cavity, work->cavity_space, 1);
   work->cavity[work->cavity_count++] = start;
-  add_sign(&mesh->tet[start], 1);
+  cw_sphere_take(&mesh->tet[start], 1);
   for (int32_t head = 0; head < work->cavity_count; head++) {
     const CwDelaunayTet *tet = &mesh->tet[work->cavity[head]];
     CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
     CW_GROW(work->side, work->side_space, work->side_count + 4);
     for (int i = 0; i < 4; i++) {
       int32_t outer = tet->neighbour[i];
-      unsigned known = BEYOND;
+      unsigned known = CW_BEYOND;
       if (outer >= 0) {
         CwDelaunayTet *next = &mesh->tet[outer >> 2];
-        known = compare(next, place);
-        if (known == 0) known = in_sphere_exactly(mesh, next, p) ? WITHIN : BEYOND;
-        add_sign(next, known & WITHIN);
+        known = cw_sphere_compare(next, place);
+        if (known == 0) known = in_sphere_exactly(mesh, next, p) ? CW_WITHIN : CW_BEYOND;
+        cw_sphere_take(next, known & CW_WITHIN);
       }
       work->cavity[work->cavity_count] = outer >> 2;
-      work->cavity_count += known & WITHIN;
+      work->cavity_count += known & CW_WITHIN;
       Side *side = &work->side[work->side_count];
       for (int k = 0; k < 3; k++) side->corner[k] = tet->corner[tet_face[i][k]];
       side->outer = outer;
-      work->side_count += known == BEYOND;
+      work->side_count += known == CW_BEYOND;
     }
   }
 done:
@@ -356,7 +295,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const d
     tet->corner[3] = point;
     tet->neighbour[3] = side->outer;
     if (side->outer >= 0) mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
-    set_sphere(tet, place, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
+    cw_sphere_set(tet, place, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
     if (!tabled) continue;
     table[l[1] * LOCAL + l[2]] = 4 * side->tet;
     table[l[2] * LOCAL + l[0]] = 4 * side->tet + 2;
@@ -433,15 +372,6 @@ static void first_tet(CwDelaunay *mesh) {
   mesh->tet_count = 1;
 }
 
-// From the corners, as `enclose` has set them.
-static void set_frame(const CwDelaunay *mesh, Work *work) {
-  for (int i = 0; i < 3; i++) {
-    work->frame.middle[i] = 0.0;
-    for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) work->frame.middle[i] += 0.25 * at(mesh, k)[i];
-  }
-  work->frame.scale = 8.0 / (at(mesh, 0)[0] - at(mesh, 1)[0]);
-}
-
 CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
   CwStatus status = CW_OK;
   int32_t *order = NULL;
@@ -472,7 +402,7 @@ CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
   CW_NEW(work, 1);
   // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
   CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
-  set_frame(mesh, work);
+  work->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
   first_tet(mesh);
   mesh->point_count = CW_DELAUNAY_CORNERS;
   for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
@@ -480,7 +410,7 @@ CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
     mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
     mesh->source[point] = mesh->source[k];
     double place[3];
-    place_in(&work->frame, mesh->point[point].x, place);
+    cw_sphere_place(&work->frame, mesh->point[point].x, place);
     const float seen[3] = {(float)place[0], (float)place[1], (float)place[2]};
     int32_t start = walk(mesh, last, mesh->point[point].x, seen, &found);
     if (start < 0) {

@@ -17,17 +17,25 @@ enum { CW_DELAUNAY_CORNERS = 4 }; // of the enclosing tetrahedron
 // In place of a neighbour: there is none in this mesh, but there are cells of the whole one; there are none at all.
 enum { CW_BESIDE_OTHERS = -1, CW_BESIDE_NOTHING = -2 };
 
-// While points are connected a tetrahedron has its circumscribed sphere (see delaunay.c); afterwards its place is free
-// for marks. 48 bytes, a quarter less than with spheres in double precision.
+// While points are connected a tetrahedron has its circumscribed sphere (sphere.h); afterwards the place of that is
+// used for what the boundary's recovery, the flood from outside and the improvement note. 48 bytes, a quarter less than
+// with spheres in double precision.
 typedef struct {
   union {
     struct {
-      float centre[3], radius_square; // the square is not a number where the sphere is not known well enough
+      float centre[3];
+      union {
+        float radius_square; // not a number where the sphere is not known well enough
+        uint32_t mark;       // the flood's, see kernel.c; the highest bit is the sign, which no square has
+      };
     };
     struct {
-      double square;                  // a quality, or a stamp
-      uint32_t star;                  // a stamp
-      uint32_t pass : 30, weight : 2; // the last bit is the sign of the square above, which no sphere has
+      union {
+        uint64_t stamp; // of the last star, while the boundary is recovered
+        double quality; // while tetrahedra are improved
+      };
+      uint32_t star; // a stamp beside a quality
+      unsigned pass : 30, weight : 2;
     };
   };
   int32_t corner[4];    // positive: (x1 - x0) x (x2 - x0) . (x3 - x0) > 0; corner[0] = -1: a free place
@@ -59,10 +67,15 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh
 CwStatus cw_delaunay_connect(CwDelaunay *mesh);
 void cw_delaunay_free(CwDelaunay *mesh);
 
-// For passes over all tetrahedra, in their order: asks the memory for one that comes a little later. Processors do so
-// by themselves within a page only, which is 64 of them. Nothing is read, so that it may lie behind the last one.
+// Asks the memory for the tetrahedron so many places behind. Nothing is read, so that there need be none.
+static inline void cw_delaunay_ask(const CwDelaunayTet *tet, int64_t ahead) {
+  __builtin_prefetch((const void *)((uintptr_t)tet + (uintptr_t)(ahead * (int64_t)sizeof *tet)), 1);
+}
+
+// For passes over all tetrahedra, in their order: asks for one that comes a little later. Processors do so by
+// themselves within a page only, which is 64 of them.
 static inline void cw_delaunay_ask_ahead(const CwDelaunayTet *tet) {
-  __builtin_prefetch(tet + 32, 1);
+  cw_delaunay_ask(tet, 32);
 }
 
 // A free place for a tetrahedron; the caller fills it.

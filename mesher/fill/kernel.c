@@ -55,17 +55,17 @@ static void give_back(void) {
 enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
 static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
 enum { INNER = 16, OUTSIDE = 32 };      // of a tetrahedron, and bit i: its face i is a facet
+#define MARKED (UINT32_C(1) << 31)      // and any of these
 enum { SOON = 8, LATER = 16 }; // facets ahead of which the memory is asked, for the outer and the inner tetrahedron
 
 // Stands where the square of the sphere's radius stood, and has its sign set, which no square has: whether a
 // tetrahedron has one is as good as random, and this takes no branch.
-static unsigned place_of(const CwDelaunayTet *tet) {
-  return tet->pass & -(unsigned)(tet->weight >> 1);
+static uint32_t place_of(const CwDelaunayTet *tet) {
+  return tet->mark & -(tet->mark >> 31);
 }
 
-static void add_place(CwDelaunayTet *tet, unsigned place) {
-  tet->pass = place_of(tet) | place;
-  tet->weight = 2;
+static void add_place(CwDelaunayTet *tet, uint32_t place) {
+  tet->mark = place_of(tet) | place | MARKED;
 }
 
 // A point that hangs together with a corner of the tetrahedron that encloses all.
@@ -89,7 +89,7 @@ static int add_outside(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
   int enclosing = 0;
   for (int i = 0; i < 4; i++) {
     enclosing |= tet->corner[i] < CW_DELAUNAY_CORNERS;
-    __builtin_prefetch(&mesh->tet[tet->neighbour[i] >> 2]); // asked for soon
+    cw_delaunay_ask(mesh->tet, tet->neighbour[i] >> 2); // looked at soon
   }
   add_place(tet, OUTSIDE);
   tet->corner[1] = *waiting;

@@ -18,7 +18,7 @@ CwStatus cw_flips_make(CwDelaunay *mesh, CwFlips *flips) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     CwDelaunayTet *tet = &mesh->tet[t];
     cw_delaunay_ask_ahead(tet);
-    tet->square = 0.0;
+    tet->stamp = 0;
     for (int i = 0; i < 4 && tet->corner[0] >= 0; i++) flips->tet_at[tet->corner[i]] = t;
   }
 done:
@@ -59,14 +59,14 @@ static CwStatus push(CwFlips *flips, int32_t t) {
   CwStatus status = CW_OK;
   CW_GROW(flips->star, flips->star_space, flips->star_count + 1);
   flips->star[flips->star_count++] = t;
-  flips->mesh->tet[t].square = flips->stamp;
+  flips->mesh->tet[t].stamp = flips->stamp;
 done:
   return status;
 }
 
 CwStatus cw_flips_star(CwFlips *flips, int32_t point) {
   CwStatus status = CW_OK;
-  flips->stamp += 1.0;
+  flips->stamp++;
   flips->star_count = 0;
   CW_TRY(push(flips, flips->tet_at[point]));
   for (int32_t head = 0; head < flips->star_count; head++) {
@@ -74,7 +74,7 @@ CwStatus cw_flips_star(CwFlips *flips, int32_t point) {
     for (int i = 0; i < 4; i++) {
       if (tet->corner[i] == point || tet->neighbour[i] < 0) continue;
       int32_t next = tet->neighbour[i] / 4;
-      if (flips->mesh->tet[next].square != flips->stamp) CW_TRY(push(flips, next));
+      if (flips->mesh->tet[next].stamp != flips->stamp) CW_TRY(push(flips, next));
     }
   }
 done:
@@ -152,7 +152,7 @@ CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int
   for (int k = 0; k < count; k++) {
     CwDelaunayTet *tet = &mesh->tet[slot[k]];
     memcpy(tet->corner, corner[k], sizeof tet->corner);
-    tet->square = 0.0;
+    tet->stamp = 0;
     for (int i = 0; i < 4; i++) {
       if (flips->tet_at) flips->tet_at[corner[k][i]] = slot[k];
       Side one = side_of(corner[k], i, 4 * slot[k] + i);

@@ -22,7 +22,7 @@ typedef int (*CwCrossing)(const void *context, int count, const int32_t *point);
 typedef struct {
   CwDelaunay *mesh;
   int32_t *tet_at; // one tetrahedron of each point; not kept where it is NULL
-  double stamp;    // of the last star, in the tetrahedra's square
+  uint64_t stamp;  // of the last star, and of its tetrahedra
   int32_t *star, star_count, star_space;
   CwCrossing crossing;
   const void *context;

@@ -77,7 +77,7 @@ static CwStatus push(Splitter *s, int32_t t) {
   CwFlips *flips = &s->recovery.flips;
   CW_GROW(s->crossed, s->crossed_space, s->crossed_count + 1);
   s->crossed[s->crossed_count++] = t;
-  flips->mesh->tet[t].square = flips->stamp;
+  flips->mesh->tet[t].stamp = flips->stamp;
 done:
   return status;
 }
@@ -175,14 +175,14 @@ static CwStatus find_places(Splitter *s, int count, const int32_t *goal) {
       if (look(s, count, goal, t) && !has(s->crossed, s->crossed_count, t)) CW_TRY(push(s, t));
     }
   }
-  flips->stamp += 1.0;
-  for (int32_t k = 0; k < s->crossed_count; k++) mesh->tet[s->crossed[k]].square = flips->stamp;
+  flips->stamp++;
+  for (int32_t k = 0; k < s->crossed_count; k++) mesh->tet[s->crossed[k]].stamp = flips->stamp;
   s->place_count = 0;
   for (int32_t head = 0; head < s->crossed_count; head++) {
     const CwDelaunayTet *tet = &mesh->tet[s->crossed[head]];
     if (!look(s, count, goal, s->crossed[head])) continue;
     for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] >= 0 && mesh->tet[tet->neighbour[i] / 4].square != flips->stamp)
+      if (tet->neighbour[i] >= 0 && mesh->tet[tet->neighbour[i] / 4].stamp != flips->stamp)
         CW_TRY(push(s, tet->neighbour[i] / 4));
     }
   }
@@ -249,8 +249,8 @@ static CwStatus find_around(Splitter *s, const double x[3], int32_t *tet) {
   const CwDelaunay *mesh = flips->mesh;
   int32_t kept = s->crossed_count, last = kept;
   *tet = -1;
-  flips->stamp += 1.0;
-  for (int32_t k = 0; k < kept; k++) mesh->tet[s->crossed[k]].square = flips->stamp;
+  flips->stamp++;
+  for (int32_t k = 0; k < kept; k++) mesh->tet[s->crossed[k]].stamp = flips->stamp;
   for (int32_t k = 0, layer = 0; k < s->crossed_count && *tet < 0; k++) {
     if (k == last) {
       layer++;
@@ -262,7 +262,7 @@ static CwStatus find_around(Splitter *s, const double x[3], int32_t *tet) {
       inside = inside && cw_orient3d(at(mesh, now->corner[tet_face[i][0]]), at(mesh, now->corner[tet_face[i][2]]),
                                      at(mesh, now->corner[tet_face[i][1]]), x) > 0;
       int32_t next = now->neighbour[i] / 4;
-      if (layer < LAYERS && now->neighbour[i] >= 0 && mesh->tet[next].square != flips->stamp) {
+      if (layer < LAYERS && now->neighbour[i] >= 0 && mesh->tet[next].stamp != flips->stamp) {
         CW_TRY(push(s, next));
         now = &mesh->tet[s->crossed[k]];
       }

@@ -87,7 +87,7 @@ static CwStatus take_off(CwFlips *flips, const CwSplit *split, CwHollow *h, int 
     const int32_t corner[4] = {split->ends[k][1], split->ends[k][0], split->apex[k], split->point};
     CwDelaunayTet *tet = &mesh->tet[made[k]];
     memcpy(tet->corner, corner, sizeof corner);
-    tet->square = 0.0;
+    tet->stamp = 0;
     tet->neighbour[3] = -1;
     join(mesh, 4 * made[k] + 1, side[k][0]);
     join(mesh, 4 * made[k] + 0, side[k][1]);

@@ -36,7 +36,7 @@ static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
     const CwDelaunayTet *tet = &w->mesh->tet[star[k]];
     int vanishes = 0;
     sum -= cw_tet_excess(w, tet->corner);
-    least = cw_tet_less(least, tet->square);
+    least = cw_tet_less(least, tet->quality);
     for (int i = 0; i < 4; i++) {
       made[count][i] = tet->corner[i] == p ? q : tet->corner[i];
       vanishes |= tet->corner[i] == q;

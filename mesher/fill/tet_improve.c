@@ -51,7 +51,7 @@ done:
 CwStatus cw_tet_set_quality(CwTetWork *w, int32_t t, double quality) {
   CwStatus status = CW_OK;
   CwDelaunayTet *tet = &w->mesh->tet[t];
-  tet->square = quality;
+  tet->quality = quality;
   for (int i = 0; i < 4; i++) w->mesh->point[tet->corner[i]].mark = w->pass;
   if (w->irregular) { // it may be slender now
     CW_GROW(w->slender.tet, w->slender.space, w->slender.count + 1);
@@ -103,7 +103,7 @@ static CwStatus improve_one(CwTetWork *w, int32_t t, int move, int insert, int *
     CW_TRY(cw_tet_remove_edge(w, t, c[cw_tet_edge[order[e]][0]], c[cw_tet_edge[order[e]][1]], done_it));
   for (int i = 0; i < 4 && !*done_it; i++) CW_TRY(cw_tet_remove_face(w, t, i, done_it));
   for (int i = 0; i < 4 && move && !*done_it; i++) CW_TRY(cw_tet_smooth(w, t, c[i], done_it));
-  if (insert && !*done_it && w->mesh->tet[t].square < w->insert) CW_TRY(cw_tet_insert(w, t, done_it));
+  if (insert && !*done_it && w->mesh->tet[t].quality < w->insert) CW_TRY(cw_tet_insert(w, t, done_it));
 done:
   return status;
 }
@@ -125,7 +125,7 @@ CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move) {
     for (int32_t k = 0; k < w->bad_count; k++) {
       int32_t t = w->bad[k];
       int done_it = 0;
-      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= w->limit) continue;
+      if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= w->limit) continue;
       if (pass <= 1 || has_changed(w, t)) CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
       changes += done_it;
       if (!done_it) CW_TRY(cw_tet_push(w, t));
@@ -141,7 +141,7 @@ static double least_quality(const CwTetWork *w) {
   double least = CW_TET_IMPROVE;
   for (int32_t k = 0; k < w->next_count; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[w->next[k]];
-    if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->square);
+    if (tet->corner[0] >= 0) least = cw_tet_less(least, tet->quality);
   }
   return least;
 }

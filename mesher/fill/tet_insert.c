@@ -107,7 +107,7 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   for (int e = 0; e < 6; e++, count++) {
     for (int i = 0; i < 3; i++) place[count][i] = 0.5 * (x[cw_tet_edge[e][0]][i] + x[cw_tet_edge[e][1]][i]);
   }
-  if (tet->square >= w->insert_round) return count;
+  if (tet->quality >= w->insert_round) return count;
   CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
   double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
   for (int k = 0; k < 14 * SHELLS; k++, count++) {
@@ -180,7 +180,7 @@ CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
   static const double aim[4] = {0.4, 0.32, 0.25, 0.0};
-  double place[PLACES][3], least = w->mesh->tet[t].square + worth, best = least, p[3];
+  double place[PLACES][3], least = w->mesh->tet[t].quality + worth, best = least, p[3];
   int tries = candidates(w, t, place);
   Cavity chosen = {0};
   Grown grown[PLACES];

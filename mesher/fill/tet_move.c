@@ -100,7 +100,7 @@ CwStatus cw_tet_smooth(CwTetWork *w, int32_t t, int32_t point, int *done_it) {
     while (tet->corner[corner] != point) corner++;
     // Inward: (face, point) positive.
     for (int i = 0; i < 3; i++) hollow.face[k][i] = cw_tet_at(w, tet->corner[cw_tet_face[corner][2 - i]]);
-    if (tet->square < least) least = tet->square;
+    if (tet->quality < least) least = tet->quality;
   }
   if (n == 0) goto done;
   memcpy(p, cw_tet_at(w, point), sizeof p);

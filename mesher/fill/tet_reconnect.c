@@ -25,7 +25,7 @@ CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *
   int n = cw_flips_ring(&w->flips, t, a, b, RING, old, ring);
   if (n < 3 || n > RING) goto done;
   for (int k = 0; k < n; k++) {
-    double q = w->mesh->tet[old[k]].square;
+    double q = w->mesh->tet[old[k]].quality;
     if (q < least) least = q;
     if (k + 1 < n) table.best[k][k + 1] = INFINITY;
   }
@@ -70,7 +70,7 @@ CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
   if (other < 0) goto done;
   const int32_t old[2] = {t, other / 4};
   int32_t below = tet->corner[i], above = w->mesh->tet[old[1]].corner[other % 4];
-  double least = w->mesh->tet[old[1]].square < tet->square ? w->mesh->tet[old[1]].square : tet->square;
+  double least = w->mesh->tet[old[1]].quality < tet->quality ? w->mesh->tet[old[1]].quality : tet->quality;
   for (int k = 0; k < 3; k++) {
     const int32_t one[4] = {tet->corner[cw_tet_face[i][k]], tet->corner[cw_tet_face[i][(k + 1) % 3]], below, above};
     quality[k] = cw_tet_quality_of(w, one[0], one[1], one[2], one[3]);

@@ -49,7 +49,7 @@ static inline void take_group(const CwTetWork *w, const int32_t list[4], Group *
   for (int k = 0; k < 4; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[list[k]];
     const int32_t *corner = tet->corner;
-    __builtin_prefetch(tet + BLOCK, 1); // of the next block, while this one is reckoned with
+    cw_delaunay_ask(tet, BLOCK); // of the next block, while this one is reckoned with
     CwFour from = w->place[corner[0]];
     weight[k] = (float)tet->weight;
     for (int c = 0; c < 3; c++) g->arm[c][k] = w->place[corner[c + 1]] - from;
@@ -147,7 +147,7 @@ static double quality_at_goals(const CwTetWork *w, const int32_t corner[4]) {
 static int is_spoilt(const CwTetWork *w, int32_t t) {
   const CwDelaunayTet *tet = &w->mesh->tet[t];
   const int32_t *c = tet->corner;
-  return tet->square < w->floor && tet->square < cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
+  return tet->quality < w->floor && tet->quality < cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
 }
 
 // Marks the points of a group where it is irregular, and adds the slender ones to their list, without branches.
@@ -178,10 +178,10 @@ static CwStatus judge(CwTetWork *w, const int32_t *list, int count, CwTetList *s
     for (int k = 0; k < some; k++) {
       int32_t t = list[from + k];
       CwDelaunayTet *tet = &w->mesh->tet[t];
-      tet->square = (double)quality[k];
+      tet->quality = (double)quality[k];
       if (sure[k]) continue;
-      tet->square = quality_at_goals(w, tet->corner);
-      if (tet->square < w->limit) CW_TRY(cw_tet_push(w, t));
+      tet->quality = quality_at_goals(w, tet->corner);
+      if (tet->quality < w->limit) CW_TRY(cw_tet_push(w, t));
       if (!spoilt || !is_spoilt(w, t)) continue;
       CW_GROW(spoilt->tet, spoilt->space, spoilt->count + 1);
       spoilt->tet[spoilt->count++] = t;

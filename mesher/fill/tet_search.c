@@ -301,7 +301,7 @@ static int32_t count_bad(const CwTetWork *w) {
   int32_t count = 0;
   for (int32_t k = 0; k < w->next_count; k++) {
     int32_t t = w->next[k];
-    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= bad) continue;
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= bad) continue;
     CwTetMeasures m = measures_of(w->mesh, t);
     count += least_sine(&m) < bad;
   }
@@ -350,7 +350,7 @@ static int32_t find_worst(const Search *s, int count, const double (*place)[3], 
   *least = s->begin;
   for (int32_t k = 0; k < w->next_count; k++) {
     int32_t t = w->next[k];
-    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].square >= (s->determinants ? wanted : *least)) continue;
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= (s->determinants ? wanted : *least)) continue;
     double sine, judged = judge(s, w->mesh, t, &sine);
     if (judged < *least && judged > sound && !is_near(w, t, count, place, reach)) *least = judged, worst = t;
   }

@@ -21,7 +21,7 @@ static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, doubl
   }
   for (int k = 0; k < n; k++) {
     before += cw_tet_excess(w, w->mesh->tet[old[k]].corner);
-    least = cw_tet_less(least, w->mesh->tet[old[k]].square);
+    least = cw_tet_less(least, w->mesh->tet[old[k]].quality);
   }
   for (int k = 0; k < count; k++) {
     int32_t p = ring[first], q = ring[first + 1 + k / 2], r = ring[(first + 2 + k / 2) % n];

@@ -68,10 +68,10 @@ static void shaken_points_become_even(void **state) {
   assert_true(moved > (count - outside) / 2);
   for (int32_t t = 0; t < mesh.tet_count; t++) { // qualities are kept, those below the limit listed
     const int32_t *c = mesh.tet[t].corner;
-    if (c[0] < 0 || mesh.tet[t].square == 1.0) continue;
+    if (c[0] < 0 || mesh.tet[t].quality == 1.0) continue;
     double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
-    assert_true(fabs(mesh.tet[t].square - quality) < (quality < w.limit ? 1e-15 : 1e-5));
-    int listed = mesh.tet[t].square >= CW_TET_IMPROVE;
+    assert_true(fabs(mesh.tet[t].quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
+    int listed = mesh.tet[t].quality >= CW_TET_IMPROVE;
     for (int32_t k = 0; k < w.next_count && !listed; k++) listed = w.next[k] == t;
     assert_true(listed);
   }
@@ -178,11 +178,11 @@ static int spoilt_below(double floor) {
   assert_non_null(w.irregular);
   assert_non_null(before);
   assert_int_equal(cw_tet_scan(&w), CW_OK);
-  for (int32_t t = 0; t < mesh.tet_count; t++) before[t] = mesh.tet[t].square;
+  for (int32_t t = 0; t < mesh.tet_count; t++) before[t] = mesh.tet[t].quality;
   assert_int_equal(cw_tet_relax(&w, (CwTetMoves){.evenings = 5, .pull = 0.4}), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     if (mesh.tet[t].corner[0] < 0) continue;
-    spoilt += mesh.tet[t].square < CW_TET_IMPROVE && mesh.tet[t].square < before[t] - 1e-12;
+    spoilt += mesh.tet[t].quality < CW_TET_IMPROVE && mesh.tet[t].quality < before[t] - 1e-12;
   }
   cw_tet_work_free(&w);
   cw_delaunay_free(&mesh);

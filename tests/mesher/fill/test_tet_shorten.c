@@ -63,8 +63,8 @@ static void tetrahedra_become_less_slender(void **state) {
     const int32_t *c = tet->corner;
     if (c[0] < 0) continue;
     double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
-    assert_true(tet->square == 1.0 || fabs(tet->square - quality) < (quality < w.limit ? 1e-15 : 1e-5));
-    int listed = tet->square >= w.limit;
+    assert_true(tet->quality == 1.0 || fabs(tet->quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
+    int listed = tet->quality >= w.limit;
     for (int32_t k = 0; k < w.next_count && !listed; k++) listed = w.next[k] == t;
     assert_true(listed);
     for (int i = 0; i < 4; i++) // neighbours know one another

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "mesher/common/predicates.h"
+#include "mesher/fill/sphere.h"
+
+static uint64_t state;
+
+static double draw(void) {
+  state = state * 6364136223846793005u + 1442695040888963407u;
+  return (double)(state >> 11) * 0x1p-53;
+}
+
+// Corners of a tetrahedron that encloses points up to `size` from the middle.
+static CwSphereFrame frame_of(const double middle[3], double size) {
+  static const double sign[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
+  double x[4][3];
+  for (int k = 0; k < 12; k++) x[k / 3][k % 3] = middle[k % 3] + 4 * size * sign[k / 3][k % 3];
+  return cw_sphere_frame(x[0], x[1], x[2], x[3]);
+}
+
+static void set(const CwSphereFrame *frame, const double x[4][3], CwDelaunayTet *tet) {
+  double place[3], arm[3][4];
+  cw_sphere_place(frame, x[3], place);
+  for (int k = 0; k < 3; k++) {
+    arm[k][3] = 0;
+    for (int i = 0; i < 3; i++) {
+      arm[k][i] = (x[k][i] - x[3][i]) * frame->scale;
+      arm[k][3] += arm[k][i] * arm[k][i];
+    }
+  }
+  cw_sphere_set(tet, place, arm[0], arm[1], arm[2]);
+}
+
+static unsigned look(const CwSphereFrame *frame, const CwDelaunayTet *tet, const double p[3]) {
+  double place[3];
+  cw_sphere_place(frame, p, place);
+  return cw_sphere_compare(tet, (float[3]){(float)place[0], (float)place[1], (float)place[2]});
+}
+
+// The middle and the unit; the sphere of a corner of a cube.
+static void framed(void **unused) {
+  const double middle[3] = {7, -3, 0.5}, x[4][3] = {{8, -3, 0.5}, {7, -2, 0.5}, {7, -3, 1.5}, {7, -3, 0.5}};
+  CwSphereFrame frame = frame_of(middle, 2);
+  CwDelaunayTet tet = {.stamp = 0};
+  double place[3];
+  cw_sphere_place(&frame, (double[3]){9, -3, -0.5}, place);
+  assert_true(place[0] == 1 && place[1] == 0 && place[2] == -0.5);
+  set(&frame, x, &tet);
+  for (int i = 0; i < 3; i++) assert_true(fabs(tet.centre[i] - 0.25) < 1e-6);
+  assert_true(fabs(tet.radius_square - 3.0 / 16) < 1e-6);
+}
+
+// What is sure is as the exact predicate has it, for points that come nearer and nearer to the sphere; most of the
+// others are sure.
+static void as_exact(void **unused) {
+  const double middle[3] = {0.3, 0.1, -0.7};
+  CwSphereFrame frame = frame_of(middle, 1);
+  int seen[3] = {0};
+  state = 3;
+  for (int trial = 0; trial < 20000; trial++) {
+    double x[4][3], p[3], size = pow(0.1, 4 * draw()), off = pow(0.1, 9 * draw());
+    CwDelaunayTet tet;
+    for (int i = 0; i < 3; i++) x[0][i] = middle[i] + 0.5 * (draw() - 0.5);
+    for (int k = 1; k < 4; k++) { // of all sizes
+      for (int i = 0; i < 3; i++) x[k][i] = x[0][i] + size * (draw() - 0.5);
+    }
+    if (cw_orient3d(x[0], x[1], x[2], x[3]) <= 0) continue;
+    set(&frame, (const double(*)[3])x, &tet);
+    for (int i = 0; i < 3; i++) p[i] = x[0][i] + off * size * (draw() - 0.5);
+    unsigned known = look(&frame, &tet, p);
+    assert_true(known <= CW_BEYOND);
+    seen[known]++;
+    if (known) assert_int_equal(known == CW_WITHIN, cw_insphere(x[0], x[1], x[2], x[3], p) > 0);
+  }
+  for (int k = 0; k < 3; k++) assert_true(seen[k] > 1000);
+}
+
+// Four points of a plane have no sphere: nothing is sure of it.
+static void flat(void **unused) {
+  const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.4, 0}}, middle[3] = {0, 0, 0};
+  CwSphereFrame frame = frame_of(middle, 1);
+  CwDelaunayTet tet;
+  set(&frame, x, &tet);
+  assert_int_equal(look(&frame, &tet, (double[3]){0.1, 0.1, 0.5}), 0);
+  cw_sphere_take(&tet, 1);
+  assert_int_equal(look(&frame, &tet, (double[3]){0.1, 0.1, 0.5}), CW_TAKEN);
+}
+
+// One that is taken holds no point, wherever it lies.
+static void taken(void **unused) {
+  const double x[4][3] = {{0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0, 0, 0}}, middle[3] = {0, 0, 0};
+  CwSphereFrame frame = frame_of(middle, 1);
+  CwDelaunayTet tet;
+  set(&frame, x, &tet);
+  const double p[3][3] = {{0.2, 0.2, 0.2}, {-0.9, 0, 0}, {0.5, 0, 0}};
+  cw_sphere_take(&tet, 0);
+  assert_int_equal(look(&frame, &tet, p[0]), CW_WITHIN);
+  assert_int_equal(look(&frame, &tet, p[1]), CW_BEYOND);
+  assert_int_equal(look(&frame, &tet, p[2]), 0);
+  cw_sphere_take(&tet, 1);
+  for (int k = 0; k < 3; k++) assert_int_equal(look(&frame, &tet, p[k]) & (CW_WITHIN | CW_TAKEN), CW_TAKEN);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(framed), cmocka_unit_test(as_exact), cmocka_unit_test(flat),
+                                     cmocka_unit_test(taken)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
