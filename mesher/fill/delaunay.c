@@ -251,11 +251,11 @@ done:
   return status;
 }
 
-// Tetrahedra from the new point to all sides of the cavity, which it sees.
-static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
+// Numbers the points round the cavity, and gives each side a place for its tetrahedron: those of the cavity first, of
+// which what is left over is freed.
+static CwStatus prepare_sides(CwDelaunay *mesh, Work *work, int32_t point, int32_t *round_count) {
   CwStatus status = CW_OK;
-  const double *p = mesh->point[point].x;
-  int32_t locals = 0, *table = work->table;
+  int32_t locals = 0;
   CW_GROW(work->arm, work->arm_space, 3 * (int64_t)work->side_count + 1);
   CW_GROW(work->round, work->round_space, 3 * (int64_t)work->side_count + 1);
   for (int32_t k = 0; k < work->side_count; k++) {
@@ -278,6 +278,17 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const d
     mesh->tet[work->cavity[k]].radius_square = 0.0f; // without its sign
     cw_delaunay_free_tet(mesh, work->cavity[k]);
   }
+  *round_count = locals;
+done:
+  return status;
+}
+
+// Tetrahedra from the new point to all sides of the cavity, which it sees.
+static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
+  CwStatus status = CW_OK;
+  const double *p = mesh->point[point].x;
+  int32_t locals = 0, *table = work->table;
+  CW_TRY(prepare_sides(mesh, work, point, &locals));
   for (int32_t l = 0; l < locals; l++) {
     const double *x = mesh->point[work->round[l]].x;
     double *arm = work->arm[l];

@@ -46,14 +46,6 @@ done:
   return status;
 }
 
-static void normal_of(const CwFillInput *boundary, int32_t t, double n[3]) {
-  const double *a = boundary->x[boundary->triangle[t][0]];
-  double u[3], v[3];
-  cw_sub(boundary->x[boundary->triangle[t][1]], a, u);
-  cw_sub(boundary->x[boundary->triangle[t][2]], a, v);
-  cw_cross(u, v, n);
-}
-
 // Bound of the tetrahedron on a triangle; anything not below `least` where it is none of the worst.
 static double bound_of(const CwFillInput *boundary, const double (*normal)[3], int32_t t, const int32_t neighbour[3],
                        double least) {
@@ -79,7 +71,10 @@ CwStatus cw_tet_bound(const CwFillInput *boundary, double *degrees, int32_t *wor
   CW_NEW(neighbour, boundary->triangle_count);
   CW_NEW(normal, boundary->triangle_count);
   CW_TRY(find_neighbours(boundary, neighbour));
-  for (int32_t t = 0; t < boundary->triangle_count; t++) normal_of(boundary, t, normal[t]);
+  for (int32_t t = 0; t < boundary->triangle_count; t++) {
+    const int32_t *corner = boundary->triangle[t];
+    cw_normal(boundary->x[corner[0]], boundary->x[corner[1]], boundary->x[corner[2]], normal[t]);
+  }
   for (int32_t t = 0; t < boundary->triangle_count; t++) {
     double bound = bound_of(boundary, (const double(*)[3])normal, t, neighbour[t], *degrees);
     if (bound < *degrees) *degrees = bound, *worst = t;

@@ -23,8 +23,8 @@ typedef struct {
 
 // All tetrahedra of *mesh are inside; their faces on the boundary have no neighbour. Points that come from
 // the first `fixed_count` given ones stay; `on_plane`, of each of these 1 where it lies on a dividing plane, may be
-// NULL. New points have sources from *source_count on, which is counted up. The least quality round any place never
-// falls. Deterministic. `improved` may be NULL.
+// NULL. New points have sources from *source_count on, which is counted up. The least quality round any place does not
+// fall but for even edges, and then not below 0.3. Deterministic. `improved` may be NULL.
 CwStatus cw_tet_improve_mesh(CwDelaunay *mesh, int32_t fixed_count, const uint8_t *on_plane, int32_t *source_count,
                              CwTetImproved *improved);
 

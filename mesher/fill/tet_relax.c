@@ -328,9 +328,17 @@ done:
   return status;
 }
 
+// Moves such points down the gradient of their aspects by ever shorter steps, of which the first goes `share` of the
+// way; returns the share that comes next.
+static float even_edges(CwTetWork *w, int steps, int mark, float share, const uint8_t *moved, uint8_t which,
+                        CwFour *sum) {
+  for (int k = 0; k < steps; k++, share *= decay) move_all(w, mark && k == 0, find_pulls, share, moved, which, sum);
+  return share;
+}
+
 // Further steps of the points beside dividing planes alone: there triangles that both sides share hold tetrahedra more
 // than elsewhere.
-static void even_beside_planes(CwTetWork *w, int evenings, float share, uint8_t *moved, CwFour *sum) {
+static void even_beside_planes(CwTetWork *w, int steps, float share, uint8_t *moved, CwFour *sum) {
   CwDelaunay *mesh = w->mesh;
   int32_t count = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
@@ -343,7 +351,7 @@ static void even_beside_planes(CwTetWork *w, int evenings, float share, uint8_t 
     }
   }
   if (count == 0) return;
-  for (int k = 0; k < evenings; k++, share *= decay) move_all(w, k == 0, find_pulls, share, moved, BESIDE, sum);
+  even_edges(w, steps, 1, share, moved, BESIDE, sum);
   for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) mark_moving(mesh, t, moved, MOVED);
 }
 
@@ -365,10 +373,8 @@ CwStatus cw_tet_relax(CwTetWork *w, CwTetMoves moves) {
     w->irregular[p] = 0;
     w->count.points_moved += moved[p] == MOVED;
   }
-  float share = (float)moves.pull;
   if (moves.centres) move_all(w, 1, find_centres, 1.0f, moved, MOVED, sum);
-  for (int k = 0; k < moves.evenings; k++, share *= decay)
-    move_all(w, !moves.centres && k == 0, find_pulls, share, moved, MOVED, sum);
+  float share = even_edges(w, moves.evenings, !moves.centres, (float)moves.pull, moved, MOVED, sum);
   if (moves.beside && w->on_plane) even_beside_planes(w, moves.beside, share, moved, sum);
   CW_TRY(take_back(w, moved));
   for (int32_t p = 0; p < mesh->point_count; p++) {

@@ -66,15 +66,13 @@ static int is_thick(const Columns *columns, int32_t t) {
   const CwColumnHeights *heights = columns->heights;
   const CwSkeleton *skeleton = columns->skeleton;
   const int32_t *corner = skeleton->wall_triangle[t];
-  double first = INFINITY, base[3][3], top[3][3], u[3], w[3], normal[3];
+  double first = INFINITY, base[3][3], top[3][3], normal[3];
   for (int k = 0; k < 3; k++) {
     if (skeleton->height[corner[k]] < heights->layer_count * heights->first_height[corner[k]]) return 0;
     first = fmin(first, heights->first_height[corner[k]]);
     cw_copy(skeleton->wall_x[corner[k]], base[k]);
   }
-  cw_sub(base[1], base[0], u);
-  cw_sub(base[2], base[0], w);
-  cw_cross(u, w, normal);
+  cw_normal(base[0], base[1], base[2], normal);
   cw_unit(normal);
   for (int k = 0; k < 3; k++) {
     for (int c = 0; c < 3; c++) top[k][c] = base[k][c] - first * normal[c];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the parts of the layer module share; nobody else includes this.
+// What the parts of the layer module share. Of others only those that change columns once they stand include it:
+// layers_orbit.c and front_open.c of the skeleton.
 #ifndef CUTWATER_MESHER_LAYERS_LAYERS_INNER_H
 #define CUTWATER_MESHER_LAYERS_LAYERS_INNER_H
 

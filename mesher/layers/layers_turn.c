@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How good the prisms round a column are, and the search for a better direction of it.
+#include "mesher/common/vec.h"
 #include "mesher/layers/layers_inner.h"
 
 static const double FRONT = 0.4;        // what the quality of the front counts beside that of prisms: 0.3 is good
@@ -27,10 +28,8 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
   const double *const wall[3] = {x[v[0]], x[v[1]], x[v[2]]}, *const end[3] = {front[v[0]], front[v[1]], front[v[2]]};
   const CwLayerDivision *division = &work->in->division;
   if (division->count < 1 || prism > UPRIGHT) return CW_LAYER_GOOD;
-  double last[3], u[3], w[3], normal[3], column[3];
-  sub3(wall[1], wall[0], u);
-  sub3(wall[2], wall[0], w);
-  cross3(u, w, normal);
+  double last[3], normal[3], column[3];
+  cw_normal(wall[0], wall[1], wall[2], normal);
   unit3(normal);
   for (int k = 0; k < 3; k++) {
     sub3(wall[k], end[k], column);

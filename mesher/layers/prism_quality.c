@@ -60,14 +60,12 @@ double cw_prism_front_quality(const double *const wall[3], const double *const f
 
 // Determinant of the right prism with the base's triangle and as high as the top is over it, in the mean.
 static double right_determinant(const double base[3][3], const double top[3][3], int on_wall) {
-  double a[3], b[3], normal[3], height = 0, right[3][3];
-  cw_sub(base[1], base[0], a);
-  cw_sub(base[2], base[0], b);
-  cw_cross(a, b, normal);
+  double column[3], normal[3], height = 0, right[3][3];
+  cw_normal(base[0], base[1], base[2], normal);
   cw_unit(normal);
   for (int k = 0; k < 3; k++) {
-    cw_sub(top[k], base[k], a);
-    height += cw_dot(a, normal) / 3;
+    cw_sub(top[k], base[k], column);
+    height += cw_dot(column, normal) / 3;
   }
   for (int k = 0; k < 9; k++) right[k / 3][k % 3] = base[k / 3][k % 3] + height * normal[k % 3];
   return cw_prism_determinant(base, (const double(*)[3])right, on_wall);

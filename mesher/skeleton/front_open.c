@@ -5,6 +5,7 @@
 
 #include "mesher/common/incident.h"
 #include "mesher/common/triangle_bound.h"
+#include "mesher/common/vec.h"
 #include "mesher/layers/layers_inner.h"
 #include "mesher/skeleton/orbit_skeleton.h"
 #include "mesher/skeleton/wall_part.h"
@@ -14,13 +15,6 @@ enum { PASSES = 8, HEIGHTS = 2 };
 static const double OPEN = 26;                    // degrees: bound up to which more is better
 static const double HEIGHT[HEIGHTS] = {1.1, 0.9}; // of the present one, tried
 static const double MUCH = 200;                   // more than any bound or quality
-
-static void find_normal(const int32_t corner[3], const double (*front)[3], double n[3]) {
-  double u[3], w[3];
-  sub3(front[corner[1]], front[corner[0]], u);
-  sub3(front[corner[2]], front[corner[0]], w);
-  cross3(u, w, n);
-}
 
 // The triangle across the edge from v to w of t; -1 where there is none. *apex: its third corner.
 static int32_t across(int32_t t, int32_t v, int32_t w, const int32_t (*triangle)[3], const int32_t *start,
@@ -42,13 +36,14 @@ double cw_front_bound(int32_t t, const int32_t (*triangle)[3], const double (*fr
   const double *const corner[3] = {front[vertex[0]], front[vertex[1]], front[vertex[2]]};
   CwBoundSide side[3];
   double m[3];
-  find_normal(vertex, front, m);
+  cw_normal(corner[0], corner[1], corner[2], m);
   for (int k = 0; k < 3; k++) {
     int32_t apex = -1, other = across(t, vertex[k], vertex[(k + 1) % 3], triangle, start, around, &apex);
     double n[3];
     side[k] = (CwBoundSide){.angle = 90, .apex = -1};
     if (other < 0) continue;
-    find_normal(triangle[other], front, n);
+    const int32_t *beyond = triangle[other];
+    cw_normal(front[beyond[0]], front[beyond[1]], front[beyond[2]], n);
     side[k] = (CwBoundSide){cw_inner_angle(corner[k], corner[(k + 1) % 3], m, n), apex, front[apex]};
   }
   return cw_triangle_bound(corner, side, least);

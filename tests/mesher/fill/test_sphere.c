@@ -56,8 +56,8 @@ static void framed(void **unused) {
   assert_true(fabs(tet.radius_square - 3.0 / 16) < 1e-6);
 }
 
-// What is sure is as the exact predicate has it, for points that come nearer and nearer to the sphere; most of the
-// others are sure.
+// What is sure is as the exact predicate has it, for tetrahedra of all sizes and points ever nearer to a corner, and so
+// to the sphere. Points near the middle of all, which are rounded least, are not what counts.
 static void as_exact(void **unused) {
   const double middle[3] = {0.3, 0.1, -0.7};
   CwSphereFrame frame = frame_of(middle, 1);
