@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "mesher/common/predicates.h"
+#include "mesher/common/vec.h"
 #include "mesher/fill/sphere.h"
 
 static uint64_t state;
@@ -56,29 +57,37 @@ static void framed(void **unused) {
   assert_true(fabs(tet.radius_square - 3.0 / 16) < 1e-6);
 }
 
-// What is sure is as the exact predicate has it, for tetrahedra of all sizes and points ever nearer to a corner, and so
-// to the sphere. Points near the middle of all, which are rounded least, are not what counts.
+// What is sure is as the exact predicate has it: spheres of 1e-9 to 30 units, tetrahedra that take as much of one as
+// lies inside or as little as a millionth, half of them with all corners near one circle, and points that are off the
+// sphere by as little as 1e-9 of its radius.
 static void as_exact(void **unused) {
   const double middle[3] = {0.3, 0.1, -0.7};
   CwSphereFrame frame = frame_of(middle, 1);
   int seen[3] = {0};
   state = 3;
-  for (int trial = 0; trial < 20000; trial++) {
-    double x[4][3], p[3], size = pow(0.1, 4 * draw()), off = pow(0.1, 9 * draw());
+  for (int trial = 0; trial < 100000; trial++) {
+    double x[5][3], centre[3], way[5][3], radius = pow(10, 1.5 - 10.5 * draw()), most = fmin(1, 0.4 / radius);
+    double part = most * pow(0.1, 6 * draw()), off = (draw() - 0.5) * most * pow(0.1, 9 * draw());
+    double flat = trial % 2 ? 1 : pow(0.1, 12 * draw());
     CwDelaunayTet tet;
-    for (int i = 0; i < 3; i++) x[0][i] = middle[i] + 0.5 * (draw() - 0.5);
-    for (int k = 1; k < 4; k++) { // of all sizes
-      for (int i = 0; i < 3; i++) x[k][i] = x[0][i] + size * (draw() - 0.5);
+    for (int k = 0; k < 5; k++) {
+      for (int i = 0; i < 3; i++) way[k][i] = draw() - 0.5;
+      for (int i = 0; i < 3 && k; i++) way[k][i] = way[0][i] + (k == 4 ? most : part) * way[k][i];
+      if (k < 4) way[k][2] *= flat;
+      cw_unit(way[k]);
+      for (int i = 0; i < 3; i++) {
+        if (k == 0) centre[i] = middle[i] + 1.1 * (draw() - 0.5) - radius * way[0][i];
+        x[k][i] = centre[i] + (k == 4 ? 1 + off : 1) * radius * way[k][i];
+      }
     }
     if (cw_orient3d(x[0], x[1], x[2], x[3]) <= 0) continue;
     set(&frame, (const double(*)[3])x, &tet);
-    for (int i = 0; i < 3; i++) p[i] = x[0][i] + off * size * (draw() - 0.5);
-    unsigned known = look(&frame, &tet, p);
+    unsigned known = look(&frame, &tet, x[4]);
     assert_true(known <= CW_BEYOND);
     seen[known]++;
-    if (known) assert_int_equal(known == CW_WITHIN, cw_insphere(x[0], x[1], x[2], x[3], p) > 0);
+    if (known) assert_int_equal(known == CW_WITHIN, cw_insphere(x[0], x[1], x[2], x[3], x[4]) > 0);
   }
-  for (int k = 0; k < 3; k++) assert_true(seen[k] > 1000);
+  for (int k = 0; k < 3; k++) assert_true(seen[k] > 2000);
 }
 
 // Four points of a plane have no sphere: nothing is sure of it.
