@@ -58,17 +58,17 @@ static void framed(void **unused) {
 }
 
 // What is sure is as the exact predicate has it: spheres of 1e-9 to 30 units, tetrahedra that take as much of one as
-// lies inside or as little as a millionth, half of them with all corners near one circle, and points that are off the
-// sphere by as little as 1e-9 of its radius.
+// lies inside or as little as a millionth, or whose corners are all near one circle, and points that are off the sphere
+// by as little as 1e-9 of its radius.
 static void as_exact(void **unused) {
   const double middle[3] = {0.3, 0.1, -0.7};
   CwSphereFrame frame = frame_of(middle, 1);
   int seen[3] = {0};
   state = 3;
   for (int trial = 0; trial < 100000; trial++) {
-    double x[5][3], centre[3], way[5][3], radius = pow(10, 1.5 - 10.5 * draw()), most = fmin(1, 0.4 / radius);
-    double part = most * pow(0.1, 6 * draw()), off = (draw() - 0.5) * most * pow(0.1, 9 * draw());
-    double flat = trial % 2 ? 1 : pow(0.1, 12 * draw());
+    double x[5][3], centre[3] = {0}, way[5][3], radius = pow(10, 1.5 - 10.5 * draw()), most = fmin(1, 0.4 / radius);
+    double flat = trial % 2 ? 1 : pow(0.1, 12 * draw()), part = trial % 2 ? most * pow(0.1, 6 * draw()) : most;
+    double off = (draw() - 0.5) * most * pow(0.1, 9 * draw());
     CwDelaunayTet tet;
     for (int k = 0; k < 5; k++) {
       for (int i = 0; i < 3; i++) way[k][i] = draw() - 0.5;
