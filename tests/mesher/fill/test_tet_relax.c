@@ -37,6 +37,19 @@ static double shape_of(const CwTetWork *w, double *mean, double *aspect) {
   return six;
 }
 
+// Relaxing is to follow: nothing is left worse below 0.3.
+static CwTetWork work_on(CwDelaunay *mesh, int32_t outside, int32_t count) {
+  CwTetWork w = {.flips = {.mesh = mesh},
+                 .mesh = mesh,
+                 .limit = CW_TET_IMPROVE,
+                 .floor = 0.3,
+                 .fixed_count = outside,
+                 .source_count = count};
+  w.irregular = calloc((size_t)mesh->point_count, 1);
+  assert_non_null(w.irregular);
+  return w;
+}
+
 static const CwTetMoves moves = {.centres = 1, .evenings = 2, .pull = 0.2, .beside = 2};
 
 static void shaken_points_become_even(void **state) {
@@ -44,14 +57,7 @@ static void shaken_points_become_even(void **state) {
   int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x), moved = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .floor = 0.3,
-                 .fixed_count = outside,
-                 .source_count = count};
-  w.irregular = calloc((size_t)mesh.point_count, 1);
-  assert_non_null(w.irregular);
+  CwTetWork w = work_on(&mesh, outside, count);
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   double six = shape_of(&w, &before, &uneven);
   assert_int_equal(cw_tet_relax(&w, moves), CW_OK);
@@ -86,14 +92,7 @@ static void lattice_stays(void **state) {
   int32_t outside, count = shaken_lattice(8, 1e-3, &outside, &x), deep = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .floor = 0.3,
-                 .fixed_count = outside,
-                 .source_count = count};
-  w.irregular = calloc((size_t)mesh.point_count, 1);
-  assert_non_null(w.irregular);
+  CwTetWork w = work_on(&mesh, outside, count);
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   assert_int_equal(cw_tet_relax(&w, moves), CW_OK);
   for (int32_t p = 0; p < mesh.point_count; p++) {
@@ -119,15 +118,8 @@ static void aspects_beside(int told, double *beside, double *apart) {
   assert_non_null(on_plane);
   for (int32_t p = 0; p < outside; p++) on_plane[p] = x[p][0] < 0.6;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .floor = 0.3,
-                 .fixed_count = outside,
-                 .source_count = count,
-                 .on_plane = told ? on_plane : NULL};
-  w.irregular = calloc((size_t)mesh.point_count, 1);
-  assert_non_null(w.irregular);
+  CwTetWork w = work_on(&mesh, outside, count);
+  w.on_plane = told ? on_plane : NULL;
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   assert_int_equal(cw_tet_relax(&w, moves), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
@@ -167,15 +159,9 @@ static int spoilt_below(double floor) {
   int spoilt = 0;
   CwDelaunay mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .floor = floor,
-                 .fixed_count = outside,
-                 .source_count = count};
-  w.irregular = calloc((size_t)mesh.point_count, 1);
+  CwTetWork w = work_on(&mesh, outside, count);
+  w.floor = floor;
   before = calloc((size_t)mesh.tet_count, sizeof *before);
-  assert_non_null(w.irregular);
   assert_non_null(before);
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) before[t] = mesh.tet[t].quality;
