@@ -7,8 +7,8 @@
 
 #define CW_SMALL_DETERMINANT 1e-3
 
-// Determinant of the prism between the triangles `base` and `top`, with the base on the wall or not; all its other faces
-// are inner ones.
+// Determinant of the prism between the triangles `base` and `top`, with the base on the wall or not; all its other
+// faces are inner ones.
 double cw_prism_determinant(const double base[3][3], const double top[3][3], int on_wall);
 
 // How many times as tall a prism of that determinant would have to be; above 1 where it is small.
