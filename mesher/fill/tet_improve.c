@@ -13,7 +13,7 @@ static const double insert_limit = 0.4226, round_limit = 0.38;
 static const double needy = 0.20, crowded = 0.26;
 static const double loose = 0.3; // quality that may be left by what is done for the aspect, since flips follow
 static const CwTetMoves spread = {.centres = 1}, first_moves = {.centres = 1, .evenings = 1, .pull = 0.4};
-static const CwTetMoves only_moves = {.centres = 1, .evenings = 2, .pull = 0.2, .beside = 2},
+static const CwTetMoves only_moves = {.centres = 1, .evenings = 1, .pull = 0.14, .beside = 3},
                         last_moves = {.evenings = 4, .pull = 0.2, .beside = 2};
 enum { PASSES = 5 };
 
