@@ -20,7 +20,6 @@ static const double SAME = 1e-9; // m: fronts that differ less are the same
 // The part of the wall that the first ones and what stands near them make up.
 typedef struct {
   const CwSkeleton *skeleton;
-  const CwLayerInput *whole;
   uint8_t *is_first; // of each point of the whole: on a face that is the first of its orbit
   CwWallPart wall;
 } Part;
@@ -108,7 +107,6 @@ static CwStatus part_make(const CwSkeleton *skeleton, const CwLayerInput *whole,
   CwStatus status = CW_OK;
   uint8_t *near = NULL;
   part->skeleton = skeleton;
-  part->whole = whole;
   CW_NEW(near, whole->point_count);
   CW_NEW(part->is_first, whole->point_count);
   CW_TRY(mark_near(skeleton, whole, part->is_first, near));
@@ -145,8 +143,8 @@ static CwStatus spread(const Part *part, const CwLayers *made, CwLayers *layers)
   CwStatus status = CW_OK;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
   uint8_t *placed = NULL;
-  CW_NEW(placed, part->whole->point_count);
-  for (int32_t v = 0; v < part->whole->point_count; v++) {
+  CW_NEW(placed, part->wall.whole->point_count);
+  for (int32_t v = 0; v < part->wall.whole->point_count; v++) {
     if (!part->is_first[v] || placed[v]) continue;
     turn_from(part, made, v, v, made->front[part->wall.local[v]], layers);
     int32_t at = v;
@@ -195,7 +193,7 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
   for (int32_t i = 0; i < part->wall.in.point_count; i++)
     memcpy(front[i], layers->front[part->wall.global[i]], sizeof *front);
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
-    for (int32_t v = 0; v < part->whole->point_count; v++) {
+    for (int32_t v = 0; v < part->wall.whole->point_count; v++) {
       if (!part->is_first[v] || cw_orbit_first_member(orbits, part->is_first, v) != v) continue;
       const double *own = made->front[part->wall.local[v]];
       double best = -INFINITY, kept[3], end[3];
@@ -274,7 +272,7 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
   Checked *checked = NULL;
   double most = 0;
   *bad_count = 0;
-  memset(bad, 0, (size_t)part->whole->point_count);
+  memset(bad, 0, (size_t)part->wall.whole->point_count);
   CW_NEW_UNSET(spread.front, in->point_count);
   CW_NEW_UNSET(spread.off, in->point_count);
   CW_NEW_UNSET(spread.moved, in->point_count);
@@ -292,7 +290,7 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
     mark(part, f, bad);
   }
   cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
-               in->triangle_count, part->whole->triangle_count, 1e3 * most);
+               in->triangle_count, part->wall.whole->triangle_count, 1e3 * most);
   if (*bad_count || most < SAME) goto done; // crossings only between sound prisms
   CW_TRY(cw_layers_crossing_make(&spread.work, &crossing));
   CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])spread.front, spread.moved));
@@ -314,7 +312,7 @@ done:
 
 // Gives the columns of all turned copies of v the height `height`, and marks them.
 static void lower(const Part *part, int32_t v, double height, CwLayers *layers, uint8_t *lowered) {
-  const CwLayerInput *whole = part->whole;
+  const CwLayerInput *whole = part->wall.whole;
   const CwSkeletonOrbits *orbits = &part->skeleton->orbits;
   int32_t first = cw_orbit_first_member(orbits, part->is_first, v);
   double *end = layers->front[first], share = height / layers->height[first];
@@ -334,7 +332,7 @@ static void lower(const Part *part, int32_t v, double height, CwLayers *layers, 
 // Lowers the columns of all orbits with a bad one, and those around that would stand out.
 static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
   CwStatus status = CW_OK;
-  const CwLayerInput *whole = part->whole;
+  const CwLayerInput *whole = part->wall.whole;
   uint8_t *lowered = NULL;
   CW_NEW(lowered, whole->point_count);
   for (int32_t v = 0; v < whole->point_count; v++) {
