@@ -30,6 +30,13 @@ typedef struct {
   double mean;  // of all heights, over the asked one
 } Case;
 
+// Holds the columns at y = 0 and y = depth (the context, a double, m): the ends of what is extruded.
+static inline int case_end_planes(const void *context, const double x[3], double normal[2][3]) {
+  if (x[1] > 1e-9 && x[1] < *(const double *)context - 1e-9) return 0;
+  normal[0][1] = 1;
+  return 1;
+}
+
 static inline CwStatus case_make(Case *c) {
   surface_weld(&c->wall);
   surface_weld(&c->cap);

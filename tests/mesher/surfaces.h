@@ -68,6 +68,24 @@ static inline void surface_quad(Surface *s, const double p[4][3], int nu, int nv
   surface_grid(s, surface_bilinear, p, nu, nv, 0);
 }
 
+// Plate of `width` (along x) by 10 mm at height z, in squares of side h; its normal points up, or down with `flip`.
+static inline void surface_plate(Surface *s, double width, double z, double h, int flip) {
+  const double p[4][3] = {{0, 0, z}, {width, 0, z}, {width, 0.01, z}, {0, 0.01, z}};
+  surface_grid(s, surface_bilinear, p, (int)lround(width / h), (int)lround(0.01 / h), flip);
+}
+
+static inline void surface_pipe_point(const void *context, double u, double v, double x[3]) {
+  const double *p = context; // radius, length
+  x[0] = p[0] * cos(2 * M_PI * u);
+  x[1] = p[1] * v;
+  x[2] = p[0] * sin(2 * M_PI * u);
+}
+
+// Pipe of a radius and a length around the y axis, from y = 0 on, normals outward.
+static inline void surface_pipe(Surface *s, double radius, double length, int around, int along) {
+  surface_grid(s, surface_pipe_point, (const double[2]){radius, length}, around, along, 1);
+}
+
 // Box from `low` to `high`, normals outward, or inward with `flip`; sides: bits 0..5 = x-, x+, y-, y+, z-,
 // z+.
 static inline void surface_box(Surface *s, const double low[3], const double high[3], double h, int sides, int flip) {
@@ -96,6 +114,15 @@ static inline void surface_extrude(Surface *s, int count, const double (*p)[2], 
     int n = (int)ceil(length / h - 1e-9), m = (int)ceil(depth / h - 1e-9);
     surface_grid(s, surface_bilinear, q, n, m, flip);
   }
+}
+
+// Both ends of what is extruded: a rectangle of the (x,z) plane at y = 0 and at y = depth, normals away from each
+// other.
+static inline void surface_ends(Surface *s, double x0, double z0, double x1, double z1, double depth) {
+  const double front[4][3] = {{x0, 0, z0}, {x1, 0, z0}, {x1, 0, z1}, {x0, 0, z1}};
+  const double back[4][3] = {{x0, depth, z0}, {x0, depth, z1}, {x1, depth, z1}, {x1, depth, z0}};
+  surface_quad(s, front, 1, 1);
+  surface_quad(s, back, 1, 1);
 }
 
 typedef struct {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Directions of columns: free, and held in caps and dividing planes.
+#include "layers_case.h"
+
+#include "mesher/layers/layers_inner.h"
+
+// The best direction of one, two and three faces, free and held, by hand.
+static void most_normal_by_hand(void **state) {
+  const double n[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, none[2][3] = {{0}};
+  double g[3], s = sqrt(0.5);
+  assert_float_equal(cw_layers_most_normal(1, n, 0, none, g), 1, 1e-15);
+  assert_float_equal(cw_layers_most_normal(2, n, 0, none, g), s, 1e-15);
+  assert_float_equal(g[0], s, 1e-15);
+  assert_float_equal(cw_layers_most_normal(3, n, 0, none, g), 1 / sqrt(3), 1e-15);
+  for (int k = 0; k < 3; k++) assert_float_equal(g[k], 1 / sqrt(3), 1e-15);
+  // A fourth normal between two others changes nothing.
+  const double more[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {s, s, 0}};
+  assert_float_equal(cw_layers_most_normal(4, more, 0, none, g), 1 / sqrt(3), 1e-15);
+  // Held in z = 0: the third face is seen edge on. Held in the plane normal to (1,0,1): g = (a, b, -a).
+  const double flat[2][3] = {{0, 0, 1}}, line[2][3] = {{0, 0, 1}, {s, -s, 0}};
+  assert_float_equal(cw_layers_most_normal(2, n, 1, flat, g), s, 1e-15);
+  assert_float_equal(cw_layers_most_normal(3, n, 1, flat, g), 0, 1e-15);
+  assert_float_equal(cw_layers_most_normal(2, n, 2, line, g), s, 1e-15);
+  assert_float_equal(g[0], s, 1e-15);
+  const double slanted[2][3] = {{s, 0, s}};
+  // x.g = a, y.g = b with 2 a^2 + b^2 = 1 equal at a = b = 1/sqrt(3).
+  assert_float_equal(cw_layers_most_normal(2, n, 1, slanted, g), 1 / sqrt(3), 1e-15);
+  // Opposite faces leave nothing to see.
+  const double shut[2][3] = {{1, 0, 0}, {-1, 0, 0}};
+  assert_true(cw_layers_most_normal(2, shut, 0, none, g) < 1e-15);
+}
+
+static int oblique_plane(const void *context, const double x[3], double normal[2][3]) {
+  double tangent = *(const double *)context, c = 1 / sqrt(1 + tangent * tangent);
+  if (fabs(x[0] - tangent * (x[2] - 0.005) - 0.01) > 1e-9) return 0;
+  normal[0][0] = c;
+  normal[0][2] = -c * tangent;
+  return 1;
+}
+
+static void sheared(const void *context, double u, double v, double x[3]) {
+  const double *p = context; // corners and the tangent of the shear
+  surface_bilinear(p, u, v, x);
+  double bump = 1 - fabs(x[0] - 0.01) / 0.01; // none at the ends of the box
+  x[0] += p[12] * bump * (x[2] - 0.005);
+}
+
+// A box 20 x 10 x 10 mm cut by a plane through its middle, square and oblique: columns on the plane stay in
+// it on all four walls.
+static void plane_through_box(void **state) {
+  const double angle[4] = {0, 20, 33, 45}, h[2] = {1 * MM, 0.4 * MM};
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 2; j++) {
+      double tangent = tan(angle[i] * M_PI / 180);
+      Case c = {.target = 0.6 * MM, .guide = oblique_plane, .guide_context = &tangent};
+      const double high[3] = {0.02, 0.01, 0.01};
+      int n[3] = {(int)lround(high[0] / h[j]), (int)lround(high[1] / h[j]), (int)lround(high[2] / h[j])};
+      for (int side = 0; side < 6; side++) {
+        int axis = side / 2, a = (axis + 1) % 3, b = (axis + 2) % 3, upper = side % 2;
+        double p[13];
+        for (int k = 0; k < 4; k++) {
+          p[3 * k + axis] = upper ? high[axis] : 0;
+          p[3 * k + a] = k == 1 || k == 2 ? high[a] : 0;
+          p[3 * k + b] = k >= 2 ? high[b] : 0;
+        }
+        p[12] = tangent;
+        surface_grid(&c.wall, sheared, p, n[a], n[b], !upper);
+      }
+      char name[40];
+      snprintf(name, sizeof name, "plane %g degrees, h %.1f", angle[i], h[j] / MM);
+      case_run(&c, name);
+      int held = 0;
+      for (int32_t v = 0; v < c.wall.point_count; v++) held += c.in.guide_count[v];
+      assert_int_equal(held, 2 * (n[1] + n[2]));
+      assert_true(c.share > (angle[i] < 40 ? 0.999 : 0.98));
+      case_free(&c);
+    }
+}
+
+typedef struct {
+  double depth, tangent;
+} Slant;
+
+static int slanted_ends(const void *context, const double x[3], double normal[2][3]) {
+  const Slant *s = context;
+  double c = 1 / sqrt(1 + s->tangent * s->tangent), y = x[1] - s->tangent * x[2];
+  if (fabs(y) > 1e-9 && fabs(y - s->depth) > 1e-9) return 0;
+  normal[0][1] = c;
+  normal[0][2] = -c * s->tangent;
+  return 1;
+}
+
+// A square channel cut off obliquely by its caps: wedges of 90 - angle degrees between wall and cap.
+static void slanted_caps(void **state) {
+  const double p[4][2] = {{0, 0}, {0.012, 0}, {0.012, 0.012}, {0, 0.012}}, angle[3] = {15, 30, 45};
+  for (int i = 0; i < 6; i++) {
+    double h = i % 2 ? 0.3 * MM : 1 * MM;
+    Slant slant = {.depth = 0.02, .tangent = tan(angle[i / 2] * M_PI / 180)};
+    Case c = {.target = 0.6 * MM, .guide = slanted_ends, .guide_context = &slant};
+    surface_extrude(&c.wall, 4, p, 1, slant.depth, h, 1);
+    surface_ends(&c.cap, -0.001, -0.001, 0.013, 0.013, slant.depth);
+    for (int32_t v = 0; v < c.wall.point_count; v++) c.wall.x[v][1] += slant.tangent * c.wall.x[v][2];
+    for (int32_t v = 0; v < c.cap.point_count; v++) c.cap.x[v][1] += slant.tangent * c.cap.x[v][2];
+    char name[40];
+    snprintf(name, sizeof name, "cap slanted by %g, h %.1f", angle[i / 2], h / MM);
+    case_run(&c, name);
+    assert_true(c.share > 0.99);
+    case_free(&c);
+  }
+}
+
+static int plane_with_normal(const void *context, const double x[3], double normal[2][3]) {
+  if (fabs(x[0] - 0.005) > 1e-9 || x[2] > 1e-9 || fabs(x[1] - 0.005) > 1e-9) return 0;
+  memcpy(normal[0], context, sizeof normal[0]);
+  return 1;
+}
+
+// A plane that nearly touches the floor of a box holds no column: other planes are wanted. One that stands up does.
+static void guide_along_wall(void **state) {
+  const double low[3] = {0, 0, 0}, high[3] = {0.01, 0.01, 0.01}, cosine[2] = {0.04, 0.6};
+  for (int i = 0; i < 2; i++) {
+    const double normal[3] = {cosine[i], 0, sqrt(1 - cosine[i] * cosine[i])};
+    Case c = {.target = 0.6 * MM, .guide = plane_with_normal, .guide_context = normal};
+    surface_box(&c.wall, low, high, 1 * MM, 63, 0);
+    assert_int_equal(case_make(&c), i == 0 ? CW_RETRY : CW_OK);
+    if (i == 0) assert_non_null(strstr(cw_fail_message(), "(5.0000, 5.0000, 0.0000) mm"));
+    // With a cap in its place no other planes help.
+    uint8_t *stays = malloc((size_t)c.wall.point_count);
+    memset(stays, 1, (size_t)c.wall.point_count);
+    cw_layers_free(&c.out);
+    c.in.guide_stays = stays;
+    assert_int_equal(cw_layers_make(&c.in, &c.out), i == 0 ? CW_ERR_MESH : CW_OK);
+    if (i == 0) assert_non_null(strstr(cw_fail_message(), "inside the cap at (5.0000, 5.0000, 0.0000) mm"));
+    free(stays);
+    case_free(&c);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(most_normal_by_hand),
+      cmocka_unit_test(plane_through_box),
+      cmocka_unit_test(slanted_caps),
+      cmocka_unit_test(guide_along_wall),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
