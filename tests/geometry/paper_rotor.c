@@ -16,10 +16,6 @@ CwCase paper(void) {
   return table;
 }
 
-void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
-}
-
 CwDesign design_of(const CwCase *table) {
   CwDesign design;
   if (cw_hydraulic_design(table, &design) != CW_OK) fail_msg("%s", cw_fail_message());

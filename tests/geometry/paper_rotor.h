@@ -6,9 +6,9 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "pipeline/case.h"
+#include "tests/geometry/near_to.h"
 
 CwCase paper(void);
-void near_to(double value, double expected, double tolerance);
 CwDesign design_of(const CwCase *table);
 
 // Builds the rotor, turned to its hand, and measures it: valid, closed, and of a tolerance under 0.001 mm.

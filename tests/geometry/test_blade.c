@@ -9,6 +9,7 @@
 #include "geometry/blade.h"
 #include "geometry/hydraulic_design.h"
 #include "pipeline/case.h"
+#include "tests/geometry/near_to.h"
 
 static const double degree = M_PI / 180;
 static CwDesign design;
@@ -19,10 +20,6 @@ static int setup(void **state) {
   CwCase table;
   return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
          cw_meridian_make(&design, &meridian) || cw_blade_section(&design, &meridian, 0.5, &section);
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // A logarithmic spiral wraps by the integral of dm/r over tan beta: the integral by chords.

@@ -9,14 +9,7 @@
 
 #include "geometry/design_check.h"
 #include "pipeline/case.h"
-
-static CwDesign paper(void) {
-  CwCase table;
-  CwDesign design;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  assert_int_equal(cw_hydraulic_design(&table, &design), CW_OK);
-  return design;
-}
+#include "tests/geometry/paper_rotor.h"
 
 static int remarked(const CwDesign *design, const char *words) {
   CwDesignRemarks remarks;
@@ -29,7 +22,8 @@ static int remarked(const CwDesign *design, const char *words) {
 // Table 3: D2 = 200 mm against 178 to 182 mm (a tenth over 182.2 is 200.4: just within), D3 = 1.02 D2, and a
 // head that the wrap does not give.
 static void paper_remarks(void **state) {
-  const CwDesign design = paper();
+  const CwCase table = paper();
+  const CwDesign design = design_of(&table);
   assert_true(remarked(&design, "predicts a head"));
   assert_true(remarked(&design, "D3 is 1.020 D2"));
   assert_true(remarked(&design, "incidence"));
@@ -40,18 +34,19 @@ static void paper_remarks(void **state) {
 }
 
 static void far_off_values_are_remarked(void **state) {
-  CwDesign design = paper();
+  const CwCase table = paper();
+  CwDesign design = design_of(&table);
   design.outlet_diameter = 0.25;
   assert_true(remarked(&design, "impeller outlet D2 is 250 mm; Guelich's correlation gives 182.2, Guan's 178"));
   design.warn_share = 0.5;
   assert_false(remarked(&design, "impeller outlet D2 is"));
-  design = paper();
+  design = design_of(&table);
   design.blade_count = 11;
   assert_true(remarked(&design, "11 blades"));
-  design = paper();
+  design = design_of(&table);
   design.wrap_residual = 0.1;
   assert_true(remarked(&design, "the wrap is"));
-  design = paper();
+  design = design_of(&table);
   design.head_residual = 0;
   assert_false(remarked(&design, "predicts a head"));
 }

@@ -11,24 +11,9 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
 #include "pipeline/case.h"
+#include "tests/geometry/paper_rotor.h"
 
 static const double degree = M_PI / 180;
-
-static CwCase paper(void) {
-  CwCase table;
-  assert_int_equal(cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table), CW_OK);
-  return table;
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
-}
-
-static CwDesign design_of(const CwCase *table) {
-  CwDesign design;
-  if (cw_hydraulic_design(table, &design) != CW_OK) fail_msg("%s", cw_fail_message());
-  return design;
-}
 
 // omega = 1450 pi/30 = 151.844; u2 = 15.184; nq = 1450 (25/3600)^0.5 / 10^0.75 = 1450 0.083333 / 5.62341
 // = 21.487; psi = 2 9.80665 10 / 15.184^2 = 0.8507; overlap 6 71 / 360 = 1.1833; suction 6.9444e-3

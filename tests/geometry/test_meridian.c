@@ -9,6 +9,7 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian.h"
 #include "pipeline/case.h"
+#include "tests/geometry/near_to.h"
 
 static CwDesign design;
 static CwMeridian meridian;
@@ -17,10 +18,6 @@ static int setup(void **state) {
   CwCase table;
   return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
          cw_meridian_make(&design, &meridian);
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // Against the sum of a million chords.

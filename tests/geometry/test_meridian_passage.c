@@ -9,12 +9,9 @@
 #include "geometry/hydraulic_design.h"
 #include "geometry/meridian_passage.h"
 #include "pipeline/case.h"
+#include "tests/geometry/near_to.h"
 
 enum { COUNT = 33 };
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
-}
 
 // A straight line from (r, z) to (r, z) as a cubic.
 static CwMeridianCurve line(double r0, double z0, double r1, double z1) {

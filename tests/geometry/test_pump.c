@@ -17,6 +17,7 @@
 #include "geometry/stator.h"
 #include "geometry/step_file.h"
 #include "pipeline/case.h"
+#include "tests/geometry/near_to.h"
 
 static CwDesign design;
 static CwSolid *rotor, *stator;
@@ -31,10 +32,6 @@ static int teardown(void **state) {
   cw_solid_free(&rotor);
   cw_solid_free(&stator);
   return 0;
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.10g is not %.10g within %.3g", value, expected, tolerance);
 }
 
 // D3 = 204 mm, b3 = 12 mm, and one and the same cylinder r = 101 mm, |z| <= 4 mm on both sides.

@@ -35,6 +35,7 @@ extern "C" {
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
 #include "geometry/volute_section.h"
+#include "tests/geometry/near_to.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
@@ -73,11 +74,6 @@ static int setup(void **) {
 static int teardown(void **) {
   cw_solid_free(&stator);
   return 0;
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(std::fabs(value - expected) <= tolerance))
-    fail_msg("%.12g is not %.12g within %.3g", value, expected, tolerance);
 }
 
 static void valid_and_closed(void **) {

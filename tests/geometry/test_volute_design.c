@@ -9,6 +9,7 @@
 
 #include "geometry/volute_design.h"
 #include "geometry/volute_section.h"
+#include "tests/geometry/near_to.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
@@ -35,10 +36,6 @@ static CwVoluteInput paper(void) {
       .outlet_diameter = 0.05,
       .discharge_pipe_length = 0.1,
   };
-}
-
-static void near_to(double value, double expected, double tolerance) {
-  if (!(fabs(value - expected) <= tolerance)) fail_msg("%.12g is not %.12g within %.3g", value, expected, tolerance);
 }
 
 static CwVolute designed(const CwVoluteInput *input) {

@@ -6,6 +6,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "draw.h"
+
 // A body-centred lattice of n cubes along each edge, shaken by so much of a cube; those on the outside first.
 static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, double (**x)[3]) {
   uint64_t state = 7;
@@ -21,8 +23,7 @@ static inline int32_t shaken_lattice(int n, double shake, int32_t *outside, doub
       }
       if (!within || skin != (pass == 0)) continue;
       for (int a = 0; a < 3; a++) {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        (*x)[count][a] = i[a] + 0.5 * (k % 2) + (skin ? 1e-3 : shake) * ((double)(state >> 11) * 0x1p-52 - 1.0);
+        (*x)[count][a] = i[a] + 0.5 * (k % 2) + (skin ? 1e-3 : shake) * (2.0 * draw(&state) - 1.0);
       }
       count++;
     }

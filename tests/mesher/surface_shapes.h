@@ -5,16 +5,7 @@
 #define CUTWATER_TESTS_MESHER_SURFACE_SHAPES_H
 
 #include "closed_surfaces.h"
-
-// Draws from [0, 1) and from 0 to below - 1, the same on every machine.
-static inline double draw(uint64_t *state) {
-  *state = *state * 6364136223846793005u + 1442695040888963407u;
-  return (double)(*state >> 11) * 0x1p-53;
-}
-
-static inline int draw_below(uint64_t *state, int below) {
-  return (int)(draw(state) * below);
-}
+#include "draw.h"
 
 int32_t shape_point(Surface *s, double x, double y, double z);
 

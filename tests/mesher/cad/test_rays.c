@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/cad/rays.h"
 #include "octahedron.h"
 
@@ -40,13 +41,13 @@ static void many_rays_agree_with_the_formula(void **state) {
   Octahedron shape;
   CwBackground background = octahedron(&shape, 0);
   CwRays *rays = NULL;
-  uint32_t seed = 7;
+  uint64_t seed = 7;
   assert_int_equal(cw_rays_make(&background, &rays), CW_OK);
   for (int i = 0; i < 10000; i++) {
     double x[3], d[3], size = 0, s = 0;
     for (int k = 0; k < 3; k++) {
-      x[k] = ((seed = seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5) * 0.6;
-      d[k] = (seed = seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5;
+      x[k] = (draw(&seed) - 0.5) * 0.6;
+      d[k] = draw(&seed) - 0.5;
       size += d[k] * d[k];
     }
     for (int k = 0; k < 3; k++) d[k] /= sqrt(size);

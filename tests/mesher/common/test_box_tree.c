@@ -10,20 +10,16 @@
 
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/common/box_tree.h"
 
 enum { COUNT = 700 };
 
-static double noise(uint32_t *seed) {
-  *seed = *seed * 1664525u + 1013904223u;
-  return (*seed >> 8) / 16777216.0;
-}
-
-static void random_boxes(uint32_t seed, CwBox *box) {
+static void random_boxes(uint64_t seed, CwBox *box) {
   for (int i = 0; i < COUNT; i++) {
     for (int k = 0; k < 3; k++) {
-      box[i].low[k] = noise(&seed);
-      box[i].high[k] = box[i].low[k] + 0.1 * noise(&seed);
+      box[i].low[k] = draw(&seed);
+      box[i].high[k] = box[i].low[k] + 0.1 * draw(&seed);
     }
   }
 }

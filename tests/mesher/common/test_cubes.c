@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/common/cubes.h"
 #include "mesher/common/vec.h"
 
@@ -18,10 +19,7 @@ static void nothing_near_is_missed(void **state) {
   static double x[POINTS][3];
   uint64_t random = 1;
   for (int i = 0; i < POINTS; i++) {
-    for (int k = 0; k < 3; k++) {
-      random = random * 6364136223846793005u + 1442695040888963407u;
-      x[i][k] = (double)(random >> 40) / (1 << 24) * (k + 1);
-    }
+    for (int k = 0; k < 3; k++) x[i][k] = draw(&random) * (k + 1);
   }
   CwCubes cubes;
   assert_int_equal(cw_cubes_make(POINTS, (const double(*)[3])x, 0.11, &cubes), CW_OK);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/common/predicates.h"
 
 // The same determinants in rational numbers: row k is point k minus the last one, with its square where
@@ -61,13 +62,8 @@ static int judge(int n, const double *const point[], int lift) {
 
 static uint64_t state = 20240611;
 
-static uint64_t draw(void) {
-  state = state * 6364136223846793005u + 1442695040888963407u;
-  return state >> 33;
-}
-
 static double small_integer(int range) {
-  return (double)(draw() % (uint64_t)(2 * range + 1)) - range;
+  return draw_below(&state, 2 * range + 1) - range;
 }
 
 // In terms of the judge's rows: det (a - d, b - d, c - d) is minus our sign of (b - a) x (c - a) . (d - a).
@@ -114,7 +110,7 @@ static void nearly_degenerate(void **unused) {
     for (int k = 0; k < 15; k++) {
       double *x = &p[k / 3][k % 3];
       *x = 0.1 + 1e-3 * small_integer(3);
-      if (draw() % 3 == 0) *x = nextafter(*x, draw() % 2 ? 1.0 : -1.0);
+      if (draw_below(&state, 3) == 0) *x = nextafter(*x, draw_below(&state, 2) ? 1.0 : -1.0);
     }
     check((const double(*)[3])p);
   }
@@ -125,7 +121,7 @@ static void mixed_sizes(void **unused) {
   for (int round = 0; round < 2000; round++) {
     double p[5][3];
     for (int k = 0; k < 15; k++) {
-      p[k / 3][k % 3] = ldexp(small_integer(1 << 20) + 0.125 * small_integer(4), (int)(draw() % 60) - 40);
+      p[k / 3][k % 3] = ldexp(small_integer(1 << 20) + 0.125 * small_integer(4), draw_below(&state, 60) - 40);
     }
     if (round % 2) { // the last on the line of the first two, as nearly as can be
       for (int i = 0; i < 3; i++) p[3][i] = p[4][i] = 0.5 * (p[0][i] + p[1][i]);

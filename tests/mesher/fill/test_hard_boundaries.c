@@ -46,7 +46,7 @@ static void print_count(const char *what, const Count *c) {
          what, c->filled, c->whole, c->flipped, c->cleared, c->divided, c->tetgen);
 }
 
-// Fills it both ways; gives NULL or what is wrong.
+// Fills it; gives NULL or what is wrong.
 static const char *fill_one(const Surface *s, const char *name, double size, Count *count) {
   CwFillInput input = fill_input(s, &size);
   CwFill fill;

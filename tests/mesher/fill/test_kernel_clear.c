@@ -8,26 +8,9 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "mesher/common/predicates.h"
-#include "mesher/common/quality.h"
+#include "joined_mesh.h"
 #include "mesher/fill/kernel_clear.h"
 #include "mesher/fill/kernel_recover.h"
-
-static double volume(const CwDelaunay *mesh) {
-  double six = 0.0;
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    if (mesh->tet[t].corner[0] < 0) continue;
-    const double *x[4];
-    for (int i = 0; i < 4; i++) x[i] = mesh->point[mesh->tet[t].corner[i]].x;
-    assert_int_equal(cw_orient3d(x[0], x[1], x[2], x[3]), 1);
-    six += cw_tet_volume6(x[0], x[1], x[2], x[3]);
-    for (int i = 0; i < 4; i++) {
-      int32_t other = mesh->tet[t].neighbour[i];
-      if (other >= 0) assert_int_equal(mesh->tet[other / 4].neighbour[other % 4], 4 * t + i);
-    }
-  }
-  return six;
-}
 
 // The facets over all points are missing before, and there after the hollow was cleared.
 static void clear(int32_t points, const double (*x)[3], int32_t triangles, const int32_t (*triangle)[3], int expected) {
@@ -42,13 +25,13 @@ static void clear(int32_t points, const double (*x)[3], int32_t triangles, const
   assert_int_equal(cw_facets_make(&input, &mesh, &facets), CW_OK);
   assert_int_equal(cw_facets_locate(&mesh, points, &facets), CW_OK);
   assert_int_equal(facets.missing_count, triangles);
-  double six = volume(&mesh);
+  double six = joined_volume6(&mesh);
   assert_int_equal(cw_flips_make(&mesh, &flips), CW_OK);
   assert_int_equal(cw_kernel_clear(&flips, &facets, 0, &sources, &found), CW_OK);
   assert_int_equal(found, expected);
   assert_int_equal(sources, points + (expected ? 2 : 0));
   assert_int_equal(mesh.point_count, CW_DELAUNAY_CORNERS + sources);
-  assert_true(fabs(volume(&mesh) / six - 1.0) < 1e-12);
+  assert_true(fabs(joined_volume6(&mesh) / six - 1.0) < 1e-12);
   assert_int_equal(cw_facets_locate(&mesh, points, &facets), CW_OK);
   assert_int_equal(facets.missing_count, expected ? 0 : triangles);
   cw_flips_free(&flips);

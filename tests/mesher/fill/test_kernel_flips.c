@@ -8,37 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "draw.h"
+#include "joined_mesh.h"
 #include "mesher/fill/kernel_flips.h"
 #include "mesher/fill/tet_improve.h"
-#include "mesher/common/predicates.h"
-#include "mesher/common/quality.h"
-
-static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-// All positive and joined both ways; gives six times the volume.
-static double check(const CwDelaunay *mesh) {
-  double six = 0.0;
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
-    if (tet->corner[0] < 0) continue;
-    const double *x[4];
-    for (int i = 0; i < 4; i++) x[i] = mesh->point[tet->corner[i]].x;
-    assert_int_equal(cw_orient3d(x[0], x[1], x[2], x[3]), 1);
-    six += cw_tet_volume6(x[0], x[1], x[2], x[3]);
-    for (int i = 0; i < 4; i++) {
-      if (tet->neighbour[i] < 0) continue;
-      const CwDelaunayTet *other = &mesh->tet[tet->neighbour[i] / 4];
-      assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
-      for (int k = 0; k < 3; k++) {
-        int shared = 0;
-        for (int m = 0; m < 4; m++)
-          shared += m != tet->neighbour[i] % 4 && other->corner[m] == tet->corner[tet_face[i][k]];
-        assert_int_equal(shared, 1);
-      }
-    }
-  }
-  return six;
-}
 
 static int never_in_the_way(const void *context, int count, const int32_t *point) {
   return 0;
@@ -67,7 +40,7 @@ static void axis_of_a_bipyramid(void **unused) {
   int32_t t, tet[CW_RING], ring[CW_RING];
   int flipped;
   assert_int_equal(cw_delaunay_make(5, x, &mesh), CW_OK);
-  double six = check(&mesh);
+  double six = joined_volume6(&mesh);
   assert_int_equal(cw_flips_make(&mesh, &flips), CW_OK);
   flips.crossing = never_in_the_way;
   flips.slack = 1;
@@ -87,7 +60,7 @@ static void axis_of_a_bipyramid(void **unused) {
   flips.context = axis;
   assert_int_equal(cw_flips_edge(&flips, t, a, b, &flipped), CW_OK);
   assert_int_equal(flipped, 1);
-  assert_true(fabs(check(&mesh) / six - 1.0) < 1e-12);
+  assert_true(fabs(joined_volume6(&mesh) / six - 1.0) < 1e-12);
   assert_int_equal(cw_flips_find_edge(&flips, a, b, &t), CW_OK);
   assert_int_equal(t, -1);
   // Back: the face between the two.
@@ -102,7 +75,7 @@ static void axis_of_a_bipyramid(void **unused) {
     }
   }
   assert_int_equal(flipped, 1);
-  check(&mesh);
+  joined_volume6(&mesh);
   assert_int_equal(cw_flips_find_edge(&flips, a, b, &t), CW_OK);
   assert_true(t >= 0);
   cw_flips_free(&flips);
@@ -115,19 +88,15 @@ static void any_flips_keep_a_mesh(void **unused) {
   CwDelaunay mesh;
   CwFlips flips;
   int done = 0;
-  for (int i = 0; i < 900; i++) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    x[i / 3][i % 3] = (double)(state >> 11) * 0x1p-53;
-  }
+  for (int i = 0; i < 900; i++) x[i / 3][i % 3] = draw(&state);
   assert_int_equal(cw_delaunay_make(300, (const double(*)[3])x, &mesh), CW_OK);
-  double six = check(&mesh);
+  double six = joined_volume6(&mesh);
   assert_int_equal(cw_flips_make(&mesh, &flips), CW_OK);
   flips.crossing = never_in_the_way;
   flips.slack = 1;
   for (int k = 0; k < 4000; k++) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    int32_t t = (int32_t)((state >> 33) % (uint64_t)mesh.tet_count);
-    int i = (int)(state >> 20 & 3), j = (i + 1 + (int)((state >> 22) % 3)) % 4, flipped = 0;
+    int32_t t = draw_below(&state, mesh.tet_count);
+    int i = draw_below(&state, 4), j = (i + 1 + draw_below(&state, 3)) % 4, flipped = 0;
     if (mesh.tet[t].corner[0] < 0) continue;
     if (k % 2)
       assert_int_equal(cw_flips_face(&flips, t, i, &flipped), CW_OK);
@@ -136,7 +105,7 @@ static void any_flips_keep_a_mesh(void **unused) {
     done += flipped;
   }
   assert_true(done > 500);
-  assert_true(fabs(check(&mesh) / six - 1.0) < 1e-12);
+  assert_true(fabs(joined_volume6(&mesh) / six - 1.0) < 1e-12);
   for (int32_t p = 0; p < mesh.point_count; p++) {
     const int32_t *c = mesh.tet[flips.tet_at[p]].corner;
     assert_true(c[0] == p || c[1] == p || c[2] == p || c[3] == p);
@@ -153,15 +122,14 @@ static void improvement_raises_the_least(void **unused) {
   CwDelaunay mesh;
   CwTetImproved improved;
   for (int i = 0; i < 3000; i++) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
     int k = i / 3;
-    x[k][i % 3] = (i % 3 == 0 ? k % 10 : i % 3 == 1 ? k / 10 % 10 : k / 100) + 0.4 * (double)(state >> 11) * 0x1p-53;
+    x[k][i % 3] = (i % 3 == 0 ? k % 10 : i % 3 == 1 ? k / 10 % 10 : k / 100) + 0.4 * draw(&state);
   }
   assert_int_equal(cw_delaunay_make(1000, (const double(*)[3])x, &mesh), CW_OK);
-  double six = check(&mesh);
+  double six = joined_volume6(&mesh);
   int32_t sources = 1000;
   assert_int_equal(cw_tet_improve_mesh(&mesh, 100, NULL, &sources, &improved), CW_OK);
-  assert_true(fabs(check(&mesh) / six - 1.0) < 1e-12);
+  assert_true(fabs(joined_volume6(&mesh) / six - 1.0) < 1e-12);
   assert_true(improved.least_after > improved.least_before);
   assert_true(improved.edges_removed > 100 && improved.points_moved > 100);
   assert_int_equal(sources - 1000, improved.points_added);

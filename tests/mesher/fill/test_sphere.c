@@ -6,16 +6,12 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/sphere.h"
 
 static uint64_t state;
-
-static double draw(void) {
-  state = state * 6364136223846793005u + 1442695040888963407u;
-  return (double)(state >> 11) * 0x1p-53;
-}
 
 // Corners of a tetrahedron that encloses points up to `size` from the middle.
 static CwSphereFrame frame_of(const double middle[3], double size) {
@@ -66,17 +62,19 @@ static void as_exact(void **unused) {
   int seen[3] = {0};
   state = 3;
   for (int trial = 0; trial < 100000; trial++) {
-    double x[5][3], centre[3] = {0}, way[5][3], radius = pow(10, 1.5 - 10.5 * draw()), most = fmin(1, 0.4 / radius);
-    double flat = trial % 2 ? 1 : pow(0.1, 12 * draw()), part = trial % 2 ? most * pow(0.1, 6 * draw()) : most;
-    double off = (draw() - 0.5) * most * pow(0.1, 9 * draw());
+    double x[5][3], centre[3] = {0}, way[5][3], radius = pow(10, 1.5 - 10.5 * draw(&state)),
+                    most = fmin(1, 0.4 / radius);
+    double flat = trial % 2 ? 1 : pow(0.1, 12 * draw(&state)),
+           part = trial % 2 ? most * pow(0.1, 6 * draw(&state)) : most;
+    double off = (draw(&state) - 0.5) * most * pow(0.1, 9 * draw(&state));
     CwDelaunayTet tet;
     for (int k = 0; k < 5; k++) {
-      for (int i = 0; i < 3; i++) way[k][i] = draw() - 0.5;
+      for (int i = 0; i < 3; i++) way[k][i] = draw(&state) - 0.5;
       for (int i = 0; i < 3 && k; i++) way[k][i] = way[0][i] + (k == 4 ? most : part) * way[k][i];
       if (k < 4) way[k][2] *= flat;
       cw_unit(way[k]);
       for (int i = 0; i < 3; i++) {
-        if (k == 0) centre[i] = middle[i] + 1.1 * (draw() - 0.5) - radius * way[0][i];
+        if (k == 0) centre[i] = middle[i] + 1.1 * (draw(&state) - 0.5) - radius * way[0][i];
         x[k][i] = centre[i] + (k == 4 ? 1 + off : 1) * radius * way[k][i];
       }
     }

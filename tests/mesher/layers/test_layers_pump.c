@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The hard places of a pump: neck and step behind the interface, cylinder caps, blades on hub and shroud,
 // bumpy surfaces.
+#include "draw.h"
 #include "layers_case.h"
 
 #include "mesher/layers/layers_inner.h"
@@ -301,11 +302,6 @@ typedef struct {
   double radius, wave[8][3], phase[8], size;
 } Bumpy;
 
-static double random_unit(uint64_t *state) {
-  *state = *state * 6364136223846793005ULL + 1442695040888963407ULL;
-  return (double)(*state >> 11) / 9007199254740992.0;
-}
-
 static void bumpy_point(const void *context, double u, double v, double x[3]) {
   const Bumpy *b = context;
   int axis = b->face / 2;
@@ -325,8 +321,8 @@ static void bumpy_spheres(void **state) {
     Case c = {.target = 0.6 * MM};
     Bumpy b = {.radius = 10 * MM, .size = 0.012 * (1 + run / 2)};
     for (int i = 0; i < 8; i++) {
-      for (int k = 0; k < 3; k++) b.wave[i][k] = 24 * (random_unit(&seed) - 0.5);
-      b.phase[i] = 2 * M_PI * random_unit(&seed);
+      for (int k = 0; k < 3; k++) b.wave[i][k] = 24 * (draw(&seed) - 0.5);
+      b.phase[i] = 2 * M_PI * draw(&seed);
     }
     for (b.face = 0; b.face < 6; b.face++)
       surface_grid(&c.wall, bumpy_point, &b, 24, 24, (b.face % 2 == 0) ^ (run % 2));

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/region/encroach.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
@@ -139,10 +140,7 @@ static void a_coarse_interface_is_refined(void **unused) {
   CwEncroachRefined refined, again;
   uint64_t state = 7;
   rectangle(&r, 2, 1, 10, 0.05, 0.05);
-  for (int k = 0; k < 60000; k++) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    candidate[k / 3][k % 3] = (double)(state >> 11) * 0x1p-53 * (k % 3 == 0 ? 2 : k % 3 == 1 ? 1 : 0.2);
-  }
+  for (int k = 0; k < 60000; k++) candidate[k / 3][k % 3] = draw(&state) * (k % 3 == 0 ? 2 : k % 3 == 1 ? 1 : 0.2);
   assert_int_equal(cw_beside_make(ORIGIN, AXES, 0.5, 20000, (const double(*)[3])candidate, &beside), CW_OK);
   assert_int_equal(beside.count, 20000);
   assert_int_equal(cw_encroach_refine(&r.input, &beside, &refined), CW_OK);

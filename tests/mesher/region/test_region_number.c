@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/region/region_number.h"
 
 static void chain_needs_two_colours(void **state) {
@@ -28,12 +29,12 @@ static void complete_graph_needs_as_many_colours_as_regions(void **state) {
 
 static void neighbours_differ_and_smaller_colours_have_smaller_numbers(void **state) {
   enum { REGIONS = 60, PAIRS = 200 };
-  srand(11);
+  uint64_t seed = 11;
   for (int trial = 0; trial < 50; trial++) {
     int32_t pair[PAIRS][2], number[REGIONS], colour[REGIONS], colours, seen[REGIONS + 1] = {0};
     for (int p = 0; p < PAIRS; p++) {
-      pair[p][0] = rand() % (REGIONS - 1);
-      pair[p][1] = pair[p][0] + 1 + rand() % (REGIONS - 1 - pair[p][0]);
+      pair[p][0] = draw_below(&seed, REGIONS - 1);
+      pair[p][1] = pair[p][0] + 1 + draw_below(&seed, REGIONS - 1 - pair[p][0]);
     }
     assert_int_equal(cw_region_numbers(REGIONS, PAIRS, (const int32_t(*)[2])pair, number, colour, &colours), CW_OK);
     for (int p = 0; p < PAIRS; p++) {

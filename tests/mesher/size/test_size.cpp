@@ -12,6 +12,7 @@
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
+#include "draw.h"
 #include "mesher/cad/background.h"
 #include "mesher/size/size.h"
 
@@ -153,8 +154,8 @@ static void narrow_faces_get_their_width(void **state) {
 
 static void growth_is_limited(void **state) {
   Model block(bevelled_block(), 3, 0.5, 1, {1});
-  uint32_t seed = 1;
-  auto next = [&seed]() { return (seed = seed * 1664525u + 1013904223u) / 4294967296.0 * 30; };
+  uint64_t seed = 1;
+  auto next = [&seed]() { return 30 * draw(&seed); };
   for (int i = 0; i < 200000; i++) {
     double p[3], q[3];
     for (int k = 0; k < 3; k++) {

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "draw.h"
 #include "mesher/common/vec.h"
 #include "mesher/surface/patch_mesh.h"
 
@@ -411,13 +412,6 @@ static void foreign_boundary_spacing(void **state) {
   }
 }
 
-static uint32_t seed;
-
-static double random_unit(void) {
-  seed = seed * 1664525u + 1013904223u;
-  return (seed >> 8) / 16777216.0;
-}
-
 // Fewer than five edges around a half turn: chords and surface part, but no triangle may turn over.
 static void coarse_on_curvature(void **state) {
   const double sizes[3] = {0.04, 0.08, 0.15};
@@ -463,13 +457,13 @@ static void triangles_follow_a_narrow_nose(void **state) {
 
 // A straight side whose points are off by rounding has slivers in its Delaunay triangulation: none may stay.
 static void noisy_straight_sides(void **state) {
-  seed = 7;
+  uint64_t seed = 7;
   for (int k = 0; k < 6; k++) {
     Plan *plan = new_plan(PLANE, 0.03);
     double area = 0, noise = pow(10, -16 + 2 * k);
     add_rectangle(plan, 0.01, 0, 1, 1);
     for (int32_t p = 4; p < plan->input.point_count; p++) {
-      for (int i = 0; i < 2; i++) plan->uv[p][i] += noise * (random_unit() - 0.5);
+      for (int i = 0; i < 2; i++) plan->uv[p][i] += noise * (draw(&seed) - 0.5);
       surface_at(plan, plan->uv[p], plan->x[p], NULL, NULL);
     }
     for (int32_t e = 0; e < plan->input.edge_count; e++) {
@@ -496,14 +490,14 @@ static void folds_are_counted(void **state) {
 }
 
 static void random_stars(void **state) {
-  seed = 20240229;
+  uint64_t seed = 20240229;
   for (int round = 0; round < 40; round++) {
-    Plan *plan = new_plan(round % 2 ? STRETCHED : PLANE, 0.02 + 0.08 * random_unit());
+    Plan *plan = new_plan(round % 2 ? STRETCHED : PLANE, 0.02 + 0.08 * draw(&seed));
     plan->slope = round % 3 == 0 ? 0.2 : 0;
     double corner[24][2], area = 0, su = round % 2 ? 50 : 1;
-    int count = 5 + (int)(19 * random_unit());
+    int count = 5 + (int)(19 * draw(&seed));
     for (int k = 0; k < count; k++) {
-      double r = 0.25 + 0.75 * random_unit(), angle = 2 * M_PI * (k + 0.6 * random_unit()) / count;
+      double r = 0.25 + 0.75 * draw(&seed), angle = 2 * M_PI * (k + 0.6 * draw(&seed)) / count;
       corner[k][0] = su * r * cos(angle);
       corner[k][1] = r * sin(angle);
     }
