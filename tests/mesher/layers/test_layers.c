@@ -45,14 +45,17 @@ static void box_in_box(void **state) {
   surface_box(&c.wall, outer_low, outer_high, 1 * MM, 63, 0);
   case_run(&c, "box in a box");
   assert_float_equal(c.share, 1, 0);
+  int inner = 0;
   for (int32_t v = 0; v < c.wall.point_count; v++) {
     const double *x = c.wall.x[v];
+    if (fabs(x[0] - 0.005) > 0.0051 || fabs(x[1] - 0.005) > 0.0051 || fabs(x[2] - 0.005) > 0.0051) continue;
+    inner++;
     for (int k = 0; k < 3; k++) {
-      if (fabs(x[0] - 0.005) > 0.0051 || fabs(x[1] - 0.005) > 0.0051 || fabs(x[2] - 0.005) > 0.0051) continue;
       double expect = x[k] < 1e-9 ? -0.6 * MM : x[k] > 0.01 - 1e-9 ? 10.6 * MM : x[k];
       assert_float_equal(c.out.front[v][k], expect, 1e-12);
     }
   }
+  assert_int_equal(inner, 6 * 20 * 20 + 2);
   case_free(&c);
 }
 
@@ -66,17 +69,22 @@ static void l_channel(void **state) {
     surface_ends(&c.cap, 0, 0, 0.02, 0.02, depth);
     case_run(&c, "L-shaped channel");
     assert_float_equal(c.share, 1, 0);
+    int convex = 0, concave = 0;
     for (int32_t v = 0; v < c.wall.point_count; v++) {
       const double *x = c.wall.x[v], *y = c.out.front[v];
       assert_float_equal(x[1], y[1], 1e-12);
-      if (hypot(x[0] - 0.008, x[2] - 0.008) < 1e-9) { // convex edge
+      if (hypot(x[0] - 0.008, x[2] - 0.008) < 1e-9) {
+        convex++;
         assert_float_equal(y[0], 7.4 * MM, 1e-12);
         assert_float_equal(y[2], 7.4 * MM, 1e-12);
-      } else if (hypot(x[0], x[2]) < 1e-9) { // concave edge
+      } else if (hypot(x[0], x[2]) < 1e-9) {
+        concave++;
         assert_float_equal(y[0], 0.6 * MM, 1e-12);
         assert_float_equal(y[2], 0.6 * MM, 1e-12);
       }
     }
+    assert_int_equal(convex, lround(depth / h[i]) + 1);
+    assert_int_equal(concave, lround(depth / h[i]) + 1);
     case_free(&c);
   }
 }
@@ -91,9 +99,13 @@ static void sharp_creases(void **state) {
     surface_ends(&c.cap, 0, 0, 0.02, 0.02, depth);
     case_run(&c, "60 degree creases");
     assert_true(c.share > 0.995);
-    for (int32_t v = 0; v < c.wall.point_count; v++)
-      if (hypot(c.wall.x[v][0], c.wall.x[v][2]) < 1e-9)
-        assert_float_equal(hypot(c.out.front[v][0], c.out.front[v][2]), 2 * c.out.height[v], 1e-12);
+    int on_edge = 0;
+    for (int32_t v = 0; v < c.wall.point_count; v++) {
+      if (hypot(c.wall.x[v][0], c.wall.x[v][2]) > 1e-9) continue;
+      assert_float_equal(hypot(c.out.front[v][0], c.out.front[v][2]), 2 * c.out.height[v], 1e-12);
+      on_edge++;
+    }
+    assert_int_equal(on_edge, lround(depth / h[i]) + 1);
     case_free(&c);
   }
 }
