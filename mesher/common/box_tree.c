@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/hilbert.h"
+#include "mesher/common/vec.h"
 #include "mesher/parallel/share.h"
 
 enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGITS = 1 << BITS };
@@ -68,28 +69,6 @@ static CwStatus find_key(void *context, int32_t i, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree) {
-  CwStatus status = CW_OK;
-  uint64_t *key = NULL;
-  memset(tree, 0, sizeof *tree);
-  tree->count = count;
-  tree->leaves = 1;
-  while ((int64_t)tree->leaves * LEAF < count) tree->leaves *= 2;
-  CW_NEW_UNSET(key, count);
-  CW_NEW_UNSET(tree->item, count);
-  CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
-  double side = 0;
-  for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
-  Boxes boxes = {box_of, context, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
-  CW_TRY(cw_share("places of boxes", count, sizeof *key, find_key, &boxes, key));
-  CW_TRY(sort_items(count, key, tree->item));
-  CW_TRY(cw_box_tree_fit(tree, box_of, context));
-done:
-  free(key);
-  if (status != CW_OK) cw_box_tree_free(tree);
-  return status;
-}
-
 static CwStatus find_leaf(void *context, int32_t leaf, void *out) {
   const Boxes *boxes = context;
   CwBox sum = cw_box_empty();
@@ -109,15 +88,61 @@ static void join_nodes(CwBoxTree *tree) {
   }
 }
 
-CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context) {
+// As cw_share, which bears its signature, by this rank alone.
+static CwStatus do_all(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out) {
+  CwStatus status = CW_OK;
+  for (int32_t i = 0; i < count; i++) CW_TRY(body(context, i, (char *)out + (size_t)i * width));
+done:
+  return status;
+}
+
+typedef CwStatus (*Share)(const char *step, int32_t count, size_t width, CwShareBody body, void *context, void *out);
+
+static CwStatus fit(CwBoxTree *tree, CwBoxOf box_of, const void *context, Share share) {
   CwStatus status = CW_OK;
   Boxes boxes = {.box_of = box_of, .context = context, .tree = tree};
   int32_t used = (tree->count + LEAF - 1) / LEAF;
   for (int32_t k = tree->leaves + used; k < 2 * tree->leaves; k++) tree->node[k] = cw_box_empty();
-  CW_TRY(cw_share("boxes of leaves", used, sizeof *tree->node, find_leaf, &boxes, tree->node + tree->leaves));
+  CW_TRY(share("boxes of leaves", used, sizeof *tree->node, find_leaf, &boxes, tree->node + tree->leaves));
   join_nodes(tree);
 done:
   return status;
+}
+
+static CwStatus make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, Share share,
+                     CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  uint64_t *key = NULL;
+  memset(tree, 0, sizeof *tree);
+  tree->count = count;
+  tree->leaves = 1;
+  while ((int64_t)tree->leaves * LEAF < count) tree->leaves *= 2;
+  CW_NEW_UNSET(key, count);
+  CW_NEW_UNSET(tree->item, count);
+  CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
+  double side = 0;
+  for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
+  Boxes boxes = {box_of, context, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
+  CW_TRY(share("places of boxes", count, sizeof *key, find_key, &boxes, key));
+  CW_TRY(sort_items(count, key, tree->item));
+  CW_TRY(fit(tree, box_of, context, share));
+done:
+  free(key);
+  if (status != CW_OK) cw_box_tree_free(tree);
+  return status;
+}
+
+CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree) {
+  return make(count, within, box_of, context, cw_share, tree);
+}
+
+CwStatus cw_box_tree_make_alone(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context,
+                                CwBoxTree *tree) {
+  return make(count, within, box_of, context, do_all, tree);
+}
+
+CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context) {
+  return fit(tree, box_of, context, cw_share);
 }
 
 void cw_box_tree_follow(CwBoxTree *tree, const uint8_t *moved, int32_t moved_count, CwBoxOf box_of,
@@ -162,19 +187,15 @@ void cw_box_tree_overlaps(const CwBoxTree *tree, const CwBox *box, CwBoxVisit vi
   }
 }
 
-static int ray_meets(const CwBox *box, const double x[3], const double g[3], const double inverse[3], double far) {
+// A hair more than the box, so that rounding lets no ray slip between two; straight on, as rays are many.
+static int ray_meets(const CwBox *box, const double x[3], const double inverse[3], double far) {
   double enter = 0, leave = far;
+  if (box->low[0] > box->high[0]) return 0; // nothing in it
   for (int k = 0; k < 3; k++) {
     double hair = 1e-9 * (box->high[k] - box->low[k]) + 1e-15;
-    if (!(box->low[k] <= box->high[k])) return 0;
-    if (g[k] == 0) {
-      if (x[k] < box->low[k] - hair || x[k] > box->high[k] + hair) return 0;
-      continue;
-    }
     double a = (box->low[k] - hair - x[k]) * inverse[k], b = (box->high[k] + hair - x[k]) * inverse[k];
-    double near = a < b ? a : b, away = a < b ? b : a;
-    if (near > enter) enter = near;
-    if (away < leave) leave = away;
+    enter = cw_greater(enter, cw_lesser(a, b));
+    leave = cw_lesser(leave, cw_greater(a, b));
   }
   return enter <= leave * (1 + 1e-12);
 }
@@ -183,11 +204,12 @@ void cw_box_tree_ray(const CwBoxTree *tree, const double x[3], const double g[3]
                      void *context) {
   int32_t stack[DEPTH], depth = 0;
   double inverse[3];
-  for (int k = 0; k < 3; k++) inverse[k] = 1 / g[k];
+  // Large and not infinite where the ray is parallel to a side, so that no 0 * infinity comes up.
+  for (int k = 0; k < 3; k++) inverse[k] = fabs(g[k]) > 1e-30 ? 1 / g[k] : 1e30;
   if (tree->count) stack[depth++] = 1;
   while (depth) {
     int32_t k = stack[--depth];
-    if (!ray_meets(&tree->node[k], x, g, inverse, *far)) continue;
+    if (!ray_meets(&tree->node[k], x, inverse, *far)) continue;
     if (k >= tree->leaves) {
       if (visit_leaf(tree, k, visit, context)) return;
       continue;

@@ -28,6 +28,9 @@ typedef CwBox (*CwBoxOf)(const void *context, int32_t item);
 
 // Orders the items by the middles of their boxes, all of which lie in `within`. Deterministic. Collective.
 CwStatus cw_box_tree_make(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context, CwBoxTree *tree);
+// The same tree, by this rank alone: within tasks.
+CwStatus cw_box_tree_make_alone(int32_t count, const CwBox *within, CwBoxOf box_of, const void *context,
+                                CwBoxTree *tree);
 // Takes up new boxes of the same items. Collective.
 CwStatus cw_box_tree_fit(CwBoxTree *tree, CwBoxOf box_of, const void *context);
 // The same where only some of the first `moved_count` items, those with moved[item], have new ones.
