@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/cad/background_tessellate.h"
+#include "mesher/common/vec.h"
 
 typedef struct {
   int32_t other;          // point at the far end of the edge
@@ -128,6 +129,12 @@ void cw_background_free(CwBackground *background) {
   free(background->uv);
   free(background->neighbour);
   memset(background, 0, sizeof *background);
+}
+
+void cw_background_normal(const CwBackground *background, int32_t t, double n[3]) {
+  const int32_t *corner = background->triangle[t];
+  cw_normal(background->x[corner[0]], background->x[corner[1]], background->x[corner[2]], n);
+  cw_unit(n);
 }
 
 double cw_background_volume(const CwBackground *background) {

@@ -33,6 +33,9 @@ CwStatus cw_background_make(CwCad *cad, double deflection, double angle, CwBackg
 CwStatus cw_background_join(CwCad *cad, void *const *face_bytes, CwBackground *background);
 void cw_background_free(CwBackground *background);
 
+// Unit normal of triangle t, out of the domain; zero where it has no area.
+void cw_background_normal(const CwBackground *background, int32_t t, double n[3]);
+
 // Volume enclosed, m3.
 double cw_background_volume(const CwBackground *background);
 

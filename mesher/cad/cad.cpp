@@ -18,6 +18,7 @@
 #include <gp_Vec.hxx>
 
 #include "mesher/cad/cad_shape.h"
+#include "mesher/common/vec.h"
 
 static const double metre_per_mm = 1e-3;
 static const double pcurve_tolerance = 1e-7; // m: past it the point of an edge is projected onto its face
@@ -115,6 +116,14 @@ void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[
     if (xv) to_metres(dv.XYZ(), xv);
   }
   to_metres(p.XYZ(), x);
+}
+
+void cw_cad_face_normal(const CwCad *cad, int face, const double uv[2], double n[3]) {
+  double x[3], xu[3], xv[3];
+  cw_cad_face_point(cad, face, uv, x, xu, xv);
+  cw_cross(xu, xv, n);
+  cw_unit(n);
+  for (int k = 0; k < 3 && cw_cad_face_reversed(cad, face); k++) n[k] = -n[k];
 }
 
 double cw_cad_face_volume(const CwCad *cad, int face) {

@@ -41,6 +41,9 @@ void cw_cad_turn(CwCad *cad);
 // Point of a face at (u,v); with the first derivatives where xu and xv are not NULL.
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]);
 
+// Unit normal of a face at (u,v), out of the domain.
+void cw_cad_face_normal(const CwCad *cad, int face, const double uv[2], double n[3]);
+
 // What the exact face adds to the volume of the solid: the integral of x.n / 3 over it, n out of the domain, m3; 0
 // where OpenCASCADE cannot have it.
 double cw_cad_face_volume(const CwCad *cad, int face);

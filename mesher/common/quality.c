@@ -4,34 +4,22 @@
 #include <float.h>
 #include <math.h>
 
-static void subtract(const double a[3], const double b[3], double d[3]) {
-  for (int i = 0; i < 3; i++) d[i] = a[i] - b[i];
-}
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
+#include "mesher/common/vec.h"
 
 double cw_tet_volume6(const double a[3], const double b[3], const double c[3], const double d[3]) {
   double u[3], v[3], w[3], n[3];
-  subtract(b, a, u);
-  subtract(c, a, v);
-  subtract(d, a, w);
-  cross(u, v, n);
-  return dot(n, w);
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_sub(d, a, w);
+  cw_cross(u, v, n);
+  return cw_dot(n, w);
 }
 
 double cw_tet_volume6_error(const double a[3], const double b[3], const double c[3], const double d[3]) {
   double u[3], v[3], w[3], permanent = 0.0;
-  subtract(b, a, u);
-  subtract(c, a, v);
-  subtract(d, a, w);
+  cw_sub(b, a, u);
+  cw_sub(c, a, v);
+  cw_sub(d, a, w);
   for (int i = 0; i < 3; i++) {
     int j = (i + 1) % 3, k = (i + 2) % 3;
     permanent += (fabs(u[j] * v[k]) + fabs(u[k] * v[j])) * fabs(w[i]);
@@ -45,13 +33,13 @@ void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
   double normal[4][3], square[4], longest = 0.0, shortest = INFINITY, squares = 0.0;
   for (int i = 0; i < 4; i++) {
     double u[3], v[3];
-    subtract(x[face[i][1]], x[face[i][0]], u);
-    subtract(x[face[i][2]], x[face[i][0]], v);
-    cross(u, v, normal[i]);
-    square[i] = dot(normal[i], normal[i]);
+    cw_sub(x[face[i][1]], x[face[i][0]], u);
+    cw_sub(x[face[i][2]], x[face[i][0]], v);
+    cw_cross(u, v, normal[i]);
+    square[i] = cw_dot(normal[i], normal[i]);
     for (int j = i + 1; j < 4; j++) {
-      subtract(x[j], x[i], u);
-      double length = dot(u, u);
+      cw_sub(x[j], x[i], u);
+      double length = cw_dot(u, u);
       squares += length;
       longest = fmax(longest, length);
       shortest = fmin(shortest, length);
@@ -65,7 +53,7 @@ void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
   double most = -1.0, least = 1.0; // cosines
   for (int i = 0; i < 4; i++) {
     for (int j = i + 1; j < 4; j++) {
-      double cosine = -dot(normal[i], normal[j]) / sqrt(square[i] * square[j]);
+      double cosine = -cw_dot(normal[i], normal[j]) / sqrt(square[i] * square[j]);
       most = fmax(most, cosine);
       least = fmin(least, cosine);
     }
@@ -81,12 +69,12 @@ double cw_prism_scaled_jacobian(const double *const x[6]) {
   for (int corner = 0; corner < 6; corner++) {
     int top = corner / 3, at = corner % 3;
     double u[3], v[3], w[3], n[3];
-    subtract(x[3 * top + (at + 1) % 3], x[corner], u);
-    subtract(x[3 * top + (at + 2) % 3], x[corner], v);
-    subtract(x[at + 3], x[at], w);
-    cross(u, v, n);
-    double scale = sqrt(dot(u, u) * dot(v, v) * dot(w, w));
-    double jacobian = scale > 0.0 ? dot(n, w) / scale : 0.0;
+    cw_sub(x[3 * top + (at + 1) % 3], x[corner], u);
+    cw_sub(x[3 * top + (at + 2) % 3], x[corner], v);
+    cw_sub(x[at + 3], x[at], w);
+    cw_cross(u, v, n);
+    double scale = sqrt(cw_dot(u, u) * cw_dot(v, v) * cw_dot(w, w));
+    double jacobian = scale > 0.0 ? cw_dot(n, w) / scale : 0.0;
     least = fmin(least, jacobian);
   }
   return least * 2.0 / sqrt(3.0); // sin 60 degrees is the best corner

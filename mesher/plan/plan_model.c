@@ -27,29 +27,15 @@ static const double SHELL = 4.2;        // per area of the walls / h^2
 static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
 static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
 
-static void triangle_normal(const CwBackground *background, int32_t t, double normal[3]) {
-  const int32_t *corner = background->triangle[t];
-  double u[3], v[3];
-  cw_sub(background->x[corner[1]], background->x[corner[0]], u);
-  cw_sub(background->x[corner[2]], background->x[corner[0]], v);
-  cw_cross(u, v, normal);
-  cw_unit(normal);
-}
-
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
   int face[2];
   double range[2], normal[2][3];
   cw_cad_edge_range(cad, edge, range);
   cw_cad_edge_faces(cad, edge, face);
   for (int s = 0; s < 2; s++) {
-    double uv[2], x[3], xu[3], xv[3];
+    double uv[2];
     cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
-    cw_cad_face_point(cad, face[s], uv, x, xu, xv);
-    cw_cross(xu, xv, normal[s]);
-    cw_unit(normal[s]);
-    if (cw_cad_face_reversed(cad, face[s])) {
-      for (int k = 0; k < 3; k++) normal[s][k] = -normal[s][k];
-    }
+    cw_cad_face_normal(cad, face[s], uv, normal[s]);
   }
   return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
 }
@@ -299,7 +285,7 @@ static CwStatus measure(void *context, int32_t t, void *out) {
   const CwBackground *background = walls->model->background;
   Measured *made = out;
   double centre[3] = {0, 0, 0};
-  triangle_normal(background, t, made->normal);
+  cw_background_normal(background, t, made->normal);
   if (!walls->model->wall[t]) return CW_OK;
   int patch = cw_cad_face_patch(walls->cad, background->face[t]);
   for (int k = 0; k < 9; k++) centre[k % 3] += background->x[background->triangle[t][k / 3]][k % 3] / 3;

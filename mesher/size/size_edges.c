@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "mesher/common/vec.h"
 #include "mesher/size/size_sources.h"
 
 static const double crease_angle_cosine = 0.94; // 20 degrees between the normals of the two faces
@@ -19,18 +20,9 @@ typedef struct {
 } Polyline;
 
 static void face_normal(const CwCad *cad, int edge, int face, double t, double n[3]) {
-  double uv[2], x[3], xu[3], xv[3];
+  double uv[2];
   cw_cad_edge_uv(cad, edge, face, t, uv);
-  cw_cad_face_point(cad, face, uv, x, xu, xv);
-  for (int k = 0; k < 3; k++) n[k] = xu[(k + 1) % 3] * xv[(k + 2) % 3] - xu[(k + 2) % 3] * xv[(k + 1) % 3];
-  double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (cw_cad_face_reversed(cad, face)) size = -size;
-  for (int k = 0; k < 3; k++) n[k] = size != 0 ? n[k] / size : 0;
-}
-
-static double distance(const double a[3], const double b[3]) {
-  double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  cw_cad_face_normal(cad, face, uv, n);
 }
 
 static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
@@ -41,8 +33,8 @@ static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
   cw_cad_edge_faces(cad, edge, line->face);
   for (int i = 0; i <= 2 * LEAST_PARTS; i++) { // rough length, for the number of parts
     cw_cad_edge_point(cad, edge, t[0] + (t[1] - t[0]) * i / (2 * LEAST_PARTS), x, NULL);
-    if (i > 0) line->length += distance(before, x);
-    for (int k = 0; k < 3; k++) before[k] = x[k];
+    if (i > 0) line->length += cw_distance(before, x);
+    cw_copy(x, before);
   }
   int parts = (int)fmin(fmax(ceil(line->length / step), LEAST_PARTS), MOST_PARTS);
   line->count = parts + 1;
@@ -54,7 +46,7 @@ static CwStatus trace(const CwCad *cad, int edge, double step, Polyline *line) {
     cw_cad_edge_point(cad, edge, at, line->x[i], NULL);
     face_normal(cad, edge, line->face[0], at, n);
     face_normal(cad, edge, line->face[1], at, m);
-    line->crease[i] = n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < crease_angle_cosine;
+    line->crease[i] = cw_dot(n, m) < crease_angle_cosine;
     line->width[i] = INFINITY;
   }
 done:
@@ -68,8 +60,8 @@ static double distance_to_part(const double p[3], const double a[3], const doubl
     ap += (b[k] - a[k]) * (p[k] - a[k]);
   }
   double s = ab > 0 ? fmin(fmax(ap / ab, 0), 1) : 0;
-  for (int k = 0; k < 3; k++) nearest[k] = a[k] + s * (b[k] - a[k]);
-  return distance(p, nearest);
+  cw_lerp(a, b, s, nearest);
+  return cw_distance(p, nearest);
 }
 
 // Two edges of one face without a common vertex are its two sides; widths go to `line`.
@@ -93,7 +85,7 @@ static void seed_line(const CwSizeInput *input, const Polyline *line, CwSizeGrid
   for (int i = 0; i + 1 < line->count; i++) {
     if (!line->crease[i] && !line->crease[i + 1]) continue;
     double size = fmax(fmin(line->length, fmin(line->width[i], line->width[i + 1])), floor_size);
-    int parts = (int)ceil(distance(line->x[i], line->x[i + 1]) / grid->spacing) + 1;
+    int parts = (int)ceil(cw_distance(line->x[i], line->x[i + 1]) / grid->spacing) + 1;
     for (int j = 0; j <= parts; j++) {
       double s = (double)j / parts, x[3];
       for (int k = 0; k < 3; k++) x[k] = line->x[i][k] + s * (line->x[i + 1][k] - line->x[i][k]);
@@ -144,7 +136,7 @@ static double walk_rims(const CwSizeInput *input, const CwSizeGrid *wanted, CwSi
     cw_cad_edge_point(cad, e, t[0], from, NULL);
     for (int i = 1; i <= MOST_PARTS; i++) {
       cw_cad_edge_point(cad, e, t[0] + (t[1] - t[0]) * i / MOST_PARTS, to, NULL);
-      int parts = (int)ceil(distance(from, to) / (grid ? grid : wanted)->spacing);
+      int parts = (int)ceil(cw_distance(from, to) / (grid ? grid : wanted)->spacing);
       for (int j = 0; j <= parts; j++) {
         double x[3];
         for (int k = 0; k < 3; k++) x[k] = from[k] + (parts > 0 ? (double)j / parts : 0) * (to[k] - from[k]);

@@ -6,6 +6,7 @@
 #include "mesher/cad/rays.h"
 #include "mesher/common/box.h"
 #include "mesher/common/cubes.h"
+#include "mesher/common/vec.h"
 #include "mesher/size/size_sources.h"
 
 static const double spacing_share = 0.6; // of the base size
@@ -41,48 +42,19 @@ typedef struct {
 
 typedef struct CwSizeSurface Surface;
 
-static double length(const double a[3]) {
-  return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void unit_cross(const double a[3], const double b[3], double n[3]) {
-  for (int k = 0; k < 3; k++) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-  double size = length(n);
-  for (int k = 0; k < 3; k++) n[k] = size > 0 ? n[k] / size : 0;
-}
-
-static void triangle_normal(const CwBackground *background, int32_t t, double n[3]) {
-  const int32_t *p = background->triangle[t];
-  double e[3], f[3];
-  for (int k = 0; k < 3; k++) {
-    e[k] = background->x[p[1]][k] - background->x[p[0]][k];
-    f[k] = background->x[p[2]][k] - background->x[p[0]][k];
-  }
-  unit_cross(e, f, n);
-}
-
 // Exact outward normal at the middle of edge (k, k+1) of a triangle: facets would show creases on every
 // coarse curve.
 static void edge_normal(const CwSizeInput *input, int32_t t, int k, double n[3]) {
   const CwBackground *b = input->background;
   const double *p = b->uv[t][k], *q = b->uv[t][(k + 1) % 3];
   const double uv[2] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])};
-  double x[3], xu[3], xv[3];
-  cw_cad_face_point(input->cad, b->face[t], uv, x, xu, xv);
-  unit_cross(xu, xv, n);
-  if (cw_cad_face_reversed(input->cad, b->face[t])) {
-    for (int i = 0; i < 3; i++) n[i] = -n[i];
-  }
+  cw_cad_face_normal(input->cad, b->face[t], uv, n);
 }
 
 static CwStatus add_crease(Surface *surface, const double a[3], const double b[3]) {
   CwStatus status = CW_OK;
   double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  int count = (int)ceil(length(d) / surface->grid.spacing) + 1;
+  int count = (int)ceil(cw_norm(d) / surface->grid.spacing) + 1;
   CW_GROW(surface->crease, surface->crease_capacity, surface->crease_count + count + 1);
   for (int i = 0; i <= count; i++) {
     double s = (double)i / count;
@@ -106,11 +78,11 @@ static CwStatus find_creases(Surface *surface) {
       double n[3], m[3], facet[3], away[3];
       edge_normal(&surface->input, t, k, n);
       edge_normal(&surface->input, other, side, m);
-      if (dot(n, m) > crease_angle_cosine) continue;
-      triangle_normal(b, t, facet);
+      if (cw_dot(n, m) > crease_angle_cosine) continue;
+      cw_background_normal(b, t, facet);
       const double *from = b->x[b->triangle[t][k]], *apex = b->x[b->triangle[other][(side + 2) % 3]];
       for (int i = 0; i < 3; i++) away[i] = apex[i] - from[i];
-      if (dot(facet, away) >= 0) continue; // the walls turn away from each other: no wedge of fluid
+      if (cw_dot(facet, away) >= 0) continue; // the walls turn away from each other: no wedge of fluid
       CW_TRY(add_crease(surface, from, b->x[b->triangle[t][(k + 1) % 3]]));
     }
   }
@@ -131,7 +103,7 @@ static int crease_within(const Surface *surface, const double x[3], double radiu
       for (int32_t i = cubes->start[cw_cube(cubes, from[0], b, c)]; i < end; i++) {
         const double *p = surface->crease[cubes->member[i]];
         double d[3] = {p[0] - x[0], p[1] - x[1], p[2] - x[2]};
-        if (dot(d, d) < radius * radius) return 1;
+        if (cw_dot(d, d) < radius * radius) return 1;
       }
     }
   }
@@ -154,8 +126,8 @@ static double gap_size(const Surface *surface, int32_t t, const double x[3], con
     cells = fmin(cells, 2);
   }
   double met[3];
-  triangle_normal(b, hit, met);
-  double facing = dot(inward, met);
+  cw_background_normal(b, hit, met);
+  double facing = cw_dot(inward, met);
   if (facing < least_facing) return INFINITY;
   if (facing < parallel_facing) {
     // Walls that meet at the angle of x and its hit meet at distance / tan(angle) from x.
@@ -177,7 +149,7 @@ static int halve(Piece *piece, double limit, Piece *other) {
   double most = -1;
   for (int k = 0; k < 3; k++) {
     const double *p = piece->x[k], *q = piece->x[(k + 1) % 3];
-    double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, size = length(d);
+    double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, size = cw_norm(d);
     if (size > most) {
       most = size;
       longest = k;
@@ -222,7 +194,7 @@ static void seed_triangle(Surface *surface, int32_t t) {
   double outward[3];
   Piece stack[PIECE_STACK];
   int top = 1;
-  triangle_normal(b, t, outward);
+  cw_background_normal(b, t, outward);
   for (int k = 0; k < 3; k++) {
     memcpy(stack[0].x[k], b->x[b->triangle[t][k]], sizeof stack[0].x[k]);
     float *curvature = &surface->curvature[b->triangle[t][k]];

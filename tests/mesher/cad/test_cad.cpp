@@ -12,6 +12,7 @@
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BinTools.hxx>
 
+#include "mesher/common/vec.h"
 #include "solids.h"
 
 static const double radius = 0.005, height = 0.012; // of the quarter cylinder, m
@@ -90,10 +91,12 @@ static void check_normals_point_out(CwCad *cad, const double inside[3]) {
     double uv[2], x[3], xu[3], xv[3];
     inner_uv(cad, f, uv);
     cw_cad_face_point(cad, f, uv, x, xu, xv);
-    double n[3] = {xu[1] * xv[2] - xu[2] * xv[1], xu[2] * xv[0] - xu[0] * xv[2], xu[0] * xv[1] - xu[1] * xv[0]};
-    double outward = 0;
+    double n[3], outward = 0;
+    cw_cad_face_normal(cad, f, uv, n);
+    assert_near(cw_dot(n, n), 1, 1e-14);
+    assert_near(cw_dot(n, xu), 0, 1e-14);
+    assert_near(cw_dot(n, xv), 0, 1e-14);
     for (int k = 0; k < 3; k++) outward += n[k] * (x[k] - inside[k]);
-    if (cw_cad_face_reversed(cad, f)) outward = -outward;
     assert_true(outward > 0);
   }
 }
