@@ -59,18 +59,19 @@ done:
   return status;
 }
 
-// Ray to the right: 1 where an odd number of the chosen edges is crossed. `chosen` NULL: all.
-static int odd(int32_t edge_count, const int32_t (*edge)[2], const double (*point)[2], const uint8_t *chosen,
-               const double at[2]) {
-  int crossings = 0;
-  for (int32_t e = 0; e < edge_count; e++) {
-    if (chosen && !chosen[e]) continue;
-    const double *a = point[edge[e][0]], *b = point[edge[e][1]];
-    if ((a[1] > at[1]) == (b[1] > at[1])) continue;
-    double x = a[0] + (at[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]);
-    crossings += x > at[0];
+// Whether the ray from `at` to the right crosses the edge from a to b.
+static int crosses(const double a[2], const double b[2], const double at[2]) {
+  if ((a[1] > at[1]) == (b[1] > at[1])) return 0;
+  return a[0] + (at[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > at[0];
+}
+
+// In the domain: within an odd number of boundary edges.
+static int in_domain(const Graph *graph, const uint8_t *boundary, const double at[2]) {
+  int inside = 0;
+  for (int32_t e = 0; e < graph->edge_count; e++) {
+    inside ^= boundary[e] && crosses(graph->point[graph->edge[e][0]], graph->point[graph->edge[e][1]], at);
   }
-  return crossings & 1;
+  return inside;
 }
 
 static double loop_area(const double (*point)[2], const int32_t *corner, int32_t count) {
@@ -98,11 +99,7 @@ static void point_left_of_loop(const double (*point)[2], const int32_t *corner, 
 
 static int in_loop(const double (*point)[2], const int32_t *corner, int32_t count, const double at[2]) {
   int inside = 0;
-  for (int32_t i = 0; i < count; i++) {
-    const double *a = point[corner[i]], *b = point[corner[(i + 1) % count]];
-    if ((a[1] > at[1]) == (b[1] > at[1])) continue;
-    inside ^= a[0] + (at[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > at[0];
-  }
+  for (int32_t i = 0; i < count; i++) inside ^= crosses(point[corner[i]], point[corner[(i + 1) % count]], at);
   return inside;
 }
 
@@ -113,87 +110,113 @@ void cw_polygons_free(CwPolygons *polygons) {
   memset(polygons, 0, sizeof *polygons);
 }
 
-CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count, const int32_t (*edge)[2],
-                          const uint8_t *boundary, CwPolygons *polygons) {
+// All simple loops: the walks round the faces.
+typedef struct {
+  int32_t count;
+  int32_t *start, *corner; // corners of loop l: corner[start[l]] .. corner[start[l + 1] - 1]
+  double *area;            // counter-clockwise above 0
+  int32_t *outer;          // the loop whose polygon it bounds: itself, or that round it; -1: none
+} Loops;
+
+static void loops_free(Loops *loops) {
+  free(loops->start);
+  free(loops->corner);
+  free(loops->area);
+  free(loops->outer);
+}
+
+static CwStatus check_closed(const Graph *graph, const uint8_t *boundary) {
   CwStatus status = CW_OK;
-  Graph graph = {point_count, edge_count, point, edge, NULL, NULL, NULL};
-  int32_t halves = 2 * edge_count;
-  uint8_t *seen = NULL, *boundary_degree = NULL;
-  int32_t *loop_start = NULL, *corner = NULL, *outer_of = NULL;
-  double *area = NULL;
-  memset(polygons, 0, sizeof *polygons);
-
-  CW_NEW(boundary_degree, point_count);
-  for (int32_t e = 0; e < edge_count; e++) {
-    if (boundary[e]) boundary_degree[edge[e][0]] ^= 1, boundary_degree[edge[e][1]] ^= 1;
+  uint8_t *odd_degree = NULL;
+  CW_NEW(odd_degree, graph->point_count);
+  for (int32_t e = 0; e < graph->edge_count; e++) {
+    for (int k = 0; k < 2 && boundary[e]; k++) odd_degree[graph->edge[e][k]] ^= 1;
   }
-  for (int32_t i = 0; i < point_count; i++) {
-    CW_REQUIRE(!boundary_degree[i], CW_ERR_MESH,
+  for (int32_t i = 0; i < graph->point_count; i++) {
+    CW_REQUIRE(!odd_degree[i], CW_ERR_MESH,
                "the outline of an interface is open at (%.4f, %.4f) mm of its plane; every loop must close",
-               1e3 * point[i][0], 1e3 * point[i][1]);
+               1e3 * graph->point[i][0], 1e3 * graph->point[i][1]);
   }
+done:
+  free(odd_degree);
+  return status;
+}
 
-  // All simple loops: walk every half-edge once.
-  CW_TRY(link_half_edges(&graph));
+// Walks every half-edge once.
+static CwStatus find_loops(Graph *graph, Loops *loops) {
+  CwStatus status = CW_OK;
+  int32_t halves = 2 * graph->edge_count, filled = 0;
+  uint8_t *seen = NULL;
+  CW_TRY(link_half_edges(graph));
   CW_NEW(seen, halves);
-  CW_NEW(loop_start, halves + 1);
-  CW_NEW(corner, halves);
-  CW_NEW(area, halves);
-  int32_t loops = 0, filled = 0;
+  CW_NEW(loops->start, halves + 1);
+  CW_NEW(loops->corner, halves);
+  CW_NEW(loops->area, halves);
   for (int32_t first = 0; first < halves; first++) {
     if (seen[first]) continue;
-    loop_start[loops] = filled;
-    for (int32_t h = first; !seen[h]; h = graph.next[h]) {
+    int32_t start = filled;
+    for (int32_t h = first; !seen[h]; h = graph->next[h]) {
       seen[h] = 1;
-      corner[filled++] = origin(&graph, h);
+      loops->corner[filled++] = origin(graph, h);
     }
-    area[loops] = loop_area(point, corner + loop_start[loops], filled - loop_start[loops]);
-    loops++;
+    loops->area[loops->count++] = loop_area(graph->point, loops->corner + start, filled - start);
+    loops->start[loops->count] = filled;
   }
-  loop_start[loops] = filled;
+done:
+  free(seen);
+  return status;
+}
 
-  // Minimal polygons: the counter-clockwise loops whose inside is in the domain. Each clockwise loop is the rim of a
-  // connected piece of the graph; where it lies in a polygon it is a hole of the smallest one around it.
-  CW_NEW(outer_of, loops);
-  int32_t count = 0;
-  for (int32_t l = 0; l < loops; l++) {
-    outer_of[l] = -1;
-    if (area[l] <= 0) continue;
-    double at[2];
-    point_left_of_loop(point, corner + loop_start[l], loop_start[l + 1] - loop_start[l], at);
-    if (odd(edge_count, edge, point, boundary, at)) {
-      outer_of[l] = l;
-      count++;
-    }
+// Minimal polygons: the counter-clockwise loops whose inside is in the domain. Each clockwise loop is the rim of a
+// connected piece of the graph; where it lies in a polygon it is a hole of the smallest one around it. Sets `outer`;
+// *count: polygons.
+static CwStatus find_outer_loops(const Graph *graph, const uint8_t *boundary, Loops *loops, int32_t *count) {
+  CwStatus status = CW_OK;
+  const double *area = loops->area;
+  double(*at)[2] = NULL; // just left of each loop
+  uint8_t *inside = NULL;
+  CW_NEW(at, loops->count);
+  CW_NEW(inside, loops->count);
+  CW_NEW(loops->outer, loops->count);
+  *count = 0;
+  for (int32_t l = 0; l < loops->count; l++) {
+    point_left_of_loop(graph->point, loops->corner + loops->start[l], loops->start[l + 1] - loops->start[l], at[l]);
+    inside[l] = in_domain(graph, boundary, at[l]);
+    loops->outer[l] = area[l] > 0 && inside[l] ? l : -1;
+    *count += loops->outer[l] == l;
   }
-  for (int32_t l = 0; l < loops; l++) {
-    if (area[l] > 0) continue;
-    double at[2];
-    point_left_of_loop(point, corner + loop_start[l], loop_start[l + 1] - loop_start[l], at);
-    if (!odd(edge_count, edge, point, boundary, at)) continue; // it faces the outside, or a solid
+  for (int32_t l = 0; l < loops->count; l++) {
+    if (area[l] > 0 || !inside[l]) continue; // outside, a clockwise one is the rim of the whole, or of a solid
     double least = INFINITY;
-    for (int32_t m = 0; m < loops; m++) {
-      if (outer_of[m] != m || area[m] <= 0 || area[m] >= least || area[m] <= -area[l]) continue;
-      if (in_loop(point, corner + loop_start[m], loop_start[m + 1] - loop_start[m], at)) {
-        least = area[m];
-        outer_of[l] = m;
-      }
+    for (int32_t m = 0; m < loops->count; m++) {
+      if (loops->outer[m] != m || area[m] >= least || area[m] <= -area[l]) continue;
+      if (!in_loop(graph->point, loops->corner + loops->start[m], loops->start[m + 1] - loops->start[m], at[l]))
+        continue;
+      least = area[m];
+      loops->outer[l] = m;
     }
   }
+done:
+  free(at);
+  free(inside);
+  return status;
+}
 
-  CW_NEW(polygons->polygon_start, count + 1);
-  CW_NEW(polygons->loop_start, loops + 1);
-  CW_NEW(polygons->corner, filled);
+static CwStatus gather(const Loops *loops, int32_t count, CwPolygons *polygons) {
+  CwStatus status = CW_OK;
   int32_t used = 0;
-  for (int32_t outer = 0; outer < loops; outer++) {
-    if (outer_of[outer] != outer || area[outer] <= 0) continue;
+  CW_NEW(polygons->polygon_start, count + 1);
+  CW_NEW(polygons->loop_start, loops->count + 1);
+  CW_NEW(polygons->corner, loops->start[loops->count]);
+  for (int32_t outer = 0; outer < loops->count; outer++) {
+    if (loops->outer[outer] != outer) continue;
     polygons->polygon_start[polygons->polygon_count++] = polygons->loop_count;
     for (int pass = 0; pass < 2; pass++) { // the outer loop first, then its holes
-      for (int32_t l = 0; l < loops; l++) {
-        if (outer_of[l] != outer || (l == outer) != (pass == 0)) continue;
-        int32_t size = loop_start[l + 1] - loop_start[l];
+      for (int32_t l = 0; l < loops->count; l++) {
+        if (loops->outer[l] != outer || (l == outer) != (pass == 0)) continue;
+        int32_t size = loops->start[l + 1] - loops->start[l];
         polygons->loop_start[polygons->loop_count++] = used;
-        memcpy(polygons->corner + used, corner + loop_start[l], (size_t)size * sizeof *corner);
+        memcpy(polygons->corner + used, loops->corner + loops->start[l], (size_t)size * sizeof *loops->corner);
         used += size;
       }
     }
@@ -201,16 +224,26 @@ CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t
   polygons->polygon_start[polygons->polygon_count] = polygons->loop_count;
   polygons->loop_start[polygons->loop_count] = used;
 done:
+  return status;
+}
+
+CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count, const int32_t (*edge)[2],
+                          const uint8_t *boundary, CwPolygons *polygons) {
+  CwStatus status = CW_OK;
+  Graph graph = {point_count, edge_count, point, edge, NULL, NULL, NULL};
+  Loops loops = {0};
+  int32_t count;
+  memset(polygons, 0, sizeof *polygons);
+  CW_TRY(check_closed(&graph, boundary));
+  CW_TRY(find_loops(&graph, &loops));
+  CW_TRY(find_outer_loops(&graph, boundary, &loops, &count));
+  CW_TRY(gather(&loops, count, polygons));
+done:
   if (status != CW_OK) cw_polygons_free(polygons);
   free(graph.start);
   free(graph.out);
   free(graph.next);
-  free(seen);
-  free(boundary_degree);
-  free(loop_start);
-  free(corner);
-  free(outer_of);
-  free(area);
+  loops_free(&loops);
   return status;
 }
 
