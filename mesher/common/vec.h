@@ -63,4 +63,10 @@ static inline double cw_unit(double a[3]) {
   return length;
 }
 
+// Takes out of a its part along the unit vector n.
+static inline void cw_flatten(double a[3], const double n[3]) {
+  double along = cw_dot(a, n);
+  for (int k = 0; k < 3; k++) a[k] -= along * n[k];
+}
+
 #endif

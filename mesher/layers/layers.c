@@ -15,7 +15,7 @@ typedef struct {
 static CwStatus find_height(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   double d[3];
-  sub3(columns->layers->front[v], columns->work->in->x[v], d);
+  cw_sub(columns->layers->front[v], columns->work->in->x[v], d);
   *(double *)out = cw_layers_least_cosine(columns->work, v, d);
   return CW_OK;
 }

@@ -8,9 +8,8 @@
 //   fan        beside concave edges and columns tilted by a guide the columns lean away, at the same normal height
 //   height     least of target, 0.6 of where the columns of a hollow meet, 0.35 gap to a wall, 0.6 gap to a cap, 0.3 x
 //              distance more than any neighbour
-//   repair    poor prisms and those with a poor front are turned, then thinned by 0.8, until nothing is inverted,
-//   nothing
-//             crosses, and no front triangle is a needle or turned away that was none on the wall
+//   repair     poor prisms and those with a poor front are turned, then thinned by 0.8, until nothing is inverted,
+//              nothing crosses, and no front triangle is a needle or turned away that was none on the wall
 //
 // Best where the surface is not much finer than t beside concave edges. Along straight edges the full height is kept
 // up to t/h = 3 at 60 degrees and 4.8 at 90; around a bevelled blade in a wedge of 45 degrees at t/h = 4 on 60 %.
@@ -48,8 +47,7 @@ typedef struct {
   const double *target;         // asked height of each vertex, normal to the wall, m
   const double *least;          // no column is thinned below this for a better shape of the front; NULL: 0
   CwLayerDivision division;
-  // Guides: a vertex on a rim with a cap, or on a dividing plane, marches inside that surface. Up to two per
-  // vertex:
+  // Guides: a vertex on a rim with a cap, or on a dividing plane, marches inside that surface. Up to two per vertex:
   // none: free; one: stays in the tangent plane; two: stays on the line of both.
   // A guided vertex may have wall on both sides (dividing plane) or on one (rim).
   const int32_t *guide_count;         // 0, 1, 2 for each vertex; may be NULL: all free
@@ -58,9 +56,8 @@ typedef struct {
   // Puts a moved vertex back onto its guides (a cylinder, say); may be NULL.
   void (*snap)(const void *context, int32_t vertex, double x[3]);
   const void *snap_context;
-  // Surfaces without layers that columns must not reach (caps: inlet, outlet, rotor/stator interface),
-  // normal out of the
-  // domain. They may be coarse and need not share points with the wall. Not the dividing planes.
+  // Surfaces without layers that columns must not reach (caps: inlet, outlet, rotor/stator interface), normal out of
+  // the domain. They may be coarse and need not share points with the wall. Not the dividing planes.
   int32_t obstacle_point_count;
   const double (*obstacle_x)[3];
   int32_t obstacle_triangle_count;

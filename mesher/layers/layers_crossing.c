@@ -3,9 +3,12 @@
 // moved since the last alone. Most pairs of neighbouring boxes are told apart by a plane along one of the triangles;
 // what is left is judged exactly.
 #include <stdlib.h>
+#include <string.h>
+
+#include "mesher/layers/layers_crossing.h"
 
 #include "mesher/common/intersect.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 
 enum { BLOCK = 2048 };
@@ -26,13 +29,13 @@ static int parts(const double m[3], const double *const a[3], const double *cons
   for (int i = 0; i < 3; i++) {
     double d[3], s;
     if (i != shared_a) {
-      sub3(a[i], o, d);
-      s = dot3(m, d);
+      cw_sub(a[i], o, d);
+      s = cw_dot(m, d);
       low_a = s < low_a ? s : low_a, high_a = s > high_a ? s : high_a;
     }
     if (i != shared_b) {
-      sub3(b[i], o, d);
-      s = dot3(m, d);
+      cw_sub(b[i], o, d);
+      s = cw_dot(m, d);
       low_b = s < low_b ? s : low_b, high_b = s > high_b ? s : high_b;
     }
   }
@@ -48,17 +51,17 @@ static int kept_apart(const double *const a[3], const double *const b[3], int sh
     const double *const *t = side[s];
     double e[3][3], n[3], longest = 0;
     for (int i = 0; i < 3; i++) {
-      sub3(t[(i + 1) % 3], t[i], e[i]);
-      longest = fmax(longest, dot3(e[i], e[i]));
+      cw_sub(t[(i + 1) % 3], t[i], e[i]);
+      longest = fmax(longest, cw_dot(e[i], e[i]));
     }
-    cross3(e[0], e[1], n);
+    cw_cross(e[0], e[1], n);
     longest = sqrt(longest);
-    if (unit3(n) == 0) return 0;
+    if (cw_unit(n) == 0) return 0;
     if (parts(n, a, b, shared_a, shared_b, CLEAR * longest)) return 1;
     for (int i = 0; i < 3; i++) {
       double m[3];
-      cross3(e[i], n, m);
-      unit3(m);
+      cw_cross(e[i], n, m);
+      cw_unit(m);
       if (parts(m, a, b, shared_a, shared_b, CLEAR * longest)) return 1;
     }
   }
@@ -73,9 +76,9 @@ static int cross(const double (*x)[3], const int32_t a[3], const int32_t b[3]) {
       if (a[i] == b[j]) shared++, in_a = i, in_b = j;
   if (shared == 2) { // they overlap only where folded flat onto each other, and then their normals are opposite
     double u[3], v[3], n[3], m[3];
-    sub3(p[1], p[0], u), sub3(p[2], p[0], v), cross3(u, v, n);
-    sub3(q[1], q[0], u), sub3(q[2], q[0], v), cross3(u, v, m);
-    if (dot3(n, m) > -0.9 * length3(n) * length3(m)) return 0;
+    cw_sub(p[1], p[0], u), cw_sub(p[2], p[0], v), cw_cross(u, v, n);
+    cw_sub(q[1], q[0], u), cw_sub(q[2], q[0], v), cw_cross(u, v, m);
+    if (cw_dot(n, m) > -0.9 * cw_norm(n) * cw_norm(m)) return 0;
   } else if (shared < 2 && kept_apart(p, q, in_a, in_b)) {
     return 0;
   }
@@ -162,10 +165,10 @@ done:
 static int has_area(const CwLayerInput *in, int32_t g) {
   const int32_t *v = in->obstacle_triangle[g];
   double a[3], b[3], n[3];
-  sub3(in->obstacle_x[v[1]], in->obstacle_x[v[0]], a);
-  sub3(in->obstacle_x[v[2]], in->obstacle_x[v[0]], b);
-  cross3(a, b, n);
-  return length3(n) > 1e-12 * (dot3(a, a) + dot3(b, b));
+  cw_sub(in->obstacle_x[v[1]], in->obstacle_x[v[0]], a);
+  cw_sub(in->obstacle_x[v[2]], in->obstacle_x[v[0]], b);
+  cw_cross(a, b, n);
+  return cw_norm(n) > 1e-12 * (cw_dot(a, a) + cw_dot(b, b));
 }
 
 static int visit(void *context, int32_t item) {

@@ -21,7 +21,7 @@ static void plain(const CwLayerWork *work, int32_t v, const double direction[3],
 
 static int is_source(const CwLayerWork *work, int32_t v) {
   int guided = work->in->guide_count && work->in->guide_count[v] > 0;
-  return work->crease[v] == CW_CREASE_CONCAVE || (guided && dot3(work->base[v], work->normal[v]) < 0.985);
+  return work->crease[v] == CW_CREASE_CONCAVE || (guided && cw_dot(work->base[v], work->normal[v]) < 0.985);
 }
 
 // Sets the height of a source and its displacement relative to an undisturbed neighbour.
@@ -32,7 +32,7 @@ static void raise_source(const CwLayerWork *work, CwFanSource *source) {
   if (work->crease[v] == CW_CREASE_CONCAVE) return;
   double undisturbed[3];
   plain(work, v, work->normal[v], work->normal_cos[v], undisturbed);
-  sub3(source->u, undisturbed, source->u);
+  cw_sub(source->u, undisturbed, source->u);
 }
 
 // The one direction in which the column of a source may still lean: along its concave edge, or along the
@@ -42,8 +42,8 @@ static void sliding_direction(const CwLayerWork *work, int32_t v, double line[3]
   int guides = work->in->guide_count ? work->in->guide_count[v] : 0;
   memset(line, 0, 3 * sizeof *line);
   if (work->crease[v] == CW_CREASE_CONCAVE && guides == 0) memcpy(line, work->along[v], 3 * sizeof *line);
-  if (work->crease[v] == CW_CREASE_NONE && guides == 1) cross3(work->normal[v], work->in->guide_normal[v][0], line);
-  unit3(line);
+  if (work->crease[v] == CW_CREASE_NONE && guides == 1) cw_cross(work->normal[v], work->in->guide_normal[v][0], line);
+  cw_unit(line);
 }
 
 static CwStatus find_sources(CwFans *fans) {
@@ -55,7 +55,7 @@ static CwStatus find_sources(CwFans *fans) {
   for (int32_t v = 0; v < work->n; v++) {
     if (!is_source(work, v)) continue;
     CwFanSource *source = &fans->source[fans->source_count++];
-    double cosine = work->crease[v] == CW_CREASE_CONCAVE ? work->base_cos[v] : dot3(work->base[v], work->normal[v]);
+    double cosine = work->crease[v] == CW_CREASE_CONCAVE ? work->base_cos[v] : cw_dot(work->base[v], work->normal[v]);
     cosine = fmin(fmax(cosine, CW_FAN_LEAST_COSINE), 1);
     source->vertex = v;
     source->opening = sqrt(1 - cosine * cosine) / cosine;
@@ -81,7 +81,7 @@ static CwStatus fans_make(CwLayerWork *work) {
   CW_TRY(cw_fan_find_reach(fans));
   for (int32_t i = 0; i < work->n; i++) {
     int32_t v = work->curve[i], source = fans->reach[v].source;
-    int leans = source >= 0 && (fans->source[source].vertex != v || length3(fans->source[source].line) > 0);
+    int leans = source >= 0 && (fans->source[source].vertex != v || cw_norm(fans->source[source].line) > 0);
     fans->place[v] = leans ? fans->count : -1;
     if (leans) fans->member[fans->count++] = v;
   }

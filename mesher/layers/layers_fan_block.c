@@ -2,6 +2,7 @@
 // The solution of the fan in one block and the rows around it.
 #include <stdlib.h>
 
+#include "mesher/common/vertex_heap.h"
 #include "mesher/layers/layers_fan.h"
 
 enum { SWEEPS = 60, MORE_SWEEPS = 30, WIDENINGS = 6, HALO = 6 };
@@ -21,18 +22,18 @@ static void allow(const CwLayerWork *work, int32_t v, double u[3]) {
     return;
   }
   if (work->crease[v] == CW_CREASE_NONE && guides == 0) {
-    flatten3(u, work->normal[v]);
+    cw_flatten(u, work->normal[v]);
     return;
   }
   if (work->crease[v] == CW_CREASE_NONE) {
-    cross3(work->normal[v], in->guide_normal[v][0], line);
+    cw_cross(work->normal[v], in->guide_normal[v][0], line);
   } else {
     memcpy(line, work->along[v], sizeof line);
-    if (guides && fabs(dot3(line, in->guide_normal[v][0])) > 0.1) memset(line, 0, sizeof line);
-    if (guides) flatten3(line, in->guide_normal[v][0]);
+    if (guides && fabs(cw_dot(line, in->guide_normal[v][0])) > 0.1) memset(line, 0, sizeof line);
+    if (guides) cw_flatten(line, in->guide_normal[v][0]);
   }
-  unit3(line);
-  double h = dot3(u, line);
+  cw_unit(line);
+  double h = cw_dot(u, line);
   for (int k = 0; k < 3; k++) u[k] = h * line[k];
 }
 
@@ -236,7 +237,7 @@ static double relax(Part *part, int32_t i) {
     if (part->across[k]) {
       // A convex edge may lean along itself only; across it the lean of v goes on undisturbed.
       const double *along = work->along[vertex_of(part, part->near[k])];
-      double h = dot3(along, near) - dot3(along, own->u);
+      double h = cw_dot(along, near) - cw_dot(along, own->u);
       for (int c = 0; c < 3; c++) sum[c] += weight * (own->u[c] + h * along[c]);
     } else {
       for (int c = 0; c < 3; c++) sum[c] += weight * near[c];
@@ -245,12 +246,12 @@ static double relax(Part *part, int32_t i) {
   double factor = l2 / (part->area[i] + l2 * part->weights[i]);
   for (int c = 0; c < 3; c++) u[c] = factor * sum[c];
   if (own->source == v) {
-    double h = dot3(own->line, u);
+    double h = cw_dot(own->line, u);
     for (int c = 0; c < 3; c++) u[c] = own->given[c] + h * own->line[c];
   } else {
     allow(work, v, u);
   }
-  double moved = distance3(own->u, u) / work->t[v];
+  double moved = cw_distance(own->u, u) / work->t[v];
   memcpy(own->u, u, sizeof u);
   return moved;
 }
@@ -306,7 +307,7 @@ static void lean(Part *part, int32_t i) {
       column[k] = upright[k] + scale * u / work->t[v];
     }
     double now = cw_layers_least_cosine(work, v, column);
-    if (now < least * length3(column)) continue;
+    if (now < least * cw_norm(column)) continue;
     for (int k = 0; k < 3; k++) part->column[i][k] = column[k] * fmin(height / now, 1.5);
     break;
   }
@@ -343,7 +344,7 @@ static int32_t widen(Part *part) {
       for (int32_t l = part->near_start[i]; l < part->near_start[i + 1]; l++) {
         double there = part->fan[part->near[l]].widen;
         if (there <= part->fan[i].widen) continue;
-        double away = distance3(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
+        double away = cw_distance(in->x[v], in->x[vertex_of(part, part->near[l])]) / work->t[v];
         part->fan[i].widen = fmax(part->fan[i].widen, there * exp(-0.5 * away));
       }
     }

@@ -7,6 +7,7 @@
 // block without those places has the same bits as if all were one.
 #include <stdlib.h>
 
+#include "mesher/common/vertex_heap.h"
 #include "mesher/layers/layers_fan.h"
 #include "mesher/parallel/schedule.h"
 
@@ -34,7 +35,7 @@ static double distance_to(const CwBox *box, const double x[3]) {
   for (int k = 0; k < 3; k++) {
     d[k] = x[k] < box->low[k] ? box->low[k] - x[k] : x[k] > box->high[k] ? x[k] - box->high[k] : 0;
   }
-  return length3(d);
+  return cw_norm(d);
 }
 
 // v has its distance: offers its neighbours a way through it.
@@ -47,7 +48,7 @@ static CwStatus settle(Spread *spread, int32_t v) {
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
     if (reach[w].distance <= at.distance) continue;
-    double distance = at.distance + distance3(work->in->x[v], work->in->x[w]);
+    double distance = at.distance + cw_distance(work->in->x[v], work->in->x[w]);
     if (distance >= reach[w].distance || distance > most) continue;
     if (distance + distance_to(&spread->box, work->in->x[w]) > spread->most) continue;
     if (reach[w].source < 0) spread->blocks->visited[spread->visited_count++] = w;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
-#include "mesher/common/box_tree.h"
+#include "mesher/common/vertex_heap.h"
 #include "mesher/layers/layers_inner.h"
 
 static const double SLOPE = 0.3;        // of heights, per distance between columns
@@ -53,24 +53,24 @@ static double hit(const CwLayerInput *in, int32_t f, const double x[3], const do
   const double *corner[3];
   double e1[3], e2[3], p[3], q[3], s[3], normal[3];
   corners(in, f, corner);
-  sub3(corner[1], corner[0], e1);
-  sub3(corner[2], corner[0], e2);
-  cross3(e1, e2, normal);
-  if (unit3(normal) == 0) return INFINITY;
-  *facing = dot3(normal, g);
-  cross3(g, e2, p);
-  double det = dot3(e1, p);
+  cw_sub(corner[1], corner[0], e1);
+  cw_sub(corner[2], corner[0], e2);
+  cw_cross(e1, e2, normal);
+  if (cw_unit(normal) == 0) return INFINITY;
+  *facing = cw_dot(normal, g);
+  cw_cross(g, e2, p);
+  double det = cw_dot(e1, p);
   if (det == 0) return INFINITY;
-  sub3(x, corner[0], s);
+  cw_sub(x, corner[0], s);
   // Rays often aim at vertices and edges of the other side: a hair of tolerance lets none slip between two
   // triangles.
   const double hair = 1e-9;
-  double u = dot3(s, p) / det;
+  double u = cw_dot(s, p) / det;
   if (u < -hair || u > 1 + hair) return INFINITY;
-  cross3(s, e1, q);
-  double w = dot3(g, q) / det;
+  cw_cross(s, e1, q);
+  double w = cw_dot(g, q) / det;
   if (w < -hair || u + w > 1 + hair) return INFINITY;
-  return dot3(e2, q) / det;
+  return cw_dot(e2, q) / det;
 }
 
 // Walls around v, and walls at a concave crease next to v, bound no gap: the fan keeps columns clear of
@@ -126,7 +126,7 @@ static CwStatus free_height(void *context, int32_t i, void *out) {
   int32_t v = gaps->vertex[i];
   Ray ray = {.work = work, .v = v, .guided = in->guide_count && in->guide_count[v] > 0, .best = INFINITY};
   memcpy(ray.g, work->column[v], sizeof ray.g);
-  ray.stretch = unit3(ray.g);
+  ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
   ray.far = in->target[v] * ray.stretch / 0.35;
   cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
@@ -166,8 +166,8 @@ done:
 static int fan_parts(const CwLayerWork *work, int32_t v, int32_t w, const double e[3]) {
   int at_v = work->crease[v] == CW_CREASE_CONCAVE, at_w = work->crease[w] == CW_CREASE_CONCAVE;
   if (!at_v || !at_w) return at_v || at_w;
-  double along_v = dot3(work->along[v], e), along_w = dot3(work->along[w], e), least = 0.7 * length3(e);
-  int corner = length3(work->along[v]) == 0 || length3(work->along[w]) == 0;
+  double along_v = cw_dot(work->along[v], e), along_w = cw_dot(work->along[w], e), least = 0.7 * cw_norm(e);
+  int corner = cw_norm(work->along[v]) == 0 || cw_norm(work->along[w]) == 0;
   return corner || fabs(along_v) > least || fabs(along_w) > least;
 }
 
@@ -179,12 +179,12 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     int32_t w = work->near[k];
     double e[3];
-    sub3(in->x[w], in->x[v], e);
+    cw_sub(in->x[w], in->x[v], e);
     if (fan_parts(work, v, w, e)) continue;
     // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
-    double closing = dot3(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
-                     dot3(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
-    most = fmin(most, share * dot3(e, e) / fmax(closing, 1e-30));
+    double closing = cw_dot(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
+                     cw_dot(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
+    most = fmin(most, share * cw_dot(e, e) / fmax(closing, 1e-30));
   }
   *(double *)out = most;
   return CW_OK;
@@ -199,10 +199,10 @@ CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
 // the front than on the wall, and heights that rose by their distance there would fold the front along the crease.
 static double most_beside(const CwLayerWork *work, int32_t v, int32_t w) {
   double e[3], d[3], t = fmin(work->t[v], work->t[w]);
-  sub3(work->in->x[w], work->in->x[v], e);
+  cw_sub(work->in->x[w], work->in->x[v], e);
   for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
-  double wall = length3(e);
-  return work->t[v] + SLOPE * fmin(wall, fmax(length3(d), LEAST_APART * wall));
+  double wall = cw_norm(e);
+  return work->t[v] + SLOPE * fmin(wall, fmax(cw_norm(d), LEAST_APART * wall));
 }
 
 // Whether a vertex beside v is too high.

@@ -14,10 +14,10 @@ typedef struct {
 
 static void offer(Search *search, const double candidate[3]) {
   double g[3] = {candidate[0], candidate[1], candidate[2]};
-  if (unit3(g) < 1e-12) return;
+  if (cw_unit(g) < 1e-12) return;
   double least = INFINITY;
   for (int i = 0; i < search->count; i++) {
-    double c = dot3(search->normal[i], g);
+    double c = cw_dot(search->normal[i], g);
     if (c <= search->best) return;
     if (c < least) least = c;
   }
@@ -43,9 +43,9 @@ static void search_free(Search *search) {
     for (int j = i + 1; j < search->count; j++)
       for (int k = j + 1; k < search->count; k++) {
         double a[3], b[3], g[3];
-        sub3(n[j], n[i], a);
-        sub3(n[k], n[i], b);
-        cross3(a, b, g);
+        cw_sub(n[j], n[i], a);
+        cw_sub(n[k], n[i], b);
+        cw_cross(a, b, g);
         offer_both(search, g);
       }
 }
@@ -56,11 +56,11 @@ static void search_plane(Search *search, const double m[3]) {
   const double(*n)[3] = search->normal;
   for (int i = 0; i < search->count; i++) {
     double g[3] = {n[i][0], n[i][1], n[i][2]};
-    flatten3(g, m);
+    cw_flatten(g, m);
     offer(search, g);
     for (int j = i + 1; j < search->count; j++) {
-      sub3(n[i], n[j], g);
-      cross3(m, g, g);
+      cw_sub(n[i], n[j], g);
+      cw_cross(m, g, g);
       offer_both(search, g);
     }
   }
@@ -70,10 +70,10 @@ double cw_layers_most_normal(int count, const double (*normal)[3], int guide_cou
                              double g[3]) {
   Search search = {.count = count, .normal = normal, .best = -2};
   double line[3] = {0};
-  if (guide_count == 2) cross3(guide[0], guide[1], line);
+  if (guide_count == 2) cw_cross(guide[0], guide[1], line);
   if (guide_count == 0)
     search_free(&search);
-  else if (guide_count == 2 && length3(line) > 1e-3)
+  else if (guide_count == 2 && cw_norm(line) > 1e-3)
     offer_both(&search, line);
   else
     search_plane(&search, guide[0]);
@@ -89,7 +89,7 @@ int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*norm
     for (; k < work->face_start[v + 1]; k++) {
       const double *n = work->face_normal[work->face[k]];
       int known = 0;
-      for (int i = 0; i < count && !known; i++) known = dot3(n, normal[i]) > 1 - same;
+      for (int i = 0; i < count && !known; i++) known = cw_dot(n, normal[i]) > 1 - same;
       if (known) continue;
       if (count == CW_LAYER_NORMALS) break;
       memcpy(normal[count++], n, sizeof normal[0]);
@@ -101,7 +101,7 @@ int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*norm
 double cw_layers_least_cosine(const CwLayerWork *work, int32_t v, const double direction[3]) {
   double least = INFINITY;
   for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
-    double c = dot3(work->face_normal[work->face[k]], direction);
+    double c = cw_dot(work->face_normal[work->face[k]], direction);
     if (c < least) least = c;
   }
   return least;
@@ -128,15 +128,15 @@ static void edge_direction(int count, double (*normal)[3], double along[3]) {
   for (int i = 0; i < count; i++)
     for (int j = i + 1; j < count; j++) {
       double c[3];
-      cross3(normal[i], normal[j], c);
-      if (length3(c) > largest) {
-        largest = length3(c);
+      cw_cross(normal[i], normal[j], c);
+      if (cw_norm(c) > largest) {
+        largest = cw_norm(c);
         memcpy(along, c, sizeof c);
       }
     }
-  unit3(along);
+  cw_unit(along);
   for (int i = 0; i < count; i++)
-    if (fabs(dot3(normal[i], along)) > 0.3) memset(along, 0, 3 * sizeof *along);
+    if (fabs(cw_dot(normal[i], along)) > 0.3) memset(along, 0, 3 * sizeof *along);
 }
 
 typedef struct {
@@ -162,8 +162,8 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   double most = -1;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
     double e[3];
-    sub3(in->x[work->near[k]], x, e);
-    most = fmax(most, dot3(e, g) / length3(e));
+    cw_sub(in->x[work->near[k]], x, e);
+    most = fmax(most, cw_dot(e, g) / cw_norm(e));
   }
   made->crease = most > 0.3 ? CW_CREASE_CONCAVE : CW_CREASE_CONVEX;
 done:

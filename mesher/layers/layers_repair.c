@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
+#include "mesher/layers/layers_crossing.h"
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/schedule.h"
 
@@ -334,48 +335,92 @@ done:
   return status;
 }
 
+// All columns as they come, and their prisms judged. Takes the tree over. Collective.
+static CwStatus start(Repair *repair, CwBoxTree *tree) {
+  CwStatus status = CW_OK;
+  CwLayerWork *work = repair->work;
+  int32_t n = work->n, triangles = work->in->triangle_count;
+  CW_NEW_UNSET(repair->quality, triangles);
+  CW_NEW(repair->mark, n);
+  CW_NEW(repair->moved, n);
+  CW_NEW(repair->moved_list, n);
+  CW_NEW_UNSET(repair->bad, triangles);
+  CW_NEW_UNSET(repair->stale, triangles);
+  CW_NEW(repair->uncrossed, n);
+  memset(repair->uncrossed, 1, (size_t)n);
+  CW_NEW_UNSET(repair->height, n);
+  CW_TRY(cw_layers_crossing_make(work, &repair->crossing));
+  repair->crossing.tree = *tree; // the prisms stand where the walls do
+  memset(tree, 0, sizeof *tree);
+  CW_TRY(cw_share("layers: ends", n, sizeof *repair->front, find_end, work, repair->front));
+  memcpy(repair->height, work->t, (size_t)n * sizeof *repair->height);
+  for (int32_t f = 0; f < triangles; f++) repair->stale[f] = f;
+  CW_TRY(cw_share("layers: prisms", triangles, sizeof *repair->quality, judge_stale, repair, repair->quality));
+  for (int32_t f = 0; f < triangles; f++) {
+    if (repair->quality[f] < CW_LAYER_GOOD) repair->bad[repair->bad_count++] = f;
+  }
+done:
+  return status;
+}
+
+// Turns the columns of bad prisms, some times or until none is bad. Collective.
+static CwStatus turn_bad(Repair *repair) {
+  CwStatus status = CW_OK;
+  for (int pass = 0; pass < TURNS && repair->bad_count; pass++) {
+    CW_TRY(turn_marked(repair));
+    CW_TRY(find_bad(repair));
+  }
+done:
+  return status;
+}
+
+static CwStatus not_repaired(Repair *repair, int32_t crossing) {
+  CwStatus status = CW_OK;
+  const CwLayerWork *work = repair->work;
+  int32_t last = 0;
+  CW_TRY(find_bad(repair));
+  for (int32_t v = 0; v < work->n; v++) {
+    if (repair->mark[v]) last = v;
+  }
+  const double *x = work->in->x[last];
+  status = CW_FAIL(CW_ERR_MESH,
+                   "layers: no valid front after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
+                   "(%.4f, %.4f, %.4f) mm",
+                   ROUNDS, repair->bad_count, crossing, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+done:
+  return status;
+}
+
+static void repair_free(Repair *repair) {
+  free(repair->quality);
+  free(repair->mark);
+  free(repair->moved);
+  free(repair->moved_list);
+  free(repair->bad);
+  free(repair->stale);
+  free(repair->uncrossed);
+  free(repair->height);
+  cw_layers_crossing_free(&repair->crossing);
+}
+
 CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3], int32_t *rounds) {
   CwStatus status = CW_OK;
-  const CwLayerInput *in = work->in;
   Repair repair = {.work = work, .front = front};
   int32_t crossing = 0;
   int once_more = 0;
-  CW_NEW_UNSET(repair.quality, in->triangle_count);
-  CW_NEW(repair.mark, work->n);
-  CW_NEW(repair.moved, work->n);
-  CW_NEW(repair.moved_list, work->n);
-  CW_NEW_UNSET(repair.bad, in->triangle_count);
-  CW_NEW_UNSET(repair.stale, in->triangle_count);
-  CW_NEW(repair.uncrossed, work->n);
-  memset(repair.uncrossed, 1, (size_t)work->n);
-  CW_NEW_UNSET(repair.height, work->n);
-  CW_TRY(cw_layers_crossing_make(work, &repair.crossing));
-  repair.crossing.tree = *tree; // the prisms stand where the walls do
-  memset(tree, 0, sizeof *tree);
-  CW_TRY(cw_share("layers: ends", work->n, sizeof *front, find_end, work, front));
-  memcpy(repair.height, work->t, (size_t)work->n * sizeof *repair.height);
-  for (int32_t f = 0; f < in->triangle_count; f++) repair.stale[f] = f;
-  CW_TRY(cw_share("layers: prisms", in->triangle_count, sizeof *repair.quality, judge_stale, &repair, repair.quality));
-  for (int32_t f = 0; f < in->triangle_count; f++) {
-    if (repair.quality[f] < CW_LAYER_GOOD) repair.bad[repair.bad_count++] = f;
-  }
+  CW_TRY(start(&repair, tree));
   for (*rounds = 0; *rounds < ROUNDS; (*rounds)++) {
     // Round prisms where they can be had; where half the rounds did not bring them, sound ones.
     repair.limit = *rounds < ROUNDS / 2 ? CW_LAYER_GOOD : FAIR;
     CW_TRY(find_bad(&repair));
     if (repair.bad_count) {
-      for (int pass = 0; pass < TURNS && repair.bad_count; pass++) {
-        CW_TRY(turn_marked(&repair));
-        CW_TRY(find_bad(&repair));
-      }
+      CW_TRY(turn_bad(&repair));
       if (!repair.bad_count) continue;
     } else {
       CW_TRY(find_crossings(&repair, &crossing));
       if (crossing == 0) {
         int turned = 0;
-        if (!once_more++) {
-          CW_TRY(turn_kept(&repair, &turned));
-        }
+        if (!once_more++) CW_TRY(turn_kept(&repair, &turned));
         if (!turned) goto done;
         continue;
       }
@@ -385,24 +430,8 @@ CwStatus cw_layers_repair(CwLayerWork *work, CwBoxTree *tree, double (*front)[3]
     // lost by it, and only thinning is sure to come to an end.
     if (*rounds == REFAN) CW_TRY(fan_again(&repair));
   }
-  CW_TRY(find_bad(&repair));
-  int32_t first = 0;
-  for (int32_t v = 0; v < work->n; v++)
-    if (repair.mark[v]) first = v;
-  const double *x = in->x[first];
-  status = CW_FAIL(CW_ERR_MESH,
-                   "layers: no valid front after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
-                   "(%.4f, %.4f, %.4f) mm",
-                   ROUNDS, repair.bad_count, crossing, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+  status = not_repaired(&repair, crossing);
 done:
-  free(repair.quality);
-  free(repair.mark);
-  free(repair.moved);
-  free(repair.moved_list);
-  free(repair.bad);
-  free(repair.stale);
-  free(repair.uncrossed);
-  free(repair.height);
-  cw_layers_crossing_free(&repair.crossing);
+  repair_free(&repair);
   return status;
 }

@@ -43,7 +43,7 @@ static CwStatus check_vertex(const CwLayerInput *in, int32_t v) {
   CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT, "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2",
              guides, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
   for (int i = 0; i < guides; i++)
-    CW_REQUIRE(fabs(length3(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
+    CW_REQUIRE(fabs(cw_norm(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
                "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", x[0] * 1e3, x[1] * 1e3,
                x[2] * 1e3);
 done:
@@ -106,9 +106,9 @@ done:
 // Two edges of a wall triangle and its area vector, of twice its area, into the domain: the input's points out of it.
 static void area_vector(const CwLayerInput *in, int32_t f, double e1[3], double e2[3], double vector[3]) {
   const int32_t *corner = in->triangle[f];
-  sub3(in->x[corner[1]], in->x[corner[0]], e1);
-  sub3(in->x[corner[2]], in->x[corner[0]], e2);
-  cross3(e2, e1, vector);
+  cw_sub(in->x[corner[1]], in->x[corner[0]], e1);
+  cw_sub(in->x[corner[2]], in->x[corner[0]], e2);
+  cw_cross(e2, e1, vector);
 }
 
 static CwStatus find_normal(void *context, int32_t f, void *out) {
@@ -117,7 +117,7 @@ static CwStatus find_normal(void *context, int32_t f, void *out) {
   const int32_t *corner = in->triangle[f];
   double e1[3], e2[3], *normal = out;
   area_vector(in, f, e1, e2, normal);
-  CW_REQUIRE(unit3(normal) > 1e-12 * (dot3(e1, e1) + dot3(e2, e2)), CW_ERR_INPUT,
+  CW_REQUIRE(cw_unit(normal) > 1e-12 * (cw_dot(e1, e1) + cw_dot(e2, e2)), CW_ERR_INPUT,
              "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
              in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
 done:
@@ -127,7 +127,7 @@ done:
 static double twice_area(const CwLayerInput *in, int32_t f) {
   double e1[3], e2[3], normal[3];
   area_vector(in, f, e1, e2, normal);
-  return length3(normal);
+  return cw_norm(normal);
 }
 
 // Half the cotangent of the angle at corner i of f, which belongs to the opposite edge; clamped so that obtuse corners
@@ -135,9 +135,9 @@ static double twice_area(const CwLayerInput *in, int32_t f) {
 static double half_cotangent(const CwLayerInput *in, int32_t f, int i, double twice_area) {
   const int32_t *corner = in->triangle[f];
   double e1[3], e2[3];
-  sub3(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
-  sub3(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
-  return 0.5 * fmin(fmax(dot3(e1, e2) / twice_area, 0.05), 5.0);
+  cw_sub(in->x[corner[(i + 1) % 3]], in->x[corner[i]], e1);
+  cw_sub(in->x[corner[(i + 2) % 3]], in->x[corner[i]], e2);
+  return 0.5 * fmin(fmax(cw_dot(e1, e2) / twice_area, 0.05), 5.0);
 }
 
 void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, double *area) {
@@ -158,7 +158,7 @@ void cw_layers_weights(const CwLayerWork *work, int32_t v, double *weight, doubl
 double cw_layers_shortest_edge(const CwLayerWork *work, int32_t v) {
   double least = INFINITY;
   for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-    least = fmin(least, distance3(work->in->x[work->near[k]], work->in->x[v]));
+    least = fmin(least, cw_distance(work->in->x[work->near[k]], work->in->x[v]));
   }
   return least;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How good the prisms round a column are, and the search for a better direction of it.
-#include "mesher/common/vec.h"
 #include "mesher/layers/layers_inner.h"
 
 static const double FRONT = 0.4;        // what the quality of the front counts beside that of prisms: 0.3 is good
@@ -30,11 +29,11 @@ double cw_layers_shear_quality(const CwLayerWork *work, int32_t f, const double 
   if (division->count < 1 || prism > UPRIGHT) return CW_LAYER_GOOD;
   double last[3], normal[3], column[3];
   cw_normal(wall[0], wall[1], wall[2], normal);
-  unit3(normal);
+  cw_unit(normal);
   for (int k = 0; k < 3; k++) {
-    sub3(wall[k], end[k], column);
+    cw_sub(wall[k], end[k], column);
     last[k] =
-        division->last ? division->last(division->context, v[k], fabs(dot3(column, normal))) : 1.0 / division->count;
+        division->last ? division->last(division->context, v[k], fabs(cw_dot(column, normal))) : 1.0 / division->count;
   }
   return CW_LAYER_GOOD * cw_prism_shear_quality(wall, end, division->count, last);
 }
@@ -73,24 +72,24 @@ void cw_layers_turn(CwLayerWork *work, int32_t v, double (*front)[3], CwLayerJud
   memcpy(column, work->column[v], sizeof column);
   for (int s = 0; s < 2; s++) {
     double g[3] = {column[0], column[1], column[2]}, side[3], up[3];
-    unit3(g);
+    cw_unit(g);
     if (guides == 1) {
-      cross3(g, in->guide_normal[v][0], side);
+      cw_cross(g, in->guide_normal[v][0], side);
       memset(up, 0, sizeof up);
     } else {
       int axis = fabs(g[0]) < 0.6 ? 0 : 1;
       double e[3] = {0};
       e[axis] = 1;
-      cross3(g, e, side);
+      cw_cross(g, e, side);
     }
-    unit3(side);
-    if (guides == 0) cross3(g, side, up);
+    cw_unit(side);
+    if (guides == 0) cw_cross(g, side, up);
     double slope = tan(step[s]);
     for (int i = 0; i < 8; i++) {
       if (guides == 1 && i % 4) continue;
       double angle = i * M_PI / 4, c = cos(angle), d = sin(angle), trial[3];
       for (int k = 0; k < 3; k++) trial[k] = g[k] + slope * (c * side[k] + d * up[k]);
-      unit3(trial);
+      cw_unit(trial);
       double cosine = cw_layers_least_cosine(work, v, trial);
       if (cosine < least_cosine) continue;
       for (int k = 0; k < 3; k++) work->column[v][k] = trial[k] / fmax(cosine, LEAST_COSINE);

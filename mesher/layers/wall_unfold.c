@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/layers/layers_inner.h"
+#include "mesher/layers/layers_inner.h" // most normal directions
 
 enum { SWEEPS = 8 };
 static const double OPEN = 0.2;      // cosine of a vertex that needs no help
@@ -32,10 +32,10 @@ static double openness(const Wall *wall, int32_t v) {
       if (way == 0 || t != wall->around[v]) {
         double a[3], b[3];
         if (count == CW_LAYER_NORMALS) return 2;
-        sub3(wall->x[c[1]], wall->x[c[0]], a);
-        sub3(wall->x[c[2]], wall->x[c[0]], b);
-        cross3(b, a, normal[count]);
-        unit3(normal[count++]);
+        cw_sub(wall->x[c[1]], wall->x[c[0]], a);
+        cw_sub(wall->x[c[2]], wall->x[c[0]], b);
+        cw_cross(b, a, normal[count]);
+        cw_unit(normal[count++]);
       }
       t = wall->mesh.near[t][way ? k : (k + 2) % 3];
     } while (t >= 0 && t != wall->around[v]);
@@ -58,12 +58,12 @@ static double least_openness(const Wall *wall, const int32_t corner[4]) {
 
 static int is_fair(const double (*x)[3], int32_t a, int32_t b, int32_t c) {
   double u[3], v[3], w[3], n[3];
-  sub3(x[b], x[a], u);
-  sub3(x[c], x[a], v);
-  sub3(x[c], x[b], w);
-  cross3(u, v, n);
-  double longest = fmax(dot3(u, u), fmax(dot3(v, v), dot3(w, w)));
-  return length3(n) > FLATTEST * longest;
+  cw_sub(x[b], x[a], u);
+  cw_sub(x[c], x[a], v);
+  cw_sub(x[c], x[b], w);
+  cw_cross(u, v, n);
+  double longest = fmax(cw_dot(u, u), fmax(cw_dot(v, v), cw_dot(w, w)));
+  return cw_norm(n) > FLATTEST * longest;
 }
 
 // Turns side k of t and sets the triangles at the four vertices.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/skeleton/front_open.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/incident.h"
 #include "mesher/common/triangle_bound.h"
 #include "mesher/common/vec.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/layers/layers_crossing.h"
+#include "mesher/parallel/share.h"
 #include "mesher/skeleton/orbit_skeleton.h"
 #include "mesher/skeleton/wall_part.h"
 #include "pipeline/log.h"
@@ -145,7 +148,7 @@ static CwStatus make_part(Grooves *grooves, const CwLayerInput *wall) {
     memcpy(grooves->front[i], skeleton->front[v], sizeof *grooves->front);
     work->t[i] = skeleton->height[v];
     for (int k = 0; k < 3; k++) work->column[i][k] = (skeleton->front[v][k] - skeleton->wall_x[v][k]) / work->t[i];
-    work->base_cos[i] = cw_layers_least_cosine(work, i, work->column[i]) / length3(work->column[i]);
+    work->base_cos[i] = cw_layers_least_cosine(work, i, work->column[i]) / cw_norm(work->column[i]);
   }
 done:
   free(near);
@@ -162,14 +165,26 @@ static void turn_copies(Grooves *grooves, int32_t v) {
   }
 }
 
+// Whether the column of v changed.
+static int open_column(Grooves *grooves, int32_t v) {
+  CwLayerWork *work = &grooves->work;
+  int32_t local = grooves->part.local[v];
+  double end[3], column[3], height = work->t[local];
+  cw_copy(grooves->front[local], end);
+  cw_copy(work->column[local], column);
+  cw_layers_turn(work, local, grooves->front, judge);
+  stretch(work, local, grooves->front);
+  turn_copies(grooves, v);
+  return work->t[local] != height || memcmp(grooves->front[local], end, sizeof end) != 0 ||
+         memcmp(work->column[local], column, sizeof column) != 0;
+}
+
+// Until nothing changes; the first pass may also move copies, which are turned by rounding.
 static void open_columns(Grooves *grooves) {
-  for (int pass = 0; pass < PASSES; pass++) {
+  for (int pass = 0, changed = 1; pass < PASSES && changed; pass++) {
+    changed = pass == 0;
     for (int32_t v = 0; v < grooves->skeleton->wall_count; v++) {
-      if (!grooves->turning[v]) continue;
-      int32_t local = grooves->part.local[v];
-      cw_layers_turn(&grooves->work, local, grooves->front, judge);
-      stretch(&grooves->work, local, grooves->front);
-      turn_copies(grooves, v);
+      if (grooves->turning[v]) changed |= open_column(grooves, v);
     }
   }
 }
@@ -182,7 +197,7 @@ static void spread(Grooves *grooves, uint8_t *moved, int32_t *opened) {
     if (memcmp(end, skeleton->front[v], sizeof *skeleton->front) == 0) continue;
     int32_t local = grooves->part.local[v], at = v, turns = 0;
     double column[3];
-    sub3(end, skeleton->wall_x[v], column);
+    cw_sub(end, skeleton->wall_x[v], column);
     double height = cw_layers_least_cosine(&grooves->work, local, column);
     int same = fabs(height - skeleton->height[v]) < 0.01 * height;
     do {

@@ -2,10 +2,13 @@
 // Layers over the first of each orbit of a symmetric wall, and their copies: all ranks grow and check them together,
 // and each turns them for itself.
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/common/incident.h"
-#include "mesher/layers/layers_inner.h"
+#include "mesher/common/vec.h"
+#include "mesher/layers/layers_crossing.h"
 #include "mesher/parallel/ledger.h"
+#include "mesher/parallel/share.h"
 #include "mesher/skeleton/orbit_skeleton.h"
 #include "mesher/skeleton/wall_part.h"
 #include "pipeline/log.h"
@@ -50,7 +53,7 @@ typedef struct {
 
 static int meet(void *context, int32_t item) {
   Near *near = context;
-  near->met = distance3(near->x[near->vertex[item]], near->p) < near->reach;
+  near->met = cw_distance(near->x[near->vertex[item]], near->p) < near->reach;
   return near->met;
 }
 
@@ -84,7 +87,7 @@ static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole,
     if (skeleton->wall_source[t] != t) continue;
     for (int k = 0; k < 3; k++) {
       is_first[corner[k]] = 1;
-      longest = fmax(longest, distance3(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));
+      longest = fmax(longest, cw_distance(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));
       thickest = fmax(thickest, whole->target[corner[k]]);
     }
   }
@@ -203,11 +206,11 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
         turns++;
         if (!part->is_first[at]) continue;
         cw_orbit_point(orbits, count - turns, made->front[part->wall.local[at]], end);
-        if (distance3(end, own) < SAME) continue;
+        if (cw_distance(end, own) < SAME) continue;
         if (best == -INFINITY) best = place_orbit(part, &work, v, kept, front);
         for (int k = 0; k < 2; k++) {
           const double *tried = k ? end : own;
-          if (distance3(tried, kept) < SAME) continue;
+          if (cw_distance(tried, kept) < SAME) continue;
           double quality = place_orbit(part, &work, v, tried, front);
           if (quality <= best) continue;
           best = quality;
@@ -217,7 +220,7 @@ static CwStatus choose(const Part *part, const CwLayers *made, CwLayers *layers)
       }
       if (best == -INFINITY) continue;
       place_orbit(part, &work, v, kept, front);
-      if (distance3(kept, layers->front[v]) >= SAME) turn_from(part, made, from, v, kept, layers);
+      if (cw_distance(kept, layers->front[v]) >= SAME) turn_from(part, made, from, v, kept, layers);
     }
   }
 done:
@@ -279,7 +282,7 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
   CW_NEW_UNSET(checked, in->triangle_count);
   for (int32_t i = 0; i < in->point_count; i++) {
     memcpy(spread.front[i], layers->front[part->wall.global[i]], sizeof *spread.front);
-    spread.off[i] = distance3(spread.front[i], made->front[i]);
+    spread.off[i] = cw_distance(spread.front[i], made->front[i]);
     spread.moved[i] = spread.off[i] >= SAME;
   }
   CW_TRY(cw_share("layers: copies", in->triangle_count, sizeof *checked, check_triangle, &spread, checked));
@@ -345,7 +348,7 @@ static CwStatus thin(const Part *part, const uint8_t *bad, CwLayers *layers) {
       for (int k = 0; k < 6; k++) { // either way along each edge
         int32_t v = part->wall.global[corner[k / 2]], w = part->wall.global[corner[(k / 2 + 1 + k % 2) % 3]];
         if (!lowered[v]) continue;
-        double most = layers->height[v] + SLOPE * distance3(whole->x[v], whole->x[w]);
+        double most = layers->height[v] + SLOPE * cw_distance(whole->x[v], whole->x[w]);
         if (layers->height[w] <= most) continue;
         lower(part, w, most, layers, lowered);
         again = 1;

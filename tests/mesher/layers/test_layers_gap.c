@@ -39,7 +39,7 @@ static void gradation(void **state) {
     for (int i = 0; i < 3; i++) {
       int32_t a = c.wall.triangle[f][i], b = c.wall.triangle[f][(i + 1) % 3];
       double step = fabs(c.out.height[a] - c.out.height[b]);
-      assert_true(step <= 0.3 * distance3(c.wall.x[a], c.wall.x[b]) + 1e-12);
+      assert_true(step <= 0.3 * cw_distance(c.wall.x[a], c.wall.x[b]) + 1e-12);
       graded += c.out.reason[a] == CW_LAYER_GRADATION;
     }
   assert_true(graded > 0);
@@ -62,10 +62,10 @@ static void hollow(void **state) {
 
 // The height of the front on the wall between v and w: at the height of the lower one, columns stand so far apart.
 static double apart(const Case *c, int32_t v, int32_t w) {
-  double low = fmin(c->out.height[v], c->out.height[w]), p[3], q[3], wall = distance3(c->wall.x[v], c->wall.x[w]);
+  double low = fmin(c->out.height[v], c->out.height[w]), p[3], q[3], wall = cw_distance(c->wall.x[v], c->wall.x[w]);
   case_at(c, v, low / c->out.height[v], p);
   case_at(c, w, low / c->out.height[w], q);
-  return fmin(wall, fmax(distance3(p, q), 0.25 * wall));
+  return fmin(wall, fmax(cw_distance(p, q), 0.25 * wall));
 }
 
 // A crease of 75 degrees whose columns are asked to be lower than those beside it, which stand closer on the front than
@@ -94,7 +94,7 @@ static void low_crease(void **state) {
     }
     if (on < 0) continue;
     double rise[3];
-    sub3(c.out.front[high], c.out.front[on], rise);
+    cw_sub(c.out.front[high], c.out.front[on], rise);
     least = fmin(least, atan2(fabs(rise[2]), rise[0]) * 180 / M_PI);
   }
   print_message("  half the angle of the front on a crease of 75 degrees: %.1f\n", least);

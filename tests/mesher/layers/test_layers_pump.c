@@ -309,9 +309,9 @@ static void bumpy_point(const void *context, double u, double v, double x[3]) {
   e[axis] = b->face % 2 ? 1 : -1;
   e[(axis + 1) % 3] = tan((u - 0.5) * M_PI / 2);
   e[(axis + 2) % 3] = tan((v - 0.5) * M_PI / 2);
-  unit3(e);
+  cw_unit(e);
   double r = 1;
-  for (int i = 0; i < 8; i++) r += b->size * sin(dot3(b->wave[i], e) + b->phase[i]);
+  for (int i = 0; i < 8; i++) r += b->size * sin(cw_dot(b->wave[i], e) + b->phase[i]);
   for (int k = 0; k < 3; k++) x[k] = b->radius * r * e[k];
 }
 
