@@ -11,68 +11,47 @@
 
 #include <cmocka.h>
 
+#include "flat_ring.h"
 #include "mesher/common/incident.h"
 #include "mesher/layers/prism_quality.h"
 #include "mesher/skeleton/front_open.h"
 
-enum { PASSAGES = 4, OF_PASSAGE = 16, AROUND = PASSAGES * OF_PASSAGE, RINGS = 10 };
-enum { POINTS = AROUND * (RINGS + 1), TRIANGLES = 2 * AROUND * RINGS };
 static const double HIGH = 5.5e-3, LOW = 0.5e-3;
 
 typedef struct {
-  double x[POINTS][3], front[POINTS][3], height[POINTS], target[POINTS], least[POINTS];
-  int32_t triangle[TRIANGLES][3], source[TRIANGLES], next[POINTS], turns[POINTS];
+  FlatRing flat;
+  double front[POINTS][3], height[POINTS], target[POINTS], least[POINTS];
   uint8_t reason[POINTS];
-  CwSymmetry symmetry;
   CwSkeleton skeleton;
   CwLayerInput wall;
 } Ring;
 
-static int32_t point(int i, int j) {
-  return i % AROUND * (RINGS + 1) + j;
-}
-
 // Columns on the ray `i` of each passage are low at the rings 5 and 6, and least ones are `least` of the others.
 static void make_ring(Ring *ring, int i, double low, double least) {
-  int32_t count = 0;
+  FlatRing *flat = &ring->flat;
   memset(ring, 0, sizeof *ring);
-  for (int a = 0; a < AROUND; a++) {
-    double angle = 2 * M_PI * a / AROUND;
-    for (int j = 0; j <= RINGS; j++) {
-      int32_t v = point(a, j);
-      ring->x[v][0] = ring->front[v][0] = (10e-3 + j * 1e-3) * cos(angle);
-      ring->x[v][1] = ring->front[v][1] = (10e-3 + j * 1e-3) * sin(angle);
-      ring->target[v] = HIGH;
-      ring->least[v] = least * HIGH;
-      ring->height[v] = a % OF_PASSAGE == i && (j == 5 || j == 6) ? low : HIGH;
-      ring->front[v][2] = ring->height[v];
-      ring->next[v] = point(a + OF_PASSAGE, j);
-      ring->turns[v] = a / OF_PASSAGE;
-    }
-    for (int j = 0; j < RINGS; j++) {
-      const int32_t corner[2][3] = {{point(a, j), point(a + 1, j), point(a + 1, j + 1)},
-                                    {point(a, j), point(a + 1, j + 1), point(a, j + 1)}};
-      for (int k = 0; k < 2; k++, count++) {
-        memcpy(ring->triangle[count], corner[k], sizeof corner[k]);
-        ring->source[count] = count % (TRIANGLES / PASSAGES);
-      }
-    }
+  flat_ring(flat);
+  memcpy(ring->front, flat->x, sizeof ring->front);
+  for (int32_t v = 0; v < POINTS; v++) {
+    ring->target[v] = ring->height[v] = HIGH;
+    ring->least[v] = least * HIGH;
   }
-  ring->symmetry.count = PASSAGES;
+  for (int k = 0; k < PASSAGES; k++)
+    for (int j = 5; j <= 6; j++) ring->height[ring_point(k * OF_PASSAGE + i, j)] = low;
+  for (int32_t v = 0; v < POINTS; v++) ring->front[v][2] = ring->height[v];
   ring->skeleton = (CwSkeleton){.wall_count = POINTS,
-                                .wall_x = ring->x,
+                                .wall_x = flat->x,
                                 .wall_triangle_count = TRIANGLES,
-                                .wall_triangle = ring->triangle,
-                                .wall_source = ring->source,
+                                .wall_triangle = flat->triangle,
+                                .wall_source = flat->source,
                                 .front = ring->front,
                                 .height = ring->height,
-                                .reason = ring->reason};
-  ring->skeleton.orbits = (CwSkeletonOrbits){
-      .symmetry = &ring->symmetry, .node_capacity = POINTS, .node_next = ring->next, .node_turns = ring->turns};
+                                .reason = ring->reason,
+                                .orbits = ring_orbits(flat)};
   ring->wall = (CwLayerInput){.point_count = POINTS,
-                              .x = (const double(*)[3])ring->x,
+                              .x = (const double(*)[3])flat->x,
                               .triangle_count = TRIANGLES,
-                              .triangle = (const int32_t(*)[3])ring->triangle,
+                              .triangle = (const int32_t(*)[3])flat->triangle,
                               .target = ring->target,
                               .least = ring->least};
 }
@@ -80,7 +59,7 @@ static void make_ring(Ring *ring, int i, double low, double least) {
 static double least_bound(const Ring *ring) {
   CwIncident around;
   double least = 90;
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])ring->triangle;
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])ring->flat.triangle;
   assert_int_equal(cw_incident_make(POINTS, TRIANGLES, triangle, &around), CW_OK);
   for (int32_t t = 0; t < TRIANGLES; t++) {
     const double(*front)[3] = (const double(*)[3])ring->front;
@@ -93,8 +72,8 @@ static double least_bound(const Ring *ring) {
 static double least_prism(const Ring *ring) {
   double least = 1;
   for (int32_t t = 0; t < TRIANGLES; t++) {
-    const int32_t *v = ring->triangle[t];
-    const double *const wall[3] = {ring->x[v[0]], ring->x[v[1]], ring->x[v[2]]};
+    const int32_t *v = ring->flat.triangle[t];
+    const double *const wall[3] = {ring->flat.x[v[0]], ring->flat.x[v[1]], ring->flat.x[v[2]]};
     const double *const front[3] = {ring->front[v[0]], ring->front[v[1]], ring->front[v[2]]};
     least = fmin(least, cw_prism_quality(wall, front));
   }
@@ -116,7 +95,7 @@ static void grooves_are_opened(void **state) {
     assert_true(least_prism(&ring) >= 0.12);
     assert_in_range(opened, 1, 16);
     for (int32_t v = 0; v < POINTS; v++) {
-      const double *end = ring.front[v], *next = ring.front[ring.next[v]]; // a quarter of a turn on
+      const double *end = ring.front[v], *next = ring.front[ring.flat.next[v]]; // a quarter of a turn on
       assert_float_equal(next[0], -end[1], 1e-15);
       assert_float_equal(next[1], end[0], 1e-15);
       assert_float_equal(next[2], end[2], 1e-15);
@@ -135,7 +114,7 @@ static void others_stay(void **state) {
   for (int cap = 0; cap < 2; cap++) {
     int32_t opened;
     make_ring(&ring, 7, cap ? LOW : HIGH, 1);
-    const double angle = 2 * M_PI * 7 / AROUND, *a = ring.x[point(7, 5)];
+    const double angle = 2 * M_PI * 7 / AROUND, *a = ring.flat.x[ring_point(7, 5)];
     double corner[3][3]; // of a plate that stands in the groove
     const int32_t triangle[1][3] = {{0, 1, 2}};
     for (int k = 0; k < 3; k++) {
