@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/parallel/schedule.h"
 
-#include <limits.h>
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
@@ -239,57 +238,82 @@ static void free_marks(Marks *marks) {
   MPI_Win_free(&marks->window);
 }
 
-CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
+// Puts the tasks in the order in which they are taken. CW_ERR_INPUT where one waits for another that comes later.
+static CwStatus put_in_order(const CwSchedule *schedule, Ordered *order) {
   CwStatus status = CW_OK;
-  Ordered *order = NULL;
-  int32_t *owner = NULL;
-  double *time = NULL, own = 0;
-  Marks marks = {.window = MPI_WIN_NULL};
-  int64_t finished = 0, gathered = 0;
-  const char *part = cw_ledger_part("exchange");
-  CW_NEW(order, schedule->count);
-  CW_NEW(owner, schedule->count);
-  CW_NEW(time, schedule->count);
   for (int32_t task = 0; task < schedule->count; task++) {
     order[task] = (Ordered){schedule->cost ? schedule->cost[task] : 0.0, task};
-    owner[task] = -1;
     int32_t before = schedule->after ? schedule->after[task] : -1;
     CW_REQUIRE(before < 0 || (before < task && order[before].cost >= order[task].cost), CW_ERR_INPUT,
                "%s: task %d waits for task %d, which is taken later", schedule->step, task, before);
   }
   qsort(order, (size_t)schedule->count, sizeof *order, compare_cost);
-  if (team.ranks > 1) {
-    // All have left the last run before the counters start again, and none starts before they have.
-    quiet_barrier(0);
-    CW_TRY(make_marks(schedule, &marks));
-    if (team.rank == 0) {
-      counter_add(SLOT_NEXT, -counter_add(SLOT_NEXT, 0));
-      counter_add(SLOT_DONE, -counter_add(SLOT_DONE, 0));
-    }
-    quiet_barrier(0);
+done:
+  return status;
+}
+
+// All counters at their beginning, on all ranks.
+static CwStatus start_counters(const CwSchedule *schedule, Marks *marks) {
+  CwStatus status = CW_OK;
+  // All have left the last run before the counters start again, and none starts before they have.
+  quiet_barrier(0);
+  CW_TRY(make_marks(schedule, marks));
+  if (team.rank == 0) {
+    counter_add(SLOT_NEXT, -counter_add(SLOT_NEXT, 0));
+    counter_add(SLOT_DONE, -counter_add(SLOT_DONE, 0));
   }
-  if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
+  quiet_barrier(0);
+done:
+  return status;
+}
+
+// Takes tasks as long as there are any. Of each that this rank took: its results, its owner (this rank), its time;
+// *own: the sum of these times.
+static CwStatus take_tasks(const CwSchedule *schedule, const Ordered *order, const Marks *marks, void **bytes,
+                           int64_t *size, int32_t *owner, double *time, double *own) {
+  CwStatus status = CW_OK;
+  int64_t finished = 0;
   for (;;) {
     int64_t place = team.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
     if (place >= schedule->count) break;
     int32_t task = order[place].task;
     void *result = NULL;
     int64_t result_size = 0;
-    if (marks.window != MPI_WIN_NULL && schedule->after[task] >= 0) wait_for(&marks, schedule->after[task]);
+    if (marks->window != MPI_WIN_NULL && schedule->after[task] >= 0) wait_for(marks, schedule->after[task]);
     double start = cw_processor_seconds();
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
     time[task] = cw_processor_seconds() - start;
-    own += time[task];
+    *own += time[task];
     owner[task] = team.rank;
     if (bytes)
       bytes[task] = result;
     else
       free(result);
     if (size) size[task] = result_size;
-    if (marks.window != MPI_WIN_NULL) mark_add(&marks, task, 1);
+    if (marks->window != MPI_WIN_NULL) mark_add(marks, task, 1);
     finished = team.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
     if (schedule->unit) cw_progress(finished);
   }
+done:
+  return status;
+}
+
+CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
+  CwStatus status = CW_OK;
+  Ordered *order = NULL;
+  int32_t *owner = NULL;
+  double *time = NULL, own = 0;
+  Marks marks = {.window = MPI_WIN_NULL};
+  int64_t gathered = 0;
+  const char *part = cw_ledger_part("exchange");
+  CW_NEW(order, schedule->count);
+  CW_NEW(owner, schedule->count);
+  CW_NEW(time, schedule->count);
+  for (int32_t task = 0; task < schedule->count; task++) owner[task] = -1;
+  CW_TRY(put_in_order(schedule, order));
+  if (team.ranks > 1) CW_TRY(start_counters(schedule, &marks));
+  if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
+  CW_TRY(take_tasks(schedule, order, &marks, bytes, size, owner, time, &own));
   if (team.ranks > 1) {
     quiet_barrier(team.rank == 0 && schedule->unit);
     free_marks(&marks);

@@ -174,75 +174,85 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
               domain, (long long)sum, where, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2], remedy);
 }
 
-static json_t *domain_json(const CwMeshRun *run, int d) {
+// One region of the record's list; predicted_sum: cells of all regions of the domain.
+static json_t *region_json(const CwMeshRun *run, int d, int32_t r, double predicted_sum) {
+  const CwDomain *domain = &run->domain[d];
+  const CwRegionSummary *made = &run->summary[d][r];
+  return json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
+                   cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r) + 1, "number", domain->number[r],
+                   "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
+                   "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips, "recovery_hollows",
+                   made->way.cleared, "recovery_points", made->way.divided, "tetgen", made->way.tetgen,
+                   "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum), "seconds",
+                   cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
+                   cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
+                   cw_json_number(made->dihedral_allowed));
+}
+
+// How even the cells of the regions are.
+typedef struct {
+  double sum, most, least; // of all regions, of the greatest, of the least
+} Balance;
+
+static void add_to_balance(Balance *balance, double cells) {
+  balance->sum += cells;
+  balance->most = fmax(balance->most, cells);
+  balance->least = fmin(balance->least, cells);
+}
+
+static double cells_of(const CwRegionSummary *made) {
+  return (double)made->tetrahedra + made->prisms + made->pyramids;
+}
+
+// The greatest and the least region over the mean, made and predicted, and how far the prediction was off at most.
+static void put_balance(const CwMeshRun *run, int d, json_t *result) {
+  const CwDomain *domain = &run->domain[d];
+  int32_t regions = domain->plan.region_count;
+  Balance made = {.least = INFINITY}, predicted = {.least = INFINITY};
+  double error = 0;
+  for (int32_t r = 0; r < regions; r++) {
+    add_to_balance(&made, cells_of(&run->summary[d][r]));
+    add_to_balance(&predicted, domain->plan.predicted_cells[r]);
+  }
+  for (int32_t r = 0; r < regions; r++) {
+    double expected = domain->plan.predicted_cells[r] / predicted.sum * made.sum;
+    error = fmax(error, fabs(expected / cells_of(&run->summary[d][r]) - 1));
+  }
+  double mean = made.sum / regions, predicted_mean = predicted.sum / regions;
+  json_object_set_new(result, "region_balance", cw_json_number(made.most / mean));
+  json_object_set_new(result, "region_balance_least", cw_json_number(made.least / mean));
+  json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted.most / predicted_mean));
+  json_object_set_new(result, "region_balance_least_predicted", cw_json_number(predicted.least / predicted_mean));
+  json_object_set_new(result, "region_prediction_error", cw_json_number(error));
+  cw_log("%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name, made.least / mean,
+         made.most / mean, predicted.least / predicted_mean, predicted.most / predicted_mean);
+}
+
+// Counts, volumes and quality of all regions together.
+static json_t *sums_json(const CwMeshRun *run, int d) {
   const CwDomain *domain = &run->domain[d];
   CwQuality quality;
   int64_t points = domain->context.shared_count, tets = 0, prisms = 0;
-  double area[CW_PATCH_LIMIT] = {0}, most = 0, least = INFINITY, sum = 0, error = 0, predicted_sum = 0,
-         predicted_most = 0, predicted_least = INFINITY, allowed = CW_TET_BOUND_MOST;
-  int32_t regions = domain->plan.region_count, tetgen = 0;
+  double allowed = CW_TET_BOUND_MOST, solid = domain->solid_volume;
+  int32_t tetgen = 0;
   cw_quality_start(&quality);
-  json_t *region_list = json_array(), *patch_list = json_array(), *coverage = json_array();
-  for (int32_t r = 0; r < regions; r++) {
-    predicted_sum += domain->plan.predicted_cells[r];
-    predicted_most = fmax(predicted_most, domain->plan.predicted_cells[r]);
-    predicted_least = fmin(predicted_least, domain->plan.predicted_cells[r]);
-  }
-  for (int32_t r = 0; r < regions; r++) {
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
     const CwRegionSummary *made = &run->summary[d][r];
-    double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
     cw_quality_add(&quality, &made->quality, made->tetrahedra);
     points += made->own_points;
     tets += made->tetrahedra;
     prisms += made->prisms;
-    sum += cells;
-    most = fmax(most, cells);
-    least = fmin(least, cells);
     tetgen += made->way.tetgen;
-    for (int p = 0; p < CW_PATCH_LIMIT; p++) area[p] += made->patch_area[p];
-    int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r);
-    json_array_append_new(
-        region_list,
-        json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
-                  first + 1, "number", domain->number[r], "tetrahedra", (json_int_t)made->tetrahedra, "prisms",
-                  (json_int_t)made->prisms, "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips,
-                  "recovery_hollows", made->way.cleared, "recovery_points", made->way.divided, "tetgen",
-                  made->way.tetgen, "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum),
-                  "seconds", cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
-                  cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
-                  cw_json_number(made->dihedral_allowed)));
     allowed = fmin(allowed, made->dihedral_allowed);
   }
-  for (int32_t r = 0; r < regions; r++) {
-    const CwRegionSummary *made = &run->summary[d][r];
-    double cells = (double)made->tetrahedra + made->prisms + made->pyramids;
-    error = fmax(error, fabs(domain->plan.predicted_cells[r] / predicted_sum * sum / cells - 1));
-  }
-  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
-    json_array_append_new(patch_list,
-                          json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
-                                    KIND_NAMES[cw_cad_patch_kind(domain->cad, p)], "area_m2", cw_json_number(area[p])));
-    if (cw_cad_patch_kind(domain->cad, p) == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
-  }
-  warn_of_thin(domain->name, coverage);
-  double solid = domain->solid_volume;
-  json_t *result = json_pack("{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points",
-                             (json_int_t)points, "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms,
-                             "regions", regions, "interfaces", domain->skeleton.outline_count, "colours",
-                             domain->colours, "mesh_volume_m3", cw_json_number(quality.volume), "solid_volume_m3",
-                             cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
-                             "least_cell_volume_m3", cw_json_number(quality.least_volume));
+  json_t *result = json_pack(
+      "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
+      "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
+      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
+      "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
+      "least_cell_volume_m3", cw_json_number(quality.least_volume));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
-  json_object_set_new(result, "region_balance", cw_json_number(most / (sum / regions)));
-  json_object_set_new(result, "region_balance_least", cw_json_number(least / (sum / regions)));
-  json_object_set_new(result, "region_balance_predicted", cw_json_number(predicted_most / (predicted_sum / regions)));
-  json_object_set_new(result, "region_balance_least_predicted",
-                      cw_json_number(predicted_least / (predicted_sum / regions)));
-  cw_log("%s: cells of a region %.2f to %.2f of their mean; predicted %.2f to %.2f", domain->name,
-         least / (sum / regions), most / (sum / regions), predicted_least / (predicted_sum / regions),
-         predicted_most / (predicted_sum / regions));
-  json_object_set_new(result, "region_prediction_error", cw_json_number(error));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
   json_object_set_new(result, "tetrahedron_aspect_max", cw_json_number(quality.aspect_max));
   json_object_set_new(result, "tetrahedron_aspect_class", counts_json(quality.aspect_class, 8));
@@ -254,14 +264,35 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   json_object_set_new(result, "prism_scaled_jacobian_bins", counts_json(quality.prism_jacobian_bin, CW_QUALITY_BINS));
   json_object_set_new(result, "tetrahedra_beside_planes", tet_figures_json(&quality.beside));
   json_object_set_new(result, "tetrahedra_apart", tet_figures_json(&quality.apart));
+  return result;
+}
+
+static json_t *domain_json(const CwMeshRun *run, int d) {
+  const CwDomain *domain = &run->domain[d];
+  json_t *result = sums_json(run, d), *patches = json_array(), *coverage = json_array();
+  json_t *region_list = json_array(), *pairs = json_array();
+  put_balance(run, d, result);
   json_object_set_new(result, "region_rule", rule_json(&domain->rule));
-  json_object_set_new(result, "patches", patch_list);
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    CwPatchKind kind = cw_cad_patch_kind(domain->cad, p);
+    double area = 0;
+    for (int32_t r = 0; r < domain->plan.region_count; r++) area += run->summary[d][r].patch_area[p];
+    json_array_append_new(patches, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
+                                             KIND_NAMES[kind], "area_m2", cw_json_number(area)));
+    if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
+  }
+  warn_of_thin(domain->name, coverage);
+  json_object_set_new(result, "patches", patches);
   json_object_set_new(result, "layer_coverage", coverage);
-  json_t *pairs = json_array();
+  double predicted_sum = 0;
+  for (int32_t r = 0; r < domain->plan.region_count; r++) predicted_sum += domain->plan.predicted_cells[r];
+  for (int32_t r = 0; r < domain->plan.region_count; r++) {
+    json_array_append_new(region_list, region_json(run, d, r, predicted_sum));
+  }
+  json_object_set_new(result, "region_list", region_list);
   for (int32_t p = 0; p < domain->pair_count; p++) {
     json_array_append_new(pairs, json_pack("[i, i]", domain->pair[p][0] + 1, domain->pair[p][1] + 1));
   }
-  json_object_set_new(result, "region_list", region_list);
   json_object_set_new(result, "adjacent_regions", pairs);
   return result;
 }

@@ -11,7 +11,8 @@
 #include "pipeline/report/picture_list.h"
 #include "pipeline/report/plot.h"
 
-enum { ASPECT_CLASSES = 8, DIHEDRAL_BINS = 18, JACOBIAN_BINS = 20 };
+enum { ASPECT_CLASSES = 8, DIHEDRAL_BINS = 18, JACOBIAN_BINS = 20, BINS_MOST = 20 };
+enum { DIHEDRAL_SHOWN = 8 }; // least dihedral angles end at that of the regular tetrahedron, 70.5 degrees
 enum { DOMAINS_MOST = CW_DOMAINS_MOST };
 static const uint32_t paper_colour = 0x9aa5b1;
 
@@ -235,25 +236,7 @@ done:
   return status;
 }
 
-CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
-  CwStatus status = CW_OK;
-  static const char *const aspect_label[ASPECT_CLASSES] = {
-      "1\342\200\2231.5", "1.5\342\200\2232", "2\342\200\2233",  "3\342\200\2234",
-      "4\342\200\2235",   "5\342\200\2237",   "7\342\200\22310", "> 10"};
-  // The paper's Table 1, proposed algorithm.
-  static const double paper[ASPECT_CLASSES] = {4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1, NAN};
-  double aspect[DOMAINS_MOST][ASPECT_CLASSES], dihedral[DOMAINS_MOST][DIHEDRAL_BINS],
-      jacobian[DOMAINS_MOST][JACOBIAN_BINS];
-  char label[JACOBIAN_BINS][16];
-  const char *labels[JACOBIAN_BINS];
-  json_t *domain[DOMAINS_MOST];
-  CW_TRY(all_domains(data, domain));
-  for (int d = 0; d < data->mesh.domain_count; d++) {
-    CW_TRY(shares(data, domain[d], "tetrahedron_aspect_class", ASPECT_CLASSES, aspect[d]));
-    CW_TRY(shares(data, domain[d], "least_dihedral_bins", DIHEDRAL_BINS, dihedral[d]));
-    CW_TRY(shares(data, domain[d], "prism_scaled_jacobian_bins", JACOBIAN_BINS, jacobian[d]));
-  }
-  int domains = data->mesh.domain_count;
+static void quality_table(FILE *page, const CwReportData *data, json_t *const *domain) {
   fputs("<table><tr><th></th>", page);
   domain_heads(page, data, "n p");
   fputs("<th></th></tr>\n", page);
@@ -267,66 +250,92 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
             "tetrahedra_beside_planes", "mean_ratio_mean", 3);
   inner_row(page, data, "Other tetrahedra: mean ratio, mean", "", domain, "tetrahedra_apart", "mean_ratio_mean", 3);
   figure_row(page, data, "Prisms: least scaled Jacobian", "", domain, "prism_least_scaled_jacobian", 1, 3);
-  json_t *exported = json_object_get(data->record[2], "results");
-  if (exported) {
-    for (int d = 0; d < domains; d++) domain[d] = json_object_get(exported, data->mesh.domains[d].name);
-    figure_row(page, data, "All cells: greatest non-orthogonality", "&deg;, by the exporter", domain,
+  json_t *results = json_object_get(data->record[2], "results"), *exported[DOMAINS_MOST];
+  if (results) {
+    for (int d = 0; d < data->mesh.domain_count; d++) {
+      exported[d] = json_object_get(results, data->mesh.domains[d].name);
+    }
+    figure_row(page, data, "All cells: greatest non-orthogonality", "&deg;, by the exporter", exported,
                "greatest_non_orthogonality_deg", 1, 4);
-    figure_row(page, data, "All cells: mean non-orthogonality", "&deg;, by the exporter", domain,
+    figure_row(page, data, "All cells: mean non-orthogonality", "&deg;, by the exporter", exported,
                "mean_non_orthogonality_deg", 1, 4);
   }
-  fputs("</table>\n<figure>", page);
+  fputs("</table>\n", page);
+}
+
+// Columns of each domain's shares in the bins of the array `key` (`bins` of them, of which plot->count are shown), with
+// the paper's beside them where they are given, and a caption.
+static CwStatus bins_chart(FILE *page, const CwReportData *data, json_t *const *domain, const char *key, int bins,
+                           CwPlot plot, const double *paper, const char *caption) {
+  CwStatus status = CW_OK;
+  double share[DOMAINS_MOST][BINS_MOST];
   CwPlotSeries series[DOMAINS_MOST + 1];
-  for (int d = 0; d < domains; d++)
-    series[d] = (CwPlotSeries){data->mesh.domains[d].name, cw_domain_colour(d, 0), aspect[d]};
-  series[domains] = (CwPlotSeries){"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper};
-  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
-                                  .category_axis = "longest edge over shortest edge",
-                                  .label = aspect_label,
-                                  .count = ASPECT_CLASSES,
-                                  .series = series,
-                                  .series_count = domains + 1,
-                                  .decimals = 1,
-                                  .width = 980});
-  fputs("<figcaption><b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the "
-        "regular "
-        "tetrahedron.</figcaption></figure>\n<div class=\"grid\">\n<figure>",
-        page);
-  // Least dihedral angles end at that of the regular tetrahedron, 70.5 degrees.
-  int bins = 8;
-  for (int k = 0; k < bins; k++) {
-    snprintf(label[k], sizeof label[k], "%d\342\200\223%d", 10 * k, 10 * k + 10);
-    labels[k] = label[k];
+  int domains = data->mesh.domain_count;
+  for (int d = 0; d < domains; d++) {
+    CW_TRY(shares(data, domain[d], key, bins, share[d]));
+    series[d] = (CwPlotSeries){data->mesh.domains[d].name, cw_domain_colour(d, 0), share[d]};
   }
-  for (int d = 0; d < domains; d++) series[d].value = dihedral[d];
-  cw_plot_columns(page, &(CwPlot){.axis = "% of the tetrahedra",
-                                  .category_axis = "least dihedral angle, degrees",
-                                  .label = labels,
-                                  .count = bins,
-                                  .series = series,
-                                  .series_count = domains,
-                                  .decimals = 1,
-                                  .width = 560});
-  fputs("<figcaption><b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular "
-        "one.</figcaption>"
-        "</figure>\n<figure>",
-        page);
+  if (paper) {
+    series[domains] = (CwPlotSeries){"the paper, Table 1, proposed algorithm (21 M cells)", paper_colour, paper};
+  }
+  plot.series = series;
+  plot.series_count = domains + (paper != NULL);
+  fputs("<figure>", page);
+  cw_plot_columns(page, &plot);
+  fprintf(page, "<figcaption>%s</figcaption></figure>\n", caption);
+done:
+  return status;
+}
+
+CwStatus cw_page_quality(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  static const char *const aspect_label[ASPECT_CLASSES] = {
+      "1\342\200\2231.5", "1.5\342\200\2232", "2\342\200\2233",  "3\342\200\2234",
+      "4\342\200\2235",   "5\342\200\2237",   "7\342\200\22310", "> 10"};
+  // The paper's Table 1, proposed algorithm.
+  static const double paper[ASPECT_CLASSES] = {4.0, 43.1, 30.5, 10.1, 8.2, 3.0, 1.1, NAN};
+  char label[BINS_MOST][16];
+  const char *labels[BINS_MOST];
+  json_t *domain[DOMAINS_MOST];
+  for (int k = 0; k < BINS_MOST; k++) labels[k] = label[k];
+  CW_TRY(all_domains(data, domain));
+  quality_table(page, data, domain);
+  CW_TRY(bins_chart(page, data, domain, "tetrahedron_aspect_class", ASPECT_CLASSES,
+                    (CwPlot){.axis = "% of the tetrahedra",
+                             .category_axis = "longest edge over shortest edge",
+                             .label = aspect_label,
+                             .count = ASPECT_CLASSES,
+                             .decimals = 1,
+                             .width = 980},
+                    paper,
+                    "<b>Aspect ratio of the tetrahedra</b> in the classes of the paper's Table 1; 1 is the regular "
+                    "tetrahedron."));
+  fputs("<div class=\"grid\">\n", page);
+  for (int k = 0; k < DIHEDRAL_SHOWN; k++) {
+    snprintf(label[k], sizeof label[k], "%d\342\200\223%d", 10 * k, 10 * k + 10);
+  }
+  CW_TRY(bins_chart(page, data, domain, "least_dihedral_bins", DIHEDRAL_BINS,
+                    (CwPlot){.axis = "% of the tetrahedra",
+                             .category_axis = "least dihedral angle, degrees",
+                             .label = labels,
+                             .count = DIHEDRAL_SHOWN,
+                             .decimals = 1,
+                             .width = 560},
+                    NULL, "<b>Least dihedral angle</b> of each tetrahedron; 70.5&deg; is the regular one."));
   for (int k = 0; k < JACOBIAN_BINS; k++) {
     snprintf(label[k], sizeof label[k], k % 4 == 0 ? "%.1f" : "", k / 20.0);
-    labels[k] = label[k];
   }
-  for (int d = 0; d < domains; d++) series[d].value = jacobian[d];
-  cw_plot_columns(page, &(CwPlot){.axis = "% of the prisms",
-                                  .category_axis = "scaled Jacobian, from",
-                                  .label = labels,
-                                  .count = JACOBIAN_BINS,
-                                  .series = series,
-                                  .series_count = domains,
-                                  .decimals = -1,
-                                  .width = 560});
-  fputs("<figcaption><b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right prism on an "
-        "equilateral triangle, 0 and below is inverted.</figcaption></figure>\n</div>\n",
-        page);
+  CW_TRY(bins_chart(page, data, domain, "prism_scaled_jacobian_bins", JACOBIAN_BINS,
+                    (CwPlot){.axis = "% of the prisms",
+                             .category_axis = "scaled Jacobian, from",
+                             .label = labels,
+                             .count = JACOBIAN_BINS,
+                             .decimals = -1,
+                             .width = 560},
+                    NULL,
+                    "<b>Scaled Jacobian of the prisms</b>, least of six corners; 1 is the right prism on an "
+                    "equilateral triangle, 0 and below is inverted."));
+  fputs("</div>\n", page);
 done:
   return status;
 }
