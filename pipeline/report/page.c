@@ -2,7 +2,6 @@
 #include "pipeline/report/page.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "pipeline/report/format.h"
 #include "pipeline/report/html.h"
