@@ -187,35 +187,52 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], co
   }
 }
 
-// All tetrahedra whose spheres hold p, from one of them, which are taken then. Whether a face leads to one more, to one
-// outside or to one that was met before is as good as random, and as branches half of them were foretold wrongly, which
-// took a third of the time: instead both lists are written to, and one of them, or none, keeps it.
+// Looks beyond faces of a tetrahedron of the cavity. Whether a face leads to one more, to one outside or to one that
+// was met before is as good as random, and as branches half of them were foretold wrongly, which took a third of the
+// time: instead both lists are written to, and one of them, or none, keeps it. There is room for all.
+static inline __attribute__((always_inline)) void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, int count,
+                                                              const int8_t *faces, const double p[3],
+                                                              const float place[3]) {
+  const CwDelaunayTet *tet = &mesh->tet[t];
+  int32_t *cavity = work->cavity + work->cavity_count;
+  Side *side = work->side + work->side_count;
+  for (int k = 0; k < count; k++) {
+    int i = faces[k];
+    int32_t outer = tet->neighbour[i];
+    unsigned known = CW_BEYOND;
+    if (outer >= 0) {
+      CwDelaunayTet *next = &mesh->tet[outer >> 2];
+      known = cw_sphere_compare(next, place);
+      if (known == 0) known = in_sphere_exactly(mesh, next, p) ? CW_WITHIN : CW_BEYOND;
+      cw_sphere_take(next, known & CW_WITHIN);
+    }
+    *cavity = outer;
+    cavity += known & CW_WITHIN;
+    for (int m = 0; m < 3; m++) side->corner[m] = tet->corner[tet_face[i][m]];
+    side->outer = outer;
+    side += known == CW_BEYOND;
+  }
+  work->cavity_count = (int32_t)(cavity - work->cavity);
+  work->side_count = (int32_t)(side - work->side);
+}
+
+// All tetrahedra whose spheres hold p, from one of them, which are taken then. Each of the others is left alone at the
+// face by which it was reached.
 static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
   CwStatus status = CW_OK;
+  static const int8_t all[4] = {0, 1, 2, 3}, others[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
   work->cavity_count = work->side_count = 0;
-  CW_GROW(work->cavity, work->cavity_space, 1);
+  CW_GROW(work->cavity, work->cavity_space, 5);
+  CW_GROW(work->side, work->side_space, 4);
   work->cavity[work->cavity_count++] = start;
   cw_sphere_take(&mesh->tet[start], 1);
-  for (int32_t head = 0; head < work->cavity_count; head++) {
-    const CwDelaunayTet *tet = &mesh->tet[work->cavity[head]];
-    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
-    CW_GROW(work->side, work->side_space, work->side_count + 4);
-    for (int i = 0; i < 4; i++) {
-      int32_t outer = tet->neighbour[i];
-      unsigned known = CW_BEYOND;
-      if (outer >= 0) {
-        CwDelaunayTet *next = &mesh->tet[outer >> 2];
-        known = cw_sphere_compare(next, place);
-        if (known == 0) known = in_sphere_exactly(mesh, next, p) ? CW_WITHIN : CW_BEYOND;
-        cw_sphere_take(next, known & CW_WITHIN);
-      }
-      work->cavity[work->cavity_count] = outer >> 2;
-      work->cavity_count += known & CW_WITHIN;
-      Side *side = &work->side[work->side_count];
-      for (int k = 0; k < 3; k++) side->corner[k] = tet->corner[tet_face[i][k]];
-      side->outer = outer;
-      work->side_count += known == CW_BEYOND;
-    }
+  look_beyond(mesh, work, start, 4, all, p, place);
+  for (int32_t head = 1; head < work->cavity_count; head++) {
+    int32_t reached = work->cavity[head];
+    work->cavity[head] = reached >> 2;
+    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 3);
+    CW_GROW(work->side, work->side_space, work->side_count + 3);
+    look_beyond(mesh, work, reached >> 2, 3, others[reached & 3], p, place);
   }
 done:
   return status;
@@ -283,6 +300,16 @@ done:
   return status;
 }
 
+static void set_spheres(CwDelaunay *mesh, const Work *work, const double place[3]) {
+  for (int32_t k = 0; k < work->side_count; k += 2) {
+    const Side *side[2] = {&work->side[k], &work->side[k + 1 < work->side_count ? k + 1 : k]};
+    CwDelaunayTet *const tet[2] = {&mesh->tet[side[0]->tet], &mesh->tet[side[1]->tet]};
+    const double *arm[3][2];
+    for (int i = 0; i < 6; i++) arm[i / 2][i % 2] = work->arm[side[i % 2]->local[i / 2]];
+    cw_sphere_set(tet, place, arm[0], arm[1], arm[2]);
+  }
+}
+
 // Tetrahedra from the new point to all sides of the cavity, which it sees.
 static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
   CwStatus status = CW_OK;
@@ -295,6 +322,7 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const d
     for (int i = 0; i < 3; i++) arm[i] = (x[i] - p[i]) * work->frame.scale;
     arm[3] = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
   }
+  set_spheres(mesh, work, place);
   int tabled = locals <= LOCAL;
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
@@ -306,7 +334,6 @@ static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const d
     tet->corner[3] = point;
     tet->neighbour[3] = side->outer;
     if (side->outer >= 0) mesh->tet[side->outer >> 2].neighbour[side->outer & 3] = 4 * side->tet + 3;
-    cw_sphere_set(tet, place, work->arm[l[0]], work->arm[l[1]], work->arm[l[2]]);
     if (!tabled) continue;
     table[l[1] * LOCAL + l[2]] = 4 * side->tet;
     table[l[2] * LOCAL + l[0]] = 4 * side->tet + 2;

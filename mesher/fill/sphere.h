@@ -62,23 +62,35 @@ static inline unsigned cw_sphere_compare(const CwDelaunayTet *t, const float pla
   return sure + (sure & cw_number(over > 0.0f)) + CW_TAKEN * (t->mark >> 31);
 }
 
-// The sphere through the point at `place` and three points at a, b, c from it, in the unit of the frame; the fourth of
-// each is the square of its distance. No tetrahedron is taken at first.
-static inline void cw_sphere_set(CwDelaunayTet *t, const double place[3], const double a[4], const double b[4],
-                                 const double c[4]) {
-  double bcx = b[1] * c[2] - b[2] * c[1], bcy = b[2] * c[0] - b[0] * c[2], bcz = b[0] * c[1] - b[1] * c[0];
-  double cax = c[1] * a[2] - c[2] * a[1], cay = c[2] * a[0] - c[0] * a[2], caz = c[0] * a[1] - c[1] * a[0];
-  double abx = a[1] * b[2] - a[2] * b[1], aby = a[2] * b[0] - a[0] * b[2], abz = a[0] * b[1] - a[1] * b[0];
-  double det = a[0] * bcx + a[1] * bcy + a[2] * bcz, half = 0.5 / det;
-  double x = (a[3] * bcx + b[3] * cax + c[3] * abx) * half;
-  double y = (a[3] * bcy + b[3] * cay + c[3] * aby) * half;
-  double z = (a[3] * bcz + b[3] * caz + c[3] * abz) * half;
-  double square = x * x + y * y + z * z;
-  int good = a[3] * b[3] * c[3] < CW_SPHERE_SLENDER * det * det && square > CW_SPHERE_SMALL;
-  t->centre[0] = (float)(place[0] + x);
-  t->centre[1] = (float)(place[1] + y);
-  t->centre[2] = (float)(place[2] + z);
-  t->radius_square = good ? (float)square : NAN;
+// Two numbers in double precision that are reckoned with side by side.
+typedef double CwTwo __attribute__((vector_size(2 * sizeof(double))));
+
+// The spheres of two tetrahedra, which may be one, each through the point at `place` and three points at a, b, c from
+// it, in the unit of the frame; the fourth of each is the square of its distance. They are not taken at first.
+static inline void cw_sphere_set(CwDelaunayTet *const tet[2], const double place[3], const double *const a[2],
+                                 const double *const b[2], const double *const c[2]) {
+  CwTwo p[4], q[4], r[4];
+  for (int i = 0; i < 4; i++) {
+    p[i] = (CwTwo){a[0][i], a[1][i]};
+    q[i] = (CwTwo){b[0][i], b[1][i]};
+    r[i] = (CwTwo){c[0][i], c[1][i]};
+  }
+  CwTwo qrx = q[1] * r[2] - q[2] * r[1], qry = q[2] * r[0] - q[0] * r[2], qrz = q[0] * r[1] - q[1] * r[0];
+  CwTwo rpx = r[1] * p[2] - r[2] * p[1], rpy = r[2] * p[0] - r[0] * p[2], rpz = r[0] * p[1] - r[1] * p[0];
+  CwTwo pqx = p[1] * q[2] - p[2] * q[1], pqy = p[2] * q[0] - p[0] * q[2], pqz = p[0] * q[1] - p[1] * q[0];
+  CwTwo det = p[0] * qrx + p[1] * qry + p[2] * qrz, half = 0.5 / det;
+  CwTwo x = (p[3] * qrx + q[3] * rpx + r[3] * pqx) * half;
+  CwTwo y = (p[3] * qry + q[3] * rpy + r[3] * pqy) * half;
+  CwTwo z = (p[3] * qrz + q[3] * rpz + r[3] * pqz) * half;
+  CwTwo square = x * x + y * y + z * z, edges = p[3] * q[3] * r[3], most = CW_SPHERE_SLENDER * det * det;
+  x += place[0], y += place[1], z += place[2];
+  for (int k = 0; k < 2; k++) {
+    int good = edges[k] < most[k] && square[k] > CW_SPHERE_SMALL;
+    tet[k]->centre[0] = (float)x[k];
+    tet[k]->centre[1] = (float)y[k];
+    tet[k]->centre[2] = (float)z[k];
+    tet[k]->radius_square = good ? (float)square[k] : NAN;
+  }
 }
 
 #ifdef __cplusplus

@@ -31,7 +31,14 @@ static void set(const CwSphereFrame *frame, const double x[4][3], CwDelaunayTet 
       arm[k][3] += arm[k][i] * arm[k][i];
     }
   }
-  cw_sphere_set(tet, place, arm[0], arm[1], arm[2]);
+  // Beside the same with its corners turned, and the two exchanged: neither knows of the other.
+  const double *a[2] = {arm[0], arm[1]}, *b[2] = {arm[1], arm[2]}, *c[2] = {arm[2], arm[0]};
+  const double *d[2] = {a[1], a[0]}, *e[2] = {b[1], b[0]}, *f[2] = {c[1], c[0]};
+  CwDelaunayTet turned = {.stamp = 0}, again[2] = {{.stamp = 0}, {.stamp = 0}};
+  cw_sphere_set((CwDelaunayTet *const[2]){tet, &turned}, place, a, b, c);
+  cw_sphere_set((CwDelaunayTet *const[2]){&again[0], &again[1]}, place, d, e, f);
+  assert_memory_equal(tet->centre, again[1].centre, 4 * sizeof(float));
+  assert_memory_equal(turned.centre, again[0].centre, 4 * sizeof(float));
 }
 
 static unsigned look(const CwSphereFrame *frame, const CwDelaunayTet *tet, const double p[3]) {
