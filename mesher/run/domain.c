@@ -22,6 +22,7 @@ static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
 static const double FREE_REGIONS = 4, FEWEST_CELLS = 5000;
 static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms have a side on the boundary
 static const double LONGEST_ON_WALL = 30;   // of second heights: inside, prisms of the second layer are the thinnest
+static const double LARGEST_ON_WALL = 40;   // the same of an equilateral triangle as large as any may be
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
 static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
 static const double SEED_AREA = 1e-6;       // m2, that takes as long to seed as a triangle does by itself
@@ -349,6 +350,9 @@ CwStatus cw_domain_start(CwDomain *domain) {
   skeleton->plan = &domain->plan;
   skeleton->size_at = cw_size_at;
   skeleton->size = domain->size;
+  int patches = cw_cad_patch_count(domain->cad);
+  CW_NEW(skeleton->largest, patches);
+  for (int p = 0; p < patches; p++) skeleton->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
   CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
   skeleton->orbits.symmetry = domain->symmetry;
   if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits));

@@ -9,6 +9,7 @@ void cw_skeleton_free(CwSkeleton *skeleton) {
   for (int32_t i = 0; i < skeleton->rim_count; i++) free(skeleton->rim[i].t);
   free(skeleton->rim);
   cw_orbit_free(&skeleton->orbits);
+  free(skeleton->largest);
   free(skeleton->wall_x);
   free(skeleton->guide);
   free(skeleton->corner_vertex);

@@ -53,6 +53,7 @@ typedef struct {
   CwSkeletonRim *rim; // of edges shared with another domain, by cw_couple_rims
   CwSizeAt size_at;
   const void *size;
+  double *largest; // m, by patch: wall triangles larger than with such edges are halved (patch_mesh.h); NULL: none
 
   int32_t wall_count, wall_capacity;
   double (*wall_x)[3];

@@ -242,7 +242,7 @@ CwStatus cw_skeleton_mesh_interface(const CwSkeleton *skeleton, int32_t index, v
   char name[64];
   snprintf(name, sizeof name, "interface %d on dividing plane %d", index, interface->node);
   CW_TRY(cw_skeleton_interface_outline(skeleton, interface, &map, &outline));
-  CW_TRY(cw_patch_task(&outline, cw_plane_map, &map, skeleton->size_at, skeleton->size, 0, sides_at, &sides, name,
+  CW_TRY(cw_patch_task(&outline, cw_plane_map, &map, skeleton->size_at, skeleton->size, 0, 0, sides_at, &sides, name,
                        bytes, size));
 done:
   cw_outline_free(&outline);

@@ -305,7 +305,8 @@ static CwStatus mesh_face(const CwSkeleton *skeleton, int32_t face,
   CwPatchOutline outline = {0};
   FaceMap map = {skeleton->cad, face};
   CW_TRY(outline_of(skeleton, face, &outline));
-  CW_TRY(cw_patch_task(&outline, face_map, &map, skeleton->size_at, skeleton->size,
+  double largest = skeleton->largest ? skeleton->largest[cw_cad_face_patch(skeleton->cad, face)] : 0;
+  CW_TRY(cw_patch_task(&outline, face_map, &map, skeleton->size_at, skeleton->size, largest,
                        cw_cad_face_reversed(skeleton->cad, face), region_at, skeleton->plan,
                        cw_cad_face_name(skeleton->cad, face), bytes, size));
 done:

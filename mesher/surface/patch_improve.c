@@ -16,6 +16,9 @@ static const double least_height = 0.4;
 // share of their wanted length free around them.
 static const double steep_cosine = 0.5, steep_room = 0.3;
 
+// Triangles are too large only where edges are wanted that are shorter than this share of the longest.
+static const double clearly_less = 0.9;
+
 static double edge_size(const CwPatchWork *work, int32_t a, int32_t b) {
   return 0.5 * (work->size[a] + work->size[b]);
 }
@@ -316,13 +319,25 @@ static double least_cosine(const CwPatchWork *work, int32_t t) {
   return least;
 }
 
-// Halves the longest free edge of triangles that stand steeply on the surface: on a nose narrower than the wanted
-// edges one may span half of it, and its corners see no direction in common with the faces beside it.
-static CwStatus split_steep(CwPatchWork *work, int64_t *splits) {
+// Whether a triangle is larger than it may be where smaller ones are wanted.
+static int is_too_large(const CwPatchWork *work, int32_t t) {
+  const int32_t *c = work->corner[t];
+  double most = work->input->largest, e[3], f[3], n[3];
+  if (most == 0 || (work->size[c[0]] + work->size[c[1]] + work->size[c[2]]) / 3 >= clearly_less * most) return 0;
+  cw_sub(work->x[c[1]], work->x[c[0]], e);
+  cw_sub(work->x[c[2]], work->x[c[0]], f);
+  cw_cross(e, f, n);
+  return cw_norm(n) > 0.5 * sqrt(3) * most * most;
+}
+
+// Halves the longest free edge of triangles that are too large, and of those that stand steeply on the surface: on a
+// nose narrower than the wanted edges one may span half of it, and its corners see no direction in common with the
+// faces beside it.
+static CwStatus split_unfit(CwPatchWork *work, int64_t *splits) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
   for (int32_t t = 0; t < count; t++) {
-    if (work->corner[t][0] < 0 || least_cosine(work, t) >= steep_cosine) continue;
+    if (work->corner[t][0] < 0 || (least_cosine(work, t) >= steep_cosine && !is_too_large(work, t))) continue;
     double most = 0, uv[2];
     for (int i = 0; i < 3; i++) {
       int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
@@ -360,7 +375,7 @@ CwStatus cw_patch_improve(CwPatchWork *work) {
   // Last, without flips after it: these go by the angles and would turn such triangles back.
   for (int round = 0; round < STEEP_ROUNDS; round++) {
     int64_t splits = 0;
-    CW_TRY(split_steep(work, &splits));
+    CW_TRY(split_unfit(work, &splits));
     if (splits == 0) break;
     smooth(work);
   }

@@ -34,6 +34,8 @@ typedef struct {
   const int32_t (*edge)[2];
   const uint8_t *boundary; // 1: bounds the patch (inside is by parity); 0: lies in it
   const char *name;        // for messages
+  double largest;          // m: triangles larger than the equilateral one with such edges are halved where shorter
+                           // ones are wanted; 0: none
 } CwPatchInput;
 
 typedef struct {

@@ -105,7 +105,7 @@ done:
 enum { HEADER = 16 };
 
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
-                       const void *size_context, int turned, CwLabelAt label, const void *label_context,
+                       const void *size_context, double largest, int turned, CwLabelAt label, const void *label_context,
                        const char *name, void **bytes, int64_t *size_of_bytes) {
   CwStatus status = CW_OK;
   CwPatchMesh mesh = {0};
@@ -121,7 +121,8 @@ CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const
                         .edge_count = outline->edge_count,
                         .edge = (const int32_t(*)[2])outline->edge,
                         .boundary = outline->boundary,
-                        .name = name};
+                        .name = name,
+                        .largest = largest};
   CW_TRY(cw_patch_mesh(&input, &mesh));
   CW_NEW(labels, mesh.component_count);
   CW_TRY(component_labels(&mesh, label, label_context, labels));

@@ -35,11 +35,11 @@ typedef struct {
   const int32_t *label; // of each triangle: region, say
 } CwPatchBlock;
 
-// Meshes and packs. `label` is called with each component's representative point and gives its label. `turned` turns
+// Meshes and packs. `largest`: as in CwPatchInput. `label` is called with each component's representative point and gives its label. `turned` turns
 // the triangles round.
 typedef int32_t (*CwLabelAt)(const void *context, const double x[3]);
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
-                       const void *size_context, int turned, CwLabelAt label, const void *label_context,
+                       const void *size_context, double largest, int turned, CwLabelAt label, const void *label_context,
                        const char *name, void **bytes, int64_t *size_of_bytes);
 // Views a packed mesh; the block points into `bytes`.
 void cw_patch_block(const void *bytes, CwPatchBlock *block);

@@ -455,6 +455,48 @@ static void triangles_follow_a_narrow_nose(void **state) {
   }
 }
 
+// Area of a triangle over that of an equilateral one with edges of 1, and the mean of the lengths wanted at its corners.
+static double area_and_size(const Plan *plan, const CwPatchMesh *mesh, int32_t t, double *size) {
+  const double *const x[3] = {mesh->x[mesh->triangle[t][0]], mesh->x[mesh->triangle[t][1]],
+                              mesh->x[mesh->triangle[t][2]]};
+  double e[3], f[3], n[3];
+  cw_sub(x[1], x[0], e);
+  cw_sub(x[2], x[0], f);
+  cw_cross(e, f, n);
+  *size = (size_at(plan, x[0]) + size_at(plan, x[1]) + size_at(plan, x[2])) / 3;
+  return 2 * cw_norm(n) / sqrt(3);
+}
+
+// Where lengths wanted grow, some triangles are larger than their corners want: given a bound most are halved, but none
+// where lengths near it are wanted. (Those whose longest edges are given stay.)
+static void large_triangles_are_halved(void **state) {
+  int32_t large[2] = {0, 0}, wanted[2] = {0, 0}, count[2] = {0, 0};
+  for (int32_t i = 0; i < 16; i++) {
+    const double largest = 0.02 + 0.005 * (i / 2);
+    Plan *plan = new_plan(PLANE, 0.005);
+    plan->slope = 0.25;
+    add_rectangle(plan, -1, 0, 1, 1);
+    plan->input.largest = i % 2 ? largest : 0;
+    CwPatchMesh mesh;
+    if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
+    check_topology(plan, &mesh, 1);
+    check_places(plan, &mesh, 2);
+    count[i % 2] += mesh.triangle_count;
+    for (int32_t t = 0; t < mesh.triangle_count; t++) {
+      double size, area = area_and_size(plan, &mesh, t, &size);
+      large[i % 2] += size < 0.89 * largest && area > largest * largest;
+      wanted[i % 2] += size > 0.91 * largest && area > largest * largest;
+    }
+    cw_patch_mesh_free(&mesh);
+    free(plan);
+  }
+  printf("larger than wanted: %d, held %d; as wanted: %d, held %d\n", large[0], large[1], wanted[0], wanted[1]);
+  assert_true(large[0] >= 12);
+  assert_true(4 * large[1] <= large[0]);
+  assert_in_range(count[1], count[0] + 1, count[0] + 12 * large[0]);
+  assert_true(10 * wanted[1] > 9 * wanted[0]);
+}
+
 // A straight side whose points are off by rounding has slivers in its Delaunay triangulation: none may stay.
 static void noisy_straight_sides(void **state) {
   uint64_t seed = 7;
@@ -545,6 +587,7 @@ int main(void) {
       cmocka_unit_test(a_slit_keeps_its_two_sides),
       cmocka_unit_test(cylinder),
       cmocka_unit_test(triangles_follow_a_narrow_nose),
+      cmocka_unit_test(large_triangles_are_halved),
       cmocka_unit_test(stretched_fifty_to_one),
       cmocka_unit_test(sphere_patch),
       cmocka_unit_test(funnel),
