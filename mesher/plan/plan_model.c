@@ -51,7 +51,7 @@ double cw_plan_edge_cosine(const CwPlanModel *model, int32_t e, const double n[3
   double least = fmin(1 - an * an, 1 - bn * bn); // square of the shorter one of both normals, put into the plane
   if (cw_dot(a, a) == 0) return 1;
   if (ab - an * bn >= least) return sqrt(fmax(least, 0)); // along that one
-  cw_cross(a, b, w); // else as far from one as from the other: along n x (a - b)
+  cw_cross(a, b, w);                                      // else as far from one as from the other: along n x (a - b)
   return fabs(cw_dot(n, w)) / sqrt(2 - 2 * ab - (an - bn) * (an - bn));
 }
 

@@ -33,12 +33,12 @@ static const double OFF_MOST = 0.1;                   // share of a region's wor
 static const double OFF_LIMIT = 0.14;                 // and past which it is not
 static const double CUT_LAYERS = 4;                   // what a plane through the layers along an edge costs
 static const double TOUCH = 4;                        // what a cut costs that leaves flat triangles beside an edge
-// Least cosine, to both walls, of columns inside a plane on a sharp edge it crosses; what 1 less costs. A column of 0.17
-// dragged those beside it along, and all of them gave up their first height (ns200, 700,000 cells).
+// Least cosine, to both walls, of columns inside a plane on a sharp edge it crosses; what 1 less costs. A column of
+// 0.17 dragged those beside it along, and all of them gave up their first height (ns200, 700,000 cells).
 static const double LEANING_COLUMN = 0.31, LEAN = 30;
-static const double BAD = 5;                          // score of a plane for which others are tried
-static const double WHOLE = 20;                       // what a part costs that has to stay whole
-static const double LIKE = 0.97;                      // cosine between planes that are tried in vain alike
+static const double BAD = 5;     // score of a plane for which others are tried
+static const double WHOLE = 20;  // what a part costs that has to stay whole
+static const double LIKE = 0.97; // cosine between planes that are tried in vain alike
 
 typedef struct {
   double score, offset;     // without what follows; m

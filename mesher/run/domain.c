@@ -352,7 +352,8 @@ CwStatus cw_domain_start(CwDomain *domain) {
   skeleton->size = domain->size;
   int patches = cw_cad_patch_count(domain->cad);
   CW_NEW(skeleton->largest, patches);
-  for (int p = 0; p < patches; p++) skeleton->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
+  for (int p = 0; p < patches; p++)
+    skeleton->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
   CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
   skeleton->orbits.symmetry = domain->symmetry;
   if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits));

@@ -455,7 +455,8 @@ static void triangles_follow_a_narrow_nose(void **state) {
   }
 }
 
-// Area of a triangle over that of an equilateral one with edges of 1, and the mean of the lengths wanted at its corners.
+// Area of a triangle over that of an equilateral one with edges of 1, and the mean of the lengths wanted at its
+// corners.
 static double area_and_size(const Plan *plan, const CwPatchMesh *mesh, int32_t t, double *size) {
   const double *const x[3] = {mesh->x[mesh->triangle[t][0]], mesh->x[mesh->triangle[t][1]],
                               mesh->x[mesh->triangle[t][2]]};
