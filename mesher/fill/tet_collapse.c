@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 static const double loss = 1.0; // at most, in the sum
-enum { CROWDED = 5 };           // slender tetrahedra at their shortest edges with a point that is tried
+enum { CROWDED = 7 };           // slender tetrahedra at their shortest edges with a point that is tried
 
 // The shortest edges of slender tetrahedra at a point.
 typedef struct {

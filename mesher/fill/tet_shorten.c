@@ -4,8 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-static const double gain = 1e-3; // at least, in the sum
-enum { RING = 4 };               // tetrahedra round an edge, at most: of removals with five one in fifteen would help
+#include "mesher/common/vec.h"
+
+static const double gain = 1e-3;  // at least, in the sum
+static const double longer = 1.3; // square of an edge that may come, over that of the one that goes
+static const double acute = 0.3;  // cosine of a dihedral angle at an edge that has few tetrahedra round it, at most
+enum { RING = 4 };                // tetrahedra round an edge, at most: of removals with five one in fifteen would help
 
 // Removes the edge a-b of t, whose square is given.
 static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, double square) {
@@ -16,7 +20,7 @@ static CwStatus remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, doubl
   if (n < 3) goto done;
   if (n == 4) { // the shorter one of the two edges that may come
     double one = cw_tet_square_of(w, ring[0], ring[2]), other = cw_tet_square_of(w, ring[1], ring[3]);
-    if (one >= square && other >= square) goto done;
+    if (one >= longer * square && other >= longer * square) goto done;
     first = other < one;
   }
   for (int k = 0; k < n; k++) {
@@ -34,6 +38,24 @@ done:
   return status;
 }
 
+// Whether the dihedral angle at the longest edge is so wide that three or four tetrahedra may close round it. To
+// walk round it takes longer, and of four one has a right angle at least.
+static int is_wide(const CwTetWork *w, const int32_t corner[4], const CwTetEnds *ends) {
+  const double *x = cw_tet_at(w, ends->far[0]), *side[2] = {x, x};
+  double edge[3], one[3], other[3];
+  int sides = 0;
+  for (int i = 0; i < 4 && sides < 2; i++) {
+    if (corner[i] != ends->far[0] && corner[i] != ends->far[1]) side[sides++] = cw_tet_at(w, corner[i]);
+  }
+  cw_sub(cw_tet_at(w, ends->far[1]), x, edge);
+  cw_sub(side[0], x, one);
+  cw_sub(side[1], x, other);
+  double along = cw_dot(edge, one), beyond = cw_dot(edge, other), square = ends->longest;
+  double cosine = cw_dot(one, other) * square - along * beyond;
+  double scale = (cw_dot(one, one) * square - along * along) * (cw_dot(other, other) * square - beyond * beyond);
+  return cosine < 0.0 || cosine * cosine < acute * acute * scale;
+}
+
 CwStatus cw_tet_shorten(CwTetWork *w) {
   CwStatus status = CW_OK;
   for (int32_t k = 0; k < w->slender.count; k++) {
@@ -42,7 +64,8 @@ CwStatus cw_tet_shorten(CwTetWork *w) {
     const int32_t *c = w->mesh->tet[t].corner;
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
-    if (cw_tet_is_slender(&ends)) CW_TRY(remove_edge(w, t, ends.far[0], ends.far[1], ends.longest));
+    if (cw_tet_is_slender(&ends) && is_wide(w, c, &ends))
+      CW_TRY(remove_edge(w, t, ends.far[0], ends.far[1], ends.longest));
   }
 done:
   return status;

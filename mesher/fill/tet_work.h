@@ -183,10 +183,10 @@ typedef struct {
 // Moves all inner points but those that are as in a lattice, where nothing is left worse below the floor; then every
 // tetrahedron below the limit is in the list.
 CwStatus cw_tet_relax(CwTetWork *w, CwTetMoves moves);
-// Goes once over the slender tetrahedra. Three or four round their longest edge are made anew without it where the
-// ratio becomes less in the mean; the least quality of those may fall, to the floor.
+// Goes once over the slender tetrahedra that are wide at their longest edge. Three or four round it are made anew
+// without it where the ratio becomes less in the mean; the least quality of those may fall, to the floor.
 CwStatus cw_tet_shorten(CwTetWork *w);
-// Takes away inner points with edges that are the shortest ones of five slender tetrahedra and more: a point goes into
+// Takes away inner points with edges that are the shortest ones of seven slender tetrahedra and more: a point goes into
 // the other end of its shortest one where the ratios, less the usual one, become less in the sum, or by so little more
 // that relaxing makes up for it. The least quality of its tetrahedra may fall, to the floor. All are to be judged anew
 // then.
