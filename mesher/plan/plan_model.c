@@ -27,32 +27,17 @@ static const double SHELL = 4.2;        // per area of the walls / h^2
 static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
 static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
 
-// Unit normals, out of the domain, of the faces on both sides of an edge.
-static void edge_normals(const CwCad *cad, int edge, const int face[2], double place, double normal[2][3]) {
-  for (int s = 0; s < 2; s++) {
-    double uv[2];
-    cw_cad_edge_uv(cad, edge, face[s], place, uv);
-    cw_cad_face_normal(cad, face[s], uv, normal[s]);
-  }
-}
-
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
   int face[2];
   double range[2], normal[2][3];
   cw_cad_edge_range(cad, edge, range);
   cw_cad_edge_faces(cad, edge, face);
-  edge_normals(cad, edge, face, (range[0] + range[1]) / 2, normal);
+  for (int s = 0; s < 2; s++) {
+    double uv[2];
+    cw_cad_edge_uv(cad, edge, face[s], (range[0] + range[1]) / 2, uv);
+    cw_cad_face_normal(cad, face[s], uv, normal[s]);
+  }
   return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
-}
-
-double cw_plan_edge_cosine(const CwPlanModel *model, int32_t e, const double n[3]) {
-  const double *a = model->edge_normal[e][0], *b = model->edge_normal[e][1];
-  double an = cw_dot(a, n), bn = cw_dot(b, n), ab = cw_dot(a, b), w[3];
-  double least = fmin(1 - an * an, 1 - bn * bn); // square of the shorter one of both normals, put into the plane
-  if (cw_dot(a, a) == 0) return 1;
-  if (ab - an * bn >= least) return sqrt(fmax(least, 0)); // along that one
-  cw_cross(a, b, w);                                      // else as far from one as from the other: along n x (a - b)
-  return fabs(cw_dot(n, w)) / sqrt(2 - 2 * ab - (an - bn) * (an - bn));
 }
 
 static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2]) {
@@ -79,14 +64,11 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
   CW_NEW(model->edge_touch, most);
   CW_NEW(model->edge_end, most);
   CW_NEW(model->edge_sharp, most);
-  CW_NEW(model->edge_step, most);
-  CW_NEW(model->edge_normal, most);
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     double room = 0;
-    int faces[2], walls = 0;
+    int faces[2];
     cw_cad_edge_faces(cad, e, faces);
     cw_cad_edge_range(cad, e, range);
-    for (int s = 0; s < 2; s++) walls += cw_cad_patch_kind(cad, cw_cad_face_patch(cad, faces[s])) == CW_PATCH_WALL;
     for (int side = 0; side < 2; side++) room = fmax(room, options->thickness[cw_cad_face_patch(cad, faces[side])]);
     if (room == 0) continue; // between two caps
     int smooth = cw_plan_edge_is_smooth(cad, e);
@@ -94,11 +76,9 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     int32_t points = points_of_edge(cad, e, range);
     for (int32_t i = 0; i < points; i++) {
       int32_t at = model->edge_count++;
-      double place = range[0] + (range[1] - range[0]) * i / (points - 1);
-      cw_cad_edge_point(cad, e, place, model->edge_x[at], model->edge_tangent[at]);
-      model->edge_step[at] = cw_norm(model->edge_tangent[at]) * (range[1] - range[0]) / (points - 1);
+      cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
+                        model->edge_tangent[at]);
       cw_unit(model->edge_tangent[at]);
-      if (walls == 2 && !smooth) edge_normals(cad, e, faces, place, model->edge_normal[at]);
       model->edge_touch[at] = TOUCH_ROOM * cw_size_at(model->size, model->edge_x[at]);
       model->edge_room[at] = room;
       model->edge_sharp[at] = (uint8_t)!smooth;
@@ -463,8 +443,6 @@ void cw_plan_model_free(CwPlanModel *model) {
   free(model->edge_touch);
   free(model->edge_end);
   free(model->edge_sharp);
-  free(model->edge_step);
-  free(model->edge_normal);
   free(model->wall_x);
   free(model->wall_triangle);
   cw_cubes_free(&model->walls);

@@ -27,8 +27,6 @@ typedef struct {
   double *edge_room;              // m: how near a plane may come to each of them
   double *edge_touch;             // m: nearer than that a cut and the edge leave room for flat triangles alone
   uint8_t *edge_end, *edge_sharp; // at a CAD vertex; of an edge that is a feature
-  double *edge_step;              // m: to the next of them
-  double (*edge_normal)[2][3];    // of the walls on both sides of a feature; zero elsewhere
   int32_t wall_count;             // points all over the walls
   double (*wall_x)[3];
   int32_t *wall_triangle; // of each, the background triangle
@@ -55,10 +53,6 @@ typedef struct {
   double work, volume;       // cells; m3
   CwBox box;                 // of the samples
 } CwPlanPart;
-
-// Least cosine, to the walls on both sides, of the best column inside a plane with unit normal n that crosses the edge at
-// this point; 1 where not both are walls, or the edge is smooth.
-double cw_plan_edge_cosine(const CwPlanModel *model, int32_t e, const double n[3]);
 
 // True where the two faces of a CAD edge pass into one another: no feature, only a border of parameters.
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge);

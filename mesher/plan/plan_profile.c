@@ -96,26 +96,6 @@ static double nearness(double off, double room) {
   return fmin(fmax(2 * (1 - off / room), 0), 1);
 }
 
-// How far to either side of a point on an edge a plane with normal n still crosses it nearer to that than to others.
-static double reach_of(const CwPlanModel *model, int32_t e, const double n[3]) {
-  return 0.5 * model->edge_step[e] * fabs(cw_dot(n, model->edge_tangent[e]));
-}
-
-static void add_leaning(const CwPlanModel *model, const CwPlanPart *part, const double n[3], CwPlanProfile *profile) {
-  double high = profile->low + CW_PROFILE_BINS * profile->width;
-  for (int b = 0; b < CW_PROFILE_BINS; b++) profile->lean[b] = 1;
-  for (int32_t i = 0; i < part->edge_count; i++) {
-    int32_t e = part->edge[i];
-    double place = cw_dot(n, model->edge_x[e]), reach = reach_of(model, e, n);
-    if (place + reach < profile->low || place - reach > high) continue;
-    double cosine = cw_plan_edge_cosine(model, e, n);
-    int last = cw_profile_bin(profile, place + reach);
-    for (int b = cw_profile_bin(profile, place - reach); b <= last; b++) {
-      if (cosine < profile->lean[b]) profile->lean[b] = cosine;
-    }
-  }
-}
-
 static void add_edges(const CwPlanModel *model, const CwPlanPart *part, const double n[3], CwPlanProfile *profile) {
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
@@ -178,17 +158,16 @@ void cw_plan_profile(const CwPlanModel *model, const CwPlanPart *part, const dou
   add_samples(model, part, direction, samples_most, work, profile);
   add_pieces(model, part, direction, work, profile);
   add_edges(model, part, direction, profile);
-  add_leaning(model, part, direction, profile);
   for (int b = 0; b < CW_PROFILE_BINS; b++) profile->below[b + 1] = profile->below[b] + fmax(work[b], 0);
 }
 
 CwPlanPlace cw_profile_at(const CwPlanProfile *profile, int bin) {
-  return (CwPlanPlace){profile->worst[bin], profile->grazed[bin], profile->cut[bin], profile->lean[bin]};
+  return (CwPlanPlace){profile->worst[bin], profile->grazed[bin], profile->cut[bin]};
 }
 
 CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, const CwPlane *plane, const CwPlane *end) {
   const CwPieces *pieces = &part->pieces;
-  CwPlanPlace place = {.lean = 1};
+  CwPlanPlace place = {0};
   double steepest = 0;
   for (int32_t i = 0; i < pieces->count; i++) {
     Extent extent = extent_of(pieces, i, plane->normal);
@@ -205,10 +184,7 @@ CwPlanPlace cw_plan_place(const CwPlanModel *model, const CwPlanPart *part, cons
   place.worst = sqrt(fmax(0, 1 - steepest));
   for (int32_t i = 0; i < part->edge_count; i++) {
     int32_t e = part->edge[i];
-    double room = model->edge_room[e], off = fabs(cw_plane_distance(plane, model->edge_x[e]));
-    double near = nearness(off, room);
-    if (off <= reach_of(model, e, plane->normal) && !(end && cw_plane_distance(end, model->edge_x[e]) < 0))
-      place.lean = fmin(place.lean, cw_plan_edge_cosine(model, e, plane->normal));
+    double room = model->edge_room[e], near = nearness(fabs(cw_plane_distance(plane, model->edge_x[e])), room);
     if (near == 0 || !may_graze(model, e, plane->normal)) continue;
     if (end && cw_plane_distance(end, model->edge_x[e]) < -room) continue;
     place.grazed += (model->edge_end[e] ? END_WEIGHT : 1) * near;

@@ -16,7 +16,6 @@ typedef struct {
   double worst[CW_PROFILE_BINS];     // least sqrt(1 - (n.m)^2) over the walls in the bin, layers included
   double grazed[CW_PROFILE_BINS];    // points of CAD edges it runs along, and ends of them it comes near
   double cut[CW_PROFILE_BINS];       // of those on sharp edges the one nearest: 1 within the layers, 0 at its room
-  double lean[CW_PROFILE_BINS];      // least cosine of the best column inside it to the walls of a sharp edge it crosses
 } CwPlanProfile;
 
 // From about samples_most of the part's samples, or all of fewer. Fails with nothing: a part without extent along the
@@ -32,7 +31,7 @@ int cw_profile_bin(const CwPlanProfile *profile, double place);
 
 // What a plane meets: as in a bin of the profile.
 typedef struct {
-  double worst, grazed, cut, lean;
+  double worst, grazed, cut;
 } CwPlanPlace;
 
 // Of one plane, where it lies on the positive side of `end` (NULL: everywhere).

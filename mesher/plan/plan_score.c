@@ -33,12 +33,9 @@ static const double OFF_MOST = 0.1;                   // share of a region's wor
 static const double OFF_LIMIT = 0.14;                 // and past which it is not
 static const double CUT_LAYERS = 4;                   // what a plane through the layers along an edge costs
 static const double TOUCH = 4;                        // what a cut costs that leaves flat triangles beside an edge
-// Least cosine, to both walls, of columns inside a plane on a sharp edge it crosses; what 1 less costs. A column of
-// 0.17 dragged those beside it along, and all of them gave up their first height (ns200, 700,000 cells).
-static const double LEANING_COLUMN = 0.31, LEAN = 30;
-static const double BAD = 5;     // score of a plane for which others are tried
-static const double WHOLE = 20;  // what a part costs that has to stay whole
-static const double LIKE = 0.97; // cosine between planes that are tried in vain alike
+static const double BAD = 5;                          // score of a plane for which others are tried
+static const double WHOLE = 20;                       // what a part costs that has to stay whole
+static const double LIKE = 0.97;                      // cosine between planes that are tried in vain alike
 
 typedef struct {
   double score, offset;     // without what follows; m
@@ -56,8 +53,7 @@ static int by_score(const void *a, const void *b) {
 }
 
 double cw_plan_place_cost(CwPlanPlace place) {
-  return cw_plan_sharpness(place.worst) + fmin(0.17 * place.grazed, 3) + 0.007 * place.grazed + CUT_LAYERS * place.cut +
-         LEAN * fmax(0, LEANING_COLUMN - place.lean);
+  return cw_plan_sharpness(place.worst) + fmin(0.17 * place.grazed, 3) + 0.007 * place.grazed + CUT_LAYERS * place.cut;
 }
 
 double cw_plan_touch_cost(double touch) {

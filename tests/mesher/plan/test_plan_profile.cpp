@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Planes beside an edge in which one face passes smoothly into another, and across sharp ones.
+// Planes beside an edge in which one face passes smoothly into another.
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -8,7 +8,6 @@
 #include <gp_Ax1.hxx>
 
 extern "C" {
-#include "mesher/common/vec.h"
 #include "mesher/plan/plan_profile.h"
 }
 
@@ -73,61 +72,10 @@ static void parts_keep_the_edges_beside_them(void **) {
   cw_plan_part_free(&half);
 }
 
-// Cosine of the best of many columns in the plane with normal n to both a and b.
-static double best_column(const double a[3], const double b[3], const double n[3]) {
-  double u[3], v[3], best = -1;
-  const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
-  cw_cross(n, std::fabs(n[0]) < 0.7 ? x : y, u);
-  cw_unit(u);
-  cw_cross(n, u, v);
-  for (int i = 0; i < 20000; i++) {
-    double c = std::cos(i * M_PI / 10000), s = std::sin(i * M_PI / 10000);
-    best = std::fmax(best, std::fmin(c * cw_dot(a, u) + s * cw_dot(a, v), c * cw_dot(b, u) + s * cw_dot(b, v)));
-  }
-  return best;
-}
-
-// Wedges of 150, 90 and 40 degrees, bent and hollow ones alike, and planes from all sides.
-static void columns_in_planes_stand_as_well_as_the_best_one(void **) {
-  for (double wedge : {150.0, 90.0, 40.0}) {
-    double turn = M_PI - wedge * M_PI / 180;
-    double normal[1][2][3] = {{{1, 0, 0}, {std::cos(turn), std::sin(turn), 0}}};
-    CwPlanModel model = {};
-    model.edge_normal = normal;
-    for (int i = 0; i < 200; i++) {
-      double z = std::cos(0.5 + 2 * i * M_PI / 400), r = std::sqrt(1 - z * z), angle = 2.4 * i;
-      const double n[3] = {r * std::cos(angle), r * std::sin(angle), z};
-      assert_near(cw_plan_edge_cosine(&model, 0, n), best_column(normal[0][0], normal[0][1], n), 1e-3);
-    }
-  }
-}
-
-// The edge along z at x = 20 mm, y = 0, z = 0 .. 10 mm, of 90 degrees, and a plane that cuts it so.
-static void planes_know_how_columns_lean_on_an_edge_they_cross(void **) {
-  Ring ring;
-  for (double tilt : {0.0, 1.2}) {
-    const double s = std::sin(tilt) * std::sqrt(0.5);
-    CwPlane plane = {{s, -s, std::cos(tilt)}, 0};
-    const double x[] = {0.02, 0, 0.004};
-    plane.offset = cw_dot(plane.normal, x);
-    const CwPlane here = {{0, 1, 0}, -0.001}, elsewhere = {{0, 1, 0}, 0.001};
-    const CwPlane bound = {{1, 0, 0}, 0.019};
-    assert_near(cw_plan_place(&ring.model, &ring.whole, &plane, &bound).lean, std::cos(tilt) * std::sqrt(0.5), 1e-6);
-    assert_true(cw_plan_place(&ring.model, &ring.whole, &plane, &here).lean < 0.71);
-    assert_near(cw_plan_place(&ring.model, &ring.whole, &plane, &elsewhere).lean, 1, 1e-9);
-    CwPlanProfile profile;
-    cw_plan_profile(&ring.model, &ring.whole, plane.normal, 1000, &profile);
-    assert_true(cw_profile_at(&profile, cw_profile_bin(&profile, plane.offset)).lean <
-                std::cos(tilt) * std::sqrt(0.5) + 1e-6);
-  }
-}
-
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(planes_beside_a_smooth_edge_touch_it),
                               cmocka_unit_test(planes_that_pass_an_edge_closely_touch_it),
                               cmocka_unit_test(planes_that_cross_edges_do_not_touch_them),
-                              cmocka_unit_test(parts_keep_the_edges_beside_them),
-                              cmocka_unit_test(columns_in_planes_stand_as_well_as_the_best_one),
-                              cmocka_unit_test(planes_know_how_columns_lean_on_an_edge_they_cross)};
+                              cmocka_unit_test(parts_keep_the_edges_beside_them)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
