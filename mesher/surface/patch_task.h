@@ -35,8 +35,8 @@ typedef struct {
   const int32_t *label; // of each triangle: region, say
 } CwPatchBlock;
 
-// Meshes and packs. `largest`: as in CwPatchInput. `label` is called with each component's representative point and gives its label. `turned` turns
-// the triangles round.
+// Meshes and packs. `largest`: as in CwPatchInput. `label` is called with each component's representative point and
+// gives its label. `turned` turns the triangles round.
 typedef int32_t (*CwLabelAt)(const void *context, const double x[3]);
 CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const void *surface_context, CwSizeAt size,
                        const void *size_context, double largest, int turned, CwLabelAt label, const void *label_context,
