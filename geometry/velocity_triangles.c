@@ -18,7 +18,9 @@ double cw_blockage(double count, double thickness, double radius, double angle) 
   return 1 / (1 - count * thickness / (2 * M_PI * radius * sin(angle)));
 }
 
-double cw_slip_wiesner(double count, double outlet_angle, double diameter_ratio) {
+// Slip factor gamma by Wiesner in Guelich's form, for `count` blades, beta2 and the ratio of mean inlet to
+// outlet diameter: 0.98 (1 - sin(beta2)^0.5 / z^0.7) kw.
+static double slip_wiesner(double count, double outlet_angle, double diameter_ratio) {
   const double limit = exp(-8.16 * sin(outlet_angle) / count);
   const double excess = fmax(0, (diameter_ratio - limit) / (1 - limit)), kw = 1 - excess * excess * excess;
   return 0.98 * (1 - sqrt(sin(outlet_angle)) / pow(count, 0.7)) * kw;
@@ -28,7 +30,8 @@ double cw_slip_pfleiderer(double count, double outlet_angle, double outlet_radiu
   return 0.65 * (1 + outlet_angle / (60 * degree)) * outlet_radius * outlet_radius / (count * static_moment);
 }
 
-double cw_static_moment(const CwMeridian *meridian) {
+// Integral of r dm along the blade at mid-span, m2.
+static double static_moment(const CwMeridian *meridian) {
   enum { STEPS = 100 }; // Simpson
   double sum = 0;
   for (int i = 0; i <= STEPS; i++) {
@@ -55,9 +58,9 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   SET(outlet_blockage, cw_blockage(outlet_blades(design), design->trailing_edge_thickness, d2 / 2, beta),
       "1 / (1 - z e / (pi D2 sin beta2))");
   const double cm = design->outlet_meridional_speed, turned = cm * design->outlet_blockage / tan(beta);
-  SET(slip_factor_wiesner, cw_slip_wiesner(blades, beta, ratio),
+  SET(slip_factor_wiesner, slip_wiesner(blades, beta, ratio),
       "0.98 (1 - sin(beta2)^0.5 / z^0.7) kw: Guelich's form");
-  const double p = cw_slip_pfleiderer(blades, beta, d2 / 2, cw_static_moment(meridian));
+  const double p = cw_slip_pfleiderer(blades, beta, d2 / 2, static_moment(meridian));
   SET(slip_factor_pfleiderer, ((u2 - turned) / (1 + p) + turned) / u2,
       "p = 0.65 (1 + beta2/60 deg) r2^2 / (z S), S = integral r dm");
   const int pfleiderer = design->slip == CW_SLIP_PFLEIDERER;

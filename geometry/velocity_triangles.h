@@ -16,16 +16,9 @@ extern "C" {
 // Blockage 1 / (1 - z e / (2 pi r sin beta)) of `count` blades.
 double cw_blockage(double count, double thickness, double radius, double angle);
 
-// Slip factor gamma by Wiesner in Guelich's form, for `count` blades, beta2 and the ratio of mean inlet to
-// outlet diameter: 0.98 (1 - sin(beta2)^0.5 / z^0.7) kw.
-double cw_slip_wiesner(double count, double outlet_angle, double diameter_ratio);
-
 // Pfleiderer's p of H_inf = (1 + p) H_th: 0.65 (1 + beta2 / 60 deg) r2^2 / (z S) with S = integral r dm of
 // the mean streamline, m2, of an impeller with a volute.
 double cw_slip_pfleiderer(double count, double outlet_angle, double outlet_radius, double static_moment);
-
-// Integral of r dm along the blade at mid-span, m2.
-double cw_static_moment(const CwMeridian *meridian);
 
 // Sets the outlet triangle at mid-span and the predicted heads for the outlet blade angle of the design.
 void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design);

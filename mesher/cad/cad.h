@@ -5,8 +5,6 @@
 #ifndef CUTWATER_MESHER_CAD_CAD_H
 #define CUTWATER_MESHER_CAD_CAD_H
 
-#include <stdint.h>
-
 #include "pipeline/status.h"
 
 #ifdef __cplusplus

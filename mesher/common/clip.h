@@ -4,10 +4,6 @@
 #ifndef CUTWATER_MESHER_COMMON_CLIP_H
 #define CUTWATER_MESHER_COMMON_CLIP_H
 
-#include <stdint.h>
-
-#include "pipeline/status.h"
-
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -2,6 +2,7 @@
 #include "mesher/heights/layer_heights.h"
 
 #include <math.h>
+#include <stddef.h>
 
 double cw_first_height(double y_plus, double velocity, double length, double kinematic_viscosity, int at_centre) {
   double reynolds = velocity * length / kinematic_viscosity;

@@ -4,10 +4,6 @@
 #ifndef CUTWATER_MESHER_HEIGHTS_LAYER_HEIGHTS_H
 #define CUTWATER_MESHER_HEIGHTS_LAYER_HEIGHTS_H
 
-#include <stdint.h>
-
-#include "pipeline/status.h"
-
 #ifdef __cplusplus
 extern "C" {
 #endif

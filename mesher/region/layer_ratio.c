@@ -7,7 +7,7 @@
 #include "pipeline/mesh/cell.h"
 #include "mesher/common/vec.h"
 
-const double cw_ratio_ends[CW_RATIO_BINS - 1] = {0.25, 0.5, 0.75, 1, 1.25, 1.5, 2};
+static const double bin_end[CW_RATIO_BINS - 1] = {0.25, 0.5, 0.75, 1, 1.25, 1.5, 2};
 
 typedef struct {
   int32_t corner[3]; // ascending
@@ -74,7 +74,7 @@ CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall 
       met++;
       if (patch >= patches) continue;
       int at = 0;
-      while (at < CW_RATIO_BINS - 1 && over > cw_ratio_ends[at]) at++;
+      while (at < CW_RATIO_BINS - 1 && over > bin_end[at]) at++;
       ratio[patch].bin[at]++;
       if (wall[found->wall].cramped) continue;
       // The height of the tetrahedron: its volume over a third of the face, which has a normal of twice its area.

@@ -12,9 +12,9 @@
 extern "C" {
 #endif
 
+// Bins of the ratio that end at 0.25, 0.5, 0.75, 1, 1.25, 1.5 and 2; the last has no end. 0.5 to 1.5 is fair: the bins
+// from 2 up to 5.
 enum { CW_RATIO_BINS = 8 };
-// Upper ends of the bins; the last has none. 0.5 to 1.5 is fair: the bins from 2 up to 5.
-extern const double cw_ratio_ends[CW_RATIO_BINS - 1];
 
 typedef struct {
   int64_t bin[CW_RATIO_BINS];

@@ -2,7 +2,6 @@
 #include "mesher/run/domain.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +9,6 @@
 #include "mesher/common/vec.h"
 #include "mesher/heights/even_columns.h"
 #include "mesher/heights/layer_heights.h"
-#include "mesher/layers/layers.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/share.h"
 #include "mesher/plan/fan.h"

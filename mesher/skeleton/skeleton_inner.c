@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The inner surfaces of the skeleton: free curves, caps, and the interfaces on the dividing planes.
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

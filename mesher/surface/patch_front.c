@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/surface/patch_front.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 // A triangle whose circle is smaller than this times the wanted length is done; equilateral: 0.577.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/surface/patch_task.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

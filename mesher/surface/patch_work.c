@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/surface/patch_work.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -10,7 +10,6 @@
 #ifndef CUTWATER_MESHER_SURFACE_PATCH_WORK_H
 #define CUTWATER_MESHER_SURFACE_PATCH_WORK_H
 
-#include <math.h>
 #include <stdint.h>
 
 #include "mesher/surface/cdt.h"

@@ -156,7 +156,7 @@ static void tile(FILE *page, const char *value, const char *unit, const char *la
   fprintf(page, "<div><b>%s%s%s</b><span>%s</span></div>\n", value, *unit ? "&#8239;" : "", unit, label);
 }
 
-CwStatus cw_page_title(FILE *page, const CwReportData *data) {
+static CwStatus title(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   char text[CW_FORMAT_SIZE], more[CW_FORMAT_SIZE], label[200], where[4096];
   int64_t cells = 0, tets = 0, prisms = 0, asked;
@@ -231,7 +231,7 @@ CwStatus cw_page_write(FILE *page, const CwReportData *data) {
   fputs("<a href=\"#top\">Overview</a>\n", page);
   for (int k = 0; k < PARTS; k++) fprintf(page, "<a href=\"#%s\">%s</a>\n", parts[k].id, parts[k].heading);
   fputs("</nav>\n<main id=\"top\">\n", page);
-  CW_TRY(cw_page_title(page, data));
+  CW_TRY(title(page, data));
   for (int k = 0; k < PARTS; k++) {
     fprintf(page, "<h2 id=\"%s\">%s</h2>\n", parts[k].id, parts[k].heading);
     CW_TRY(parts[k].part(page, data));

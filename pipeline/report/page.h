@@ -33,8 +33,7 @@ CwStatus cw_report_sizes(const CwReportData *data, CwPumpSizes *sizes);
 
 CwStatus cw_page_write(FILE *page, const CwReportData *data);
 
-// Its parts, in the order of the page. Each begins with its heading.
-CwStatus cw_page_title(FILE *page, const CwReportData *data);
+// Its parts after the title, in the order of the page. Each begins with its heading.
 CwStatus cw_page_input(FILE *page, const CwReportData *data);
 CwStatus cw_page_design(FILE *page, const CwReportData *data);
 CwStatus cw_page_design_pictures(FILE *page, const CwReportData *data);
