@@ -5,10 +5,10 @@
 
 static const double PI = 3.141592653589793;
 
-// A prism of n sides of which the upper polygon is turned, so that the sides bend inwards.
+// A prism of n sides of which the upper polygon is turned against their diagonals, so that they bend inwards.
 static void twisted_prism(Surface *s, int n, double degrees, double height) {
   for (int k = 0; k < 2 * n; k++) {
-    double a = 2.0 * PI * (k % n) / n + (k < n ? 0.0 : degrees * PI / 180.0);
+    double a = 2.0 * PI * (k % n) / n - (k < n ? 0.0 : degrees * PI / 180.0);
     shape_point(s, 0.01 * cos(a), 0.01 * sin(a), k < n ? 0.0 : height);
   }
   for (int k = 0; k < n; k++) {
@@ -47,7 +47,7 @@ static void twisted_prism_of_30_sides(Surface *s, double *size) {
 
 static void column_of_schoenhardts(Surface *s, double *size) {
   const double p[3][2] = {{0.01, 0}, {-0.005, 0.00866}, {-0.005, -0.00866}};
-  shape_extrude(s, 3, p, 1.0, 0.08, 8, -8 * 35 * PI / 180.0,
+  shape_extrude(s, 3, p, 1.0, 0.08, 8, 8 * 35 * PI / 180.0,
                 1); // against the diagonals: every side bends inwards
   *size = 0.01;
 }
