@@ -405,7 +405,8 @@ static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked
   }
   qsort(all, (size_t)found, sizeof *all, by_cost);
   *count = found < NUMBERS ? found : NUMBERS;
-  for (int32_t i = 0; i<*count && * count> 1; i++) {
+  int32_t weighed = *count > 1 ? *count : 0; // one alone is taken
+  for (int32_t i = 0; i < weighed; i++) {
     int32_t slices;
     CW_TRY(place_root(fan, all[i].regions, &slices));
     int32_t regions = slices + fan->count * all[i].regions;
