@@ -72,6 +72,12 @@ static inline void cw_delaunay_ask(const CwDelaunayTet *tet, int64_t ahead) {
   __builtin_prefetch((const void *)((uintptr_t)tet + (uintptr_t)(ahead * (int64_t)sizeof *tet)), 1);
 }
 
+// For its corners and neighbours, which may lie in two lines of the cache.
+static inline void cw_delaunay_ask_links(const CwDelaunayTet *tet) {
+  __builtin_prefetch(tet->corner, 1);
+  __builtin_prefetch(&tet->neighbour[3], 1);
+}
+
 // For passes over all tetrahedra, in their order: asks for one that comes a little later. Processors do so by
 // themselves within a page only, which is 64 of them.
 static inline void cw_delaunay_ask_ahead(const CwDelaunayTet *tet) {

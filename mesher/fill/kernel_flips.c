@@ -92,9 +92,10 @@ done:
   return status;
 }
 
+// The other two corners in the order that makes (i, j, first, second) an even permutation.
+static const int8_t first_of[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
+
 int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int most, int32_t *tet, int32_t *ring) {
-  // The other two corners in the order that makes (i, j, first, second) an even permutation.
-  static const int8_t first_of[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
   const CwDelaunayTet *now = &flips->mesh->tet[t];
   int i = sure_corner_of(now, a), j = sure_corner_of(now, b), first = first_of[i][j], count = 0;
   int32_t from = now->corner[first], to = now->corner[6 - i - j - first], start = t;
@@ -110,6 +111,16 @@ int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int mos
     to = now->corner[next % 4];
   } while (t != start);
   return count;
+}
+
+int cw_flips_is_short(const CwFlips *flips, int32_t t, int32_t a, int32_t b) {
+  const CwDelaunayTet *now = &flips->mesh->tet[t], *tet = flips->mesh->tet;
+  int i = sure_corner_of(now, a), j = sure_corner_of(now, b), k = first_of[i][j], l = 6 - i - j - k;
+  int32_t one = now->neighbour[k] >> 2, other = now->neighbour[l] >> 2;
+  if ((one | other) < 0) return 0;
+  int32_t after_one = tet[one].neighbour[sure_corner_of(&tet[one], now->corner[l])] >> 2;
+  int32_t after_other = tet[other].neighbour[sure_corner_of(&tet[other], now->corner[k])] >> 2;
+  return (after_one == other) | ((after_one == after_other) & (after_one >= 0));
 }
 
 typedef struct {

@@ -43,6 +43,9 @@ CwStatus cw_flips_find_edge(CwFlips *flips, int32_t a, int32_t b, int32_t *tet);
 // Tetrahedra round the edge a-b of t: tet[k] has the points ring[k], ring[k + 1], and (a, b, ring[k], ring[k
 // + 1]) is positive. 0 where there are more than CW_RING, or the edge is open.
 int cw_flips_ring(const CwFlips *flips, int32_t t, int32_t a, int32_t b, int most, int32_t *tet, int32_t *ring);
+// Whether that gives three or four: from t and its two neighbours at the edge alone, which takes a fraction of the
+// time.
+int cw_flips_is_short(const CwFlips *flips, int32_t t, int32_t a, int32_t b);
 
 // Two tetrahedra at face i of t become three. *flipped is 0 where that is not valid, or adds crossings.
 CwStatus cw_flips_face(CwFlips *flips, int32_t t, int i, int *flipped);

@@ -57,6 +57,7 @@ CwStatus cw_tet_collapse(CwTetWork *w) {
   for (int32_t k = 0; k < w->slender.count; k++) {
     int32_t t = w->slender.tet[k];
     const int32_t *c = w->mesh->tet[t].corner;
+    cw_tet_ask_ahead(w, w->slender.tet, w->slender.count, k);
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
     if (!cw_tet_is_slender(&ends)) continue;

@@ -125,6 +125,7 @@ CwStatus cw_tet_improve_list(CwTetWork *w, int passes, int move) {
     for (int32_t k = 0; k < w->bad_count; k++) {
       int32_t t = w->bad[k];
       int done_it = 0;
+      cw_tet_ask_ahead(w, w->bad, w->bad_count, k);
       if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= w->limit) continue;
       if (pass <= 1 || has_changed(w, t)) CW_TRY(improve_one(w, t, move, pass >= 1, &done_it));
       changes += done_it;

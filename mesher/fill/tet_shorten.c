@@ -60,11 +60,11 @@ CwStatus cw_tet_shorten(CwTetWork *w) {
   CwStatus status = CW_OK;
   for (int32_t k = 0; k < w->slender.count; k++) {
     int32_t t = w->slender.tet[k];
-    cw_tet_ask_ahead(w, &w->slender, k);
+    cw_tet_ask_ahead(w, w->slender.tet, w->slender.count, k);
     const int32_t *c = w->mesh->tet[t].corner;
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
-    if (cw_tet_is_slender(&ends) && is_wide(w, c, &ends))
+    if (cw_tet_is_slender(&ends) && cw_flips_is_short(&w->flips, t, ends.far[0], ends.far[1]) && is_wide(w, c, &ends))
       CW_TRY(remove_edge(w, t, ends.far[0], ends.far[1], ends.longest));
   }
 done:

@@ -10,6 +10,7 @@
 #include "pipeline/status.h"
 
 #include "mesher/common/four.h"
+#include "mesher/common/number.h"
 #include "mesher/fill/kernel_flips.h"
 #include "mesher/fill/tet_improve.h"
 #include "mesher/fill/tet_quality.h"
@@ -91,13 +92,19 @@ typedef struct {
 } CwTetEnds;
 
 static inline CwTetEnds cw_tet_ends(const CwTetWork *w, const int32_t corner[4]) {
-  CwTetEnds ends = {INFINITY, 0.0, {-1, -1}, {-1, -1}};
-  for (int e = 0; e < 6; e++) {
-    int32_t p = corner[cw_tet_edge[e][0]], q = corner[cw_tet_edge[e][1]];
-    double square = cw_tet_square_of(w, p, q);
-    if (square < ends.shortest) ends.shortest = square, ends.near[0] = p, ends.near[1] = q;
-    if (square > ends.longest) ends.longest = square, ends.far[0] = p, ends.far[1] = q;
+  CwTetEnds ends;
+  double square[6];
+  int near = 0, far = 0;
+  for (int e = 0; e < 6; e++) square[e] = cw_tet_square_of(w, corner[cw_tet_edge[e][0]], corner[cw_tet_edge[e][1]]);
+  ends.shortest = ends.longest = square[0];
+  for (int e = 1; e < 6; e++) { // which one is as good as random, and takes no branch
+    int less = (int)cw_number(square[e] < ends.shortest), more = (int)cw_number(square[e] > ends.longest);
+    near += less * (e - near);
+    far += more * (e - far);
+    ends.shortest = cw_tet_less(square[e], ends.shortest);
+    ends.longest = cw_tet_more(square[e], ends.longest);
   }
+  for (int i = 0; i < 2; i++) ends.near[i] = corner[cw_tet_edge[near][i]], ends.far[i] = corner[cw_tet_edge[far][i]];
   return ends;
 }
 
@@ -117,13 +124,15 @@ static inline double cw_tet_excess(const CwTetWork *w, const int32_t corner[4]) 
 }
 
 // Asks the memory for the neighbours of one that comes a little later in the list, and for one that comes later still.
-static inline void cw_tet_ask_ahead(const CwTetWork *w, const CwTetList *list, int32_t k) {
+// Always inline, since compilers drop calls of what does nothing but ask.
+static inline __attribute__((always_inline)) void cw_tet_ask_ahead(const CwTetWork *w, const int32_t *list,
+                                                                   int32_t count, int32_t k) {
   const CwDelaunayTet *tet = w->mesh->tet;
-  if (k + 16 < list->count) __builtin_prefetch(&tet[list->tet[k + 16]], 1);
-  if (k + 8 < list->count) {
+  if (k + 16 < count) cw_delaunay_ask_links(&tet[list[k + 16]]);
+  if (k + 8 < count) {
     for (int i = 0; i < 4; i++) {
-      int32_t next = tet[list->tet[k + 8]].neighbour[i];
-      if (next >= 0) __builtin_prefetch(&tet[next / 4], 1);
+      int32_t next = tet[list[k + 8]].neighbour[i];
+      if (next >= 0) cw_delaunay_ask_links(&tet[next / 4]);
     }
   }
 }

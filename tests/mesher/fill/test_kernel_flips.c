@@ -115,6 +115,31 @@ static void any_flips_keep_a_mesh(void **unused) {
   free(x);
 }
 
+// Of all edges of a mesh, those with three or four tetrahedra, and of these both kinds; the ring is asked for the
+// truth.
+static void short_rings_are_known(void **unused) {
+  double(*x)[3] = malloc(300 * sizeof *x);
+  uint64_t state = 21;
+  CwDelaunay mesh;
+  CwFlips flips;
+  int edges[5] = {0};
+  for (int i = 0; i < 900; i++) x[i / 3][i % 3] = draw(&state);
+  assert_int_equal(cw_delaunay_make(300, (const double(*)[3])x, &mesh), CW_OK);
+  assert_int_equal(cw_flips_make(&mesh, &flips), CW_OK);
+  for (int32_t k = 0; k < 12 * mesh.tet_count; k++) {
+    int32_t tet[CW_RING], ring[CW_RING], t = k / 12, i = k % 4, j = (i + 1 + k / 4 % 3) % 4;
+    const int32_t *c = mesh.tet[t].corner;
+    if (c[0] < 0) continue;
+    int n = cw_flips_ring(&flips, t, c[i], c[j], 4, tet, ring);
+    assert_int_equal(cw_flips_is_short(&flips, t, c[i], c[j]), n != 0);
+    edges[n]++;
+  }
+  assert_true(edges[0] > 1000 && edges[3] > 100 && edges[4] > 100);
+  cw_flips_free(&flips);
+  cw_delaunay_free(&mesh);
+  free(x);
+}
+
 // Points of a shaken lattice: slivers go, points of the boundary (here: the first) stay, the volume is kept.
 static void improvement_raises_the_least(void **unused) {
   double(*x)[3] = malloc(1000 * sizeof *x);
@@ -145,6 +170,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(axis_of_a_bipyramid),
       cmocka_unit_test(any_flips_keep_a_mesh),
+      cmocka_unit_test(short_rings_are_known),
       cmocka_unit_test(improvement_raises_the_least),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
