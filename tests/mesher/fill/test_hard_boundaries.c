@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Every boundary of the library and of a row of random ones must be filled, whatever it takes. With a number
-// as argument, as many random ones as that; with a name, that boundary of the library alone; with `seed N`, that
-// random one alone.
+// Every boundary of the library and of a row of random ones must be filled, whatever it takes. With three numbers as
+// arguments, random ones alone: as many, of the seeds from the second on, each so much after the one before as the third
+// says. With a name, that boundary of the library alone; with `seed N`, that random one alone.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,9 @@
 #include "mesher/fill/kernel.h"
 #include "pipeline/log.h"
 
+// Of the random ones.
 static int random_count = 40;
+static uint64_t first_seed = 1, seed_step = 1;
 
 typedef struct {
   int filled, whole, flipped, cleared, divided, tetgen;
@@ -88,7 +90,7 @@ static void library(void **unused) {
 static void random_ones(void **unused) {
   Count count = {0};
   int faults = 0, crossing = 0;
-  for (uint64_t seed = 1; count.filled + faults < random_count; seed++) {
+  for (uint64_t seed = first_seed; count.filled + faults < random_count; seed += seed_step) {
     Surface s;
     double size;
     char name[32];
@@ -161,9 +163,11 @@ int main(int argc, char **argv) {
   const struct CMUnitTest many[] = {cmocka_unit_test(random_ones)};
   if (getenv("CUTWATER_VERBOSE")) cw_log_open("test", NULL, 1, getenv("CUTWATER_VERBOSE")[0] == '2');
   if (argc == 3) return one_alone(NULL, strtoull(argv[2], NULL, 10));
-  if (argc == 2 && atoi(argv[1]) == 0) return one_alone(argv[1], 0);
-  if (argc == 2) {
+  if (argc == 2) return one_alone(argv[1], 0);
+  if (argc == 4) {
     random_count = atoi(argv[1]);
+    first_seed = strtoull(argv[2], NULL, 10);
+    seed_step = strtoull(argv[3], NULL, 10);
     return cmocka_run_group_tests(many, NULL, NULL);
   }
   return cmocka_run_group_tests(tests, NULL, NULL);
