@@ -148,14 +148,18 @@ CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, 
   for (int32_t k = 0; k < chosen; k++) {
     const int32_t *t = columns->triangle[columns->chosen[k]];
     const double *a = columns->x[t[0]], *b = columns->x[t[1]], *c = columns->x[t[2]];
-    unsigned crossed = edge_above(a, b, x, y) ^ edge_above(b, c, x, y) ^ edge_above(c, a, x, y);
+    columns->chosen[*count] = columns->chosen[k];
+    *count += (int32_t)(edge_above(a, b, x, y) ^ edge_above(b, c, x, y) ^ edge_above(c, a, x, y));
+  }
+  for (int32_t k = 0; k < *count; k++) {
+    const int32_t *t = columns->triangle[columns->chosen[k]];
+    const double *a = columns->x[t[0]], *b = columns->x[t[1]], *c = columns->x[t[2]];
     double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
     double nz = ux * vy - uy * vx, nx = uy * vz - uz * vy, ny = uz * vx - ux * vz;
     double height = a[2] - (nx * (x - a[0]) + ny * (y - a[1])) / nz;
     // An upright triangle is crossed somewhere on its height.
     double low = least(least(a[2], b[2]), c[2]), high = most(most(a[2], b[2]), c[2]);
-    columns->z[*count] = height >= low && height <= high ? height : 0.5 * (low + high);
-    *count += (int32_t)crossed; // as good as random, and no branch
+    columns->z[k] = height >= low && height <= high ? height : 0.5 * (low + high);
   }
   *z = columns->z;
 done:

@@ -123,20 +123,27 @@ int cw_flips_is_short(const CwFlips *flips, int32_t t, int32_t a, int32_t b) {
   return (after_one == other) | ((after_one == after_other) & (after_one >= 0));
 }
 
+// A face by its points, the least and the greatest of which are together one number.
 typedef struct {
-  int32_t p[3];  // ascending
-  int32_t owner; // 4 * tetrahedron + face
+  uint64_t ends;
+  int32_t middle, owner; // 4 * tetrahedron + face
 } Side;
 
-static Side side_of(const int32_t corner[4], int i, int32_t owner) {
-  Side s = {{corner[tet_face[i][0]], corner[tet_face[i][1]], corner[tet_face[i][2]]}, owner};
-  for (int k = 0; k < 3; k++) {
-    int m = k == 1 ? 1 : 0; // compares 0-1, 1-2, 0-1
-    int32_t low = s.p[m], high = s.p[m + 1];
-    s.p[m] = low < high ? low : high;
-    s.p[m + 1] = low < high ? high : low;
+static inline Side side_of(const int32_t corner[4], int i, int32_t owner) {
+  int32_t a = corner[tet_face[i][0]], b = corner[tet_face[i][1]], c = corner[tet_face[i][2]];
+  int32_t low = a < b ? a : b, high = a < b ? b : a, least = low < c ? low : c, most = high > c ? high : c;
+  return (Side){(uint64_t)(uint32_t)least << 32 | (uint32_t)most, a ^ b ^ c ^ least ^ most, owner};
+}
+
+// The side with the same points, `count` where there is none. Looks at all of them, without a branch: where the search
+// would end is as good as random.
+static inline int find_side(const Side *side, int count, const Side *wanted) {
+  int found = count;
+  for (int m = 0; m < count; m++) {
+    int same = (int)(cw_number(side[m].ends == wanted->ends) & cw_number(side[m].middle == wanted->middle));
+    found ^= (found ^ m) & -same;
   }
-  return s;
+  return found;
 }
 
 CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int count, const int32_t (*corner)[4],
@@ -147,10 +154,11 @@ CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int
   int sides = 0;
   for (int k = 0; k < old_count; k++) {
     const CwDelaunayTet *tet = &mesh->tet[old[k]];
-    for (int i = 0; i < 4; i++) {
-      int within = 0;
-      for (int m = 0; m < old_count && tet->neighbour[i] >= 0; m++) within |= tet->neighbour[i] / 4 == old[m];
-      if (!within) side[sides++] = side_of(tet->corner, i, tet->neighbour[i]);
+    for (int i = 0; i < 4; i++) { // each is written, and stays where it is not within
+      int32_t next = tet->neighbour[i] >> 2, within = 0;
+      for (int m = 0; m < old_count; m++) within |= next == old[m];
+      side[sides] = side_of(tet->corner, i, tet->neighbour[i]);
+      sides += 1 - within;
     }
   }
   for (int k = 0; k < count; k++) {
@@ -167,8 +175,7 @@ CwStatus cw_flips_replace(CwFlips *flips, int old_count, const int32_t *old, int
     for (int i = 0; i < 4; i++) {
       if (flips->tet_at) flips->tet_at[corner[k][i]] = slot[k];
       Side one = side_of(corner[k], i, 4 * slot[k] + i);
-      int m = 0;
-      while (m < sides && (side[m].p[0] != one.p[0] || side[m].p[1] != one.p[1] || side[m].p[2] != one.p[2])) m++;
+      int m = find_side(side, sides, &one);
       if (m == sides) {
         side[sides++] = one;
         continue;
