@@ -39,6 +39,7 @@ typedef struct {
   double (*arm)[4]; // from the new point to each point round the cavity, and its square
   int32_t *round;   // these points
   int32_t arm_space, round_space;
+  CwDelaunayTet none; // a sphere without radius far from all points: in place of a neighbour where there is none
   int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
 } Work;
 
@@ -187,52 +188,41 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], co
   }
 }
 
-// Looks beyond faces of a tetrahedron of the cavity. Whether a face leads to one more, to one outside or to one that
-// was met before is as good as random, and as branches half of them were foretold wrongly, which took a third of the
-// time: instead both lists are written to, and one of them, or none, keeps it. There is room for all.
-static inline __attribute__((always_inline)) void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, int count,
-                                                              const int8_t *faces, const double p[3],
-                                                              const float place[3]) {
+// Looks beyond the faces of a tetrahedron of the cavity. Whether a face leads to one more, to one outside or to one
+// that was met before is as good as random, and as branches half of them were foretold wrongly, which took a third of
+// the time: instead both lists are written to, and one of them, or none, keeps it. There is room for all.
+static inline void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, const double p[3], const float place[3]) {
   const CwDelaunayTet *tet = &mesh->tet[t];
-  int32_t *cavity = work->cavity + work->cavity_count;
+  int32_t *cavity = work->cavity + work->cavity_count, known[4];
   Side *side = work->side + work->side_count;
-  for (int k = 0; k < count; k++) {
-    int i = faces[k];
-    int32_t outer = tet->neighbour[i];
-    unsigned known = CW_BEYOND;
-    if (outer >= 0) {
-      CwDelaunayTet *next = &mesh->tet[outer >> 2];
-      known = cw_sphere_compare(next, place);
-      if (known == 0) known = in_sphere_exactly(mesh, next, p) ? CW_WITHIN : CW_BEYOND;
-      cw_sphere_take(next, known & CW_WITHIN);
-    }
-    *cavity = outer;
-    cavity += known & CW_WITHIN;
+  CwDelaunayTet *next[4];
+  for (int i = 0; i < 4; i++) next[i] = tet->neighbour[i] < 0 ? &work->none : &mesh->tet[tet->neighbour[i] >> 2];
+  cw_sphere_compare_four((const CwDelaunayTet *const *)next, place, known);
+  for (int i = 0; i < 4; i++) {
+    if (known[i] == 0) known[i] = in_sphere_exactly(mesh, next[i], p) ? CW_WITHIN : CW_BEYOND;
+    __builtin_prefetch(&next[i]->neighbour[3], 1); // used soon, and perhaps not in the line of the sphere
+    cw_sphere_take(next[i], (uint32_t)known[i] & CW_WITHIN);
+    *cavity = tet->neighbour[i] >> 2;
+    cavity += known[i] & CW_WITHIN;
     for (int m = 0; m < 3; m++) side->corner[m] = tet->corner[tet_face[i][m]];
-    side->outer = outer;
-    side += known == CW_BEYOND;
+    side->outer = tet->neighbour[i];
+    side += known[i] == CW_BEYOND;
   }
   work->cavity_count = (int32_t)(cavity - work->cavity);
   work->side_count = (int32_t)(side - work->side);
 }
 
-// All tetrahedra whose spheres hold p, from one of them, which are taken then. Each of the others is left alone at the
-// face by which it was reached.
+// All tetrahedra whose spheres hold p, from one of them, which are taken then.
 static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
   CwStatus status = CW_OK;
-  static const int8_t all[4] = {0, 1, 2, 3}, others[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
   work->cavity_count = work->side_count = 0;
-  CW_GROW(work->cavity, work->cavity_space, 5);
-  CW_GROW(work->side, work->side_space, 4);
+  CW_GROW(work->cavity, work->cavity_space, 1);
   work->cavity[work->cavity_count++] = start;
   cw_sphere_take(&mesh->tet[start], 1);
-  look_beyond(mesh, work, start, 4, all, p, place);
-  for (int32_t head = 1; head < work->cavity_count; head++) {
-    int32_t reached = work->cavity[head];
-    work->cavity[head] = reached >> 2;
-    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 3);
-    CW_GROW(work->side, work->side_space, work->side_count + 3);
-    look_beyond(mesh, work, reached >> 2, 3, others[reached & 3], p, place);
+  for (int32_t head = 0; head < work->cavity_count; head++) {
+    CW_GROW(work->cavity, work->cavity_space, work->cavity_count + 4);
+    CW_GROW(work->side, work->side_space, work->side_count + 4);
+    look_beyond(mesh, work, work->cavity[head], p, place);
   }
 done:
   return status;
@@ -279,11 +269,11 @@ static CwStatus prepare_sides(CwDelaunay *mesh, Work *work, int32_t point, int32
     Side *side = &work->side[k];
     for (int i = 0; i < 3; i++) { // without branches, as above
       uint64_t *mark = &mesh->point[side->corner[i]].mark;
-      uint64_t now = (uint64_t)point << 32 | (uint64_t)locals;
-      uint64_t fresh = (((*mark ^ now) >> 32) + UINT32_MAX) >> 32;
+      uint64_t last = *mark, fresh = ((last >> 32 ^ (uint64_t)point) + UINT32_MAX) >> 32; // does not wait for `locals`
+      uint64_t now = last ^ ((last ^ ((uint64_t)point << 32 | (uint64_t)locals)) & -fresh);
       work->round[locals] = side->corner[i];
-      *mark ^= (*mark ^ now) & -fresh;
-      side->local[i] = (int32_t)(uint32_t)*mark;
+      *mark = now;
+      side->local[i] = (int32_t)(uint32_t)now;
       locals += (int32_t)fresh;
     }
     if (k < work->cavity_count)
@@ -441,6 +431,7 @@ CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
   // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
   CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
   work->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
+  work->none = (CwDelaunayTet){.centre = {8.0f}};
   first_tet(mesh);
   mesh->point_count = CW_DELAUNAY_CORNERS;
   for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {

@@ -5,7 +5,9 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
+#include "mesher/common/four.h"
 #include "mesher/common/number.h"
 #include "mesher/fill/delaunay.h"
 
@@ -60,6 +62,18 @@ static inline unsigned cw_sphere_compare(const CwDelaunayTet *t, const float pla
   float over = x * x + y * y + z * z - square;
   unsigned sure = cw_number(over * over > square * (CW_SPHERE_UNSURE_FAR * square + CW_SPHERE_UNSURE_NEAR));
   return sure + (sure & cw_number(over > 0.0f)) + CW_TAKEN * (t->mark >> 31);
+}
+
+// The same for four at once, whose answers agree with those one by one to the bit.
+static inline void cw_sphere_compare_four(const CwDelaunayTet *const t[4], const float place[3], int32_t known[4]) {
+  CwFour sphere[4];
+  for (int k = 0; k < 4; k++) memcpy(&sphere[k], t[k]->centre, sizeof *sphere);
+  cw_four_turn(sphere);
+  CwFour x = place[0] - sphere[0], y = place[1] - sphere[1], z = place[2] - sphere[2], square = sphere[3];
+  CwFour over = x * x + y * y + z * z - square;
+  CwFourMask sure = over * over > square * (CW_SPHERE_UNSURE_FAR * square + CW_SPHERE_UNSURE_NEAR);
+  CwFourMask taken = (CwFourMask)square >> 31 & CW_TAKEN, all = taken - sure - (sure & (over > 0.0f));
+  memcpy(known, &all, sizeof all);
 }
 
 // Two numbers in double precision that are reckoned with side by side.

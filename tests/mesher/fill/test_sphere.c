@@ -41,10 +41,22 @@ static void set(const CwSphereFrame *frame, const double x[4][3], CwDelaunayTet 
   assert_memory_equal(turned.centre, again[0].centre, 4 * sizeof(float));
 }
 
+// Beside three others, at each place of four in turn: the answers are those one by one.
 static unsigned look(const CwSphereFrame *frame, const CwDelaunayTet *tet, const double p[3]) {
+  static const CwDelaunayTet none = {.centre = {8}}, small = {.centre = {0.1f, 0.1f, 0.1f}, .radius_square = 0.25f};
+  static const CwDelaunayTet taken = {.centre = {0.1f}, .radius_square = -0.25f};
   double place[3];
   cw_sphere_place(frame, p, place);
-  return cw_sphere_compare(tet, (float[3]){(float)place[0], (float)place[1], (float)place[2]});
+  const float seen[3] = {(float)place[0], (float)place[1], (float)place[2]};
+  unsigned alone = cw_sphere_compare(tet, seen);
+  for (int k = 0; k < 4; k++) {
+    const CwDelaunayTet *four[4] = {&none, &small, &taken, &none};
+    int32_t known[4];
+    four[k] = tet;
+    cw_sphere_compare_four(four, seen, known);
+    for (int i = 0; i < 4; i++) assert_int_equal(known[i], i == k ? alone : cw_sphere_compare(four[i], seen));
+  }
+  return alone;
 }
 
 // The middle and the unit; the sphere of a corner of a cube.
