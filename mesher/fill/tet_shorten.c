@@ -56,11 +56,19 @@ static int is_wide(const CwTetWork *w, const int32_t corner[4], const CwTetEnds 
   return cosine < 0.0 || cosine * cosine < acute * acute * scale;
 }
 
+// Asks the memory for the corners of one that comes a little later in the list.
+static inline __attribute__((always_inline)) void ask_corners(const CwTetWork *w, int32_t k) {
+  if (k + 8 >= w->slender.count) return;
+  const int32_t *later = w->mesh->tet[w->slender.tet[k + 8]].corner;
+  for (int i = 0; i < 4 && later[0] >= 0; i++) __builtin_prefetch(cw_tet_at(w, later[i]));
+}
+
 CwStatus cw_tet_shorten(CwTetWork *w) {
   CwStatus status = CW_OK;
   for (int32_t k = 0; k < w->slender.count; k++) {
     int32_t t = w->slender.tet[k];
     cw_tet_ask_ahead(w, w->slender.tet, w->slender.count, k);
+    ask_corners(w, k);
     const int32_t *c = w->mesh->tet[t].corner;
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
