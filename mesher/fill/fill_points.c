@@ -14,6 +14,10 @@
 #include "mesher/fill/lattice_places.h"
 
 static const double coarse = 2.2; // cells of lists, over wanted cells
+// Of the square of a sphere's radius, out of which points of the row keep: where edges are of unlike length the spheres
+// of large triangles leave gaps in it, and so slender tetrahedra. What is in the sphere of an open triangle the caller
+// may drop, and then it is kept out of all of it.
+static const double row_sphere = 0.6;
 enum { DEPTH = 19 };
 
 // A box in finest cells of the octree, both ends in it: 20 bits an axis, and a guard over each, so that one subtraction
@@ -146,9 +150,10 @@ static int is_forbidden(const Tree *tree, const Reached *reached, const double x
     if (distance_square(x, point->x) < nearest * nearest) return 1;
   }
   near = find_near(tree, list, reached->triangles, place);
-  int32_t first_open = of_row ? input->triangle_count : input->triangle_count - input->open_count;
-  for (int32_t k = 0; k < near && tree->near[k] < first_open; k++) {
-    if (cw_reach_in_ball(&tree->ball[tree->near[k]], x)) return 1;
+  int32_t first_open = input->triangle_count - input->open_count;
+  for (int32_t k = 0; k < near && (of_row || tree->near[k] < first_open); k++) {
+    double share = of_row && tree->near[k] < first_open ? row_sphere : 1.0;
+    if (cw_reach_in_ball(&tree->ball[tree->near[k]], share, x)) return 1;
   }
   double h = near ? tree->clearance * size_at(input, x) : 0.0;
   for (int32_t k = 0; k < near; k++) {

@@ -23,7 +23,8 @@ CwRowPlace cw_row_place(const CwFillInput *input, int32_t t) {
   cw_unit(normal);
   for (int i = 0; i < 3; i++) place.x[i] = (a[i] + b[i] + c[i]) / 3.0;
   double edge = sqrt(2.0 * (cw_dot(u, u) + cw_dot(v, v) - cw_dot(u, v)) / 3.0);
-  place.spacing = fmin(sqrt(edge * input->size(input->size_context, place.x)), most * edge);
+  double wanted = input->size(input->size_context, place.x);
+  place.spacing = fmin(fmin(sqrt(edge * wanted), cbrt(edge * wanted * wanted)), most * edge);
   for (int i = 0; i < 3; i++) place.x[i] -= height * place.spacing * normal[i];
   place.along = cw_dot(line, place.x);
   return place;

@@ -26,7 +26,8 @@ typedef struct {
 } CwRowPlace;
 
 // The place over the middle of triangle t, inward, whatever is there. The spacing is the mean of what is wanted there
-// and of the triangle's edges, which it exceeds by little.
+// and of the triangle's edges, which it exceeds by little; where less is wanted than the edges are long, that counts
+// twice.
 CwRowPlace cw_row_place(const CwFillInput *input, int32_t t);
 // Ascends in the order in which places are best taken: those over interfaces first, since they are continued on the
 // other side, and along a line. What is taken so is as regular as the triangles

@@ -60,7 +60,7 @@ CwStatus cw_tet_collapse(CwTetWork *w) {
     cw_tet_ask_ahead(w, w->slender.tet, w->slender.count, k);
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
-    if (!cw_tet_is_slender(&ends)) continue;
+    if (!cw_tet_is_slender(w, &ends)) continue;
     for (int i = 0; i < 2; i++) note(&crowd[ends.near[i]], t, ends.near[1 - i], ends.shortest);
   }
   for (int32_t p = 0; p < w->mesh->point_count; p++) {

@@ -110,7 +110,7 @@ static inline void find_extremes(const CwFour square[6], CwFour *least, CwFour *
 
 // As cw_tet_quality, but for rounding where that is above 0.1 or so, and what is less, or not a number, elsewhere; 0
 // where edges are too short to tell.
-static inline CwFour qualities_of(const Group *g, double too_short, CwFourMask *slender) {
+static inline CwFour qualities_of(const Group *g, double too_short, float slender_square, CwFourMask *slender) {
   CwFour edge[6][3], l[6], face[4][3], n[4], shortest, longest;
   find_edges(g, edge, l);
   find_extremes(l, &shortest, &longest);
@@ -126,7 +126,7 @@ static inline CwFour qualities_of(const Group *g, double too_short, CwFourMask *
   least = six * six * scale * (scale * least) / (n[0] * n[1] * n[2] * n[3]);
   CwFour aspect = (float)CW_TET_ASPECT * shortest * scale;
   CwFour counted = cw_four_more(aspect, cw_four_sqrt((float)CW_TET_SLENDER * aspect)); // the root, below that
-  *slender = longest > (float)(CW_TET_LONG * CW_TET_LONG) * shortest;
+  *slender = longest > slender_square * shortest;
   return cw_four_if((six > 0.0f) & (shortest > (float)too_short), cw_four_sqrt(cw_four_less(least, counted)));
 }
 
@@ -166,13 +166,14 @@ static inline void note_shapes(CwTetWork *w, const int32_t *list, int count, CwF
 // are below the limit, into that of the slender ones and, where given, into that of the spoilt ones.
 static CwStatus judge(CwTetWork *w, const int32_t *list, int count, CwTetList *spoilt) {
   CwStatus status = CW_OK;
+  const float slender_square = (float)cw_tet_slender_square(w);
   CW_GROW(w->slender.tet, w->slender.space, w->slender.count + count + 1);
   for (int from = 0; from < count; from += 4) {
     Group g;
     CwFourMask slender;
     int some = count - from < 4 ? count - from : 4;
     take_group(w, list + from, &g);
-    CwFour quality = qualities_of(&g, w->blurred, &slender);
+    CwFour quality = qualities_of(&g, w->blurred, slender_square, &slender);
     CwFourMask sure = quality > (float)(w->limit + unsure);
     note_shapes(w, list + from, some, quality < regular, slender);
     for (int k = 0; k < some; k++) {

@@ -72,7 +72,8 @@ CwStatus cw_tet_shorten(CwTetWork *w) {
     const int32_t *c = w->mesh->tet[t].corner;
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
-    if (cw_tet_is_slender(&ends) && cw_flips_is_short(&w->flips, t, ends.far[0], ends.far[1]) && is_wide(w, c, &ends))
+    if (cw_tet_is_slender(w, &ends) && cw_flips_is_short(&w->flips, t, ends.far[0], ends.far[1]) &&
+        is_wide(w, c, &ends))
       CW_TRY(remove_edge(w, t, ends.far[0], ends.far[1], ends.longest));
   }
 done:

@@ -24,6 +24,8 @@ extern "C" {
 #define CW_TET_IMPROVE 0.4226
 // Longest over shortest edge above which a tetrahedron is slender: its longest edge may go (cw_tet_shorten).
 #define CW_TET_LONG 1.6
+// The same, once points have been taken away, in regions where very many are.
+#define CW_TET_LONG_CROWDED 1.5
 // The ratio of a tetrahedron that neither helps nor hinders, so that the number of them does not count.
 #define CW_TET_USUAL 1.4
 // Least improvement, so that no two changes undo one another for ever.
@@ -50,6 +52,7 @@ typedef struct {
   double floor;                // and below which none becomes worse for the sake of the aspect
   double insert, insert_round; // and those for which a new point is tried, and at places round about
   uint32_t pass;
+  int is_crowded;                     // very many tetrahedra are slender: more is done, and more of them are called so
   int32_t *bad, bad_count, bad_space; // to look at in this pass
   int32_t *next, next_count, next_space;
   CwTetList slender;  // when all were judged, and what has changed since, where relaxing is to follow
@@ -108,8 +111,13 @@ static inline CwTetEnds cw_tet_ends(const CwTetWork *w, const int32_t corner[4])
   return ends;
 }
 
-static inline int cw_tet_is_slender(const CwTetEnds *ends) {
-  return ends->longest > CW_TET_LONG * CW_TET_LONG * ends->shortest;
+// Of the longest over the shortest edge.
+static inline double cw_tet_slender_square(const CwTetWork *w) {
+  return w->is_crowded ? CW_TET_LONG_CROWDED * CW_TET_LONG_CROWDED : CW_TET_LONG * CW_TET_LONG;
+}
+
+static inline int cw_tet_is_slender(const CwTetWork *w, const CwTetEnds *ends) {
+  return ends->longest > cw_tet_slender_square(w) * ends->shortest;
 }
 
 // Longest over shortest edge, less the usual.

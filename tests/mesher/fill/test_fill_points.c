@@ -169,7 +169,7 @@ static void row_stands_over_the_last_triangles(void **unused) {
   Field field = {h, 0, 0};
   CwFillInput input = input_of(&s, &field);
   input.row_count = 2 * N * N;
-  double spacing = sqrt(h * sqrt(4.0 / 3.0) * edge); // the root of the mean square of 1, 1 and sqrt(2)
+  double spacing = cbrt(h * h * sqrt(4.0 / 3.0) * edge); // the root of the mean square of 1, 1 and sqrt(2)
   assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, &site), CW_OK);
   for (int32_t p = 0; p < count; p++) {
     assert_true(p == 0 || site[p].key > site[p - 1].key);
