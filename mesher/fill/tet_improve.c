@@ -10,7 +10,7 @@
 
 static const double insert_limit = 0.4226, round_limit = 0.38;
 // Shares of slender tetrahedra above which their shapes are worth more time, and above which points stand too close.
-static const double needy = 0.20, crowded = 0.235;
+static const double needy = 0.16, crowded = 0.235;
 // Quality that may be left by what is done for the aspect: flips follow, and mend nearly all of it.
 static const double loose = 0.05;
 static const CwTetMoves spread = {.centres = 1}, first_moves = {.centres = 1, .evenings = 1, .pull = 0.5};
