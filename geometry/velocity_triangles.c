@@ -58,8 +58,7 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   SET(outlet_blockage, cw_blockage(outlet_blades(design), design->trailing_edge_thickness, d2 / 2, beta),
       "1 / (1 - z e / (pi D2 sin beta2))");
   const double cm = design->outlet_meridional_speed, turned = cm * design->outlet_blockage / tan(beta);
-  SET(slip_factor_wiesner, slip_wiesner(blades, beta, ratio),
-      "0.98 (1 - sin(beta2)^0.5 / z^0.7) kw: Guelich's form");
+  SET(slip_factor_wiesner, slip_wiesner(blades, beta, ratio), "0.98 (1 - sin(beta2)^0.5 / z^0.7) kw: Guelich's form");
   const double p = cw_slip_pfleiderer(blades, beta, d2 / 2, static_moment(meridian));
   SET(slip_factor_pfleiderer, ((u2 - turned) / (1 + p) + turned) / u2,
       "p = 0.65 (1 + beta2/60 deg) r2^2 / (z S), S = integral r dm");

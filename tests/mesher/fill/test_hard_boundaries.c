@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Every boundary of the library and of a row of random ones must be filled, whatever it takes. With three numbers as
-// arguments, random ones alone: as many, of the seeds from the second on, each so much after the one before as the third
-// says. With a name, that boundary of the library alone; with `seed N`, that random one alone.
+// arguments, random ones alone: as many, of the seeds from the second on, each so much after the one before as the
+// third says. With a name, that boundary of the library alone; with `seed N`, that random one alone.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
