@@ -36,8 +36,11 @@ static CwStatus write_stretch(hid_t file, const char *path, hid_t type, int64_t 
   there = H5Dget_space(set);
   here = H5Screate_simple(1, (hsize_t[]){(hsize_t)count}, NULL);
   H5Sselect_hyperslab(there, H5S_SELECT_SET, (hsize_t[]){(hsize_t)first}, NULL, (hsize_t[]){(hsize_t)count}, NULL);
-  CW_REQUIRE(H5Dwrite(set, type, here, there, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
-             "%lld values cannot be written to '%s' of the CGNS file (is the disk full?)", (long long)count, path);
+  int written = H5Dwrite(set, type, here, there, H5P_DEFAULT, values) >= 0;
+  if (H5Dclose(set) < 0) written = 0; // small stretches are written only now
+  set = -1;
+  CW_REQUIRE(written, CW_ERR_IO, "%lld values cannot be written to '%s' of the CGNS file (is the disk full?)",
+             (long long)count, path);
 done:
   if (here >= 0) H5Sclose(here);
   if (there >= 0) H5Sclose(there);

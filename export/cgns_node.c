@@ -42,6 +42,9 @@ static CwStatus put_data(hid_t node, const char *name, hid_t type, int dimension
   if (data)
     CW_REQUIRE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, CW_ERR_IO,
                "HDF5 cannot write the dataset '%s'", name);
+  herr_t closed = H5Dclose(set); // small ones are written only now
+  set = -1;
+  CW_REQUIRE(closed >= 0, CW_ERR_IO, "HDF5 cannot write the dataset '%s'", name);
 done:
   if (set >= 0) H5Dclose(set);
   H5Sclose(space);

@@ -152,9 +152,12 @@ CwStatus cw_region_items_write(hid_t file, const CwRegionData *data) {
     if (rows)
       CW_REQUIRE(H5Dwrite(set, type_here(arrays[k].kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
                  "dataset '%s' cannot be written", arrays[k].name);
-    H5Dclose(set);
+    // Small arrays are kept back until here: what the disk refuses is not told before, nor by the end of the file.
+    herr_t closed = H5Dclose(set);
+    set = -1;
+    CW_REQUIRE(closed >= 0, CW_ERR_IO, "dataset '%s' cannot be written", arrays[k].name);
     H5Sclose(space);
-    set = space = -1;
+    space = -1;
   }
 done:
   if (set >= 0) H5Dclose(set);
