@@ -28,6 +28,8 @@ int main(int argc, char **argv) {
   CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
   if (args.finished) goto done;
   CW_TRY(cw_stop_watch(args.run_path, "mesh", run.rank == 0));
+  // Were rank 0 late with the file of cw_stop_claim, it would tell of its end beside the rank that failed.
+  MPI_Barrier(MPI_COMM_WORLD);
   run.table = &table;
   run.run_path = args.run_path;
   CW_TRY(cw_record_start("mesh", &run.record));
