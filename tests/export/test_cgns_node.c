@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 #include <cmocka.h>
 
 #include "export/cgns_node.h"
-
-// HDF5's own writes come here: one of them, counted from 1, finds the disk full for a moment (0: none).
-static int writes, refused_write;
-
-ssize_t pwrite(int file, const void *bytes, size_t size, off_t place) {
-  if (++writes == refused_write) {
-    errno = ENOSPC;
-    return -1;
-  }
-  return syscall(SYS_pwrite64, file, bytes, size, place);
-}
+#include "tests/refused_write.h"
 
 static const double values[4] = {1, 2, 3, 4};
 

@@ -7,25 +7,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 #include <cmocka.h>
 #include <hdf5.h>
 
 #include "mesher/region/region_file.h"
+#include "tests/refused_write.h"
 
 static char folder[256], path[300], other[300];
-
-// HDF5's own writes come here: one of them, counted from 1, finds the disk full for a moment (0: none).
-static int writes, refused_write;
-
-ssize_t pwrite(int file, const void *bytes, size_t size, off_t place) {
-  if (++writes == refused_write) {
-    errno = ENOSPC;
-    return -1;
-  }
-  return syscall(SYS_pwrite64, file, bytes, size, place);
-}
 
 static int make_folder(void **state) {
   const char *base = getenv("TMPDIR");
