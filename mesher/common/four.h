@@ -13,21 +13,6 @@ static inline CwFour cw_four_if(CwFourMask mask, CwFour a) { // else 0
   return (CwFour)((CwFourMask)a & mask);
 }
 
-static inline CwFour cw_four_less(CwFour a, CwFour b) {
-  for (int k = 0; k < 4; k++) a[k] = a[k] < b[k] ? a[k] : b[k];
-  return a;
-}
-
-static inline CwFour cw_four_more(CwFour a, CwFour b) {
-  for (int k = 0; k < 4; k++) a[k] = a[k] > b[k] ? a[k] : b[k];
-  return a;
-}
-
-static inline CwFour cw_four_sqrt(CwFour a) {
-  for (int k = 0; k < 4; k++) a[k] = __builtin_sqrtf(a[k]);
-  return a;
-}
-
 // From a place to another, and 0; rounded after the difference is taken.
 static inline CwFour cw_four_way(const double from[3], const double to[3]) {
   typedef double Two __attribute__((vector_size(16)));
@@ -44,17 +29,6 @@ static inline void cw_four_turn(CwFour v[4]) {
   v[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
   v[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
   v[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
-
-// Of three coordinates each.
-static inline CwFour cw_four_dot(const CwFour u[3], const CwFour v[3]) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-static inline void cw_four_cross(const CwFour u[3], const CwFour v[3], CwFour n[3]) {
-  n[0] = u[1] * v[2] - u[2] * v[1];
-  n[1] = u[2] * v[0] - u[0] * v[2];
-  n[2] = u[0] * v[1] - u[1] * v[0];
 }
 
 #endif

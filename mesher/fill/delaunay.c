@@ -10,6 +10,7 @@
 #include "mesher/common/hilbert.h"
 #include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
+#include "mesher/common/radix.h"
 #include "mesher/fill/sphere.h"
 
 // Corners of the face opposite corner i, outward.
@@ -26,15 +27,11 @@ typedef struct {
 } Side;
 
 typedef struct {
-  int32_t low, high, owner;
-} Edge;
-
-typedef struct {
   CwSphereFrame frame;
   int32_t *cavity, cavity_count, cavity_space;
   Side *side;
   int32_t side_count, side_space;
-  Edge *edge;
+  CwRadix *edge;
   int32_t edge_space;
   double (*arm)[4]; // from the new point to each point round the cavity, and its square
   int32_t *round;   // these points
@@ -228,13 +225,6 @@ done:
   return status;
 }
 
-static int compare_edges(const void *left, const void *right) {
-  const Edge *a = left, *b = right;
-  if (a->low != b->low) return a->low < b->low ? -1 : 1;
-  if (a->high != b->high) return a->high < b->high ? -1 : 1;
-  return a->owner < b->owner ? -1 : 1;
-}
-
 static inline void join(CwDelaunay *mesh, int32_t one, int32_t other) {
   mesh->tet[one >> 2].neighbour[one & 3] = other;
   mesh->tet[other >> 2].neighbour[other & 3] = one;
@@ -249,11 +239,12 @@ static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
     const Side *side = &work->side[k];
     for (int i = 0; i < 3; i++) {
       int32_t a = side->corner[(i + 1) % 3], b = side->corner[(i + 2) % 3];
-      work->edge[count++] = (Edge){a < b ? a : b, a < b ? b : a, 4 * side->tet + (i == 0 ? 0 : 3 - i)};
+      uint64_t low = (uint64_t)(a < b ? a : b), high = (uint64_t)(a < b ? b : a);
+      work->edge[count++] = (CwRadix){low << 32 | high, 4 * side->tet + (i == 0 ? 0 : 3 - i)};
     }
   }
-  qsort(work->edge, (size_t)count, sizeof *work->edge, compare_edges);
-  for (int32_t k = 0; k + 1 < count; k += 2) join(mesh, work->edge[k].owner, work->edge[k + 1].owner);
+  CW_TRY(cw_radix_sort(count, work->edge));
+  for (int32_t k = 0; k + 1 < count; k += 2) join(mesh, work->edge[k].item, work->edge[k + 1].item);
 done:
   return status;
 }
