@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 
 #include "mesher/common/box.h"
+#include "mesher/common/eight.h"
 #include "mesher/common/hilbert.h"
 #include "mesher/common/number.h"
 #include "mesher/common/predicates.h"
@@ -414,17 +415,9 @@ done:
   return status;
 }
 
-CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
+static inline __attribute__((always_inline)) CwStatus add_points(CwDelaunay *mesh, Work *work, int32_t end) {
   CwStatus status = CW_OK;
-  Work *work = NULL;
-  int32_t last = 0, duplicate_space = 0, end = mesh->point_count;
-  CW_NEW(work, 1);
-  // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
-  CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
-  work->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
-  work->none = (CwDelaunayTet){.centre = {8.0f}};
-  first_tet(mesh);
-  mesh->point_count = CW_DELAUNAY_CORNERS;
+  int32_t last = 0, duplicate_space = 0;
   for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
     int32_t point = mesh->point_count, found = 0;
     mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
@@ -442,6 +435,28 @@ CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
     CW_TRY(fill_cavity(mesh, work, point, place));
     last = work->side[0].tet;
   }
+done:
+  return status;
+}
+
+// The same, compiled with all that it calls here for processors that have wide registers and instructions with three
+// of them.
+CW_WIDE __attribute__((flatten)) static CwStatus add_points_wide(CwDelaunay *mesh, Work *work, int32_t end) {
+  return add_points(mesh, work, end);
+}
+
+CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
+  CwStatus status = CW_OK;
+  Work *work = NULL;
+  int32_t end = mesh->point_count;
+  CW_NEW(work, 1);
+  // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
+  CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
+  work->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
+  work->none = (CwDelaunayTet){.centre = {8.0f}};
+  first_tet(mesh);
+  mesh->point_count = CW_DELAUNAY_CORNERS;
+  CW_TRY(CW_HAS_WIDE ? add_points_wide(mesh, work, end) : add_points(mesh, work, end));
 done:
   if (work) {
     free(work->cavity);

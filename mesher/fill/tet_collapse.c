@@ -25,27 +25,60 @@ static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
   return c[0] >= 0 && ends == 2;
 }
 
+static int corner_of(const int32_t corner[4], int32_t p) {
+  int i = 3;
+  while (i >= 0 && corner[i] != p) i--;
+  return i;
+}
+
+// Takes the tetrahedra of the inner point p that have q out: the neighbours at the two faces of each that become one
+// are joined. All others have q in the place of p then.
+static void merge(CwDelaunay *mesh, const int32_t *star, int count, int32_t p, int32_t q) {
+  for (int k = 0; k < count; k++) {
+    CwDelaunayTet *tet = &mesh->tet[star[k]];
+    int i = corner_of(tet->corner, p), j = corner_of(tet->corner, q);
+    if (j < 0) {
+      tet->corner[i] = q;
+      continue;
+    }
+    int32_t beyond = tet->neighbour[i], within = tet->neighbour[j];
+    mesh->tet[within >> 2].neighbour[within & 3] = beyond;
+    if (beyond >= 0) mesh->tet[beyond >> 2].neighbour[beyond & 3] = within;
+    cw_delaunay_free_tet(mesh, star[k]);
+  }
+}
+
 // The inner point p of t goes into q.
 static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
   CwStatus status = CW_OK;
-  int32_t star[CW_TET_STAR], made[CW_FLIP][4];
-  double sum = 0.0, least = w->floor;
-  int count = 0, n = cw_tet_star(w, t, p, star);
-  if (n == 0 || n > CW_FLIP) goto done;
+  int32_t star[CW_TET_STAR];
+  double quality[CW_TET_STAR], sum = 0.0, least = w->floor;
+  int n = cw_tet_star(w, t, p, star);
+  if (n == 0) goto done;
   for (int k = 0; k < n; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[star[k]];
-    int vanishes = 0;
-    sum -= cw_tet_excess(w, tet->corner);
+    const int32_t *c = tet->corner;
+    sum -= cw_tet_excess(w, c);
     least = cw_tet_less(least, tet->quality);
-    for (int i = 0; i < 4; i++) {
-      made[count][i] = tet->corner[i] == p ? q : tet->corner[i];
-      vanishes |= tet->corner[i] == q;
-    }
-    count += !vanishes;
+    if (corner_of(c, q) >= 0) continue;
+    int32_t made[4];
+    for (int i = 0; i < 4; i++) made[i] = c[i] == p ? q : c[i];
+    sum += cw_tet_excess(w, made);
   }
-  for (int k = 0; k < count; k++) sum += cw_tet_excess(w, (const int32_t *)made[k]);
   if (!(sum < loss)) goto done;
-  CW_TRY(cw_tet_replace_sound(w, n, star, count, (const int32_t(*)[4])made, least, &w->count.points_removed));
+  for (int k = 0; k < n; k++) {
+    const int32_t *c = w->mesh->tet[star[k]].corner;
+    if (corner_of(c, q) >= 0) continue;
+    int32_t made[4];
+    for (int i = 0; i < 4; i++) made[i] = c[i] == p ? q : c[i];
+    quality[k] = cw_tet_quality_of(w, made[0], made[1], made[2], made[3]);
+    if (!(quality[k] > 0.0 && quality[k] >= least)) goto done;
+  }
+  merge(w->mesh, star, n, p, q);
+  for (int k = 0; k < n; k++) {
+    if (w->mesh->tet[star[k]].corner[0] >= 0) CW_TRY(cw_tet_set_quality(w, star[k], quality[k]));
+  }
+  w->count.points_removed++;
 done:
   return status;
 }

@@ -17,7 +17,10 @@ static const CwTetMoves spread = {.centres = 1}, first_moves = {.centres = 1, .e
 static const CwTetMoves only_moves = {.centres = 1, .evenings = 1, .pull = 0.14, .beside = 3},
                         last_moves = {.evenings = 5, .pull = 0.22, .beside = 2};
 static const CwTetMoves first_crowded = {.centres = 1, .evenings = 3, .pull = 0.5},
-                        last_crowded = {.evenings = 7, .pull = 0.22, .beside = 2};
+                        last_crowded = {.evenings = 4, .pull = 0.22, .beside = 2};
+// The sine of 21 degrees: what a crowded region's tetrahedra are improved to from then on. The last few degrees, which
+// its boundary keeps many from, would be bought with aspects.
+static const double crowded_limit = 0.3584;
 enum { PASSES = 5 };
 
 const int8_t cw_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -151,7 +154,7 @@ static double least_quality(const CwTetWork *w) {
 
 // Moves points and takes away edges, and points where very many tetrahedra are slender, for the mean ratio of edges.
 // *is_needy: whether more of this is worth its time. Further rounds are not: a second one has 8 % of the cost of
-// the fill for 0.006 of the mean ratio; more steps and more edges where very many are slender have 6 % for 0.008.
+// the fill for 0.006 of the mean ratio.
 static CwStatus even_out(CwTetWork *w, int *is_needy) {
   CwStatus status = CW_OK;
   w->floor = loose;
@@ -160,6 +163,7 @@ static CwStatus even_out(CwTetWork *w, int *is_needy) {
   int is_crowded = w->slender.count > crowded * w->tet_count;
   if (is_crowded) CW_TRY(cw_tet_collapse(w));
   w->is_crowded = is_crowded;
+  if (is_crowded) w->limit = crowded_limit;
   CW_TRY(cw_tet_shorten(w));
   CW_TRY(cw_tet_relax(w, is_crowded ? first_crowded : *is_needy ? first_moves : only_moves));
 done:
