@@ -9,7 +9,7 @@
 
 #include "mesher/common/four.h"
 
-#define CW_EIGHT static inline __attribute__((always_inline))
+#define CW_INLINE static inline __attribute__((always_inline))
 
 // Of functions that a processor without wide registers does not run.
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -23,40 +23,40 @@
 typedef float CwEight __attribute__((vector_size(32)));
 typedef int32_t CwEightMask __attribute__((vector_size(32))); // of a comparison: -1 where it holds, else 0
 
-CW_EIGHT CwEight cw_eight_if(CwEightMask mask, CwEight a) { // else 0
+CW_INLINE CwEight cw_eight_if(CwEightMask mask, CwEight a) { // else 0
   return (CwEight)((CwEightMask)a & mask);
 }
 
-CW_EIGHT CwEight cw_eight_less(CwEight a, CwEight b) {
+CW_INLINE CwEight cw_eight_less(CwEight a, CwEight b) {
   CwEightMask mask = a < b;
   return (CwEight)(((CwEightMask)a & mask) | ((CwEightMask)b & ~mask));
 }
 
-CW_EIGHT CwEight cw_eight_more(CwEight a, CwEight b) {
+CW_INLINE CwEight cw_eight_more(CwEight a, CwEight b) {
   CwEightMask mask = a > b;
   return (CwEight)(((CwEightMask)a & mask) | ((CwEightMask)b & ~mask));
 }
 
-CW_EIGHT CwEight cw_eight_sqrt(CwEight a) {
+CW_INLINE CwEight cw_eight_sqrt(CwEight a) {
   for (int k = 0; k < 8; k++) a[k] = __builtin_sqrtf(a[k]);
   return a;
 }
 
 // One half beside the other.
-CW_EIGHT CwEight cw_eight_of(CwFour low, CwFour high) {
+CW_INLINE CwEight cw_eight_of(CwFour low, CwFour high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-CW_EIGHT CwFour cw_eight_low(CwEight a) {
+CW_INLINE CwFour cw_eight_low(CwEight a) {
   return __builtin_shufflevector(a, a, 0, 1, 2, 3);
 }
 
-CW_EIGHT CwFour cw_eight_high(CwEight a) {
+CW_INLINE CwFour cw_eight_high(CwEight a) {
   return __builtin_shufflevector(a, a, 4, 5, 6, 7);
 }
 
 // Rows become columns, in each half by itself.
-CW_EIGHT void cw_eight_turn(CwEight v[4]) {
+CW_INLINE void cw_eight_turn(CwEight v[4]) {
   CwEight a = __builtin_shufflevector(v[0], v[1], 0, 8, 1, 9, 4, 12, 5, 13);
   CwEight b = __builtin_shufflevector(v[0], v[1], 2, 10, 3, 11, 6, 14, 7, 15);
   CwEight c = __builtin_shufflevector(v[2], v[3], 0, 8, 1, 9, 4, 12, 5, 13);
@@ -68,11 +68,11 @@ CW_EIGHT void cw_eight_turn(CwEight v[4]) {
 }
 
 // Of three coordinates each.
-CW_EIGHT CwEight cw_eight_dot(const CwEight u[3], const CwEight v[3]) {
+CW_INLINE CwEight cw_eight_dot(const CwEight u[3], const CwEight v[3]) {
   return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
-CW_EIGHT void cw_eight_cross(const CwEight u[3], const CwEight v[3], CwEight n[3]) {
+CW_INLINE void cw_eight_cross(const CwEight u[3], const CwEight v[3], CwEight n[3]) {
   n[0] = u[1] * v[2] - u[2] * v[1];
   n[1] = u[2] * v[0] - u[0] * v[2];
   n[2] = u[0] * v[1] - u[1] * v[0];

@@ -189,7 +189,7 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], co
 // Looks beyond the faces of a tetrahedron of the cavity. Whether a face leads to one more, to one outside or to one
 // that was met before is as good as random, and as branches half of them were foretold wrongly, which took a third of
 // the time: instead both lists are written to, and one of them, or none, keeps it. There is room for all.
-static inline void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, const double p[3], const float place[3]) {
+CW_INLINE void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, const double p[3], const float place[3]) {
   const CwDelaunayTet *tet = &mesh->tet[t];
   int32_t *cavity = work->cavity + work->cavity_count, known[4];
   Side *side = work->side + work->side_count;
@@ -211,7 +211,7 @@ static inline void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, const do
 }
 
 // All tetrahedra whose spheres hold p, from one of them, which are taken then.
-static CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
+CW_INLINE CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
   CwStatus status = CW_OK;
   work->cavity_count = work->side_count = 0;
   CW_GROW(work->cavity, work->cavity_space, 1);
@@ -252,7 +252,7 @@ done:
 
 // Numbers the points round the cavity, and gives each side a place for its tetrahedron: those of the cavity first, of
 // which what is left over is freed.
-static CwStatus prepare_sides(CwDelaunay *mesh, Work *work, int32_t point, int32_t *round_count) {
+CW_INLINE CwStatus prepare_sides(CwDelaunay *mesh, Work *work, int32_t point, int32_t *round_count) {
   CwStatus status = CW_OK;
   int32_t locals = 0;
   CW_GROW(work->arm, work->arm_space, 3 * (int64_t)work->side_count + 1);
@@ -282,7 +282,7 @@ done:
   return status;
 }
 
-static void set_spheres(CwDelaunay *mesh, const Work *work, const double place[3]) {
+CW_INLINE void set_spheres(CwDelaunay *mesh, const Work *work, const double place[3]) {
   for (int32_t k = 0; k < work->side_count; k += 2) {
     const Side *side[2] = {&work->side[k], &work->side[k + 1 < work->side_count ? k + 1 : k]};
     CwDelaunayTet *const tet[2] = {&mesh->tet[side[0]->tet], &mesh->tet[side[1]->tet]};
@@ -293,7 +293,7 @@ static void set_spheres(CwDelaunay *mesh, const Work *work, const double place[3
 }
 
 // Tetrahedra from the new point to all sides of the cavity, which it sees.
-static CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
+CW_INLINE CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
   CwStatus status = CW_OK;
   const double *p = mesh->point[point].x;
   int32_t locals = 0, *table = work->table;
@@ -415,7 +415,7 @@ done:
   return status;
 }
 
-static inline __attribute__((always_inline)) CwStatus add_points(CwDelaunay *mesh, Work *work, int32_t end) {
+CW_INLINE CwStatus add_points(CwDelaunay *mesh, Work *work, int32_t end) {
   CwStatus status = CW_OK;
   int32_t last = 0, duplicate_space = 0;
   for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
@@ -439,9 +439,7 @@ done:
   return status;
 }
 
-// The same, compiled with all that it calls here for processors that have wide registers and instructions with three
-// of them.
-CW_WIDE __attribute__((flatten)) static CwStatus add_points_wide(CwDelaunay *mesh, Work *work, int32_t end) {
+CW_WIDE static CwStatus add_points_wide(CwDelaunay *mesh, Work *work, int32_t end) {
   return add_points(mesh, work, end);
 }
 

@@ -14,7 +14,7 @@ typedef struct {
   CwEight arm[3][4];
 } Group;
 
-CW_EIGHT void take_group(const CwDelaunay *mesh, const int32_t *list, const CwFour *place, Group *g) {
+CW_INLINE void take_group(const CwDelaunay *mesh, const int32_t *list, const CwFour *place, Group *g) {
   for (int k = 0; k < HALF; k++) {
     const CwDelaunayTet *low = &mesh->tet[list[k]], *high = &mesh->tet[list[k + HALF]];
     cw_delaunay_ask(low, AHEAD);
@@ -27,7 +27,7 @@ CW_EIGHT void take_group(const CwDelaunay *mesh, const int32_t *list, const CwFo
 }
 
 // The edges and their squares in the order of cw_tet_edge.
-CW_EIGHT void find_edges(const Group *g, CwEight edge[6][3], CwEight square[6]) {
+CW_INLINE void find_edges(const Group *g, CwEight edge[6][3], CwEight square[6]) {
   const CwEight *a = g->arm[0], *b = g->arm[1], *c = g->arm[2];
   for (int i = 0; i < 3; i++) {
     edge[0][i] = a[i], edge[1][i] = b[i], edge[2][i] = c[i];
@@ -36,7 +36,7 @@ CW_EIGHT void find_edges(const Group *g, CwEight edge[6][3], CwEight square[6]) 
   for (int e = 0; e < 6; e++) square[e] = cw_eight_dot(edge[e], edge[e]);
 }
 
-CW_EIGHT void find_extremes(const CwEight square[6], CwEight *least, CwEight *most) {
+CW_INLINE void find_extremes(const CwEight square[6], CwEight *least, CwEight *most) {
   *least = *most = square[0];
   for (int e = 1; e < 6; e++) {
     *least = cw_eight_less(*least, square[e]);
@@ -45,7 +45,7 @@ CW_EIGHT void find_extremes(const CwEight square[6], CwEight *least, CwEight *mo
 }
 
 // What each corner is to have, by corner and coordinate: the weighted way and the weight.
-CW_EIGHT void find_centres(const Group *g, const CwEight *own, CwEight part[4][4]) {
+CW_INLINE void find_centres(const Group *g, const CwEight *own, CwEight part[4][4]) {
   CwEight edge[6][3], l[6], bc[3], ca[3], ab[3];
   (void)own;
   find_edges(g, edge, l);
@@ -62,7 +62,7 @@ CW_EIGHT void find_centres(const Group *g, const CwEight *own, CwEight part[4][4
   for (int m = 0; m < 4; m++) part[m][3] = weight;
 }
 
-CW_EIGHT void find_pulls(const Group *g, const CwEight *own, CwEight part[4][4]) {
+CW_INLINE void find_pulls(const Group *g, const CwEight *own, CwEight part[4][4]) {
   CwEight edge[6][3], square[6], step[6], way[6], least, most;
   find_edges(g, edge, square);
   find_extremes(square, &least, &most);
@@ -82,8 +82,8 @@ CW_EIGHT void find_pulls(const Group *g, const CwEight *own, CwEight part[4][4])
 
 typedef void Find(const Group *g, const CwEight *own, CwEight part[4][4]);
 
-CW_EIGHT void add_sums(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, Find *find,
-                       CwFour *sum) {
+CW_INLINE void add_sums(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, Find *find,
+                        CwFour *sum) {
   for (int32_t from = 0; from < count; from += GROUP) {
     const int32_t *its = list + from;
     int some = count - from < GROUP ? count - from : GROUP;
@@ -126,8 +126,8 @@ void cw_tet_add_pulls(const CwDelaunay *mesh, const int32_t *list, int32_t count
     add_sums(mesh, list, count, place, find_pulls, sum);
 }
 
-CW_EIGHT void find_qualities(const CwDelaunay *mesh, const int32_t *list, const CwFour *place, float too_short,
-                             float slender_square, float *quality, int32_t *slender) {
+CW_INLINE void find_qualities(const CwDelaunay *mesh, const int32_t *list, const CwFour *place, float too_short,
+                              float slender_square, float *quality, int32_t *slender) {
   Group group, *g = &group;
   CwEight edge[6][3], l[6], face[4][3], n[4], shortest, longest;
   take_group(mesh, list, place, g);
