@@ -17,18 +17,16 @@ static inline void note(Crowd *crowd, int32_t t, int32_t to, double square) {
   crowd->tet = t, crowd->to = to, crowd->square = square;
 }
 
-// Whether earlier changes have left the edge.
-static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
-  const int32_t *c = w->mesh->tet[t].corner;
-  int ends = 0;
-  for (int i = 0; i < 4; i++) ends += c[i] == p || c[i] == q;
-  return c[0] >= 0 && ends == 2;
-}
-
 static int corner_of(const int32_t corner[4], int32_t p) {
   int i = 3;
   while (i >= 0 && corner[i] != p) i--;
   return i;
+}
+
+// Whether earlier changes have left the edge.
+static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
+  const int32_t *c = w->mesh->tet[t].corner;
+  return c[0] >= 0 && corner_of(c, p) >= 0 && corner_of(c, q) >= 0;
 }
 
 // Takes the tetrahedra of the inner point p that have q out: the neighbours at the two faces of each that become one

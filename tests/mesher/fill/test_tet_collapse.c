@@ -39,58 +39,69 @@ static Shape shape_of(const CwTetWork *w) {
   return shape;
 }
 
-// A shaken lattice of unit cubes with one point more beside an inner one, shifted by so much, twice and three times
-// that: before and after.
-static void collapse_in_lattice(double shift, int all_fixed, Shape *before, Shape *after, int *removed) {
+// A shaken lattice of unit cubes with one point more beside every so many-th inner one, shifted by so much, twice and
+// three times that: before and after. Returns how many there are.
+static int collapse_in_lattice(int every, double shift, int all_fixed, Shape *before, Shape *after, int *removed) {
   double(*x)[3];
-  int32_t outside, count = shaken_lattice(8, 0.05, &outside, &x), inner = (outside + count) / 2;
+  int32_t outside, count = shaken_lattice(8, 0.05, &outside, &x), total = count;
   CwDelaunay mesh;
-  x = realloc(x, (size_t)(count + 1) * sizeof *x);
+  x = realloc(x, (size_t)(2 * count) * sizeof *x);
   assert_non_null(x);
-  memcpy(x[count], x[inner], sizeof *x);
-  for (int i = 0; i < 3; i++) x[count][i] += shift * (i + 1);
-  assert_int_equal(cw_delaunay_make(count + 1, (const double(*)[3])x, &mesh), CW_OK);
+  for (int32_t inner = outside + every / 2; inner < count; inner += every, total++) {
+    for (int i = 0; i < 3; i++) x[total][i] = x[inner][i] + shift * (i + 1);
+  }
+  assert_int_equal(cw_delaunay_make(total, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.flips = {.mesh = &mesh},
                  .mesh = &mesh,
                  .limit = CW_TET_IMPROVE,
                  .floor = 0.3,
-                 .fixed_count = all_fixed ? count + 1 : outside,
-                 .source_count = count + 1};
+                 .fixed_count = all_fixed ? total : outside,
+                 .source_count = total};
   assert_int_equal(cw_tet_scan(&w), CW_OK);
   *before = shape_of(&w);
   assert_int_equal(w.tet_count, before->count);
   assert_int_equal(cw_tet_collapse(&w), CW_OK);
   *after = shape_of(&w);
   *removed = w.count.points_removed;
+  assert_int_equal(after->used, before->used - *removed);
+  assert_true(fabs(after->six / before->six - 1.0) < 1e-12);
+  assert_true(after->least >= fmin(before->least, 0.3));
   cw_tet_work_free(&w);
   cw_delaunay_free(&mesh);
   free(x);
+  return total - count;
 }
 
 static void a_point_too_near_goes(void **state) {
   Shape before, after;
   int removed;
-  collapse_in_lattice(0.05, 0, &before, &after, &removed);
+  assert_int_equal(collapse_in_lattice(100000, 0.05, 0, &before, &after, &removed), 0);
+  assert_int_equal(removed, 0);
+  assert_int_equal(collapse_in_lattice(600, 0.05, 0, &before, &after, &removed), 1);
   assert_int_equal(removed, 1);
-  assert_int_equal(after.used, before.used - 1);
   assert_true(after.count < before.count);
-  assert_true(fabs(after.six / before.six - 1.0) < 1e-12);
   assert_true(after.excess < before.excess);
-  assert_true(after.least >= fmin(before.least, 0.3));
+}
+
+static void points_too_near_go_everywhere(void **state) {
+  Shape before, after;
+  int removed, more = collapse_in_lattice(5, 0.05, 0, &before, &after, &removed);
+  assert_true(more > 100 && removed > 3 * more / 4);
+  assert_true(after.excess < before.excess);
 }
 
 static void points_of_the_boundary_stay(void **state) {
   Shape before, after;
   int removed;
-  collapse_in_lattice(0.05, 1, &before, &after, &removed);
+  collapse_in_lattice(5, 0.05, 1, &before, &after, &removed);
   assert_int_equal(removed, 0);
-  assert_int_equal(after.used, before.used);
   assert_int_equal(after.count, before.count);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_point_too_near_goes),
+      cmocka_unit_test(points_too_near_go_everywhere),
       cmocka_unit_test(points_of_the_boundary_stay),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
