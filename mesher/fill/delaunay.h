@@ -67,6 +67,13 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh
 CwStatus cw_delaunay_connect(CwDelaunay *mesh);
 void cw_delaunay_free(CwDelaunay *mesh);
 
+// Which corner the point is, or -1.
+static inline int cw_delaunay_corner_of(const CwDelaunayTet *tet, int32_t point) {
+  int i = 3;
+  while (i >= 0 && tet->corner[i] != point) i--;
+  return i;
+}
+
 // Asks the memory for the tetrahedron so many places behind. Nothing is read, so that there need be none.
 static inline void cw_delaunay_ask(const CwDelaunayTet *tet, int64_t ahead) {
   __builtin_prefetch((const void *)((uintptr_t)tet + (uintptr_t)(ahead * (int64_t)sizeof *tet)), 1);

@@ -42,14 +42,7 @@ done:
   return status;
 }
 
-static int corner_of(const CwDelaunayTet *tet, int32_t point) {
-  for (int i = 0; i < 4; i++) {
-    if (tet->corner[i] == point) return i;
-  }
-  return -1;
-}
-
-// The same where it is a corner, without branches, which would be taken at random.
+// As cw_delaunay_corner_of where it is a corner, without branches, which would be taken at random.
 static inline int sure_corner_of(const CwDelaunayTet *tet, int32_t point) {
   return (int)(cw_number(tet->corner[1] == point) + 2 * cw_number(tet->corner[2] == point) +
                3 * cw_number(tet->corner[3] == point));
@@ -86,7 +79,7 @@ CwStatus cw_flips_find_edge(CwFlips *flips, int32_t a, int32_t b, int32_t *tet) 
   *tet = -1;
   CW_TRY(cw_flips_star(flips, a));
   for (int32_t k = 0; k < flips->star_count && *tet < 0; k++) {
-    if (corner_of(&flips->mesh->tet[flips->star[k]], b) >= 0) *tet = flips->star[k];
+    if (cw_delaunay_corner_of(&flips->mesh->tet[flips->star[k]], b) >= 0) *tet = flips->star[k];
   }
 done:
   return status;

@@ -2,6 +2,7 @@
 #include "mesher/fill/tet_work.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const double loss = 1.0; // at most, in the sum
 enum { CROWDED = 7 };           // slender tetrahedra at their shortest edges with a point that is tried
@@ -17,16 +18,17 @@ static inline void note(Crowd *crowd, int32_t t, int32_t to, double square) {
   crowd->tet = t, crowd->to = to, crowd->square = square;
 }
 
-static int corner_of(const int32_t corner[4], int32_t p) {
-  int i = 3;
-  while (i >= 0 && corner[i] != p) i--;
-  return i;
-}
-
 // Whether earlier changes have left the edge.
 static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
-  const int32_t *c = w->mesh->tet[t].corner;
-  return c[0] >= 0 && corner_of(c, p) >= 0 && corner_of(c, q) >= 0;
+  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  return tet->corner[0] >= 0 && cw_delaunay_corner_of(tet, p) >= 0 && cw_delaunay_corner_of(tet, q) >= 0;
+}
+
+// The corners with q in the place of p; 0 where q is one of them, and the tetrahedron vanishes.
+static int find_made(const CwDelaunayTet *tet, int32_t p, int32_t q, int32_t made[4]) {
+  memcpy(made, tet->corner, sizeof tet->corner);
+  made[cw_delaunay_corner_of(tet, p)] = q;
+  return cw_delaunay_corner_of(tet, q) < 0;
 }
 
 // Takes the tetrahedra of the inner point p that have q out: the neighbours at the two faces of each that become one
@@ -34,7 +36,7 @@ static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
 static void merge(CwDelaunay *mesh, const int32_t *star, int count, int32_t p, int32_t q) {
   for (int k = 0; k < count; k++) {
     CwDelaunayTet *tet = &mesh->tet[star[k]];
-    int i = corner_of(tet->corner, p), j = corner_of(tet->corner, q);
+    int i = cw_delaunay_corner_of(tet, p), j = cw_delaunay_corner_of(tet, q);
     if (j < 0) {
       tet->corner[i] = q;
       continue;
@@ -49,26 +51,19 @@ static void merge(CwDelaunay *mesh, const int32_t *star, int count, int32_t p, i
 // The inner point p of t goes into q.
 static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
   CwStatus status = CW_OK;
-  int32_t star[CW_TET_STAR];
+  int32_t star[CW_TET_STAR], made[4];
   double quality[CW_TET_STAR], sum = 0.0, least = w->floor;
   int n = cw_tet_star(w, t, p, star);
   if (n == 0) goto done;
   for (int k = 0; k < n; k++) {
     const CwDelaunayTet *tet = &w->mesh->tet[star[k]];
-    const int32_t *c = tet->corner;
-    sum -= cw_tet_excess(w, c);
+    sum -= cw_tet_excess(w, tet->corner);
     least = cw_tet_less(least, tet->quality);
-    if (corner_of(c, q) >= 0) continue;
-    int32_t made[4];
-    for (int i = 0; i < 4; i++) made[i] = c[i] == p ? q : c[i];
-    sum += cw_tet_excess(w, made);
+    if (find_made(tet, p, q, made)) sum += cw_tet_excess(w, made);
   }
   if (!(sum < loss)) goto done;
   for (int k = 0; k < n; k++) {
-    const int32_t *c = w->mesh->tet[star[k]].corner;
-    if (corner_of(c, q) >= 0) continue;
-    int32_t made[4];
-    for (int i = 0; i < 4; i++) made[i] = c[i] == p ? q : c[i];
+    if (!find_made(&w->mesh->tet[star[k]], p, q, made)) continue;
     quality[k] = cw_tet_quality_of(w, made[0], made[1], made[2], made[3]);
     if (!(quality[k] > 0.0 && quality[k] >= least)) goto done;
   }

@@ -102,28 +102,33 @@ CW_INLINE void add_sums(const CwDelaunay *mesh, const int32_t *list, int32_t cou
   }
 }
 
-CW_WIDE static void add_centres_wide(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place,
-                                     CwFour *sum) {
-  add_sums(mesh, list, count, place, find_centres, sum);
-}
-
-void cw_tet_add_centres(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, CwFour *sum) {
-  if (CW_HAS_WIDE)
-    add_centres_wide(mesh, list, count, place, sum);
+CW_INLINE void add_any(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, int pulls,
+                       CwFour *sum) {
+  if (pulls)
+    add_sums(mesh, list, count, place, find_pulls, sum);
   else
     add_sums(mesh, list, count, place, find_centres, sum);
 }
 
-CW_WIDE static void add_pulls_wide(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place,
-                                   CwFour *sum) {
-  add_sums(mesh, list, count, place, find_pulls, sum);
+CW_WIDE static void add_wide(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, int pulls,
+                             CwFour *sum) {
+  add_any(mesh, list, count, place, pulls, sum);
+}
+
+static void add(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, int pulls,
+                CwFour *sum) {
+  if (CW_HAS_WIDE)
+    add_wide(mesh, list, count, place, pulls, sum);
+  else
+    add_any(mesh, list, count, place, pulls, sum);
+}
+
+void cw_tet_add_centres(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, CwFour *sum) {
+  add(mesh, list, count, place, 0, sum);
 }
 
 void cw_tet_add_pulls(const CwDelaunay *mesh, const int32_t *list, int32_t count, const CwFour *place, CwFour *sum) {
-  if (CW_HAS_WIDE)
-    add_pulls_wide(mesh, list, count, place, sum);
-  else
-    add_sums(mesh, list, count, place, find_pulls, sum);
+  add(mesh, list, count, place, 1, sum);
 }
 
 CW_INLINE void find_qualities(const CwDelaunay *mesh, const int32_t *list, const CwFour *place, float too_short,

@@ -41,25 +41,8 @@ done:
 }
 
 // A list of tetrahedra is taken by groups: the last one stands for those that lack.
-static inline void pad_list(int32_t *list, int count) {
+static inline void pad_list(int32_t *list, int32_t count) {
   for (int k = 0; k < PAD && count; k++) list[count + k] = list[count - 1];
-}
-
-// The tetrahedra from one on that are listed together end here.
-static inline int32_t block_end(const CwDelaunay *mesh, int32_t from) {
-  return mesh->tet_count - from < BLOCK ? mesh->tet_count : from + BLOCK;
-}
-
-// Those of the next BLOCK tetrahedra that are marked. Returns their number. Without branches, which would be taken at
-// random.
-static inline int list_moving(const CwDelaunay *mesh, int32_t from, int32_t list[BLOCK + PAD]) {
-  int count = 0;
-  for (int32_t t = from, end = block_end(mesh, from); t < end; t++) {
-    list[count] = t;
-    count += (int)cw_number(mesh->tet[t].weight != 0);
-  }
-  pad_list(list, count);
-  return count;
 }
 
 // Where a point is to go: from its place by what it has moved in single precision.
@@ -97,11 +80,11 @@ static inline void note_shapes(CwTetWork *w, const int32_t *list, int count, con
 
 // Sets the quality of some tetrahedra as it is to be, in a list with PAD more, and puts them into the list where they
 // are below the limit, into that of the slender ones and, where given, into that of the spoilt ones.
-static CwStatus judge(CwTetWork *w, const int32_t *list, int count, CwTetList *spoilt) {
+static CwStatus judge(CwTetWork *w, const int32_t *list, int32_t count, CwTetList *spoilt) {
   CwStatus status = CW_OK;
   const float slender_square = (float)cw_tet_slender_square(w);
   CW_GROW(w->slender.tet, w->slender.space, w->slender.count + count + 1);
-  for (int from = 0; from < count; from += CW_TET_GROUP) {
+  for (int32_t from = 0; from < count; from += CW_TET_GROUP) {
     float quality[CW_TET_GROUP];
     int32_t slender[CW_TET_GROUP];
     int some = count - from < CW_TET_GROUP ? count - from : CW_TET_GROUP;
@@ -129,14 +112,16 @@ CwStatus cw_tet_scan(CwTetWork *w) {
   CW_TRY(set_places(w));
   w->slender.count = w->tet_count = 0;
   for (int32_t p = 0; p < w->mesh->point_count; p++) w->mesh->point[p].mark = 0;
-  for (int32_t t = 0; t < w->mesh->tet_count; t += BLOCK) {
-    for (int32_t k = t, end = block_end(w->mesh, t); k < end; k++) {
-      CwDelaunayTet *tet = &w->mesh->tet[k];
+  for (int32_t from = 0; from < w->mesh->tet_count; from += BLOCK) {
+    int count = 0;
+    for (int32_t t = from; t < from + BLOCK && t < w->mesh->tet_count; t++) {
+      CwDelaunayTet *tet = &w->mesh->tet[t];
       tet->star = 0;
       tet->pass = CW_TET_NO_PASS;
-      tet->weight = tet->corner[0] >= 0;
+      list[count] = t; // without a branch
+      count += (int)cw_number(tet->corner[0] >= 0);
     }
-    int count = list_moving(w->mesh, t, list);
+    pad_list(list, count);
     CW_TRY(judge(w, list, count, NULL));
     w->tet_count += count;
   }
@@ -144,12 +129,12 @@ done:
   return status;
 }
 
-// Tetrahedra whose points move, with a group's worth of room behind them.
+// Tetrahedra whose points move, with PAD more.
 typedef struct {
   int32_t *tet, count;
 } Moving;
 
-// Lists the tetrahedra with such a point, of which all have room, and marks those with a moved one with their weight.
+// Lists the tetrahedra with such a point, of which all have room, and weighs them.
 static void find_moving(CwDelaunay *mesh, const uint8_t *moved, uint8_t which, Moving *moving) {
   const uint32_t weight[2] = {1, beside_plane};
   int32_t count = 0;
@@ -159,11 +144,11 @@ static void find_moving(CwDelaunay *mesh, const uint8_t *moved, uint8_t which, M
     const int32_t *c = tet->corner, used = ~(c[0] >> 31);
     uint8_t any = moved[c[0] & used] | moved[c[1] & used] | moved[c[2] & used] | moved[c[3] & used];
     any &= (uint8_t)used;
-    tet->weight = cw_number((any & MOVED) != 0) * weight[(any & ON_PLANE) != 0];
+    tet->weight = weight[(any & ON_PLANE) != 0];
     moving->tet[count] = t;
     count += (int32_t)cw_number((any & which) != 0);
   }
-  for (int k = 0; k < CW_TET_GROUP && count; k++) moving->tet[count + k] = moving->tet[count - 1];
+  pad_list(moving->tet, count);
   moving->count = count;
 }
 
@@ -194,21 +179,17 @@ done:
   return status;
 }
 
-// Judges all tetrahedra of the moved points. Where one is spoilt its points go back, and those of others that are
+// Judges the tetrahedra of all moved points. Where one is spoilt its points go back, and those of others that are
 // spoilt by this.
-static CwStatus take_back(CwTetWork *w, uint8_t *moved) {
+static CwStatus take_back(CwTetWork *w, const Moving *moving, uint8_t *moved) {
   CwStatus status = CW_OK;
   CwDelaunay *mesh = w->mesh;
   CwTetList spoilt = {0};
-  int32_t list[BLOCK + PAD];
   int whole;
   do {
     whole = 0;
     w->slender.count = 0;
-    for (int32_t t = 0; t < mesh->tet_count; t += BLOCK) {
-      int count = list_moving(mesh, t, list);
-      CW_TRY(judge(w, list, count, &spoilt));
-    }
+    CW_TRY(judge(w, moving->tet, moving->count, &spoilt));
     while (spoilt.count) {
       int32_t t = spoilt.tet[--spoilt.count];
       for (int i = 0; i < 4 && is_spoilt(w, t); i++) {
@@ -250,6 +231,7 @@ static void even_beside_planes(CwTetWork *w, Moving *moving, int steps, float sh
   if (count == 0) return;
   find_moving(mesh, moved, BESIDE, moving);
   even_edges(w, moving, steps, share, moved, BESIDE, sum);
+  find_moving(mesh, moved, MOVED, moving); // as before
 }
 
 // Every inner point that is not in a lattice goes to the weighted mean of the centres round it (L. Chen and J. Xu,
@@ -263,7 +245,7 @@ CwStatus cw_tet_relax(CwTetWork *w, CwTetMoves moves) {
   Moving moving = {0};
   CW_NEW_UNSET(sum, mesh->point_count);
   CW_NEW(moved, mesh->point_count);
-  CW_NEW_UNSET(moving.tet, mesh->tet_count + CW_TET_GROUP);
+  CW_NEW_UNSET(moving.tet, mesh->tet_count + PAD);
   CW_TRY(set_places(w));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     int32_t source = mesh->source[p], is_free = source >= w->fixed_count;
@@ -276,7 +258,7 @@ CwStatus cw_tet_relax(CwTetWork *w, CwTetMoves moves) {
   if (moves.centres) move_all(w, &moving, cw_tet_add_centres, 1.0f, moved, MOVED, sum);
   float share = even_edges(w, &moving, moves.evenings, (float)moves.pull, moved, MOVED, sum);
   if (moves.beside && w->on_plane) even_beside_planes(w, &moving, moves.beside, share, moved, sum);
-  CW_TRY(take_back(w, moved));
+  CW_TRY(take_back(w, &moving, moved));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     double goal[3];
     if (!(moved[p] & MOVED)) continue;

@@ -38,9 +38,9 @@ typedef struct {
   int32_t *tet, count, space;
 } CwTetList;
 
-// The pass of a tetrahedron is the one that put it into the list for the next, its star the last one it was in; it has
-// a weight where it was judged last or points of it move, else 0; the pass in which something changed at a point
-// stands in the point's mark.
+// The pass of a tetrahedron is the one that put it into the list for the next, its star the last one it was in, its
+// weight what it counts when edges are made even; the pass in which something changed at a point stands in the point's
+// mark.
 typedef struct {
   CwFlips flips;
   CwDelaunay *mesh;

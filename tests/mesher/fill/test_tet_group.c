@@ -198,12 +198,11 @@ static void any_processor_gives_the_same(void **state) {
   size_t size = (size_t)s.mesh.point_count * sizeof *s.sum;
   memset(s.sum, 0, size);
   memset(s.other, 0, size);
-  add_sums(&s.mesh, s.list, s.count, s.place, find_centres, s.sum);
-  add_centres_wide(&s.mesh, s.list, s.count, s.place, s.other);
-  assert_memory_equal(s.sum, s.other, size);
-  add_sums(&s.mesh, s.list, s.count, s.place, find_pulls, s.sum);
-  add_pulls_wide(&s.mesh, s.list, s.count, s.place, s.other);
-  assert_memory_equal(s.sum, s.other, size);
+  for (int pulls = 0; pulls < 2; pulls++) {
+    add_any(&s.mesh, s.list, s.count, s.place, pulls, s.sum);
+    add_wide(&s.mesh, s.list, s.count, s.place, pulls, s.other);
+    assert_memory_equal(s.sum, s.other, size);
+  }
   for (int32_t from = 0; from < s.count; from += GROUP) {
     float quality[2][GROUP];
     int32_t slender[2][GROUP];
