@@ -16,8 +16,8 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
                "WM_PROJECT_DIR": "/usr/share/openfoam"}
 MPIRUN = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n"]
 
-# What a program said, wall and processor seconds, peak memory in bytes.
-Run = namedtuple("Run", "text wall processor peak")
+# What a program said, wall and processor seconds, peak memory in bytes, exit status (less than 0: its signal).
+Run = namedtuple("Run", "text wall processor peak status")
 # Also the processor seconds of gmsh's own steps by name, without reading and writing, and how much it made.
 Gmsh = namedtuple("Gmsh", "wall processor steps peak triangles tetrahedra")
 
@@ -48,7 +48,8 @@ def execute(*line, folder=None, check=True, limit=None):
     child.returncode = os.waitstatus_to_exitcode(status)
     if check and child.returncode:
         sys.exit(f"{Path(sys.argv[0]).stem}: {' '.join(line)}:\n{text[-2000:]}")
-    return Run(text, time.monotonic() - began, use.ru_utime + use.ru_stime, 1024 * use.ru_maxrss)
+    return Run(text, time.monotonic() - began, use.ru_utime + use.ru_stime, 1024 * use.ru_maxrss,
+               child.returncode)
 
 
 def gmsh_steps(text):

@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""population.py [N] [--options] [--seed 1] [--only I ...] [--cells 150k] [--work DIR] [--bin build/bin] [--jobs 2]
+
+Random pumps 1 to N (or --only some of them) through all stages, each judged; random_pumps.py says what is drawn. The
+first is the duty alone (flow, head, speed, fluid); with --options most other keys of the case file are drawn too.
+
+A pump is good when every stage ends with status 0 and
+- its cells are within 2 % of those asked;
+- no tetrahedron of a region has a dihedral angle under 12 degrees, or under what the region's boundary allows;
+- the first height is met on 99 % of the wall faces;
+- cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check.
+
+Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
+command that repeats one; then quantiles of the quality of all pumps that were meshed. DIR keeps cases/ and
+results.jsonl, one line a pump; a second call with the same programs does only what is missing. Meshes are removed once
+judged (--keep: they stay, in DIR/runs). The status is 1 where a pump fails after the geometry."""
+import argparse
+import hashlib
+import json
+import os
+import re
+import shutil
+import sys
+import time
+from collections import defaultdict
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+import random_pumps
+from programs import MPIRUN, SOURCE, execute
+
+STAGES = ("geometry", "mesh", "export")
+COUNT_OFF = 0.02
+LEAST_DIHEDRAL = 12.0  # degrees
+FIRST_HEIGHT_MET = 0.99
+TIMED_OUT = "ran past the limit"
+FIGURES = (("cells over asked", "count", "{:.3f}"), ("least dihedral, degrees", "dihedral", "{:.1f}"),
+           ("dihedral over its bound", "dihedral_over_bound", "{:.2f}"), ("mean aspect", "aspect", "{:.2f}"),
+           ("greatest aspect", "aspect_most", "{:.1f}"), ("first height met", "first_height", "{:.3f}"),
+           ("last layer 0.5 to 1.5 of its tetrahedron", "last_layer", "{:.3f}"),
+           ("greatest non-orthogonality, degrees", "non_orthogonality", "{:.1f}"), ("passes", "passes", "{:.0f}"),
+           ("retries", "retries", "{:.0f}"), ("seconds", "seconds", "{:.1f}"))
+
+
+def arguments(words=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("count", nargs="?", type=int, default=24, metavar="N")
+    parser.add_argument("--options", action="store_true")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", type=int, nargs="+", metavar="I")
+    parser.add_argument("--cells", default="150k")
+    parser.add_argument("--work", type=Path, default=SOURCE / "build/population")
+    parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--limit", type=float, default=600, help="seconds of a stage")
+    parser.add_argument("--check-mesh", type=int, default=8, metavar="K", help="every K-th pump; 0: none")
+    parser.add_argument("--keep", action="store_true")
+    return parser.parse_args(words)
+
+
+def programs_digest(folder):
+    whole = hashlib.sha256()
+    for stage in STAGES:
+        whole.update((folder / f"cutwater-{stage}").read_bytes())
+    return whole.hexdigest()[:16]
+
+
+def repeat_command(options, index):
+    words = ["tests/bench/population.py", *(["--options"] if options.options else []), f"--seed {options.seed}",
+             f"--cells {options.cells}", "--check-mesh 1", f"--only {index}", "--keep"]
+    return " ".join(words)
+
+
+def run_stage(options, stage, case, run):
+    line = [options.bin / f"cutwater-{stage}", "--case", case, "--run", run]
+    if stage != "geometry":
+        line = MPIRUN + [options.ranks] + line + ["--cells", options.cells]
+    return execute("timeout", options.limit, *line, check=False)
+
+
+def stage_error(stage, done):
+    """What a stage that failed said in its error line."""
+    if done.status == 124:
+        return TIMED_OUT
+    told = [line for line in done.text.splitlines() if line.startswith(f"cutwater-{stage}: error: ")]
+    if not told:
+        return f"status {done.status} without a line that says why"
+    more = f" (and {len(told) - 1} more lines)" if len(told) > 1 else ""
+    return told[0].split(": error: ", 1)[1] + more
+
+
+def cause(message, name):
+    """A message without what differs from pump to pump."""
+    message = re.sub(r"\S*/(\S+)", r"\1", message).replace(f"{name}.yaml", "case.yaml")
+    message = re.sub(r"(?<![A-Za-z0-9_])[-+]?\d[\d.,]*(e[-+]?\d+)?", "#", message)
+    return message[:300]
+
+
+def judge_mesh(run, figures):
+    """Fills in the figures of the mesher's record; what is bad of them."""
+    record = json.loads((run / "mesh/record.json").read_text())
+    results = record["results"]
+    domains = results["domains"]
+    regions = [region for domain in domains for region in domain["region_list"] if region["tetrahedra"]]
+    walls = [wall for domain in domains for wall in domain["layer_coverage"]]
+    faces = sum(wall["wall_faces"] for wall in walls)
+    tetrahedra = sum(domain["tetrahedra"] for domain in domains)
+    margin, worst = min((region["least_dihedral_deg"] - min(LEAST_DIHEDRAL, region["least_dihedral_allowed_deg"]),
+                         number) for number, region in enumerate(regions))
+    worst = regions[worst]
+    figures.update({
+        "cells": results["cells"], "count": results["cells"] / results["asked_cells"], "passes": results["passes"],
+        "retries": results["retries"],
+        "dihedral": min(region["least_dihedral_deg"] for region in regions),
+        "dihedral_over_bound": min(region["least_dihedral_deg"] / region["least_dihedral_allowed_deg"]
+                                   for region in regions),
+        "aspect": sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"] for domain in domains) / tetrahedra,
+        "aspect_most": max(domain["tetrahedron_aspect_max"] for domain in domains),
+        "first_height": sum(wall["first_height_met_faces"] for wall in walls) / faces,
+        "last_layer": sum(wall["last_layer_fair_faces"] for wall in walls) / faces,
+        "full_thickness": sum(wall["full_thickness_faces"] for wall in walls) / faces,
+        "warnings": record["warnings"]})
+    bad = []
+    if abs(figures["count"] - 1) > COUNT_OFF:
+        bad.append(f"count {100 * (figures['count'] - 1):+.1f} % off")
+    if margin < 0:
+        bad.append(f"least dihedral {worst['least_dihedral_deg']:.2f} degrees "
+                   f"(the boundary allows {worst['least_dihedral_allowed_deg']:.1f})")
+    if figures["first_height"] < FIRST_HEIGHT_MET:
+        bad.append(f"first height met on {100 * figures['first_height']:.1f} %")
+    return bad
+
+
+def judge_files(run, check_mesh, figures):
+    """What the exporter's record, cgnscheck and checkMesh say against the files."""
+    results = json.loads((run / "export/record.json").read_text())["results"]
+    zones = [zone for zone in results.values() if isinstance(zone, dict) and "greatest_non_orthogonality_deg" in zone]
+    figures["non_orthogonality"] = max(zone["greatest_non_orthogonality_deg"] for zone in zones)
+    bad = []
+    if shutil.which("cgnscheck"):
+        errors = re.findall(r"^.*ERROR.*", execute("cgnscheck", run / "export/pump.cgns", check=False).text, re.M)
+        bad += [f"cgnscheck: {errors[0].strip()}"] if errors else []
+    if check_mesh and shutil.which("checkMesh"):
+        text = execute("checkMesh", "-allGeometry", "-allTopology", "-case", run / "export/openfoam", check=False).text
+        failed = [line.strip(" *") for line in re.findall(r"^ *\*\*\*.*", text, re.M)]
+        if not failed and "Mesh OK." not in text:
+            failed = ["ends without a verdict"]
+        figures["check_mesh"] = failed or ["Mesh OK"]
+        bad += [f"checkMesh: {line}" for line in failed]
+    return bad
+
+
+def run_pump(options, index, result, case):
+    run = options.work / "runs" / result["name"]
+    shutil.rmtree(run, ignore_errors=True)
+    began = time.monotonic()
+    bad = []
+    for stage in STAGES:
+        done = run_stage(options, stage, case, run)
+        result["seconds_by_stage"][stage] = round(done.wall, 2)
+        if done.status:
+            result.update(verdict="failed", stage=stage, status=done.status, message=stage_error(stage, done))
+            break
+        if stage == "mesh":
+            bad += judge_mesh(run, result["figures"])
+        if stage == "export":
+            bad += judge_files(run, options.check_mesh and index % options.check_mesh == 0, result["figures"])
+    else:
+        result["figures"]["seconds"] = round(time.monotonic() - began, 2)
+        result.update(verdict="bad" if bad else "good", bad=bad)
+    if not options.keep:
+        shutil.rmtree(run, ignore_errors=True)
+    return result
+
+
+def pump_case(options, index):
+    """Name and file of a pump's case."""
+    name = f"{'options' if options.options else 'duty'}-{options.seed}-{index}"
+    path = options.work / "cases" / f"{name}.yaml"
+    text = random_pumps.case_text(name, random_pumps.pump(options.seed, index, options.options))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    return name, path, text
+
+
+def results_before(options):
+    """The results of earlier calls by their key; the last of each."""
+    path = options.work / "results.jsonl"
+    lines = path.read_text().splitlines() if path.exists() else []
+    return {result["key"]: result for result in map(json.loads, lines)}
+
+
+def run_all(options):
+    """The results of all asked pumps, those of earlier calls with the same programs and cases among them."""
+    digest, before = programs_digest(options.bin), results_before(options)
+    asked = options.only or range(1, options.count + 1)
+    results, waiting = {}, []
+    for index in asked:
+        name, case, text = pump_case(options, index)
+        key = hashlib.sha256(f"{digest} {options.cells} {text}".encode()).hexdigest()[:16]
+        if key in before and not options.keep:
+            results[index] = before[key]
+        else:
+            waiting.append((index, case, {"key": key, "name": name, "index": index, "options": options.options,
+                                          "seed": options.seed, "cells": options.cells, "case": str(case),
+                                          "seconds_by_stage": {}, "figures": {}}))
+    began = time.monotonic()
+    with ThreadPoolExecutor(options.jobs) as pool, (options.work / "results.jsonl").open("a") as file:
+        running = [pool.submit(run_pump, options, index, result, case) for index, case, result in waiting]
+        for number, future in enumerate(as_completed(running), 1):
+            result = future.result()
+            results[result["index"]] = result
+            file.write(json.dumps(result) + "\n")
+            file.flush()
+            rate = number / (time.monotonic() - began)
+            print(f"population: {number} of {len(waiting)}, {60 * rate:.1f} a minute, "
+                  f"{(len(waiting) - number) / rate / 60:.0f} min left: {result['name']} {told(result)}",
+                  file=sys.stderr, flush=True)
+    return [results[index] for index in asked]
+
+
+def told(result):
+    if result["verdict"] == "failed":
+        return f"fails in {result['stage']}: {result['message']}"
+    return "; ".join([result["verdict"], *result["bad"]])
+
+
+def print_failures(options, results):
+    groups = defaultdict(list)
+    for result in results:
+        if result["verdict"] == "failed":
+            text = f"status {result['status']}: {cause(result['message'], result['name'])}"
+            groups[result["stage"], text].append(result)
+        for line in result.get("bad", ()):
+            groups["judged bad", cause(line, result["name"])].append(result)
+    order = (*STAGES, "judged bad")
+    for (stage, text), group in sorted(groups.items(), key=lambda item: (order.index(item[0][0]), -len(item[1]))):
+        print(f"{stage:<11}{len(group):>4}  {text}")
+        print(f"{'':17}pumps {' '.join(str(result['index']) for result in group[:20])}"
+              f"{' ...' if len(group) > 20 else ''}; {repeat_command(options, group[0]['index'])}")
+
+
+def print_quantiles(results):
+    meshed = [result["figures"] for result in results if result["figures"]]
+    shares = (0, 0.05, 0.25, 0.5, 0.75, 0.95, 1)
+    print(f"\n{'':44}" + "".join(f"{name:>9}" for name in ("least", "5 %", "25 %", "median", "75 %", "95 %", "most")))
+    for text, key, form in FIGURES:
+        values = sorted(figures[key] for figures in meshed if key in figures)
+        if values:
+            print(f"{text:44}" + "".join(f"{form.format(values[round(share * (len(values) - 1))]):>9}"
+                                         for share in shares))
+
+
+def main():
+    options = arguments()
+    options.work = options.work.resolve()
+    options.bin = options.bin.resolve()
+    (options.work / "cases").mkdir(parents=True, exist_ok=True)
+    os.nice(5)
+    results = run_all(options)
+    verdicts = [result["verdict"] for result in results]
+    stages = [result.get("stage") for result in results]
+    by_stage = ", ".join(f"{stages.count(stage)} fail in {stage}" for stage in STAGES)
+    print(f"{len(results)} pumps, {'with options' if options.options else 'duty only'}, seed {options.seed}, "
+          f"{options.cells} cells: {verdicts.count('good')} good, {verdicts.count('bad')} judged bad, {by_stage}\n")
+    print_failures(options, results)
+    print_quantiles(results)
+    sys.exit(any(result["verdict"] == "bad" or result.get("stage") in ("mesh", "export") for result in results))
+
+
+if __name__ == "__main__":
+    main()
