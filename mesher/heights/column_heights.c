@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/common/vertex_heap.h"
 #include "mesher/heights/layer_heights.h"
-#include "mesher/layers/layers.h"
+#include "mesher/layers/height_gradation.h"
 #include "mesher/parallel/share.h"
 
 static const double TALLER_COLUMN = 3.25;   // of the wanted length, where the last layer would else be below LOW_LAST
@@ -25,10 +24,8 @@ static const double FINE = 0.5;             // of the wanted length: columns of 
 static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
 static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
 static const double LITTLE_GROWTH = 1.1;
-static const double KEPT_GROWTH = 0.7;  // least in columns thinned for their shape, above CW_LEAST_GROWTH: thinned
-                                        // further, some made angles of 16 degrees where others have 19
-static const double HEIGHT_SLOPE = 0.3; // heights of columns change by no more per distance (layers_gap)
-static const double LEAST_APART = 0.25; // of that on the wall: distance of columns that nearly meet (layers_gap)
+static const double KEPT_GROWTH = 0.7; // least in columns thinned for their shape, above CW_LEAST_GROWTH: thinned
+                                       // further, some made angles of 16 degrees where others have 19
 
 // How the wall lies about a vertex.
 typedef struct {
@@ -130,7 +127,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend.normal[k];
-    double above = fmin(fmax(size, size_at(skeleton, end)), size + HEIGHT_SLOPE * height);
+    double above = fmin(fmax(size, size_at(skeleton, end)), size + CW_HEIGHT_SLOPE * height);
     height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last,
                          crowded ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, crowded ? TALLEST_AT_BEND : TALLER_COLUMN);
   }
@@ -138,132 +135,29 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   return CW_OK;
 }
 
-// Values at wall vertices. Of a triangle the corners lie where `place` says; those of the same number in `corner` have
-// one value.
+// What the gradation of heights at wall vertices reads.
 typedef struct {
   const CwSkeleton *skeleton;
-  const CwIncident *around; // of `corner`
-  const int32_t (*corner)[3], (*place)[3];
+  const double *height;
   double slope;
-  double *value;
-  int at_ends; // distances are also those of columns as tall as the lesser value
-} Grading;
+} Slope;
 
-// Distance of the columns over two wall vertices, `edge` apart, at a height.
-static double ends_apart(const CwSkeleton *skeleton, int32_t v, int32_t w, const double edge[3], double height) {
-  double apart[3];
-  for (int k = 0; k < 3; k++) {
-    apart[k] = edge[k] + height * ((skeleton->front[w][k] - skeleton->wall_x[w][k]) / skeleton->height[w] -
-                                   (skeleton->front[v][k] - skeleton->wall_x[v][k]) / skeleton->height[v]);
-  }
-  return fmax(cw_norm(apart), LEAST_APART * cw_norm(edge));
+static double most_beside(const void *context, int32_t v, int32_t w) {
+  const Slope *slope = context;
+  return slope->height[v] + slope->slope * cw_distance(slope->skeleton->wall_x[v], slope->skeleton->wall_x[w]);
 }
 
-// The most that the value at corner j of a triangle may be beside corner i, if that is less than it is; else 0.
-static double most_beside(const Grading *grading, int32_t t, int i, int j) {
-  double least = grading->value[grading->corner[t][i]], value = grading->value[grading->corner[t][j]];
-  double rise = value - least, slope = grading->slope, edge[3];
-  if (rise <= 0) return 0;
-  int32_t v = grading->place[t][i], w = grading->place[t][j];
-  cw_sub(grading->skeleton->wall_x[w], grading->skeleton->wall_x[v], edge);
-  double square = cw_dot(edge, edge);
-  if (!grading->at_ends && rise * rise < 0.99 * slope * slope * square) return 0; // most edges, without a root
-  double apart = sqrt(square);
-  if (grading->at_ends) apart = fmin(apart, ends_apart(grading->skeleton, v, w, edge, least));
-  double most = least + slope * apart;
-  return value > most ? most : 0;
-}
-
-static int corner_of(const Grading *grading, int32_t t, int32_t v) {
-  const int32_t *corner = grading->corner[t];
-  return corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
-}
-
-// Whether a vertex beside v is too high.
-static CwStatus find_steep(void *context, int32_t v, void *out) {
-  const Grading *grading = context;
-  uint8_t *steep = out;
-  for (int32_t i = grading->around->start[v]; i < grading->around->start[v + 1] && !*steep; i++) {
-    int32_t t = grading->around->triangle[i];
-    int own = corner_of(grading, t, v);
-    for (int k = 0; k < 3; k++) *steep |= k != own && most_beside(grading, t, own, k) > 0;
-  }
-  return CW_OK;
-}
-
-// Lowers the values, all above 0, until they change by no more than `slope` per distance along any edge, from the
-// lowest on. Collective.
-static CwStatus grade_values(const Grading *grading) {
-  CwStatus status = CW_OK;
-  const CwIncident *around = grading->around;
-  double *value = grading->value;
-  int32_t count = grading->skeleton->wall_count;
-  CwHeap heap = {0};
-  uint8_t *steep = NULL;
-  CW_NEW(steep, count);
-  CW_TRY(cw_share("heights: steep", count, sizeof *steep, find_steep, (void *)grading, steep));
-  for (int32_t v = 0; v < count; v++) {
-    if (steep[v]) CW_TRY(cw_heap_push(&heap, value[v], v));
-  }
-  while (heap.count) {
-    CwHeapItem least = cw_heap_pop(&heap);
-    int32_t v = least.v;
-    if (least.key > value[v]) continue; // it was lowered since
-    for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
-      int32_t t = around->triangle[i];
-      int own = corner_of(grading, t, v);
-      for (int k = 0; k < 3; k++) {
-        double most = k == own ? 0 : most_beside(grading, t, own, k);
-        if (most <= 0) continue;
-        value[grading->corner[t][k]] = most;
-        CW_TRY(cw_heap_push(&heap, most, grading->corner[t][k]));
-      }
-    }
-  }
-done:
-  cw_heap_free(&heap);
-  free(steep);
-  return status;
-}
-
-// The same for a value at each wall vertex.
-static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *value) {
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->wall_triangle;
-  return grade_values(&(Grading){skeleton, around, triangle, triangle, slope, value, 0});
-}
-
-// The same on the triangles that are no turned copies, where the copies of a vertex have its value, once columns stand.
-static CwStatus grade_firsts(const CwSkeleton *skeleton, double slope, double *value) {
-  CwStatus status = CW_OK;
-  CwIncident around = {0};
-  int32_t *first = NULL, (*corner)[3] = NULL, (*place)[3] = NULL, count = 0;
-  CW_NEW_UNSET(first, skeleton->wall_count);
-  CW_NEW_UNSET(corner, skeleton->wall_triangle_count);
-  CW_NEW_UNSET(place, skeleton->wall_triangle_count);
-  for (int32_t v = 0; v < skeleton->wall_count; v++) first[v] = v;
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) continue;
-    for (int32_t at = cw_orbit_node(&skeleton->orbits, v, 1); at >= 0 && at != v;
-         at = cw_orbit_node(&skeleton->orbits, at, 1)) {
-      first[at] = v;
-    }
-  }
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    if (skeleton->wall_source[t] != t) continue;
-    memcpy(place[count], skeleton->wall_triangle[t], sizeof *place);
-    for (int k = 0; k < 3; k++) corner[count][k] = first[place[count][k]];
-    count++;
-  }
-  CW_TRY(cw_incident_make(skeleton->wall_count, count, (const int32_t(*)[3])corner, &around));
-  Grading grading = {skeleton, &around, (const int32_t(*)[3])corner, (const int32_t(*)[3])place, slope, value, 1};
-  CW_TRY(grade_values(&grading));
-  for (int32_t v = 0; v < skeleton->wall_count; v++) value[v] = value[first[v]];
-done:
-  cw_incident_free(&around);
-  free(first);
-  free(corner);
-  free(place);
-  return status;
+// Heights rise by no more than `slope` per distance along any edge of the wall. Collective.
+static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *height) {
+  return cw_grade_heights(&(CwGradation){.step = "heights: steep",
+                                         .count = skeleton->wall_count,
+                                         .start = around->start,
+                                         .triangle = around->triangle,
+                                         .corner = (const int32_t(*)[3])skeleton->wall_triangle,
+                                         .most = most_beside,
+                                         .context = &(Slope){skeleton, height, slope},
+                                         .height = height},
+                          NULL);
 }
 
 // The finer one holds where patches meet.
@@ -301,7 +195,7 @@ static CwStatus take_asked(const CwSkeleton *skeleton, const CwIncident *around,
     heights->target[v] = asked[v].thickness;
     heights->growth[v] = asked[v].growth;
   }
-  CW_TRY(grade(skeleton, around, HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
+  CW_TRY(grade(skeleton, around, CW_HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
                heights->first_height));
 done:
   free(asked);
@@ -376,7 +270,7 @@ CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleto
   CW_NEW_UNSET(graded, skeleton->wall_count);
   CW_NEW_UNSET(of, skeleton->wall_triangle_count);
   memcpy(graded, heights->target, (size_t)skeleton->wall_count * sizeof *graded);
-  CW_TRY(grade(skeleton, around, HEIGHT_SLOPE, graded));
+  CW_TRY(grade(skeleton, around, CW_HEIGHT_SLOPE, graded));
   Columns columns = {.skeleton = skeleton, .heights = heights, .layers = layers, .graded = graded};
   CW_TRY(cw_share("heights: volume", skeleton->wall_triangle_count, sizeof *of, find_taken, &columns, of));
   for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
@@ -390,49 +284,11 @@ done:
   return status;
 }
 
-CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton) {
-  CwStatus status = CW_OK;
-  CW_NEW(heights->room, skeleton->wall_count);
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    int thinned = skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
-    heights->room[v] = thinned ? skeleton->height[v]
-                               : cw_layer_thickness(heights->first_height[v], heights->layer_count, heights->growth[v]);
-  }
-  CW_TRY(grade_firsts(skeleton, HEIGHT_SLOPE, heights->room));
-done:
-  return status;
-}
-
-CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t region,
-                                 CwRatioWall **wall) {
-  CwStatus status = CW_OK;
-  int32_t count = 0, layers = heights->layer_count;
-  double fraction[CW_LAYERS_MOST + 1];
-  CW_NEW(*wall, skeleton->region_wall_start[region + 1] - skeleton->region_wall_start[region]);
-  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
-    int32_t t = skeleton->region_wall[i];
-    CwRatioWall *made = &(*wall)[count++];
-    made->first = INFINITY;
-    for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      cw_layer_fractions(heights->room[v], heights->first_height[v], layers, heights->growth[v], fraction);
-      made->first = fmin(made->first, heights->first_height[v]);
-      made->last += heights->room[v] * (1 - fraction[layers - 1]) / 3;
-      cw_layer_fractions(skeleton->height[v], heights->first_made[v], layers, heights->growth[v], fraction);
-      made->made += skeleton->height[v] * (1 - fraction[layers - 1]) / 3;
-      made->cramped |= skeleton->reason[v] == CW_LAYER_GAP || skeleton->reason[v] == CW_LAYER_REPAIR;
-    }
-  }
-done:
-  return status;
-}
-
 void cw_column_heights_free(CwColumnHeights *heights) {
   free(heights->first_height);
   free(heights->first_made);
   free(heights->growth);
   free(heights->target);
   free(heights->least);
-  free(heights->room);
   *heights = (CwColumnHeights){0};
 }

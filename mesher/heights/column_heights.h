@@ -22,17 +22,7 @@ typedef struct {
   double *growth;       // largest ratio of neighbouring layers
   double *target;       // height, m
   double *least;        // height down to which a column is thinned for its shape: it has that first height, m
-  double *room;         // how tall the column could be, once the layers are grown, m
 } CwColumnHeights;
-
-// What the case allows the column over a wall face.
-typedef struct {
-  double first; // target of the first height, m
-  double last;  // of the tallest column that number and growth of the layers, gaps and the slope of heights allow: its
-                // last layer, m
-  double made;  // last layer of the column as it is, m
-  int cramped;  // a gap or the repair leaves no room for the height asked
-} CwRatioWall;
 
 // Height below which layers of `first` (m) hardly grow any more: columns are asked to be no shorter.
 double cw_column_height_least(double first, int layer_count);
@@ -50,14 +40,6 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
 // heights are graded. Collective.
 CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleton *skeleton, const CwIncident *around,
                                  const CwLayerTarget *layers, double *share);
-
-// Sets the room of each column: by the case, gaps and repair, where heights rise by the slope that holds for them, on
-// the wall and between the ends of the columns as they stand. Collective.
-CwStatus cw_column_heights_room(CwColumnHeights *heights, const CwSkeleton *skeleton);
-
-// What the heights allow the layers over each wall triangle of a region, in the order of its file; caller frees.
-CwStatus cw_column_heights_ratio(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t region,
-                                 CwRatioWall **wall);
 
 void cw_column_heights_free(CwColumnHeights *heights);
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
-#include "mesher/common/vertex_heap.h"
+#include "mesher/layers/height_gradation.h"
 #include "mesher/layers/layers_inner.h"
 
-static const double SLOPE = 0.3;        // of heights, per distance between columns
 static const double LEAST_APART = 0.25; // of the wall's edge: distance of columns that nearly meet
 
 // Corner coordinates of triangle f of walls and obstacles together.
@@ -197,56 +196,33 @@ CwStatus cw_layers_limit_by_hollow(CwLayerWork *work) {
 // Height of w at most, beside v: by the distance of their columns on the wall or at the height of the lower one,
 // whichever is less. Beside a concave crease columns lean away from it by less and less, so that they stand closer on
 // the front than on the wall, and heights that rose by their distance there would fold the front along the crease.
-static double most_beside(const CwLayerWork *work, int32_t v, int32_t w) {
+static double most_beside(const void *context, int32_t v, int32_t w) {
+  const CwLayerWork *work = context;
   double e[3], d[3], t = fmin(work->t[v], work->t[w]);
   cw_sub(work->in->x[w], work->in->x[v], e);
   for (int k = 0; k < 3; k++) d[k] = e[k] + t * (work->column[w][k] - work->column[v][k]);
   double wall = cw_norm(e);
-  return work->t[v] + SLOPE * fmin(wall, fmax(cw_norm(d), LEAST_APART * wall));
-}
-
-// Whether a vertex beside v is too high.
-static CwStatus find_steep(void *context, int32_t v, void *out) {
-  const CwLayerWork *work = context;
-  uint8_t *steep = out;
-  for (int32_t k = work->near_start[v]; k < work->near_start[v + 1] && !*steep; k++) {
-    int32_t w = work->near[k];
-    *steep = work->t[w] > work->t[v] && work->t[w] > most_beside(work, v, w);
-  }
-  return CW_OK;
+  return work->t[v] + CW_HEIGHT_SLOPE * fmin(wall, fmax(cw_norm(d), LEAST_APART * wall));
 }
 
 CwStatus cw_layers_grade(CwLayerWork *work, const uint8_t *lowered) {
   CwStatus status = CW_OK;
-  CwHeap heap = {0};
-  uint8_t *steep = NULL;
-  CW_NEW(steep, work->n);
-  if (lowered) { // few
-    for (int32_t v = 0; v < work->n; v++) {
-      if (lowered[v]) find_steep(work, v, &steep[v]);
-    }
-  } else {
-    CW_TRY(cw_share("layers: steep", work->n, sizeof *steep, find_steep, work, steep));
-  }
+  uint8_t *graded = NULL;
+  CW_NEW(graded, work->n);
+  CW_TRY(cw_grade_heights(&(CwGradation){.step = "layers: steep",
+                                         .count = work->n,
+                                         .start = work->face_start,
+                                         .triangle = work->face,
+                                         .corner = work->in->triangle,
+                                         .most = most_beside,
+                                         .context = work,
+                                         .height = work->t,
+                                         .graded = graded},
+                          lowered));
   for (int32_t v = 0; v < work->n; v++) {
-    if (steep[v]) CW_TRY(cw_heap_push(&heap, work->t[v], v));
-  }
-  while (heap.count) {
-    CwHeapItem top = cw_heap_pop(&heap);
-    int32_t v = top.v;
-    if (top.key > work->t[v]) continue;
-    for (int32_t k = work->near_start[v]; k < work->near_start[v + 1]; k++) {
-      int32_t w = work->near[k];
-      if (work->t[w] <= work->t[v]) continue;
-      double most = most_beside(work, v, w);
-      if (work->t[w] <= most) continue;
-      work->t[w] = most;
-      work->reason[w] = CW_LAYER_GRADATION;
-      CW_TRY(cw_heap_push(&heap, most, w));
-    }
+    if (graded[v]) work->reason[v] = CW_LAYER_GRADATION;
   }
 done:
-  cw_heap_free(&heap);
-  free(steep);
+  free(graded);
   return status;
 }

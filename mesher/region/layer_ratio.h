@@ -1,35 +1,46 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// How the layers meet the tetrahedra: the height of the last layer over that of the tetrahedron that stands on it.
+// How the layers meet the tetrahedra: across each face of the layer top, the ratio of the volumes of the two cells, the
+// greater over the less, and OpenFOAM's weight of the face.
 #ifndef CUTWATER_MESHER_REGION_LAYER_RATIO_H
 #define CUTWATER_MESHER_REGION_LAYER_RATIO_H
 
 #include <stdint.h>
 
-#include "mesher/heights/column_heights.h"
 #include "mesher/region/region_file.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// Bins of the ratio that end at 0.25, 0.5, 0.75, 1, 1.25, 1.5 and 2; the last has no end. 0.5 to 1.5 is fair: the bins
-// from 2 up to 5.
-enum { CW_RATIO_BINS = 8 };
+// Policy: volumes may change by 4 across 95 % of the faces and by 10 across any.
+#define CW_RATIO_FAIR 4.0
+#define CW_RATIO_MOST 10.0
+// checkMesh of OpenFOAM calls the weight of a face small below this.
+#define CW_SMALL_WEIGHT 0.05
+
+enum { CW_RATIO_BINS = 80 };
 
 typedef struct {
-  int64_t bin[CW_RATIO_BINS];
-  // Faces that are not cramped and where the column can end in a fair layer: the first is no higher than one and a half
-  // of the tetrahedron, and the last, as much taller as its column could be, comes to half of it. And fair ones among
-  // them.
-  int64_t within, fair_within;
+  int64_t faces;
+  int64_t bin[CW_RATIO_BINS];      // faces by ratio; bin b ends at 2^((b + 1) / 8), the last has no end
+  int64_t thin_over_fair;          // faces over CW_RATIO_FAIR whose prism is the lesser cell
+  int64_t thick_over_fair;         // faces over CW_RATIO_FAIR whose prism is the greater cell
+  int64_t over_most;               // faces over CW_RATIO_MOST
+  int64_t small_weight;            // faces of a weight below CW_SMALL_WEIGHT
+  double greatest, greatest_at[3]; // greatest ratio; centre of its face, m
 } CwLayerRatio;
 
-// Counts the wall faces of each patch by the ratio of the heights, normal to the face between them: volume of the last
-// prism over that face's area, and three times the volume of the tetrahedron over it. Adds to ratio[patch], which has
-// `patches` rows; wall[i] belongs to the i-th triangle with a prism. Fails with CW_ERR_MESH where a column of `layers`
-// prisms has no tetrahedron on its end.
-CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, const CwRatioWall *wall, int patches,
-                        CwLayerRatio *ratio);
+// Adds the wall faces of a region to ratio[patch], which has `patches` rows. The weight of the face between two cells
+// is the lesser distance of their centres from its plane over the sum of both. Fails with CW_ERR_MESH where a column of
+// `layers` prisms has no tetrahedron on its end.
+CwStatus cw_layer_ratio(const CwRegionMesh *mesh, int layers, int patches, CwLayerRatio *ratio);
+
+// Adds what another region has counted.
+void cw_layer_ratio_add(CwLayerRatio *sum, const CwLayerRatio *of);
+
+// The ratio that `share` of the faces do not exceed, from above: the end of the bin it lies in, at most the greatest.
+// 0 without faces.
+double cw_layer_ratio_quantile(const CwLayerRatio *ratio, double share);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@
 #include "mesher/fill/tet_bound.h"
 #include "mesher/heights/layer_heights.h"
 #include "mesher/layers/layers.h"
+#include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_run.h"
 #include "pipeline/log.h"
 
@@ -106,10 +107,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
     memcpy(sum.thin_at, made->thin_at, sizeof sum.thin_at);
   }
   for (int32_t r = 0; r < domain->plan.region_count; r++) {
-    const CwLayerRatio *made = &run->summary[d][r].ratio[patch];
-    for (int b = 0; b < CW_RATIO_BINS; b++) ratio.bin[b] += made->bin[b];
-    ratio.within += made->within;
-    ratio.fair_within += made->fair_within;
+    cw_layer_ratio_add(&ratio, &run->summary[d][r].ratio[patch]);
   }
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch),
@@ -132,11 +130,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
                         json_pack("[o, o, o]", cw_json_number(sum.thin_at[0]), cw_json_number(sum.thin_at[1]),
                                   cw_json_number(sum.thin_at[2])));
   }
-  const int64_t *bin = ratio.bin;
-  json_object_set_new(result, "last_layer_over_tetrahedron_bins", counts_json(bin, CW_RATIO_BINS));
-  json_object_set_new(result, "last_layer_fair_faces", json_integer((json_int_t)(bin[2] + bin[3] + bin[4] + bin[5])));
-  json_object_set_new(result, "last_layer_within_reach_faces", json_integer((json_int_t)ratio.within));
-  json_object_set_new(result, "last_layer_within_reach_fair_faces", json_integer((json_int_t)ratio.fair_within));
+  cw_put_layer_ratio(&ratio, result);
   return result;
 }
 
@@ -282,6 +276,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
   warn_of_thin(domain->name, coverage);
+  cw_warn_of_layers(domain->name, domain->layer_count, coverage);
   json_object_set_new(result, "patches", patches);
   json_object_set_new(result, "layer_coverage", coverage);
   double predicted_sum = 0;

@@ -130,19 +130,6 @@ done:
   return status;
 }
 
-// The last layers of the region, beside what the case allows them.
-static CwStatus measure_layers(const CwMeshRun *run, int d, int32_t region, const CwRegionMesh *mesh,
-                               CwRegionSummary *summary) {
-  CwStatus status = CW_OK;
-  CwRatioWall *wall = NULL;
-  CW_TRY(cw_column_heights_ratio(&run->domain[d].heights, &run->domain[d].skeleton, region, &wall));
-  cw_domain_coverage(&run->domain[d], region, CW_PATCH_LIMIT, summary->coverage);
-  CW_TRY(cw_layer_ratio(mesh, run->table->walls.layer_count, wall, CW_PATCH_LIMIT, summary->ratio));
-done:
-  free(wall);
-  return status;
-}
-
 // What the region's boundary allows the tetrahedra.
 static CwStatus bound_angles(const CwDomain *domain, int32_t region, double *allowed) {
   CwStatus status = CW_OK;
@@ -184,7 +171,8 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
     if (!current) CW_TRY(cw_region_write(path, &mesh));
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
-    CW_TRY(measure_layers(run, task.domain, task.index, &mesh, summary));
+    cw_domain_coverage(domain, task.index, CW_PATCH_LIMIT, summary->coverage);
+    CW_TRY(cw_layer_ratio(&mesh, domain->layer_count, CW_PATCH_LIMIT, summary->ratio));
     remove(boundary_path); // of an earlier attempt
   }
   *bytes = summary;

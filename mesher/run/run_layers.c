@@ -74,8 +74,6 @@ static CwStatus grow(void *context, int32_t d) {
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->heights};
   CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least,
                           &division));
-  cw_ledger_part("layers: room");
-  CW_TRY(cw_column_heights_room(&domain->heights, &domain->skeleton));
   cw_ledger_part("layers: small prisms");
   CW_TRY(cw_column_heights_even(&domain->heights, &domain->skeleton));
 done:
@@ -92,7 +90,6 @@ static CwStatus hand_layers(void *context, const CwSideHand *hand) {
   CW_SIDE_ARRAY(hand, skeleton->front, n);
   CW_SIDE_ARRAY(hand, skeleton->height, n);
   CW_SIDE_ARRAY(hand, skeleton->reason, n);
-  CW_SIDE_ARRAY(hand, domain->heights.room, n);
   CW_SIDE_ARRAY(hand, domain->heights.first_made, n);
 done:
   return status;

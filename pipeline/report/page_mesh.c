@@ -408,13 +408,13 @@ static void thickness_cells(FILE *page, json_t *patch, double faces) {
 static void height_cells(FILE *page, json_t *patch, double faces) {
   static const char *const missed[] = {"first_height_missed_by_gap_faces", "first_height_missed_by_gradation_faces",
                                        "first_height_missed_by_repair_faces"};
-  double reach = cw_json_real(patch, "last_layer_within_reach_faces");
   number_cell(page, cw_json_real(patch, "first_height_target_m") * 1e6, 4);
   share_cell(page, cw_json_real(patch, "first_height_met_faces"), faces);
   for (int s = 0; s < 3; s++) count_cell(page, json_integer_value(json_object_get(patch, missed[s])));
-  share_cell(page, cw_json_real(patch, "last_layer_fair_faces"), faces);
-  share_cell(page, reach, faces);
-  share_cell(page, cw_json_real(patch, "last_layer_within_reach_fair_faces"), reach);
+  share_cell(page, faces - cw_json_real(patch, "thin_last_layer_faces") - cw_json_real(patch, "thick_last_layer_faces"),
+             faces);
+  number_cell(page, cw_json_real(patch, "volume_ratio_95_percent"), 3);
+  number_cell(page, cw_json_real(patch, "volume_ratio_greatest"), 3);
 }
 
 static void layer_rows(FILE *page, const CwReportData *data, json_t *const *list, int columns,
@@ -465,14 +465,15 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
         "<th class=\"n\"><br>repair</th></tr>\n",
         page);
   layer_rows(page, data, list, 8, thickness_cells);
-  fputs("</table>\n<p>The last layer is fair where it is 0.5 to 1.5 times as high as the tetrahedron on it. That is in "
-        "reach where the first height, number of layers and growth ratio of the case allow it and no gap forbids "
-        "it.</p>\n"
-        "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
-        "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
-        "<th class=\"n\">Last layer<br>fair</th><th class=\"n\">In<br>reach</th><th class=\"n\">Fair<br>of these</th>"
-        "</tr>\n",
-        page);
+  fputs(
+      "</table>\n<p>The volume ratio is that of the last prism of a column and the tetrahedron on it, the greater over "
+      "the less.</p>\n"
+      "<table><tr><th>Patch</th><th class=\"n p\">First height,<br>target, &micro;m</th><th class=\"n\"><br>met</th>"
+      "<th class=\"n\">Missed by<br>gap</th><th class=\"n\"><br>gradation</th><th class=\"n\"><br>repair</th>"
+      "<th class=\"n\">Volume ratio<br>up to 4</th><th class=\"n p\"><br>95&#8239;% up to</th>"
+      "<th class=\"n p\"><br>greatest</th>"
+      "</tr>\n",
+      page);
   layer_rows(page, data, list, 9, height_cells);
   fputs("</table>\n", page);
 done:

@@ -7,9 +7,9 @@ after the other: cells made, passes, layers, least dihedral angle, mean aspect o
 checkMesh says (-allGeometry -allTopology).
 
 first   wall faces whose first height is within 10 % of its target, %
-last    of the wall faces that can reach it, those whose last layer has 0.5 to 1.5 times the height of the tetrahedron
-        on it, %; in brackets the share of all wall faces that can
-least   the same of the patch that has the fewest, and its name (patches where less than 100 faces can are left out)
+layers  number of prism layers
+even    faces of the layer top across which volumes change by no more than 4, %; in brackets the greatest change
+worst   patch with the fewest of them, of those with 100 faces or more
 beside  how much greater the mean aspect of the tetrahedra beside dividing planes is than that of the others, %
 
 Every run is removed before the next one begins. With --mesh-only nothing is exported, and checkMesh not asked."""
@@ -34,15 +34,15 @@ def percent(part, whole):
     return f"{100 * part / whole:.2f}" if whole else "-"
 
 
-def last_layers(patches):
-    """Shares of the last layers that fit their tetrahedra, in all, and in the patch with the fewest."""
+def even_faces(patches):
+    """Share of faces of the layer top with volumes alike, the greatest ratio, and the patch that has the fewest."""
     faces = sum(p["wall_faces"] for p in patches)
-    within = sum(p["last_layer_within_reach_faces"] for p in patches)
-    fair = sum(p["last_layer_within_reach_fair_faces"] for p in patches)
-    shares = [(p["last_layer_within_reach_fair_faces"] / p["last_layer_within_reach_faces"], p["patch"])
-              for p in patches if p["last_layer_within_reach_faces"] >= 100]
-    least = f"{100 * min(shares)[0]:.1f} {min(shares)[1]}" if shares else "-"
-    return f"{percent(fair, within)} ({percent(within, faces)})", least
+    shares = [(1 - (p["thin_last_layer_faces"] + p["thick_last_layer_faces"]) / p["wall_faces"], p)
+              for p in patches if p["wall_faces"]]
+    even = sum(share * p["wall_faces"] for share, p in shares)
+    large = [(share, p["patch"]) for share, p in shares if p["wall_faces"] >= 100]
+    worst = f"{100 * min(large)[0]:.1f} {min(large)[1]}" if large else "-"
+    return f"{percent(even, faces)} ({max(p['volume_ratio_greatest'] for p in patches):.1f})", worst
 
 
 def table_row(name, run, told):
@@ -51,7 +51,7 @@ def table_row(name, run, told):
     domains = results["domains"]
     patches = [patch for domain in domains for patch in domain["layer_coverage"]]
     first = percent(sum(p["first_height_met_faces"] for p in patches), sum(p["wall_faces"] for p in patches))
-    last, least = last_layers(patches)
+    even, worst = even_faces(patches)
 
     def of_domains(key, form):
         return " / ".join(form.format(domain[key]) for domain in domains)
@@ -60,8 +60,8 @@ def table_row(name, run, told):
     for domain in domains:
         near, apart = domain["tetrahedra_beside_planes"], domain["tetrahedra_apart"]
         beside.append(f"{100 * (near['aspect_mean'] / apart['aspect_mean'] - 1):+.1f}")
-    print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}  {first:>6}  {last:>15}"
-          f"  {least:22} {of_domains('least_dihedral_deg', '{:.1f}'):>12} "
+    print(f"{name:10}{results['asked_cells']:>12,}{results['cells']:>12,}{results['passes']:>7}{results['layers']:>7}  {first:>6}"
+          f"  {even:>15}  {worst:22} {of_domains('least_dihedral_deg', '{:.1f}'):>12} "
           f"{of_domains('tetrahedron_aspect_mean', '{:.2f}'):>12} {' / '.join(beside):>12}  {told}", flush=True)
 
 
@@ -76,7 +76,7 @@ def main():
     options = parser.parse_args()
     cases = SOURCE / "cases"
     names = options.names or sorted(path.parent.name for path in cases.glob("*/case.yaml"))
-    print(f"{'case':10}{'asked':>12}{'made':>12}{'passes':>7}  {'first':>6}  {'last':>15}  {'least':22} "
+    print(f"{'case':10}{'asked':>12}{'made':>12}{'passes':>7}{'layers':>7}  {'first':>6}  {'even':>15}  {'worst':22} "
           f"{'dihedral':>12} {'aspect':>12} {'beside':>12}  checkMesh", flush=True)
     for cells in options.cells:
         for name in names:

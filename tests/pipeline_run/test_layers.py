@@ -38,16 +38,15 @@ class Layers(unittest.TestCase):
         def total(key):
             return sum(patch[key] for patch in patches)
 
-        faces, within = total("wall_faces"), total("last_layer_within_reach_faces")
-        self.assertEqual(sum(sum(patch["last_layer_over_tetrahedron_bins"]) for patch in patches), faces)
-        self.assertLessEqual(total("last_layer_within_reach_fair_faces"), total("last_layer_fair_faces"))
-        self.assertGreater(within, 0)
-        self.assertGreater(total("last_layer_within_reach_fair_faces"), 0.75 * within)
+        faces = total("wall_faces")
+        uneven = total("thin_last_layer_faces") + total("thick_last_layer_faces")
+        self.assertLess(total("volume_ratio_over_10_faces"), uneven)
         self.assertGreater(total("first_height_met_faces"), 0.995 * faces)
         self.assertEqual(total("thin_prisms"), 0)
         for patch in patches:
             with self.subTest(patch["patch"]):
-                self.assertLessEqual(patch["last_layer_within_reach_faces"], patch["wall_faces"])
+                self.assertGreaterEqual(patch["volume_ratio_greatest"], patch["volume_ratio_95_percent"])
+                self.assertEqual(patch["volume_ratio_greatest"] > 10, patch["volume_ratio_over_10_faces"] > 0)
 
     def test_thin_prisms(self):
         """First layers of 1/100 of the edges in the volute: the user is told where, and how much would spare them."""

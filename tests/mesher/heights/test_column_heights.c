@@ -10,8 +10,6 @@
 #include <cmocka.h>
 
 #include "mesher/heights/column_heights.h"
-#include "mesher/heights/even_columns.h"
-#include "mesher/layers/layers.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-9)
 
@@ -167,54 +165,10 @@ static void the_share_of_graded_columns(void **state) {
   free_wall(&wall, &heights);
 }
 
-static void room_and_what_it_allows(void **state) {
-  Wall wall;
-  CwColumnHeights heights = {0};
-  CwRatioWall *ratio = NULL;
-  make_wall(&wall, 10, 4, square_x, 2, square, square_face);
-  assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_OK);
-  wall.reason[1] = CW_LAYER_GAP, wall.height[1] = 6.8, wall.front[1][2] = -6.8;
-  wall.reason[3] = CW_LAYER_GRADATION, wall.height[3] = 5, wall.front[3][2] = -5;
-  assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
-  NEAR(heights.room[1], 6.8);
-  for (int v = 0; v < 4; v++) NEAR(heights.room[v], v == 1 ? 6.8 : 7); // 0.3 more is above 7; gradation does not count
-  wall.height[1] = 4.75;
-  wall.front[1][2] = -4.75;
-  free(heights.room);
-  assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
-  NEAR(heights.room[0], 5.05);
-  NEAR(heights.room[2], 5.05);
-  NEAR(heights.room[3], 4.75 + 0.6);
-  for (int lean = 0; lean < 2; lean++) { // column 0 leans to column 1, where its end is half as far, or nearly meets it
-    wall.front[0][0] = square_x[0][0] + wall.height[0] * (lean ? 0.2 : 0.1);
-    free(heights.room);
-    assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
-    NEAR(heights.room[0], 4.75 + 0.3 * (lean ? 0.25 : 1 - 0.1 * 4.75));
-  }
-  wall.front[0][0] = square_x[0][0];
-  free(heights.room);
-  assert_int_equal(cw_column_heights_room(&heights, &wall.skeleton), CW_OK);
-  assert_int_equal(cw_column_heights_even(&heights, &wall.skeleton), CW_OK);
-  assert_int_equal(cw_column_heights_ratio(&heights, &wall.skeleton, 0, &ratio), CW_OK);
-  assert_true(ratio[0].cramped);
-  assert_false(ratio[1].cramped);
-  // Layers of 1, g and g^2 that are h together: g^2 = h - 1 - g, g = (sqrt(4 h - 3) - 1) / 2.
-  double last[4];
-  for (int v = 0; v < 4; v++) last[v] = heights.room[v] - 1 - (sqrt(4 * heights.room[v] - 3) - 1) / 2;
-  NEAR(ratio[0].last, (last[0] + last[1] + last[2]) / 3);
-  NEAR(ratio[1].last, (last[0] + last[2] + last[3]) / 3);
-  NEAR(ratio[1].first, 1);
-  NEAR(ratio[1].made, (4 + 4 + 5 - 1 - (sqrt(4 * 5 - 3) - 1) / 2) / 3); // columns of 7, 7 and 5
-  free(ratio);
-  free_wall(&wall, &heights);
-}
-
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_flat_wall),
-                                     cmocka_unit_test(the_finer_patch_holds_where_two_meet),
-                                     cmocka_unit_test(bends_of_the_wall),
-                                     cmocka_unit_test(a_vertex_without_triangle_is_an_error),
-                                     cmocka_unit_test(the_share_of_graded_columns),
-                                     cmocka_unit_test(room_and_what_it_allows)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_flat_wall), cmocka_unit_test(the_finer_patch_holds_where_two_meet),
+      cmocka_unit_test(bends_of_the_wall), cmocka_unit_test(a_vertex_without_triangle_is_an_error),
+      cmocka_unit_test(the_share_of_graded_columns)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
