@@ -207,7 +207,7 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
   if (status != CW_OK) goto done;
   CW_TRY(cw_fill_on_planes(input, input->point_count, &on_plane));
   CW_TRY(cw_tet_improve(input->point_count, on_plane, fill, &improved));
-  fill->way.tetgen = 1;
+  fill->recovery.tetgen = 1;
   cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d removed, %d added, least sine "
                "%.3g to %.3g",
                input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,

@@ -48,22 +48,20 @@ typedef struct {
 typedef struct {
   int32_t missing; // boundary triangles that the Delaunay mesh did not have
   int32_t flips;   // to bring them in
-  int32_t cleared; // triangles recovered by a hollow cleared and filled from new points
-  int32_t divided; // points that divided the boundary for a while, and were then moved inside
   int32_t tetgen;  // 1: by TetGen, after all; the others then tell of the kernel's try
-} CwFillWay;
+} CwFillRecovery;
 
 typedef struct {
   int32_t point_count; // the given points first, in their order
   double (*x)[3];
   int32_t tetrahedron_count;
   int32_t (*tetrahedron)[4]; // (x1 - x0) x (x2 - x0) points towards x3: positive volume
-  CwFillWay way;
+  CwFillRecovery recovery;
 } CwFill;
 
 // TetGen alone. Fails with CW_ERR_MESH naming the region and a place (mm) where the boundary is open or crosses
 // itself.
-// Deterministic. Not thread-safe: the size callback of TetGen carries no context.
+// Deterministic. TetGen runs in a process of its own.
 CwStatus cw_fill(const CwFillInput *input, CwFill *fill);
 void cw_fill_free(CwFill *fill);
 

@@ -48,8 +48,8 @@ CwStatus cw_fill_sure(const CwFillInput *input, CwFillMethod method, CwFill *fil
     *fill = own;
     return CW_OK;
   }
-  own.way.tetgen = 1;
-  fill->way = own.way;
+  own.recovery.tetgen = 1;
+  fill->recovery = own.recovery;
 done:
   cw_fill_free(&own);
   return status;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The one call that fills a boundary whatever it takes: the kernel's flips, inner points and divisions of the
-// boundary, and TetGen where even these fail or leave a cell that is flat.
+// The one call that fills a boundary: by the kernel, and by TetGen where the kernel's flips do not recover all
+// triangles or leave a cell that is flat.
 #ifndef CUTWATER_MESHER_FILL_FILL_SURE_H
 #define CUTWATER_MESHER_FILL_FILL_SURE_H
 
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-// Promises and errors of cw_fill; fill->way says how it was done. With CW_FILL_TETGEN the kernel is not tried.
+// Promises and errors of cw_fill; fill->recovery says how it was done. With CW_FILL_TETGEN the kernel is not tried.
 CwStatus cw_fill_sure(const CwFillInput *input, CwFillMethod method, CwFill *fill);
 
 // Least over the tetrahedra of six times the volume over the cube of the longest edge.

@@ -13,10 +13,7 @@
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel_core.h"
 #include "mesher/fill/kernel_facets.h"
-#include "mesher/fill/kernel_flat.h"
 #include "mesher/fill/kernel_recover.h"
-#include "mesher/fill/kernel_split.h"
-#include "mesher/fill/kernel_unsplit.h"
 #include "mesher/fill/tet_improve.h"
 #include "mesher/fill/tet_mesh.h"
 #include "pipeline/log.h"
@@ -52,11 +49,10 @@ static void give_back(void) {
 #endif
 }
 
-enum { ROUNDS = 4 }; // of recovery: what one facet could not have may be free after others have theirs
-static const double NEARLY_FLAT = 1e-3; // quality of which some are as flat as rounding
-enum { INNER = 16, OUTSIDE = 32 };      // of a tetrahedron, and bit i: its face i is a facet
-#define MARKED (UINT32_C(1) << 31)      // and any of these
-enum { SOON = 8, LATER = 16 }; // facets ahead of which the memory is asked, for the outer and the inner tetrahedron
+enum { ROUNDS = 4 };               // of recovery: what one facet could not have may be free after others have theirs
+enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
+#define MARKED (UINT32_C(1) << 31) // and any of these
+enum { SOON = 8, LATER = 16 };     // facets ahead of which the memory is asked, for the outer and the inner tetrahedron
 
 // Stands where the square of the sphere's radius stood, and has its sign set, which no square has: whether a
 // tetrahedron has one is as good as random, and this takes no branch.
@@ -119,7 +115,6 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
                input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
-    // Parts of a bare one that was divided count as others; they are few.
     int bare = f >= input->bare_first && f < input->bare_first + input->bare_count;
     mesh->tet[inner / 4].neighbour[inner % 4] = bare ? CW_BESIDE_NOTHING : CW_BESIDE_OTHERS;
   }
@@ -152,41 +147,21 @@ done:
   return status;
 }
 
-// Brings all boundary triangles into the mesh: by flips and cleared hollows, and at last by divisions of the
-// boundary. CW_RETRY where some are still missing.
-static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, int32_t *source_count,
-                        CwSplits *splits, CwFillWay *way) {
+// Brings all boundary triangles into the mesh by flips. CW_RETRY where some are
+// still missing, of a boundary that does not cross itself.
+static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, CwFillRecovery *recovery) {
   CwStatus status = CW_OK;
-  CwRecovered recovered = {0};
+  int64_t flips = 0;
   CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
-  way->missing = facets->missing_count;
+  recovery->missing = facets->missing_count;
   for (int round = 0; round < ROUNDS && facets->missing_count; round++)
-    CW_TRY(cw_kernel_recover(mesh, facets, round, source_count, &recovered));
+    CW_TRY(cw_kernel_recover(mesh, facets, round, &flips));
+  recovery->flips = (int32_t)(flips < INT32_MAX ? flips : INT32_MAX);
   if (facets->missing_count) {
     CW_TRY(cw_boundary_check_crossing(input));
-    CW_TRY(cw_kernel_split(mesh, facets, source_count, splits, &recovered));
-    CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
-  }
-  if (facets->missing_count) {
     cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count, facets->count);
     status = CW_RETRY;
   }
-done:
-  way->flips = (int32_t)(recovered.flips < INT32_MAX ? recovered.flips : INT32_MAX);
-  way->cleared = recovered.cleared;
-  way->divided = splits->count;
-  return status;
-}
-
-// Where the improvement left tetrahedra that may be flat.
-static CwStatus raise_flat(const CwFillInput *input, CwDelaunay *mesh, int32_t *source_count,
-                           const CwTetImproved *improved, int32_t *raised) {
-  CwStatus status = CW_OK;
-  int32_t left;
-  *raised = 0;
-  if (improved->least_after > NEARLY_FLAT) goto done;
-  CW_TRY(cw_kernel_flat(mesh, source_count, raised, &left));
-  cw_log_debug("%s: %d flat tetrahedra raised, %d not", input->name, *raised, left);
 done:
   return status;
 }
@@ -196,12 +171,10 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CwDelaunay mesh = {0};
   CwKernelCore core = {0};
   CwFacets facets = {0};
-  CwSplits splits = {0};
   CwTetImproved improved;
-  CwFillWay way = {0};
+  CwFillRecovery recovery = {0};
   uint8_t *on_plane = NULL;
-  int32_t count = 0, raised = 0;
-  int good = 1;
+  int32_t count = 0;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &core, &count, &mesh));
@@ -209,25 +182,12 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(cw_delaunay_connect(&mesh));
   CW_TRY(cw_kernel_core_carve(&core, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
-  CW_TRY(recover(input, &mesh, &facets, &count, &splits, &way));
+  CW_TRY(recover(input, &mesh, &facets, &recovery));
   CW_TRY(keep_inside(input, &facets, &mesh));
   cw_facets_free(&facets);
   give_back();
-  if (splits.count) {
-    // Flat tetrahedra leave the points no room to move; all others are held meanwhile.
-    CW_TRY(cw_tet_improve_mesh(&mesh, count, NULL, &count, &improved));
-    CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
-    CW_TRY(cw_kernel_unsplit(&mesh, &splits, &good));
-  }
-  if (!good) {
-    cw_log_debug("%s: no room to take %d points off the boundary", input->name, splits.count);
-    status = CW_RETRY;
-    goto done;
-  }
   CW_TRY(cw_fill_on_planes(input, core.fixed_count, &on_plane));
   CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &improved));
-  CW_TRY(raise_flat(input, &mesh, &count, &improved, &raised));
-  if (raised) CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &improved));
   CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
   cw_log_debug("%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
@@ -238,11 +198,10 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
                improved.least_after);
 done:
   free(on_plane);
-  cw_splits_free(&splits);
   cw_facets_free(&facets);
   cw_kernel_core_free(&core);
   cw_delaunay_free(&mesh);
   if (status != CW_OK) cw_fill_free(fill);
-  fill->way = way;
+  fill->recovery = recovery;
   return status;
 }

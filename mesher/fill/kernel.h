@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-// Promises and errors of cw_fill, and CW_RETRY where rounding leaves no room to recover a triangle of the
-// boundary, or bodies that touch along an edge have it missing: then fill->way still tells how far it got.
+// Promises and errors of cw_fill, and CW_RETRY where flips do not recover a triangle of the
+// boundary, or bodies that touch along an edge have it missing: then fill->recovery still tells how far it got.
 // Thread-safe if the size field is.
 CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill);
 

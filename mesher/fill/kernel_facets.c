@@ -6,7 +6,7 @@
 
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-enum { EMPTY = -1, DIVIDED = -2 };                               // places of the tables
+enum { EMPTY = -1 };                                             // place of a table
 enum { THREE = 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | 1 << 15 }; // bit k: k has three bits or four
 
 static uint32_t scatter(uint64_t z) {
@@ -41,7 +41,7 @@ int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]) {
   for (uint32_t k = place_of(scatter_three(corner), facets->table_space);; k = after(k, facets->table_space)) {
     int32_t f = facets->table[k];
     if (f == EMPTY) return -1;
-    if (f >= 0 && same_points(facets->corner[f], corner)) return f;
+    if (same_points(facets->corner[f], corner)) return f;
   }
 }
 
@@ -55,8 +55,7 @@ static int is_edge(const CwFacets *facets, int32_t side, int32_t a, int32_t b) {
 static uint32_t edge_place(const CwFacets *facets, int32_t a, int32_t b) {
   int32_t low = a < b ? a : b, high = a < b ? b : a;
   uint32_t k = place_of(scatter((uint64_t)low << 32 | (uint64_t)high), facets->edge_space);
-  while (facets->edge[k] != EMPTY && (facets->edge[k] == DIVIDED || !is_edge(facets, facets->edge[k], a, b)))
-    k = after(k, facets->edge_space);
+  while (facets->edge[k] != EMPTY && !is_edge(facets, facets->edge[k], a, b)) k = after(k, facets->edge_space);
   return k;
 }
 
@@ -68,25 +67,18 @@ static void note_facet(CwFacets *facets, int32_t f) {
   const int32_t *p = facets->corner[f];
   uint32_t place = place_of(scatter_three(p), facets->table_space);
   while (facets->table[place] >= 0) place = after(place, facets->table_space);
-  facets->table_used += facets->table[place] == EMPTY;
   facets->table[place] = f;
   for (int k = 0; k < 3; k++) {
     if (p[k] > p[(k + 1) % 3]) continue; // the boundary is closed: another facet has the edge the other way round
-    int32_t *edge = &facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])];
-    facets->edge_used += *edge == EMPTY;
-    *edge = 3 * f + k;
+    facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])] = 3 * f + k;
   }
 }
 
-// Empty tables with room for `count` facets, which are not in them yet.
+// Empty tables with room for `count` facets.
 static CwStatus make_tables(CwFacets *facets, int32_t count) {
   CwStatus status = CW_OK;
-  free(facets->table);
-  free(facets->edge);
-  facets->edge = NULL;
   facets->table_space = 4 * (uint32_t)count + 16; // most faces that are looked for are no facets
   facets->edge_space = 2 * (uint32_t)count + 16;  // 1.5 edges a triangle, seldom asked for
-  facets->table_used = facets->edge_used = 0;
   CW_NEW(facets->table, facets->table_space);
   CW_NEW(facets->edge, facets->edge_space);
   memset(facets->table, EMPTY, facets->table_space * sizeof *facets->table);
@@ -99,12 +91,10 @@ CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFace
   CwStatus status = CW_OK;
   int32_t *number = NULL;
   memset(facets, 0, sizeof *facets);
-  facets->space = input->triangle_count;
-  facets->divided_from = INT32_MAX;
   CW_NEW(number, input->point_count);
-  CW_NEW(facets->corner, facets->space);
-  CW_NEW(facets->inner, facets->space);
-  CW_TRY(make_tables(facets, facets->space));
+  CW_NEW(facets->corner, input->triangle_count);
+  CW_NEW(facets->inner, input->triangle_count);
+  CW_TRY(make_tables(facets, input->triangle_count));
   for (int32_t p = 0; p < mesh->point_count; p++) {
     int32_t given = mesh->source[p];
     if (given >= 0 && given < input->point_count) number[given] = p;
@@ -123,89 +113,6 @@ done:
   return status;
 }
 
-// Room for `more` facets and for the edges that come with them.
-static CwStatus make_room(CwFacets *facets, int more) {
-  CwStatus status = CW_OK;
-  if (facets->count + more > facets->space) {
-    int32_t space = facets->space + facets->space / 4 + 64;
-    int32_t(*corner)[3] = realloc(facets->corner, (size_t)space * sizeof *corner);
-    CW_REQUIRE(corner, CW_ERR_MEMORY, "out of memory: %d boundary triangles", space);
-    facets->corner = corner;
-    int32_t *inner = realloc(facets->inner, (size_t)space * sizeof *inner);
-    CW_REQUIRE(inner, CW_ERR_MEMORY, "out of memory: %d boundary triangles", space);
-    facets->inner = inner;
-    facets->space = space;
-  }
-  if ((facets->table_used + 2 * (uint32_t)more) * 8 > 7 * facets->table_space ||
-      (facets->edge_used + 4 * (uint32_t)more) * 8 > 7 * facets->edge_space) {
-    CW_TRY(make_tables(facets, facets->space));
-    for (int32_t f = 0; f < facets->count; f++) note_facet(facets, f);
-  }
-done:
-  return status;
-}
-
-static void put_facet(CwFacets *facets, int32_t f, int32_t a, int32_t b, int32_t c) {
-  const int32_t corner[3] = {a, b, c};
-  memcpy(facets->corner[f], corner, sizeof corner);
-  facets->inner[f] = -1;
-  note_facet(facets, f);
-}
-
-// Its edges go too, as far as the table has them from it: those that are left come back with its parts.
-static void forget_facet(CwFacets *facets, int32_t f) {
-  const int32_t *p = facets->corner[f];
-  uint32_t place = place_of(scatter_three(p), facets->table_space);
-  while (facets->table[place] != f) place = after(place, facets->table_space);
-  facets->table[place] = DIVIDED;
-  for (int k = 0; k < 3; k++) {
-    int32_t *edge = &facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])];
-    if (*edge == 3 * f + k) *edge = DIVIDED;
-  }
-}
-
-CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s, int *count, int32_t ends[2][2],
-                               int32_t apex[2]) {
-  CwStatus status = CW_OK;
-  int32_t at[2] = {-1, -1};
-  *count = 0;
-  for (int32_t f = 0; f < facets->count; f++) { // divisions are rare: no table is kept for them
-    const int32_t *p = facets->corner[f];
-    for (int k = 0; k < 3; k++) {
-      int32_t from = p[k], to = p[(k + 1) % 3];
-      if (!((from == a && to == b) || (from == b && to == a))) continue;
-      if (*count < 2) {
-        at[*count] = f;
-        ends[*count][0] = from;
-        ends[*count][1] = to;
-        apex[*count] = p[(k + 2) % 3];
-      }
-      ++*count;
-    }
-  }
-  if (*count != 2) goto done;
-  CW_TRY(make_room(facets, 2));
-  for (int k = 0; k < 2; k++) forget_facet(facets, at[k]);
-  for (int k = 0; k < 2; k++) {
-    put_facet(facets, at[k], ends[k][0], s, apex[k]);
-    put_facet(facets, facets->count++, s, ends[k][1], apex[k]);
-  }
-done:
-  return status;
-}
-
-CwStatus cw_facets_divide_face(CwFacets *facets, int32_t facet, int32_t s) {
-  CwStatus status = CW_OK;
-  CW_TRY(make_room(facets, 2));
-  int32_t a = facets->corner[facet][0], b = facets->corner[facet][1], c = facets->corner[facet][2];
-  forget_facet(facets, facet);
-  put_facet(facets, facet, a, b, s);
-  put_facet(facets, facets->count++, b, c, s);
-  put_facet(facets, facets->count++, c, a, s);
-done:
-  return status;
-}
-
 void cw_facets_free(CwFacets *facets) {
   free(facets->corner);
   free(facets->inner);
@@ -219,8 +126,7 @@ CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFac
   uint8_t *on_boundary = NULL; // of each point
   CW_NEW(on_boundary, mesh->point_count);
   for (int32_t p = 0; p < mesh->point_count; p++) {
-    int32_t given = mesh->source[p];
-    on_boundary[p] = ((uint32_t)given < (uint32_t)boundary_points) | (given >= facets->divided_from);
+    on_boundary[p] = (uint32_t)mesh->source[p] < (uint32_t)boundary_points;
   }
   facets->missing_count = facets->count;
   memset(facets->inner, -1, (size_t)facets->count * sizeof *facets->inner);

@@ -19,12 +19,9 @@ typedef struct {
   int32_t (*corner)[3]; // points of the Delaunay mesh; normal out of the region
   int32_t *inner;       // 4 * tetrahedron + face: the face of each facet, seen from inside; -1: missing
   int32_t missing_count;
-  int32_t *table; // hash table of facets by their points; -1: empty, -2: one that was divided
-  int32_t *edge;  // hash table of their edges, as 3 * facet + side of one facet that has it upward; -1, -2 likewise
+  int32_t *table; // hash table of facets by their points; -1: empty
+  int32_t *edge;  // hash table of their edges, as 3 * facet + side of one facet that has it upward; -1: empty
   uint32_t table_space, edge_space;
-  uint32_t table_used, edge_used; // places that are not empty
-  int32_t space;                  // of corner and inner
-  int32_t divided_from;           // points with sources from here on may be corners too
 } CwFacets;
 
 // Numbers the facets as the mesh does. Fails with CW_ERR_MESH where one is listed twice.
@@ -35,14 +32,6 @@ void cw_facets_free(CwFacets *facets);
 int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]);
 // True where the two points are an edge of the boundary.
 int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b);
-
-// Divides the edge a-b at the point s of the mesh: each facet at it becomes two. apex[k]: the third corner of
-// facet k before, whose triangle was (ends[k][0], ends[k][1], apex[k]). *count is how many; where it is not 2,
-// nothing has changed.
-CwStatus cw_facets_divide_edge(CwFacets *facets, int32_t a, int32_t b, int32_t s, int *count, int32_t ends[2][2],
-                               int32_t apex[2]);
-// Divides one facet into three.
-CwStatus cw_facets_divide_face(CwFacets *facets, int32_t facet, int32_t s);
 
 // Looks all faces of the mesh up: fills inner and missing_count.
 CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets);

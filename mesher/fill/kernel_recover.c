@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "mesher/common/predicates.h"
-#include "mesher/fill/kernel_clear.h"
 #include "mesher/fill/kernel_flips.h"
 #include "pipeline/log.h"
 
@@ -30,16 +29,28 @@ static int shares(const int32_t *p, int m, const int32_t *q, int n) {
   return 0;
 }
 
+// Does the segment a-b meet the triangle (touching counts)? They share no point.
+static int meet(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t[3]) {
+  int below = side(mesh, t[0], t[1], t[2], a), above = side(mesh, t[0], t[1], t[2], b), low = 0, high = 0;
+  if (below * above > 0 || (below == 0 && above == 0)) return 0;
+  for (int k = 0; k < 3; k++) {
+    int s = side(mesh, a, b, t[k], t[(k + 1) % 3]);
+    low |= s < 0;
+    high |= s > 0;
+  }
+  return !(low && high);
+}
+
 static int face_crosses_edge(const void *context, int count, const int32_t *point) {
   const Goal *goal = context;
   if (count != 3 || shares(point, 3, goal->point, 2)) return 0;
-  return cw_kernel_meet(goal->mesh, goal->point[0], goal->point[1], point);
+  return meet(goal->mesh, goal->point[0], goal->point[1], point);
 }
 
 static int edge_crosses_face(const void *context, int count, const int32_t *point) {
   const Goal *goal = context;
   if (count != 2 || shares(point, 2, goal->point, 3)) return 0;
-  return cw_kernel_meet(goal->mesh, point[0], point[1], goal->point);
+  return meet(goal->mesh, point[0], point[1], goal->point);
 }
 
 static int draw(Recovery *r, int below) {
@@ -220,29 +231,24 @@ done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int32_t *source_count,
-                           CwRecovered *recovered) {
+CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int64_t *flips) {
   CwStatus status = CW_OK;
   CwRecovery r;
-  int lost_edges = 0, lost_faces = 0;
+  int lost_edges = 0, lost_faces = 0, found;
   CW_TRY(cw_recovery_make(mesh, facets, (uint32_t)round, &r));
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0) continue;
     for (int k = 0; k < 3; k++) {
-      int found;
       CW_TRY(cw_recovery_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], TRIES, &found));
       lost_edges += !found;
     }
   }
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0) continue;
-    int found, cleared = 0;
     CW_TRY(cw_recovery_face(&r, facets->corner[f], TRIES, &found));
-    if (!found && round >= 2) CW_TRY(cw_kernel_clear(&r.flips, facets, f, source_count, &cleared));
-    recovered->cleared += cleared;
-    lost_faces += !found && !cleared;
+    lost_faces += !found;
   }
-  recovered->flips += r.flips.done;
+  *flips += r.flips.done;
   cw_log_debug("%d missing triangles: %lld flips, %d edges and %d triangles not recovered", facets->missing_count,
                (long long)r.flips.done, lost_edges, lost_faces);
   CW_TRY(locate_again(&r.flips, facets));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Brings boundary triangles that the Delaunay mesh does not have into it: by flips, and where these are stuck
-// by clearing what crosses the triangle and filling both sides of it anew from a new point each.
+// Brings boundary triangles that the Delaunay mesh does not have into it, by flips.
 #ifndef CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
 #define CUTWATER_MESHER_FILL_KERNEL_RECOVER_H
 
@@ -32,17 +31,10 @@ CwStatus cw_recovery_edge(CwRecovery *recovery, int32_t a, int32_t b, int tries,
 // The face whose edges are there.
 CwStatus cw_recovery_face(CwRecovery *recovery, const int32_t corner[3], int tries, int *found);
 
-typedef struct {
-  int64_t flips;
-  int32_t cleared; // triangles for which a hollow was cleared and filled from new points
-} CwRecovered;
-
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered
 // stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. Another `round`
-// tries other flips, from the third on also new points, whose sources go from *source_count on. Adds to *recovered.
-// Deterministic.
-CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int32_t *source_count,
-                           CwRecovered *recovered);
+// tries other flips. Adds what was flipped to *flips. Deterministic.
+CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int64_t *flips);
 
 #ifdef __cplusplus
 }

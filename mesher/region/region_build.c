@@ -319,7 +319,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
     input.inner_site = site;
   }
   CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
-  mesh->way = build.fill.way;
+  mesh->recovery = build.fill.recovery;
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;
   CW_NEW(mesh->tetrahedron, mesh->tetrahedron_count);

@@ -82,11 +82,9 @@ static CwStatus write_items(hid_t file, const CwRegionMesh *r) {
   CW_TRY(write_integer(file, "region", r->region));
   CW_TRY(write_integer(file, "number", r->number));
   CW_TRY(write_text(file, "fingerprint", r->fingerprint));
-  CW_TRY(write_integer(file, "recovered_triangles", r->way.missing));
-  CW_TRY(write_integer(file, "recovery_flips", r->way.flips));
-  CW_TRY(write_integer(file, "recovery_hollows", r->way.cleared));
-  CW_TRY(write_integer(file, "recovery_points", r->way.divided));
-  CW_TRY(write_integer(file, "tetgen", r->way.tetgen));
+  CW_TRY(write_integer(file, "recovered_triangles", r->recovery.missing));
+  CW_TRY(write_integer(file, "recovery_flips", r->recovery.flips));
+  CW_TRY(write_integer(file, "tetgen", r->recovery.tetgen));
   CW_TRY(cw_region_items_write(file, &data));
 done:
   return status;
@@ -142,11 +140,9 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
     int32_t *value;
   } integers[] = {{"region", &r->region},
                   {"number", &r->number},
-                  {"recovered_triangles", &r->way.missing},
-                  {"recovery_flips", &r->way.flips},
-                  {"recovery_hollows", &r->way.cleared},
-                  {"recovery_points", &r->way.divided},
-                  {"tetgen", &r->way.tetgen}};
+                  {"recovered_triangles", &r->recovery.missing},
+                  {"recovery_flips", &r->recovery.flips},
+                  {"tetgen", &r->recovery.tetgen}};
   for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
     CW_TRY(cw_region_items_integer(file, path, integers[k].name, integers[k].value));
   CW_TRY(cw_region_items_text(file, path, "domain", r->domain, sizeof r->domain));

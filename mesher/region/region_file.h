@@ -19,8 +19,8 @@ typedef struct {
   char domain[16];
   int32_t region; // 1-based
   int32_t number;
-  char fingerprint[33]; // hex of all that the region follows from
-  CwFillWay way;        // how its boundary was recovered
+  char fingerprint[33];    // hex of all that the region follows from
+  CwFillRecovery recovery; // how its boundary was recovered
   int32_t point_count, shared_count;
   double (*x)[3]; // shared points first
   int64_t *shared_id;

@@ -172,15 +172,14 @@ static void warn_of_thin(const char *domain, const json_t *coverage) {
 static json_t *region_json(const CwMeshRun *run, int d, int32_t r, double predicted_sum) {
   const CwDomain *domain = &run->domain[d];
   const CwRegionSummary *made = &run->summary[d][r];
-  return json_pack("{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
-                   cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r) + 1, "number", domain->number[r],
-                   "tetrahedra", (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms,
-                   "recovered_triangles", made->way.missing, "recovery_flips", made->way.flips, "recovery_hollows",
-                   made->way.cleared, "recovery_points", made->way.divided, "tetgen", made->way.tetgen,
-                   "predicted_share", cw_json_number(domain->plan.predicted_cells[r] / predicted_sum), "seconds",
-                   cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg",
-                   cw_json_number(made->quality.dihedral_least), "least_dihedral_allowed_deg",
-                   cw_json_number(made->dihedral_allowed));
+  return json_pack(
+      "{s:i, s:i, s:i, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "region", r + 1, "copy_of",
+      cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, r) + 1, "number", domain->number[r], "tetrahedra",
+      (json_int_t)made->tetrahedra, "prisms", (json_int_t)made->prisms, "recovered_triangles", made->recovery.missing,
+      "recovery_flips", made->recovery.flips, "tetgen", made->recovery.tetgen, "predicted_share",
+      cw_json_number(domain->plan.predicted_cells[r] / predicted_sum), "seconds",
+      cw_json_number(run->region_seconds[d][r]), "least_dihedral_deg", cw_json_number(made->quality.dihedral_least),
+      "least_dihedral_allowed_deg", cw_json_number(made->dihedral_allowed));
 }
 
 // How even the cells of the regions are.
@@ -236,7 +235,7 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
     points += made->own_points;
     tets += made->tetrahedra;
     prisms += made->prisms;
-    tetgen += made->way.tetgen;
+    tetgen += made->recovery.tetgen;
     allowed = fmin(allowed, made->dihedral_allowed);
   }
   json_t *result = json_pack(

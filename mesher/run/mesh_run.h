@@ -20,7 +20,7 @@ typedef struct {
   double patch_area[CW_PATCH_LIMIT];  // m2, of the region's boundary faces
   CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
   CwLayerCoverage coverage[CW_PATCH_LIMIT];
-  CwFillWay way;
+  CwFillRecovery recovery;
   CwQuality quality;
   double dihedral_allowed; // degrees: no filling of the region's boundary has a least angle above, see cw_tet_bound
   CwRegionFailure failure; // else nothing of the above holds

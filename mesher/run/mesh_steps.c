@@ -63,7 +63,7 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   summary->prisms = mesh->prism_count;
   summary->triangles = mesh->triangle_count;
   summary->quads = mesh->quad_count;
-  summary->way = mesh->way;
+  summary->recovery = mesh->recovery;
   for (int32_t i = 0; i < mesh->triangle_count; i++) {
     summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
   }

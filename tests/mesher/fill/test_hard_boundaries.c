@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Every boundary of the library and of a row of random ones must be filled, whatever it takes. With three numbers as
-// arguments, random ones alone: as many, of the seeds from the second on, each so much after the one before as the
-// third says. With a name, that boundary of the library alone; with `seed N`, that random one alone.
+// Every boundary of the library but those of `refused`, and each of a list of random ones, is filled by the kernel's
+// flips or by TetGen. With three numbers as arguments, random ones alone: as many, of the seeds from the second on,
+// each so much after the one before as the third says. With a name, that boundary of the library alone; with `seed N`,
+// that random one alone.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,27 +26,33 @@ static int random_count = 40;
 static uint64_t first_seed = 1, seed_step = 1;
 
 typedef struct {
-  int filled, whole, flipped, cleared, divided, tetgen;
+  int filled, whole, flipped, tetgen;
 } Count;
 
-static void add(Count *count, const CwFillWay *way) {
+static void add(Count *count, const CwFillRecovery *recovery) {
   count->filled++;
-  if (way->tetgen)
+  if (recovery->tetgen)
     count->tetgen++;
-  else if (way->divided)
-    count->divided++;
-  else if (way->cleared)
-    count->cleared++;
-  else if (way->missing)
+  else if (recovery->missing)
     count->flipped++;
   else
     count->whole++;
 }
 
 static void print_count(const char *what, const Count *c) {
-  printf("%s: %d filled: %d Delaunay as they are, %d by flips, %d with hollows cleared, %d with the boundary divided, "
-         "%d by TetGen\n",
-         what, c->filled, c->whole, c->flipped, c->cleared, c->divided, c->tetgen);
+  printf("%s: %d filled: %d Delaunay as they are, %d by flips, %d by TetGen\n", what, c->filled, c->whole, c->flipped,
+         c->tetgen);
+}
+
+// What neither can fill without points on the boundary: a polyhedron for which a quadratic number of points inside is
+// needed (B. Chazelle, Convex partitions of polyhedra, SIAM J. Comput. 13, 1984).
+static const char *const refused[] = {"chazelle"};
+
+static int is_refused(const char *name) {
+  for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
+    if (!strcmp(name, refused[k])) return 1;
+  }
+  return 0;
 }
 
 // Fills it; gives NULL or what is wrong.
@@ -58,11 +65,10 @@ static const char *fill_one(const Surface *s, const char *name, double size, Cou
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
   const char *fault = fill_fault(s, &fill);
   if (getenv("CUTWATER_VERBOSE"))
-    printf("%-32s %6d triangles %7d cells %5d missing %6d flips %3d cleared %4d divided%s, flatness %.2g, %.2f s\n",
-           name, s->triangle_count, fill.tetrahedron_count, fill.way.missing, fill.way.flips, fill.way.cleared,
-           fill.way.divided, fill.way.tetgen ? ", TetGen" : "", cw_fill_flatness(&fill),
-           (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
-  add(count, &fill.way);
+    printf("%-32s %6d triangles %7d cells %5d missing %6d flips%s, flatness %.2g, %.2f s\n", name, s->triangle_count,
+           fill.tetrahedron_count, fill.recovery.missing, fill.recovery.flips, fill.recovery.tetgen ? ", TetGen" : "",
+           cw_fill_flatness(&fill), (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec));
+  add(count, &fill.recovery);
   cw_fill_free(&fill);
   return fault;
 }
@@ -77,12 +83,16 @@ static void library(void **unused) {
     CwFillInput input = fill_input(&s, &size);
     if (cw_boundary_check_crossing(&input) != CW_OK) fail_msg("%s: no boundary: %s", name, cw_fail_message());
     fault = fill_one(&s, name, size, &count);
+    if (is_refused(name)) { // in one line, with the region and the place
+      int told = fault && !strncmp(fault, input.name, strlen(input.name)) && strstr(fault, " mm");
+      fault = told ? NULL : "was not refused with its place";
+    }
     if (fault) print_error("%s: %s\n", name, fault);
     faults += fault != NULL;
     surface_free(&s);
   }
   print_count("library", &count);
-  assert_true(count.filled >= 40);
+  assert_int_equal(count.filled, hard_boundary_count() - (int)(sizeof refused / sizeof *refused));
   assert_int_equal(faults, 0);
 }
 
