@@ -305,19 +305,39 @@ static int64_t mend_worst(CwPatchWork *work, double bound) {
 }
 
 // The least cosine between the normal of a triangle and those of the surface at its corners.
-static double least_cosine(const CwPatchWork *work, int32_t t) {
-  const int32_t *c = work->corner[t];
+static double cosine_of(const CwPatchWork *work, int32_t a, int32_t b, int32_t c) {
+  const int32_t corner[3] = {a, b, c};
   double e[3], f[3], n[3], least = 1;
-  cw_sub(work->x[c[1]], work->x[c[0]], e);
-  cw_sub(work->x[c[2]], work->x[c[0]], f);
+  cw_sub(work->x[b], work->x[a], e);
+  cw_sub(work->x[c], work->x[a], f);
   cw_cross(e, f, n);
   cw_unit(n);
   for (int i = 0; i < 3; i++) {
     double m[3];
-    cw_patch_normal(work, c[i], m);
+    cw_patch_normal(work, corner[i], m);
     if (cw_unit(m) > 0) least = fmin(least, cw_dot(n, m)); // no normal at a pole of the map
   }
   return least;
+}
+
+static double least_cosine(const CwPatchWork *work, int32_t t) {
+  return cosine_of(work, work->corner[t][0], work->corner[t][1], work->corner[t][2]);
+}
+
+// Flips the edge of the steep triangle t that lays it down most: the three corners of one on a cut across a fillet lie
+// in the dividing plane, and no column on this plane leaves it.
+static int flip_steep(CwPatchWork *work, int32_t t) {
+  int best = -1;
+  double least = least_cosine(work, t) + 1e-3;
+  for (int i = 0; i < 3; i++) {
+    if (work->given[t] >> i & 1) continue;
+    Flip flip = flip_of(work, t, i);
+    double then = fmin(cosine_of(work, flip.a, flip.b, flip.d), cosine_of(work, flip.a, flip.d, flip.c));
+    if (then <= least) continue;
+    least = then;
+    best = i;
+  }
+  return best >= 0 && cw_patch_flip(work, t, best);
 }
 
 // Whether a triangle is larger than it may be where smaller ones are wanted.
@@ -331,14 +351,20 @@ static int is_too_large(const CwPatchWork *work, int32_t t) {
   return cw_norm(n) > 0.5 * sqrt(3) * most * most;
 }
 
-// Halves the longest free edge of triangles that are too large, and of those that stand steeply on the surface: on a
-// nose narrower than the wanted edges one may span half of it, and its corners see no direction in common with the
-// faces beside it.
-static CwStatus split_unfit(CwPatchWork *work, int64_t *splits) {
+// Halves the longest free edge of triangles that are too large, and of those that stand steeply on the surface and
+// that no flip lays down: on a nose narrower than the wanted edges one may span half of it, and its corners see no
+// direction in common with the faces beside it.
+static CwStatus mend_unfit(CwPatchWork *work, int64_t *changes) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
   for (int32_t t = 0; t < count; t++) {
-    if (work->corner[t][0] < 0 || (least_cosine(work, t) >= steep_cosine && !is_too_large(work, t))) continue;
+    if (work->corner[t][0] < 0) continue;
+    int steep = least_cosine(work, t) < steep_cosine;
+    if (steep && flip_steep(work, t)) {
+      ++*changes;
+      continue;
+    }
+    if (!steep && !is_too_large(work, t)) continue;
     double most = 0, uv[2];
     for (int i = 0; i < 3; i++) {
       int32_t a = work->corner[t][(i + 1) % 3], b = work->corner[t][(i + 2) % 3];
@@ -349,7 +375,7 @@ static CwStatus split_unfit(CwPatchWork *work, int64_t *splits) {
     }
     if (most == 0) continue;
     status = cw_patch_insert(work, uv, t, steep_room, 0.5 * sqrt(most));
-    *splits += status == CW_OK;
+    *changes += status == CW_OK;
     if (status == CW_RETRY) status = CW_OK;
     CW_TRY(status);
   }
@@ -375,9 +401,9 @@ CwStatus cw_patch_improve(CwPatchWork *work) {
     if (!mend_worst(work, 0.8)) break;
   // Last, without flips after it: these go by the angles and would turn such triangles back.
   for (int round = 0; round < STEEP_ROUNDS; round++) {
-    int64_t splits = 0;
-    CW_TRY(split_unfit(work, &splits));
-    if (splits == 0) break;
+    int64_t changes = 0;
+    CW_TRY(mend_unfit(work, &changes));
+    if (changes == 0) break;
     smooth(work);
   }
 done:

@@ -54,6 +54,7 @@ def arguments(words=None):
     parser.add_argument("--bin", type=Path, default=SOURCE / "build/bin")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--until", choices=STAGES, default=STAGES[-1], help="the last stage to run")
     parser.add_argument("--limit", type=float, default=600, help="seconds of a stage")
     parser.add_argument("--check-mesh", type=int, default=8, metavar="K", help="every K-th pump; 0: none")
     parser.add_argument("--keep", action="store_true")
@@ -167,7 +168,9 @@ def run_pump(options, index, result, case):
             bad += judge_mesh(run, result["figures"])
         if stage == "export":
             bad += judge_files(run, options.check_mesh and index % options.check_mesh == 0, result["figures"])
-    else:
+        if stage == options.until:
+            break
+    if "verdict" not in result:
         result["figures"]["seconds"] = round(time.monotonic() - began, 2)
         result.update(verdict="bad" if bad else "good", bad=bad)
     if not options.keep:
@@ -199,7 +202,7 @@ def run_all(options):
     results, waiting = {}, []
     for index in asked:
         name, case, text = pump_case(options, index)
-        key = hashlib.sha256(f"{digest} {options.cells} {text}".encode()).hexdigest()[:16]
+        key = hashlib.sha256(f"{digest} {options.cells} {options.until} {text}".encode()).hexdigest()[:16]
         if key in before and not options.keep:
             results[index] = before[key]
         else:

@@ -423,6 +423,22 @@ static void coarse_on_curvature(void **state) {
   }
 }
 
+// No triangle on a cylinder about the axis of v stands at more than 60 degrees to it at a corner.
+static void check_not_steep(const CwPatchMesh *mesh) {
+  for (int32_t t = 0; t < mesh->triangle_count; t++) {
+    const int32_t *c = mesh->triangle[t];
+    double e[3], f[3], n[3];
+    cw_sub(mesh->x[c[1]], mesh->x[c[0]], e);
+    cw_sub(mesh->x[c[2]], mesh->x[c[0]], f);
+    cw_cross(e, f, n);
+    cw_unit(n);
+    for (int i = 0; i < 3; i++) {
+      const double outward[3] = {cos(mesh->uv[c[i]][0]), sin(mesh->uv[c[i]][0]), 0};
+      assert_true(cw_dot(n, outward) > 0.5 - 1e-9);
+    }
+  }
+}
+
 // Half a cylinder with three edges across each end, and edges of up to four radii wanted: all triangles stay within 60
 // degrees of the surface at their corners, where those that the wanted edges make reach from one side to the other.
 static void triangles_follow_a_narrow_nose(void **state) {
@@ -438,18 +454,28 @@ static void triangles_follow_a_narrow_nose(void **state) {
     if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
     check_topology(plan, &mesh, 1);
     check_places(plan, &mesh, 1.2 * M_PI);
-    for (int32_t t = 0; t < mesh.triangle_count; t++) {
-      const int32_t *c = mesh.triangle[t];
-      double e[3], f[3], n[3];
-      cw_sub(mesh.x[c[1]], mesh.x[c[0]], e);
-      cw_sub(mesh.x[c[2]], mesh.x[c[0]], f);
-      cw_cross(e, f, n);
-      cw_unit(n);
-      for (int i = 0; i < 3; i++) {
-        const double outward[3] = {cos(mesh.uv[c[i]][0]), sin(mesh.uv[c[i]][0]), 0};
-        assert_true(cw_dot(n, outward) > 0.5 - 1e-9);
-      }
-    }
+    check_not_steep(&mesh);
+    cw_patch_mesh_free(&mesh);
+    free(plan);
+  }
+}
+
+// A quarter of a cylinder, as a fillet is one, cut across in two edges: no triangle has the three points of the cut as
+// corners, for it would lie in the dividing plane.
+static void no_triangle_lies_in_a_cut(void **state) {
+  for (int aside = -2; aside <= 2; aside++) {
+    Plan *plan = new_plan(CYLINDER, 0.4);
+    CwPatchMesh mesh;
+    for (int k = 0; k <= 6; k++) add_point(plan, M_PI / 2, k / 3.0);
+    for (int k = 6; k >= 0; k--) add_point(plan, 0, k / 3.0);
+    for (int32_t p = 0; p < 14; p++) add_edge(plan, p, (p + 1) % 14, 1);
+    int32_t middle = add_point(plan, M_PI / 4, 1 + 0.01 * aside);
+    add_edge(plan, 3, middle, 0);
+    add_edge(plan, middle, 10, 0);
+    if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
+    check_topology(plan, &mesh, 1);
+    check_places(plan, &mesh, M_PI);
+    check_not_steep(&mesh);
     cw_patch_mesh_free(&mesh);
     free(plan);
   }
@@ -588,6 +614,7 @@ int main(void) {
       cmocka_unit_test(a_slit_keeps_its_two_sides),
       cmocka_unit_test(cylinder),
       cmocka_unit_test(triangles_follow_a_narrow_nose),
+      cmocka_unit_test(no_triangle_lies_in_a_cut),
       cmocka_unit_test(large_triangles_are_halved),
       cmocka_unit_test(stretched_fifty_to_one),
       cmocka_unit_test(sphere_patch),
