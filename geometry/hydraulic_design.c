@@ -10,6 +10,7 @@
 #include "geometry/meridian_passage.h"
 #include "geometry/meridian_shape.h"
 #include "geometry/velocity_triangles.h"
+#include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 
 static const double gravity = 9.80665;
@@ -27,16 +28,6 @@ static const double degree = M_PI / 180;
     design->member = (value);                                                                                          \
     design->source[CW_DESIGN_##member] = (text);                                                                       \
   } while (0)
-
-// Smallest of the standard bores whose mean speed stays under 4 m/s and that is wider than `least`, m.
-static double standard_bore(double flow_rate, double least) {
-  static const double bore[] = {0.015, 0.020, 0.025, 0.032, 0.040, 0.050, 0.065, 0.080, 0.100, 0.125,
-                                0.150, 0.200, 0.250, 0.300, 0.350, 0.400, 0.500, 0.600, 0.800, 1.000};
-  const size_t count = sizeof bore / sizeof *bore;
-  for (size_t i = 0; i < count; i++)
-    if (flow_rate / (M_PI / 4 * bore[i] * bore[i]) < 4 && bore[i] > least) return bore[i];
-  return bore[count - 1];
-}
 
 // The family's value of a quantity with the design so far.
 #define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
@@ -309,6 +300,15 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
       best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
 }
 
+// Least radius of the tongue's tip over r2: Guelich's 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m), within the
+// usual 1.05 to 1.2.
+static const double LEAST_CUTWATER = 1.05, LARGEST_CUTWATER = 1.2;
+static double cutwater_ratio(const CwDesign *design) {
+  const double guelich =
+      1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->density / 1000 * design->head / 1000;
+  return fmin(LARGEST_CUTWATER, fmax(LEAST_CUTWATER, guelich));
+}
+
 // The volute with the design's b3, side walls and tongue.
 static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
   CwStatus status = CW_OK;
@@ -332,13 +332,7 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
        rectangle ? "a sixth of b3 or of the throat's height" : "one arc");
   if (!cw_case_given(given->tongue_radius) && design->tongue_radius > height / 6)
     SET(tongue_radius, height / 6, "a sixth of the throat's height");
-  TAKE(discharge_diameter, given->outlet_diameter,
-       cw_case_given(given->diffuser_area_ratio) ? sqrt(given->diffuser_area_ratio * 4 * area / M_PI)
-                                                 : standard_bore(design->flow_rate, 1.1 * sqrt(4 * area / M_PI)),
-       "standard bore under 4 m/s, wider than the throat");
-  TAKE(discharge_pipe_length, given->discharge_pipe_length, 2 * design->discharge_diameter, "2 DN");
-  // Guelich's least distance of the tongue: d_z/D2 = 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m).
-  const double gap = r2 * (1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->head / 1000) - r3;
+  const int chosen = !cw_case_given(given->tongue_gap) && !cw_case_given(given->tongue_angle);
   const CwVoluteInput input = {
       .flow_rate = design->flow_rate,
       .area_law = given->area_law,
@@ -355,13 +349,14 @@ static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
       .tongue_radius = design->tongue_radius,
       .tongue_gap = given->tongue_gap,
       .tongue_angle = given->tongue_angle,
-      .least_tongue_gap = cw_case_given(given->tongue_gap) || cw_case_given(given->tongue_angle) || gap < 0 ? NAN : gap,
+      .tongue_gap_range = {chosen ? fmax(0, r2 * cutwater_ratio(design) - r3) : NAN,
+                           chosen ? fmax(0, r2 * LARGEST_CUTWATER - r3) : NAN},
       .diffuser_length = given->diffuser_length,
-      .diffuser_angle = cw_case_given(given->diffuser_angle) ? given->diffuser_angle : 9 * degree,
-      .outlet_diameter = cw_case_given(given->diffuser_area_ratio) ? NAN : design->discharge_diameter,
+      .diffuser_angle = cw_case_given(given->diffuser_angle) ? given->diffuser_angle : CW_DIFFUSER_ANGLE,
+      .outlet_diameter = given->outlet_diameter,
       .diffuser_area_ratio = given->diffuser_area_ratio,
       .discharge = given->discharge,
-      .discharge_pipe_length = design->discharge_pipe_length,
+      .discharge_pipe_length = given->discharge_pipe_length,
   };
   CW_TRY(cw_volute_design(&input, &design->volute));
 done:
@@ -400,11 +395,13 @@ static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
   SET(tongue_tip_radius, design->volute.tip_radius,
       cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
-                                       : "well shaped, at least Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m)");
+                                       : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
   SET(tongue_angle, design->volute.tip_angle,
       cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
-  if (cw_case_given(given->diffuser_area_ratio))
-    SET(discharge_diameter, design->volute.input.outlet_diameter, "area ratio of the diffuser");
+  TAKE(discharge_diameter, given->outlet_diameter, design->volute.input.outlet_diameter,
+       cw_case_given(given->diffuser_area_ratio) ? "area ratio of the diffuser"
+                                                 : "standard bore, area ratio 1.5 to 3, under 4 m/s where that allows");
+  TAKE(discharge_pipe_length, given->discharge_pipe_length, design->volute.input.discharge_pipe_length, "2 DN");
   TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length,
        cw_case_given(given->diffuser_angle) ? "full angle of the case" : "full angle 9 deg");
   SET(diffuser_area_ratio, design->volute.diffuser_area_ratio,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "geometry/root.h"
+#include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 
 #define PI 3.14159265358979323846
@@ -13,6 +14,9 @@
 static const double START_MARGIN = 0.003;
 // The kink at the end of the spiral lies within so many D3/2: enough for nq 60 or so.
 static const double LARGEST_SPIRAL = 2.5;
+// Least step from b2 to b3 on either side, in D3; the neck before it is at least half as long.
+static const double LEAST_STEP = 2.5e-3;
+static const double SLACK = 1e-9; // of values that went through other units
 // Half angle of the outer arc at the tongue. A larger one sweeps the nose back more: with 60 degrees it leans
 // so far that its edge to the flank has a radius of 0.05 mm (0.4 mm with 35); a smaller one sharpens the kink
 // between outer and side walls (105 degrees with 35 and side walls at 20).
@@ -21,6 +25,10 @@ static const double ARC_HALF_ANGLE = 35 * PI / 180;
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
 static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
+// Where a gap of the tongue is asked for, the spiral's kink at the tongue lies within these, in D3/2.
+static const double LEAST_START = 1.02, LARGEST_START = 1.35;
+// Least share of Q that the throat passes by the law: one-dimensional theory is no better than that.
+static const double THROAT_SHARE = 0.98;
 // Least share of the side walls in the throat's width where arcs touch them: beside a narrower one the
 // diffuser's outer wall, which overhangs there, folds over.
 static const double LEAST_SIDE = 0.25;
@@ -112,15 +120,21 @@ double cw_volute_throat_angle(const CwVolute *volute, double psi) {
   return cw_root_find(throat_excess, &context, 2 * PI, 2.4 * PI);
 }
 
-// Area of the cut at y = y_t: 2 z dx along the side wall, then along the arc (Simpson's rule).
-static double throat_area(const CwVolute *volute) {
+// Speed through the cut at y = y_t over the constant of the law: the tongue turns the flow square to the cut.
+static double strip_weight(CwAreaLaw law, double x, double y) {
+  return law == CW_AREA_LAW_VELOCITY ? 1 : 1 / hypot(x, y);
+}
+
+// Flow through the cut at y = y_t over the constant of the law: the area, or the integral of b dx / r. 2 z dx along the
+// side wall, then along the arc (Simpson's rule).
+static double throat_sum(const CwVolute *volute, CwAreaLaw law) {
   enum { COUNT = 64 };
   double k = volute->arc_half_angle, y = volute->throat_y, sum = 0, corner[3];
   cw_volute_wall_point(volute, cw_volute_throat_angle(volute, k), k, corner, NULL, NULL);
   double step = (corner[0] - volute->inner_wall_x) / COUNT;
   for (int i = 0; i <= COUNT; i++) {
-    double weight = i == 0 || i == COUNT ? 1 : i % 2 ? 4 : 2;
-    sum += weight * 2 * step / 3 * cw_volute_half_width(volute, hypot(volute->inner_wall_x + i * step, y));
+    double weight = i == 0 || i == COUNT ? 1 : i % 2 ? 4 : 2, at = volute->inner_wall_x + i * step;
+    sum += weight * 2 * step / 3 * cw_volute_half_width(volute, hypot(at, y)) * strip_weight(law, at, y);
   }
   const int count = cw_volute_has_corners(volute) ? 8 * COUNT : COUNT; // the contour's curvature jumps at its corners
   step = k / count;
@@ -129,7 +143,7 @@ static double throat_area(const CwVolute *volute) {
     double psi = k - i * step, phi = cw_volute_throat_angle(volute, psi), x[3], x_phi[3], x_psi[3];
     cw_volute_wall_point(volute, phi, psi, x, x_phi, x_psi);
     double x_along = x_psi[0] - x_phi[0] * x_psi[1] / x_phi[1]; // dx/dpsi at constant y
-    sum -= weight * 2 * step / 3 * x[2] * x_along;
+    sum -= weight * 2 * step / 3 * x[2] * x_along * strip_weight(law, x[0], y);
   }
   return sum;
 }
@@ -140,12 +154,10 @@ static double wedge_excess(double phi, const void *context) {
   return phi - atan(s.kink_slope / s.kink_radius) - c->value;
 }
 
-// Places the tongue where the kink line begins at the angle `wedge` to the flank: x_i, tip and throat.
-static void place_tongue(CwVolute *volute, double wedge) {
+// Places the tongue where the kink line begins at `start_angle`: x_i, tip and throat.
+static void place_tongue(CwVolute *volute, double start_angle) {
   double centre[2], normal[2];
-  Context context = {.volute = volute, .value = wedge};
-  volute->start_angle = 2 * PI; // so that the arcs keep their angle at the tongue while it is looked for
-  volute->start_angle = cw_root_find(wedge_excess, &context, 0, 0.45 * PI);
+  volute->start_angle = start_angle;
   cw_volute_contact_circle(volute, volute->start_angle, volute->arc_half_angle, centre, normal);
   volute->inner_wall_x = centre[0] + volute->input.tongue_radius;
   volute->tip_angle = cw_volute_contact_angle(volute, 0);
@@ -154,133 +166,199 @@ static void place_tongue(CwVolute *volute, double wedge) {
   volute->throat_y = centre[1] + THROAT_SETBACK * volute->input.tongue_radius;
 }
 
-// What a tongue with the angle `wedge` has: its tip's angle or its gap.
-static double tongue_at(double wedge, const CwVolute *volute) {
-  CwVolute trial = *volute;
-  place_tongue(&trial, wedge);
-  return isnan(volute->input.tongue_angle) ? trial.tip_radius - base_radius(&trial) : trial.tip_angle;
+// The same where the kink line begins at the angle `wedge` to the flank.
+static void place_tongue_by_wedge(CwVolute *volute, double wedge) {
+  const Context context = {.volute = volute, .value = wedge};
+  volute->start_angle = 2 * PI; // so that the arcs keep their angle at the tongue while it is looked for
+  place_tongue(volute, cw_root_find(wedge_excess, &context, 0, 0.45 * PI));
 }
 
-static double tongue_excess(double wedge, const void *context) {
+static double gap_of(const CwVolute *volute) {
+  return volute->tip_radius - base_radius(volute);
+}
+
+// Places the tongue at the default wedge where the spiral's kink lies at `kink_radius`, by moving the law's start.
+static void place_tongue_at(CwVolute *volute, double kink_radius) {
+  const double growth = volute->law_end - volute->law_start, step = 1e-4 * base_radius(volute);
+  const double slope = (cw_volute_law(volute, kink_radius + step, ARC_HALF_ANGLE) -
+                        cw_volute_law(volute, kink_radius - step, ARC_HALF_ANGLE)) /
+                       (2 * step);
+  const double angle = DEFAULT_WEDGE + atan(growth / (2 * PI) / slope / kink_radius);
+  volute->law_start = cw_volute_law(volute, kink_radius, ARC_HALF_ANGLE) - growth / (2 * PI) * angle;
+  volute->law_end = volute->law_start + growth;
+  place_tongue(volute, angle);
+}
+
+static double gap_excess(double kink_radius, const void *context) {
   const Context *c = context;
-  return tongue_at(wedge, c->volute) - c->value;
+  CwVolute trial = *c->volute;
+  place_tongue_at(&trial, kink_radius);
+  return gap_of(&trial) - c->value;
 }
 
-// Throat area of a spiral that ends with `end`, less the asked one.
-static double close_spiral(CwVolute *volute, double end) {
+static double angle_excess(double wedge, const void *context) {
+  const Context *c = context;
+  CwVolute trial = *c->volute;
+  place_tongue_by_wedge(&trial, wedge);
+  return trial.tip_angle - c->value;
+}
+
+// The nearest of two ends of a range to the root of a function that has none between them.
+static double nearest_end(double (*excess)(double, const void *), const Context *context, double low, double high) {
+  const double at_low = excess(low, context), at_high = excess(high, context);
+  return !(fabs(at_low) > fabs(at_high)) ? low : high;
+}
+
+// The tongue that the input asks for, or the nearest: check_tongue() says where it differs.
+static void choose_tongue(CwVolute *volute) {
   const CwVoluteInput *in = &volute->input;
-  volute->law_end = end;
-  Context context = {.volute = volute, .value = isnan(in->tongue_angle) ? in->tongue_gap : in->tongue_angle};
-  double wedge = DEFAULT_WEDGE;
-  if (isnan(context.value) && tongue_at(wedge, volute) < in->least_tongue_gap) context.value = in->least_tongue_gap;
-  if (!isnan(context.value)) {
-    wedge = cw_root_find(tongue_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
-    if (isnan(wedge)) // the nearest tongue; where gap or angle is given, check_tongue() says what is allowed
-      wedge = tongue_excess(LEAST_WEDGE, &context) > 0 ? LEAST_WEDGE : LARGEST_WEDGE;
+  const double least = LEAST_START * base_radius(volute), largest = LARGEST_START * base_radius(volute);
+  if (!isnan(in->tongue_angle)) {
+    const Context context = {.volute = volute, .value = in->tongue_angle};
+    double wedge = cw_root_find(angle_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
+    if (isnan(wedge)) wedge = nearest_end(angle_excess, &context, LEAST_WEDGE, LARGEST_WEDGE);
+    place_tongue_by_wedge(volute, wedge);
+    return;
   }
-  place_tongue(volute, wedge);
-  volute->throat_area = throat_area(volute);
-  return volute->throat_area - volute->input.throat_area;
+  place_tongue_by_wedge(volute, DEFAULT_WEDGE);
+  double wanted = gap_of(volute);
+  if (!isnan(in->tongue_gap))
+    wanted = in->tongue_gap;
+  else if (wanted < in->tongue_gap_range[0])
+    wanted = in->tongue_gap_range[0];
+  else if (wanted > in->tongue_gap_range[1])
+    wanted = in->tongue_gap_range[1];
+  if (wanted == gap_of(volute)) return;
+  const Context context = {.volute = volute, .value = wanted};
+  double kink = cw_root_find(gap_excess, &context, least, largest);
+  if (isnan(kink)) kink = nearest_end(gap_excess, &context, least, largest);
+  place_tongue_at(volute, kink);
 }
 
-static double throat_area_excess(double end, const void *context) {
+// Makes the spiral of a law that grows by `growth` in one turn, with its tongue and throat.
+static void close_spiral(CwVolute *volute, double growth) {
+  volute->law_start = cw_volute_law(volute, base_radius(volute) * (1 + START_MARGIN), ARC_HALF_ANGLE);
+  volute->law_end = volute->law_start + growth;
+  choose_tongue(volute);
+  volute->throat_area = throat_sum(volute, CW_AREA_LAW_VELOCITY);
+}
+
+static double throat_area_excess(double growth, const void *context) {
   CwVolute trial = *((const Context *)context)->volute;
-  return close_spiral(&trial, end);
+  close_spiral(&trial, growth);
+  return trial.throat_area - trial.input.throat_area;
+}
+
+// What the throat passes by the law, less what it has to.
+static double throat_flow_excess(double growth, const void *context) {
+  const Context *c = context;
+  CwVolute trial = *c->volute;
+  close_spiral(&trial, growth);
+  return throat_sum(&trial, trial.input.area_law) - c->value;
 }
 
 static CwStatus check_input(const CwVoluteInput *in) {
   CwStatus status = CW_OK;
   const int velocity = in->area_law == CW_AREA_LAW_VELOCITY, rectangle = in->section == CW_SECTION_RECTANGLE;
+  const double d3 = in->base_diameter, area = d3 * d3;
   const struct {
     const char *name;
     double value, least, largest, unit;
     const char *unit_name;
     int optional;
   } ranges[] = {
-      {"flow rate", in->flow_rate, 1e-6, 100, 1, "m3/s", 0},
-      {"angular momentum c_u2 r2", in->angular_momentum, 1e-4, 1e3, 1, "m2/s", velocity},
-      {"speed in the sections (K3 sqrt(2 g H))", in->section_speed, 0.1, 200, 1, "m/s", !velocity},
-      {"base_diameter_mm (D3)", in->base_diameter, 0.02, 5, 1e3, "mm", 0},
-      {"interface radius", in->interface_radius, 0.0095, 2.5, 1e3, "mm", 0},
-      {"outlet width of the impeller (b2)", in->neck_width, 1e-3, 1, 1e3, "mm", 0},
-      {"inlet_width_mm (b3)", in->inlet_width, 1e-3, 1, 1e3, "mm", 0},
+      {"flow rate", in->flow_rate, 1e-12, 1e6, 1, "m3/s", 0},
+      {"angular momentum c_u2 r2", in->angular_momentum, 1e-12, 1e6, 1, "m2/s", velocity},
+      {"speed in the sections (K3 sqrt(2 g H))", in->section_speed, 1e-6, 1e6, 1, "m/s", !velocity},
+      {"base_diameter_mm (D3)", d3, 1e-6, 1e3, 1e3, "mm", 0},
+      {"interface radius", in->interface_radius, 0.05 * d3, 0.5 * d3, 1e3, "mm", 0},
+      {"outlet width of the impeller (b2)", in->neck_width, 1e-3 * d3, 0.4 * d3, 1e3, "mm", 0},
+      {"inlet_width_mm (b3)", in->inlet_width, in->neck_width + 2 * LEAST_STEP * d3, 0.4 * d3, 1e3, "mm", 0},
       {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : PI / 36, PI / 5, 180 / PI, "deg", 0},
-      {"corner_radius_mm", in->corner_radius, 0.5e-3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
-      {"throat_area_mm2", in->throat_area, 1e-6, 10, 1e6, "mm2", 1},
-      {"tongue_radius_mm", in->tongue_radius, 0.2e-3, 0.02, 1e3, "mm", 0},
-      {"tongue_gap_mm", in->tongue_gap, 0, 1, 1e3, "mm", 1},
+      {"corner_radius_mm", in->corner_radius, 2.5e-3 * d3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
+      {"throat_area_mm2", in->throat_area, 1e-6 * area, 10 * area, 1e6, "mm2", 1},
+      {"tongue_radius_mm", in->tongue_radius, 1e-3 * d3, 0.1 * d3, 1e3, "mm", 0},
+      {"tongue_gap_mm", in->tongue_gap, 0, d3, 1e3, "mm", 1},
       {"tongue_angle_deg", in->tongue_angle, 0, 0.45 * PI, 180 / PI, "deg", 1},
-      {"least gap of the tongue", in->least_tongue_gap, 0, 1, 1e3, "mm", 1},
-      {"diffuser_length_mm", in->diffuser_length, 5e-3, 10, 1e3, "mm", 1},
+      {"diffuser_length_mm", in->diffuser_length, 0.02 * d3, 50 * d3, 1e3, "mm", 1},
       {"diffuser_angle_deg", in->diffuser_angle, PI / 180, PI / 6, 180 / PI, "deg", !isnan(in->diffuser_length)},
-      {"outlet_diameter_mm", in->outlet_diameter, 5e-3, 5, 1e3, "mm", 1},
+      {"outlet_diameter_mm", in->outlet_diameter, 0.01 * d3, 5 * d3, 1e3, "mm", 1},
       {"diffuser_area_ratio", in->diffuser_area_ratio, 1.05, 4, 1, "", 1},
-      {"discharge_pipe_length_mm", in->discharge_pipe_length, 1e-3, 50, 1e3, "mm", 0},
+      {"discharge_pipe_length_mm", in->discharge_pipe_length, 5e-3 * d3, 1e3 * d3, 1e3, "mm", 1},
   };
   for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
     if (ranges[i].optional && isnan(ranges[i].value)) continue;
-    CW_REQUIRE(ranges[i].value >= ranges[i].least && ranges[i].value <= ranges[i].largest, CW_ERR_DESIGN,
-               "volute: %s is %g %s; allowed: %g to %g %s", ranges[i].name, ranges[i].value * ranges[i].unit,
-               ranges[i].unit_name, ranges[i].least * ranges[i].unit, ranges[i].largest * ranges[i].unit,
-               ranges[i].unit_name);
+    CW_REQUIRE(ranges[i].value >= (1 - SLACK) * ranges[i].least && ranges[i].value <= (1 + SLACK) * ranges[i].largest,
+               CW_ERR_DESIGN, "volute: %s is %g %s; allowed with this D3 and b2: %.6g to %.6g %s", ranges[i].name,
+               ranges[i].value * ranges[i].unit, ranges[i].unit_name, ranges[i].least * ranges[i].unit,
+               ranges[i].largest * ranges[i].unit, ranges[i].unit_name);
   }
-  CW_REQUIRE(in->inlet_width >= in->neck_width + 1e-3 - 1e-9, CW_ERR_DESIGN,
-             "volute: inlet_width_mm (b3) is %g mm; allowed: at least b2 + 1 mm = %g mm", in->inlet_width * 1e3,
-             in->neck_width * 1e3 + 1);
-  CW_REQUIRE(0.5 * in->base_diameter >= in->interface_radius + 0.25e-3, CW_ERR_DESIGN,
-             "volute: base_diameter_mm (D3) is %g mm; allowed: at least %g mm, so that the neck between the "
-             "interface at r = %g mm and D3/2 has 0.25 mm",
-             in->base_diameter * 1e3, 2e3 * in->interface_radius + 0.5, in->interface_radius * 1e3);
-  CW_REQUIRE(in->inlet_width <= 0.4 * in->base_diameter, CW_ERR_DESIGN,
-             "volute: inlet_width_mm (b3) is %g mm; allowed: at most 0.4 D3 = %g mm", in->inlet_width * 1e3,
-             400 * in->base_diameter);
+  CW_REQUIRE(0.5 * d3 >= in->interface_radius + LEAST_STEP / 2 * d3 * (1 - SLACK), CW_ERR_DESIGN,
+             "volute: base_diameter_mm (D3) is %g mm; allowed: at least %g mm, so that the neck from the interface at "
+             "r = %g mm to D3/2 has %.2g D3",
+             d3 * 1e3, 2e3 * in->interface_radius / (1 - LEAST_STEP), in->interface_radius * 1e3, LEAST_STEP / 2);
   CW_REQUIRE(in->section != CW_SECTION_CIRCLE || isnan(in->corner_radius), CW_ERR_DESIGN,
              "volute: corner_radius_mm is %g mm, but a circle has no corners; allowed: with section trapezoid or "
              "rectangle",
              in->corner_radius * 1e3);
   CW_REQUIRE(isnan(in->tongue_gap) || isnan(in->tongue_angle), CW_ERR_DESIGN,
              "volute: tongue_gap_mm and tongue_angle_deg both place the tongue; allowed: one of them");
-  CW_REQUIRE(isnan(in->outlet_diameter) != isnan(in->diffuser_area_ratio), CW_ERR_DESIGN,
+  CW_REQUIRE(isnan(in->outlet_diameter) || isnan(in->diffuser_area_ratio), CW_ERR_DESIGN,
              "volute: outlet_diameter_mm and diffuser_area_ratio both give the outlet; allowed: one of them");
 done:
   return status;
 }
 
-// Ends the spiral so that the throat has the asked area, or by Q and K.
+// The growth of the law with which the throat has the asked area.
+static CwStatus growth_for_area(const CwVolute *volute, double largest, double *growth) {
+  CwStatus status = CW_OK;
+  Context context = {.volute = volute};
+  // The smallest and the largest spirals may have no room for a tongue at all.
+  double share = 0.02, low, least_excess, largest_excess;
+  do {
+    low = share * largest;
+    least_excess = throat_area_excess(low, &context);
+  } while (isnan(least_excess) && (share *= 1.5) < 0.7);
+  while (isnan(largest_excess = throat_area_excess(largest, &context)) && largest > low) largest *= 0.8;
+  CW_REQUIRE(!isnan(least_excess) && !isnan(largest_excess), CW_ERR_DESIGN,
+             "volute: no spiral with this D3 and b3 has room for its tongue%s; lower inlet_width_mm or %s",
+             cw_volute_has_corners(volute) ? " and corners" : "",
+             cw_volute_has_corners(volute) ? "corner_radius_mm" : "tongue_radius_mm");
+  *growth = cw_root_find(throat_area_excess, &context, low, largest);
+  CW_REQUIRE(!isnan(*growth), CW_ERR_DESIGN,
+             "volute: throat_area_mm2 is %g mm2; allowed with this D3, b3 and tongue: %.6g to %.6g mm2",
+             volute->input.throat_area * 1e6, (least_excess + volute->input.throat_area) * 1e6,
+             (largest_excess + volute->input.throat_area) * 1e6);
+done:
+  return status;
+}
+
+// Ends the spiral so that the throat has the asked area, or by the law. The tongue's thickness is taken away from the
+// last section; where the throat would then pass less than Q by the law, the spiral grows by more.
 static CwStatus solve_spiral(CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
   const int velocity = in->area_law == CW_AREA_LAW_VELOCITY;
   const double scale = velocity ? 1e6 : 1e3, r3 = base_radius(volute);
-  double end = volute->law_start + in->flow_rate / (velocity ? in->section_speed : in->angular_momentum);
-  double largest = cw_volute_law(volute, LARGEST_SPIRAL * r3, volute->end_half_angle);
-  CW_REQUIRE(end < largest, CW_ERR_DESIGN,
+  const double asked = in->flow_rate / (velocity ? in->section_speed : in->angular_momentum);
+  const double largest = cw_volute_law(volute, LARGEST_SPIRAL * r3, volute->end_half_angle) - volute->law_start;
+  double growth = asked;
+  CW_REQUIRE(asked < largest, CW_ERR_DESIGN,
              "volute: %s = %g %s needs an outer wall beyond %g D3/2; allowed: at most %g %s (raise the head "
              "or b3, or lower the flow rate)",
-             velocity ? "Q / (K3 sqrt(2 g H))" : "Q / (c_u2 r2)", scale * (end - volute->law_start),
-             velocity ? "mm2" : "mm", LARGEST_SPIRAL, scale * (largest - volute->law_start), velocity ? "mm2" : "mm");
+             velocity ? "Q / (K3 sqrt(2 g H))" : "Q / (c_u2 r2)", scale * asked, velocity ? "mm2" : "mm",
+             LARGEST_SPIRAL, scale * largest, velocity ? "mm2" : "mm");
   if (!isnan(in->throat_area)) {
-    Context context = {.volute = volute};
-    // The smallest and the largest spirals may have no room for a tongue at all.
-    double share = 0.02, low, least_excess, largest_excess;
-    do {
-      low = volute->law_start + share * (largest - volute->law_start);
-      least_excess = throat_area_excess(low, &context);
-    } while (isnan(least_excess) && (share *= 1.5) < 0.7);
-    while (isnan(largest_excess = throat_area_excess(largest, &context)) && largest > low)
-      largest = volute->law_start + 0.8 * (largest - volute->law_start);
-    CW_REQUIRE(!isnan(least_excess) && !isnan(largest_excess), CW_ERR_DESIGN,
-               "volute: no spiral with this D3 and b3 has room for its tongue%s; lower inlet_width_mm or %s",
-               cw_volute_has_corners(volute) ? " and corners" : "",
-               cw_volute_has_corners(volute) ? "corner_radius_mm" : "tongue_radius_mm");
-    end = cw_root_find(throat_area_excess, &context, low, largest);
-    CW_REQUIRE(!isnan(end), CW_ERR_DESIGN,
-               "volute: throat_area_mm2 is %g mm2; allowed with this D3, b3 and tongue: %.0f to "
-               "%.0f mm2",
-               in->throat_area * 1e6, (least_excess + in->throat_area) * 1e6, (largest_excess + in->throat_area) * 1e6);
+    CW_TRY(growth_for_area(volute, largest, &growth));
+  } else {
+    const Context context = {.volute = volute, .value = THROAT_SHARE * asked};
+    if (throat_flow_excess(asked, &context) < 0) {
+      const double more = cw_root_find(throat_flow_excess, &context, asked, fmin(largest, 3 * asked));
+      if (!isnan(more)) growth = more;
+    }
   }
-  close_spiral(volute, end);
-  volute->law_constant = in->flow_rate / (end - volute->law_start);
+  close_spiral(volute, growth);
+  volute->law_constant = in->flow_rate / growth;
 done:
   return status;
 }
@@ -288,14 +366,16 @@ done:
 static CwStatus check_tongue(const CwVolute *volute) {
   CwStatus status = CW_OK;
   const CwVoluteInput *in = &volute->input;
-  double gap = volute->tip_radius - base_radius(volute);
-  double least = tongue_at(LEAST_WEDGE, volute), largest = tongue_at(LARGEST_WEDGE, volute);
-  CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap - in->tongue_gap) < 1e-7, CW_ERR_DESIGN,
-             "volute: tongue_gap_mm is %g mm; allowed for this spiral: %.2f to %.2f mm (or leave it out)",
-             in->tongue_gap * 1e3, 1e3 * least, 1e3 * largest);
-  CW_REQUIRE(isnan(in->tongue_angle) || fabs(volute->tip_angle - in->tongue_angle) < 1e-7, CW_ERR_DESIGN,
+  const double r3 = base_radius(volute);
+  const Context context = {.volute = volute};
+  CW_REQUIRE(isnan(in->tongue_gap) || fabs(gap_of(volute) - in->tongue_gap) < 1e-6 * r3, CW_ERR_DESIGN,
+             "volute: tongue_gap_mm is %g mm; allowed for this spiral: %.6g to %.6g mm (or leave it out)",
+             in->tongue_gap * 1e3, 1e3 * gap_excess(LEAST_START * r3, &context),
+             1e3 * gap_excess(LARGEST_START * r3, &context));
+  CW_REQUIRE(isnan(in->tongue_angle) || fabs(volute->tip_angle - in->tongue_angle) < 1e-6, CW_ERR_DESIGN,
              "volute: tongue_angle_deg is %g deg; allowed for this spiral: %.2f to %.2f deg (or leave it out)",
-             in->tongue_angle * 180 / PI, least * 180 / PI, largest * 180 / PI);
+             in->tongue_angle * 180 / PI, angle_excess(LEAST_WEDGE, &context) * 180 / PI,
+             angle_excess(LARGEST_WEDGE, &context) * 180 / PI);
   double corner[3] = {volute->inner_wall_x};
   if (!isnan(volute->throat_width))
     cw_volute_wall_point(volute, cw_volute_throat_angle(volute, volute->arc_half_angle), volute->arc_half_angle, corner,
@@ -329,64 +409,6 @@ static CwStatus check_sections(const CwVolute *volute) {
                cw_volute_has_corners(volute) ? "corner_radius_mm" : "side_wall_angle_deg",
                cw_volute_has_corners(volute) ? " without corner_radius_mm" : "");
   }
-done:
-  return status;
-}
-
-// Where the diffuser ends that leaves the throat's middle (x, y) along its lean and turns by `bend` to the
-// right on a circle.
-static void end_diffuser(CwVolute *volute, double x, double y, double bend) {
-  double chord = volute->diffuser_length * (bend > 0 ? sin(bend / 2) / (bend / 2) : 1);
-  volute->discharge_lean = volute->throat_lean - bend;
-  volute->outlet_x = x - chord * sin(volute->throat_lean - bend / 2);
-  volute->outlet_y = y + chord * cos(volute->throat_lean - bend / 2);
-}
-
-// Distance of the discharge's axis from the pump's, to the left of it.
-static double bend_excess(double bend, const void *context) {
-  CwVolute trial = *((const Context *)context)->volute;
-  end_diffuser(&trial, trial.outlet_x, trial.outlet_y, bend);
-  return trial.outlet_x * cos(trial.discharge_lean) + trial.outlet_y * sin(trial.discharge_lean);
-}
-
-// Length or angle of the diffuser, whichever is left open, and the outlet's place.
-static CwStatus solve_diffuser(CwVolute *volute) {
-  CwStatus status = CW_OK;
-  const CwVoluteInput *in = &volute->input;
-  if (isnan(in->outlet_diameter))
-    volute->input.outlet_diameter = sqrt(in->diffuser_area_ratio * volute->throat_area * 4 / PI);
-  double x[3], x_phi[3], radius = 0.5 * in->outlet_diameter, throat_radius = sqrt(volute->throat_area / PI);
-  CW_REQUIRE(radius > throat_radius, CW_ERR_DESIGN,
-             "volute: outlet_diameter_mm is %g mm, less than the throat's equal-area diameter %.2f mm; raise "
-             "it, or lower throat_area_mm2 (%.0f mm2)",
-             2e3 * radius, 2e3 * throat_radius, volute->throat_area * 1e6);
-  volute->diffuser_length = in->diffuser_length;
-  if (isnan(in->diffuser_length))
-    volute->diffuser_length = fmax((radius - throat_radius) / tan(0.5 * in->diffuser_angle),
-                                   in->discharge == CW_DISCHARGE_RADIAL ? 4 * radius : 0.5 * radius);
-  volute->diffuser_angle = 2 * atan((radius - throat_radius) / volute->diffuser_length);
-  CW_REQUIRE(volute->diffuser_angle < PI / 6, CW_ERR_DESIGN,
-             "volute: diffuser_length_mm %g mm opens the diffuser by %.1f deg; allowed: at most 30 deg (at "
-             "least %.1f mm)",
-             volute->diffuser_length * 1e3, volute->diffuser_angle * 180 / PI,
-             1e3 * (radius - throat_radius) / tan(PI / 12));
-  // Midway between the walls at the throat, along the mean of their directions there.
-  cw_volute_wall_point(volute, cw_volute_throat_angle(volute, 0), 0, x, x_phi, NULL);
-  volute->throat_lean = 0.5 * atan2(-x_phi[0], x_phi[1]);
-  const double middle = 0.5 * (volute->inner_wall_x + x[0]);
-  double bend = 0;
-  if (in->discharge == CW_DISCHARGE_RADIAL) {
-    volute->outlet_x = middle;
-    volute->outlet_y = volute->throat_y;
-    Context context = {.volute = volute};
-    bend = cw_root_find(bend_excess, &context, 1e-3, 0.6 * PI);
-    CW_REQUIRE(volute->diffuser_length >= 1.5 * radius * bend, CW_ERR_DESIGN,
-               "volute: diffuser_length_mm %g mm is too short for a radial discharge, which bends it by %.0f deg; "
-               "allowed: at least %.1f mm",
-               volute->diffuser_length * 1e3, bend * 180 / PI, 1.5e3 * radius * bend);
-  }
-  end_diffuser(volute, middle, volute->throat_y, bend);
-  volute->diffuser_area_ratio = radius * radius / (throat_radius * throat_radius);
 done:
   return status;
 }
@@ -437,7 +459,7 @@ CwStatus cw_volute_design(const CwVoluteInput *input, CwVolute *volute) {
   double near = cw_volute_nose_y(volute, volute->side_level - step);
   double far = cw_volute_nose_y(volute, volute->side_level - 2 * step);
   volute->side_centre_slope = (3 * centre[1] - 4 * near + far) / (2 * step);
-  CW_TRY(solve_diffuser(volute));
+  CW_TRY(cw_volute_diffuser(volute));
 done:
   return status;
 }

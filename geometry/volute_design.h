@@ -64,13 +64,13 @@ typedef struct {
   double tongue_radius;       // of the nose, m
   double tongue_gap;          // m, radial, from D3/2 to the tongue's tip at z = 0; NAN: chosen for a well shaped tongue
   double tongue_angle;        // rad, from the spiral's start to the tongue's tip; NAN: as the gap or shape asks
-  double least_tongue_gap;    // m, for a chosen gap, which comes as near as the spiral allows; NAN: none
+  double tongue_gap_range[2]; // m, of a chosen gap, which comes as near as the spiral allows; NAN: no bound
   double diffuser_length;     // m; NAN: from the diffuser's angle
   double diffuser_angle;      // rad, full angle of the cone of equal areas; used where the length is NAN
-  double outlet_diameter;     // DN, m; NAN: from the area ratio
-  double diffuser_area_ratio; // of outlet to throat; NAN: as the diameter says
+  double outlet_diameter;     // DN, m; NAN: from the area ratio, or a standard bore
+  double diffuser_area_ratio; // of outlet to throat; NAN: as the diameter says, and without it by cw_diffuser_bore()
   CwDischarge discharge;
-  double discharge_pipe_length; // m, behind the diffuser
+  double discharge_pipe_length; // m, behind the diffuser; NAN: two outlet diameters
 } CwVoluteInput;
 
 typedef struct {

@@ -87,7 +87,7 @@ static double law_excess(double r_k, const void *context) {
 CwVoluteSection cw_volute_section(const CwVolute *volute, double phi) {
   double growth = (volute->law_end - volute->law_start) / (2 * PI), r3 = base_radius(volute), k_slope;
   double k = arc_angle(volute, phi, &k_slope);
-  Law law = {volute, k, volute->law_start + growth * phi};
+  Law law = {volute, k, fmax(cw_volute_law(volute, r3, k), volute->law_start + growth * phi)};
   double r_k = cw_root_find(law_excess, &law, r3, 3 * r3);
   CwVoluteSection s = section_at(volute, r_k, k);
   double step = 1e-4 * r3;

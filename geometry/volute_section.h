@@ -28,6 +28,7 @@ int cw_volute_has_corners(const CwVolute *volute);
 // Half width of the casing between the side walls at the radius r >= D3/2, m.
 double cw_volute_half_width(const CwVolute *volute, double r);
 
+// The section at phi; before the tongue, where the law may begin late, none is smaller than one whose kink lies on D3.
 CwVoluteSection cw_volute_section(const CwVolute *volute, double phi);
 
 // Radius of the outer wall at the level |z| <= h_k of a section, m.

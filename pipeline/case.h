@@ -58,7 +58,7 @@ typedef struct {
 typedef struct {
   CwPriority priority; // which constraint of an over-determined table is the law
   CwRotation rotation;
-  int blade_count;                                               // z, 3 to 9; 0: computed
+  int blade_count;                                               // z, 2 to 12; 0: computed
   double inlet_diameter;                                         // D1, m
   double outlet_diameter;                                        // D2, m
   double outlet_width;                                           // b2, m

@@ -50,7 +50,7 @@ static CwVoluteInput paper() {
   input.side_wall_angle = 20 * degree;
   input.throat_area = 905e-6;
   input.tongue_radius = 0.0015;
-  input.tongue_gap = input.tongue_angle = input.least_tongue_gap = NAN;
+  input.tongue_gap = input.tongue_angle = input.tongue_gap_range[0] = input.tongue_gap_range[1] = NAN;
   input.area_law = CW_AREA_LAW_ANGULAR_MOMENTUM;
   input.section_speed = 5.9;
   input.section = CW_SECTION_TRAPEZOID;

@@ -56,16 +56,18 @@ static CwVoluteInput draw() {
   in.inlet_width = b2 * uniform(1.2, 2.2);
   if (in.section == CW_SECTION_RECTANGLE)
     in.inlet_width = std::max(in.inlet_width, std::sqrt(area) * uniform(0.7, 1.1));
-  in.inlet_width = std::min(std::max(b2 + 1e-3, in.inlet_width), 0.4 * in.base_diameter);
+  in.inlet_width = std::min(std::max(b2 + 0.005 * in.base_diameter, in.inlet_width), 0.4 * in.base_diameter);
   in.side_wall_angle = uniform(12, 28) * degree;
   in.throat_area = NAN;
   double slope = in.section == CW_SECTION_RECTANGLE ? 0 : std::tan(in.side_wall_angle);
   double height = 2 * area / (in.inlet_width + std::sqrt(in.inlet_width * in.inlet_width + 4 * slope * area));
   bool corners = in.section == CW_SECTION_RECTANGLE || (in.section == CW_SECTION_TRAPEZOID && uniform(0, 1) < 0.5);
   in.corner_radius = corners ? std::max(0.5e-3, std::min(in.inlet_width, height) * uniform(0.1, 0.25)) : NAN;
-  in.tongue_radius = std::max(0.2e-3, std::min(0.0075 * d2 * uniform(0.7, 1.3), height / 6));
+  in.tongue_radius = std::max(1e-3 * in.base_diameter, std::min(0.0075 * d2 * uniform(0.7, 1.3), height / 6));
   in.tongue_gap = in.tongue_angle = NAN;
-  in.least_tongue_gap = std::max(0.0, d2 / 2 * (1.03 + 0.1 * nq / 40 + 0.07 * head / 1000) - in.base_diameter / 2);
+  in.tongue_gap_range[0] =
+      std::max(0.0, d2 / 2 * std::min(1.2, 1.03 + 0.1 * nq / 40 + 0.07 * head / 1000) - in.base_diameter / 2);
+  in.tongue_gap_range[1] = std::max(0.0, d2 / 2 * 1.2 - in.base_diameter / 2);
   in.diffuser_length = NAN;
   in.diffuser_angle = uniform(7, 11) * degree;
   in.outlet_diameter = NAN;

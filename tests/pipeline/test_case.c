@@ -95,19 +95,19 @@ static const BadCase bad_cases[] = {
      "12:3: impeller.wrap_angle: the key lacks its unit, degrees; allowed: wrap_angle_deg, 20 to 300 "
      "degrees"},
     {10, "  outlet_diameter_in: 0.2",
-     "10:23: impeller.outlet_diameter_in: 0.2 is out of range (it is 5.08 mm); allowed: 10 to 5000 mm"},
+     "10:23: impeller.outlet_diameter_in: 0.2 is out of range (it is 5.08 mm); allowed: 10 to 10000 mm"},
     {10, "  outlet_diameter_mm: 200\n  outlet_diameter_in: 8",
      "11:3: impeller.outlet_diameter_in: given twice, first in line 10; allowed: once"},
     {10, "  outlet_diameter_IN: 8",
      "10:3: impeller.outlet_diameter_IN: wrong unit in the key, in instead of mm; allowed: outlet_diameter_mm, "
-     "10 to 5000 mm (8 in is 203.2 mm)"},
+     "10 to 10000 mm (8 in is 203.2 mm)"},
     {4, "  head_bar: 1",
-     "4:3: operating_point.head_bar: wrong unit in the key, bar instead of m; allowed: head_m, 0.1 to 1000 "
+     "4:3: operating_point.head_bar: wrong unit in the key, bar instead of m; allowed: head_m, 0.01 to 5000 "
      "m"},
     {8, "  blade_count_mm: 6",
      "8:3: impeller.blade_count_mm: wrong unit in the key, mm; allowed: blade_count without unit, a whole "
      "number from "
-     "3 to 9"},
+     "2 to 12"},
     // Unknown keys.
     {8, "  blade_cuont: 6",
      "8:3: impeller.blade_cuont: unknown key; allowed: the keys of docs/case-reference.md, the nearest is "
@@ -121,30 +121,30 @@ static const BadCase bad_cases[] = {
     {8, "  blade_count: 6\n  : 7",
      "8:16: impeller.(nothing): the key is empty; allowed: the keys of docs/case-reference.md"},
     // Wrong types.
-    {8, "  blade_count: six", "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: six", "8:16: impeller.blade_count: six is not a number; allowed: a whole number from 2 to 12"},
     {8, "  blade_count: 6.5",
-     "8:16: impeller.blade_count: 6.5 is not a whole number; allowed: a whole number from 3 to 9"},
+     "8:16: impeller.blade_count: 6.5 is not a whole number; allowed: a whole number from 2 to 12"},
     {20, "  cells: 2m",
      "20:10: mesh.cells: 2m is not a whole number; allowed: a whole number from 10000 to 2000000000, as 500000, 500k "
      "or "
      "2M"},
     {11, "  outlet_width_mm: \"8\"",
-     "11:20: impeller.outlet_width_mm: 8 is text, not a number (it stands in quotes); allowed: 0.5 to 1000 "
+     "11:20: impeller.outlet_width_mm: 8 is text, not a number (it stands in quotes); allowed: 0.05 to 2000 "
      "mm"},
     {11, "  outlet_width_mm:",
      "11:3: impeller.outlet_width_mm: (nothing) is no value (leave the key out for its default); allowed: "
-     "0.5 to 1000 mm"},
+     "0.05 to 2000 mm"},
     {12, "  wrap_angle_deg: ~",
      "12:19: impeller.wrap_angle_deg: ~ is no value (leave the key out for its default); allowed: 20 to 300 "
      "degrees"},
     {11, "  outlet_width_mm: [8, 9]",
-     "11:20: impeller.outlet_width_mm: it is a list, not one value; allowed: 0.5 to 1000 mm"},
+     "11:20: impeller.outlet_width_mm: it is a list, not one value; allowed: 0.05 to 2000 mm"},
     {11, "  outlet_width_mm: {a: 8}",
-     "11:20: impeller.outlet_width_mm: it is a mapping, not one value; allowed: 0.5 to 1000 mm"},
+     "11:20: impeller.outlet_width_mm: it is a mapping, not one value; allowed: 0.05 to 2000 mm"},
     {11, "  outlet_width_mm: *width",
-     "11:20: impeller.outlet_width_mm: it is an alias (*name), not one value; allowed: 0.5 to 1000 mm"},
+     "11:20: impeller.outlet_width_mm: it is an alias (*name), not one value; allowed: 0.05 to 2000 mm"},
     {11, "  outlet_width_mm: !!float 8",
-     "11:28: impeller.outlet_width_mm: it has a tag (!...); allowed: without tag, 0.5 to 1000 mm"},
+     "11:28: impeller.outlet_width_mm: it has a tag (!...); allowed: without tag, 0.05 to 2000 mm"},
     {7, "  priority: warp",
      "7:13: impeller.priority: warp is not one of the choices; allowed: wrap, head, beta or auto"},
     {7, "  priority: Wrap",
@@ -163,36 +163,36 @@ static const BadCase bad_cases[] = {
      "32 "
      "letters, digits, _ and -, a letter first"},
     // Numbers that are none.
-    {4, "  head_m: .nan", "4:11: operating_point.head_m: .nan is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: nan", "4:11: operating_point.head_m: nan is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: -.inf", "4:11: operating_point.head_m: -.inf is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 1e999", "4:11: operating_point.head_m: 1e999 is not a finite number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 0x10", "4:11: operating_point.head_m: 0x10 is not a decimal number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 0o17", "4:11: operating_point.head_m: 0o17 is not a decimal number; allowed: 0.1 to 1000 m"},
-    {4, "  head_m: 010", "4:11: operating_point.head_m: 010 has a leading zero; allowed: 0.1 to 1000 m"},
+    {4, "  head_m: .nan", "4:11: operating_point.head_m: .nan is not a finite number; allowed: 0.01 to 5000 m"},
+    {4, "  head_m: nan", "4:11: operating_point.head_m: nan is not a finite number; allowed: 0.01 to 5000 m"},
+    {4, "  head_m: -.inf", "4:11: operating_point.head_m: -.inf is not a finite number; allowed: 0.01 to 5000 m"},
+    {4, "  head_m: 1e999", "4:11: operating_point.head_m: 1e999 is not a finite number; allowed: 0.01 to 5000 m"},
+    {4, "  head_m: 0x10", "4:11: operating_point.head_m: 0x10 is not a decimal number; allowed: 0.01 to 5000 m"},
+    {4, "  head_m: 0o17", "4:11: operating_point.head_m: 0o17 is not a decimal number; allowed: 0.01 to 5000 m"},
+    {4, "  head_m: 010", "4:11: operating_point.head_m: 010 has a leading zero; allowed: 0.01 to 5000 m"},
     {4, "  head_m: 10,5",
-     "4:11: operating_point.head_m: 10,5 has a comma (decimals follow a point); allowed: 0.1 to 1000 m"},
+     "4:11: operating_point.head_m: 10,5 has a comma (decimals follow a point); allowed: 0.01 to 5000 m"},
     {4, "  head_m: 10 m",
      "4:11: operating_point.head_m: 10 m has text behind the number (the unit stands in the key); allowed: "
-     "0.1 to 1000 "
+     "0.01 to 5000 "
      "m"},
     {4, "  head_m: 1e",
      "4:11: operating_point.head_m: 1e has text behind the number (the unit stands in the key); "
-     "allowed: 0.1 to 1000 m"},
-    {4, "  head_m: .", "4:11: operating_point.head_m: . is not a number; allowed: 0.1 to 1000 m"},
+     "allowed: 0.01 to 5000 m"},
+    {4, "  head_m: .", "4:11: operating_point.head_m: . is not a number; allowed: 0.01 to 5000 m"},
     {4, "  head_m: 1\n   2",
      "4:11: operating_point.head_m: 1 2 has text behind the number (the unit stands in the key); allowed: "
-     "0.1 to 1000 "
+     "0.01 to 5000 "
      "m"},
     // Out of range, at both ends.
-    {8, "  blade_count: 2", "8:16: impeller.blade_count: 2 is out of range; allowed: a whole number from 3 to 9"},
-    {8, "  blade_count: 10", "8:16: impeller.blade_count: 10 is out of range; allowed: a whole number from 3 to 9"},
+    {8, "  blade_count: 1", "8:16: impeller.blade_count: 1 is out of range; allowed: a whole number from 2 to 12"},
+    {8, "  blade_count: 13", "8:16: impeller.blade_count: 13 is out of range; allowed: a whole number from 2 to 12"},
     {8, "  blade_count: 99999999999999999999",
-     "8:16: impeller.blade_count: 99999999999999999999 is out of range; allowed: a whole number from 3 to 9"},
+     "8:16: impeller.blade_count: 99999999999999999999 is out of range; allowed: a whole number from 2 to 12"},
     {10, "  outlet_diameter_mm: -200",
-     "10:23: impeller.outlet_diameter_mm: -200 is out of range; allowed: 10 to 5000 mm"},
+     "10:23: impeller.outlet_diameter_mm: -200 is out of range; allowed: 10 to 10000 mm"},
     {10, "  outlet_diameter_mm: 0.2",
-     "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 5000 mm"},
+     "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 10000 mm"},
     {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2"},
     {17, "  layer_count: 0", "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
     {20, "  cells: 9999",
@@ -350,7 +350,7 @@ static void whole_files_that_are_no_case(void **state) {
       {"~\n", "1:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
       {"\n- a\n- b\n", "2:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
       {"just words\n", "1:1: case file: it is not a mapping; allowed: the keys of docs/case-reference.md"},
-      {"name: x\n", "1:1: operating_point.flow_rate_m3_per_h: the key is missing; allowed: 0.1 to 100000 m3/h"},
+      {"name: x\n", "1:1: operating_point.flow_rate_m3_per_h: the key is missing; allowed: 0.001 to 1000000 m3/h"},
       {"{}\n", "1:1: name: the key is missing; allowed: 1 to 32 letters, digits, _ and -, a letter first"},
   };
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
@@ -485,7 +485,7 @@ static void forms_that_yaml_allows(void **state) {
       {8, "  blade_count: 9", NULL},
       {12, "  wrap_angle_deg: 71\n  hub_diameter_mm: 74e-3\n",
        "13:20: impeller.hub_diameter_mm: 74e-3 is out of "
-       "range; allowed: 1 to 4000 mm"},
+       "range; allowed: 0.1 to 10000 mm"},
   };
   for (size_t i = 0; i < sizeof fine / sizeof *fine; ++i) {
     CwCase table;
