@@ -11,13 +11,8 @@
 
 namespace {
 
-const double mm = 1e3;
 const double level = 1e-12; // rad: two corners of an edge without lean
 const int fillet_points = 7;
-
-gp_Pnt at(double r, double theta, double z) {
-  return gp_Pnt(mm * r * std::cos(theta), mm * r * std::sin(theta), mm * z);
-}
 
 double smooth_step(double x) {
   x = x < 0 ? 0 : x > 1 ? 1 : x;
@@ -26,14 +21,19 @@ double smooth_step(double x) {
 
 class Maker {
 public:
-  Maker(const CwDesign *from, const CwMeridian *section, CwBladeShape &of)
-      : design(from), meridian(*section), shape(of) {}
+  Maker(const CwDesign *from, const CwMeridian *section, double unit, CwBladeShape &of)
+      : design(from), meridian(*section), scale(1 / unit), shape(of) {}
   void make();
 
 private:
   const CwDesign *design;
   const CwMeridian &meridian;
+  const double scale; // model units in a metre
   CwBladeShape &shape;
+
+  gp_Pnt at(double r, double theta, double z) const {
+    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
+  }
 
   void trailing_points(double p_bevel);
   void points();
@@ -290,6 +290,6 @@ CwBladeOnWall cw_blade_on_wall(const CwMeridian *meridian, int wall) {
   return {&meridian->shroud, meridian->shroud_leading, meridian->shroud_trailing - meridian->shroud_leading};
 }
 
-void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape) {
-  Maker(design, meridian, *shape).make();
+void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, CwBladeShape *shape) {
+  Maker(design, meridian, unit, *shape).make();
 }

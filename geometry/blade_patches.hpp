@@ -57,9 +57,9 @@ struct CwBladeShape {
   std::vector<CwBladePatch *> patches();
 };
 
-// Makes all surfaces and curves of a shape whose name and sections are set. Throws Standard_Failure with the
-// reason where the trailing edge or the root fillets do not fit.
-void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, CwBladeShape *shape);
+// Makes all surfaces, in the model unit (m), and curves of a shape whose name and sections are set. Throws
+// Standard_Failure with the reason where the trailing edge or the root fillets do not fit.
+void cw_blade_patches(const CwDesign *design, const CwMeridian *meridian, double unit, CwBladeShape *shape);
 
 // Arc lengths of the blade's ends on a wall, m, and the wall's curve.
 struct CwBladeOnWall {

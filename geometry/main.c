@@ -8,6 +8,7 @@
 #include "geometry/design_file.h"
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
+#include "geometry/model_unit.h"
 #include "geometry/picture.h"
 #include "geometry/pump.h"
 #include "geometry/step_file.h"
@@ -107,6 +108,8 @@ static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwM
     return cw_faces_table_write(solids, pump->count, path);
   case 1:
     return cw_interfaces_table_write(pump, path);
+  case 10:
+    return cw_model_unit_write(cw_solid_unit(solids[0]), path);
   case 2:
     return cw_step_write(solids, pump->count, path);
   case 3:
@@ -156,7 +159,8 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
                                       "velocity_triangles.svg",
                                       "blade_angle.svg",
                                       "volute_sections.svg",
-                                      "volute_plan.svg"};
+                                      "volute_plan.svg",
+                                      "model.json"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
   CwDesign design;

@@ -26,8 +26,6 @@
 
 namespace {
 
-const double metre = 1e-3; // mm in m
-
 CwStatus guarded(const CwSolid *solid, const std::function<void()> &work) {
   try {
     work();
@@ -127,7 +125,7 @@ void each_angle(const CwSolid *solid, const std::function<bool(const CwSolidFace
             const gp_Pnt point = curve->Value(t);
             CwMeasuredAngle measured = {
                 fluid_angle(side_at(edge, solid->faces[i].face, t), side_at(other, solid->faces[j].face, t)),
-                {point.X() * metre, point.Y() * metre, point.Z() * metre}};
+                {point.X() * solid->unit, point.Y() * solid->unit, point.Z() * solid->unit}};
             use(measured);
           }
         }
@@ -162,12 +160,12 @@ void measure_smallness(const CwSolid *solid, CwMeasuredSolid *measured) {
       }
       area += swept * (edge.Orientation() == TopAbs_REVERSED ? -0.5 : 0.5);
       around += length;
-      if (length * metre < measured->shortest_edge) {
-        measured->shortest_edge = length * metre;
+      if (length * solid->unit < measured->shortest_edge) {
+        measured->shortest_edge = length * solid->unit;
         measured->shortest_of = (int)i;
       }
     }
-    const double width = area.Magnitude() / (around / 2) * metre;
+    const double width = area.Magnitude() / (around / 2) * solid->unit;
     if (width < measured->narrowest_face) {
       measured->narrowest_face = width;
       measured->narrowest = (int)i;
@@ -196,13 +194,13 @@ Extent extent(const CwSolid *solid, const std::string &patch) {
     if (face.patch != patch) continue;
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(face.face, properties);
-    extent.area += properties.Mass() * metre * metre;
+    extent.area += properties.Mass() * solid->unit * solid->unit;
     for (TopExp_Explorer explorer(face.face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
       double first, last;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(explorer.Current()), first, last);
       for (int i = 0; i <= 4; i++) {
         const gp_Pnt point = curve->Value(first + (last - first) * i / 4);
-        const double r = std::hypot(point.X(), point.Y()) * metre, z = point.Z() * metre;
+        const double r = std::hypot(point.X(), point.Y()) * solid->unit, z = point.Z() * solid->unit;
         extent.least_r = std::min(extent.least_r, r);
         extent.largest_r = std::max(extent.largest_r, r);
         extent.least_z = std::min(extent.least_z, z);
@@ -239,8 +237,8 @@ CwStatus cw_measure_solid(const CwSolid *solid, CwMeasuredSolid *measured) {
     measured->valid = properties.Mass() > 0 && BRepCheck_Analyzer(solid->solid).IsValid();
     measured->closed = is_closed(solid);
     measured->face_count = (int)solid->faces.size();
-    measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * metre;
-    measured->volume = properties.Mass() * metre * metre * metre;
+    measured->largest_tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(solid->solid, 1) * solid->unit;
+    measured->volume = properties.Mass() * solid->unit * solid->unit * solid->unit;
     measure_smallness(solid, measured);
   });
 }
@@ -268,7 +266,7 @@ CwStatus cw_measure_rotor(const CwSolid *rotor, CwMeasuredRotor *measured) {
       if (r > outlet * (1 + 1e-6)) measured->wrap_angle = angle_between(polar(tip), polar(nose));
       outlet = std::max(outlet, r);
     }
-    measured->outlet_diameter = 2 * outlet * metre;
+    measured->outlet_diameter = 2 * outlet * rotor->unit;
     measured->kink.angle = 0;
     each_angle(rotor, should_be_smooth, [&](const CwMeasuredAngle &found) {
       CwMeasuredAngle kink = found;

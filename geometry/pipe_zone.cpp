@@ -11,6 +11,7 @@
 #include <Geom_Circle.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
+#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -22,9 +23,9 @@
 
 namespace {
 
-const int PLANE_CURVE = 49;     // points of a curve in a plane's or cylinder's parameters
-const double U_MARGIN = 0.1;    // rad: keeps the faces of cylinders off u = 0, where u jumps
-const double SAME_POINT = 1e-7; // mm
+const int PLANE_CURVE = 49;  // points of a curve in a plane's or cylinder's parameters
+const double U_MARGIN = 0.1; // rad: keeps the faces of cylinders off u = 0, where u jumps
+const double SAME_POINT = Precision::Confusion();
 
 struct Piece { // of an outline: an arc or, between the sectors of a ring, a line from rim to rim
   Handle(Geom_Curve) curve;
@@ -61,9 +62,9 @@ gp_Dir outward_of(const CwSolidFace &face) {
 // The prism over flat faces, without walls between them.
 class Prism {
 public:
-  Prism(const std::vector<CwSolidFace *> &ends, double length) : builder(PLANE_CURVE) {
+  Prism(const std::vector<CwSolidFace *> &ends, double unit, double length) : builder(PLANE_CURVE, unit) {
     const gp_Dir out = outward_of(*ends[0]);
-    along = gp_Vec(out) * length;
+    along = gp_Vec(out) * (length / unit);
     for (const CwSolidFace *end : ends) {
       std::vector<int> loop;
       for (const Piece &piece : outline_of(*end)) loop.push_back(rod(piece));
@@ -157,7 +158,7 @@ CwStatus cw_pipe_zone_make(CwSolid *neighbour, const char *end, double length, c
   *pipe = nullptr;
   try {
     const std::vector<CwSolidFace *> ends = faces_of(*neighbour, end);
-    *pipe = Prism(ends, 1e3 * length).build(*ends[0], *names);
+    *pipe = Prism(ends, neighbour->unit, length).build(*ends[0], *names);
     for (size_t i = 0; i < ends.size(); i++) {
       ends[i]->patch = names->neighbour_side;
       ends[i]->name = ends[i]->patch + (ends.size() > 1 ? "_" + std::to_string(i + 1) : "");

@@ -26,12 +26,12 @@
 #include "geometry/blade_patches.hpp"
 #include "geometry/bspline_fit.hpp"
 #include "geometry/meridian.h"
+#include "geometry/model_unit.h"
 #include "geometry/shell_builder.hpp"
 #include "geometry/solid.hpp"
 
 namespace {
 
-const double mm = 1e3;
 // Parameter planes of the surfaces of revolution begin this far before a blade's trailing edge, so that a
 // whole passage has angles between 0 and 2 pi.
 const double margin = 0.5;
@@ -58,12 +58,13 @@ struct Blade {
 
 class Rotor {
 public:
-  explicit Rotor(const CwDesign *from) : design(from) {}
+  Rotor(const CwDesign *from, double model_unit) : design(from), unit(model_unit), scale(1 / model_unit) {}
   CwStatus sections();
   CwSolid *build();
 
 private:
   const CwDesign *design;
+  const double unit, scale; // the model unit, m; model units in a metre
   CwMeridian meridian;
   const CwMeridianCurve *curve[2];  // hub and shroud
   std::vector<CwBladeShape> shapes; // the blade and, with splitters, the splitter behind its pressure side
@@ -74,7 +75,7 @@ private:
   CwShellBuilder shell;
 
   gp_Pnt at(double r, double theta, double z) const {
-    return gp_Pnt(mm * r * std::cos(theta), mm * r * std::sin(theta), mm * z);
+    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
   }
   gp_Ax3 frame(int k, double z = 0) const;
   Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
@@ -147,7 +148,7 @@ done:
 // Axes whose x axis is the zero of the parameter plane of passage k.
 gp_Ax3 Rotor::frame(int k, double z) const {
   const double angle = k * pitch - margin;
-  return gp_Ax3(gp_Pnt(0, 0, mm * z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
+  return gp_Ax3(gp_Pnt(0, 0, scale * z), gp::DZ(), gp_Dir(std::cos(angle), std::sin(angle), 0));
 }
 
 Handle(Geom_Curve) Rotor::meridian_curve(const CwMeridianCurve &curve, double theta) const {
@@ -193,9 +194,9 @@ int Rotor::slanted_line(const double from[3], const double to[3], int begin, int
 }
 
 // The same between (r, theta) in the plane's parameters.
-Handle(Geom2d_Curve) slanted_line_in_plane(double r, double theta, double to_r, double to_theta) {
+Handle(Geom2d_Curve) slanted_line_in_plane(double scale, double r, double theta, double to_r, double to_theta) {
   const auto in_plane = [&](double f) {
-    const double at_r = mm * (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
+    const double at_r = scale * (r + f * (to_r - r)), angle = theta + f * (to_theta - theta);
     return gp_Pnt2d(at_r * std::cos(angle), at_r * std::sin(angle));
   };
   if (theta == to_theta) return new Geom2d_Line(in_plane(0), gp_Dir2d(gp_Vec2d(in_plane(0), in_plane(1))));
@@ -273,8 +274,8 @@ void Rotor::wall_edges(Blade &b) {
   }
   const double at_hub = turn + s.theta_up[CW_HUB], at_shroud = turn + s.theta_up[CW_SHROUD];
   b.inlet = shell.vertex(at(r_pipe, at_shroud, meridian.inlet_z));
-  b.e_end[CW_SHROUD] = shell.edge(new Geom_Line(at(r_pipe, at_shroud, 0), gp::DZ()), mm * meridian.inlet_z,
-                                  mm * curve[CW_SHROUD]->pole[0][1], b.inlet, b.up[CW_SHROUD]);
+  b.e_end[CW_SHROUD] = shell.edge(new Geom_Line(at(r_pipe, at_shroud, 0), gp::DZ()), scale * meridian.inlet_z,
+                                  scale * curve[CW_SHROUD]->pole[0][1], b.inlet, b.up[CW_SHROUD]);
   b.disk = b.up[CW_HUB];
   if (has_nut) {
     b.disk = shell.vertex(at(meridian.nut_disk_radius, at_hub, meridian.nut_end_z));
@@ -284,8 +285,8 @@ void Rotor::wall_edges(Blade &b) {
     const double r = meridian.shaft_radius, from[3] = {r, at_hub, meridian.inlet_z},
                  to[3] = {r_pipe, at_shroud, meridian.inlet_z};
     b.shaft = shell.vertex(at(r, at_hub, meridian.inlet_z));
-    b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), mm * meridian.inlet_z, mm * meridian.nut_end_z,
-                           b.shaft, b.disk);
+    b.e_shaft = shell.edge(new Geom_Line(at(r, at_hub, 0), gp::DZ()), scale * meridian.inlet_z,
+                           scale * meridian.nut_end_z, b.shaft, b.disk);
     b.e_inlet = slanted_line(from, to, b.shaft, b.inlet);
   }
   const double ri = design->interface_radius, half = design->outlet_width / 2;
@@ -300,7 +301,7 @@ void Rotor::arcs(int i) {
   const Blade &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const auto arc = [&](double r, double height, double from, double to, int begin, int end) {
-    return shell.edge(new Geom_Circle(frame(b.turns, height).Ax2(), mm * r), from + margin, to + margin + far_of(i),
+    return shell.edge(new Geom_Circle(frame(b.turns, height).Ax2(), scale * r), from + margin, to + margin + far_of(i),
                       begin, end);
   };
   for (int w : {CW_HUB, CW_SHROUD}) {
@@ -354,7 +355,7 @@ void Rotor::pipe_faces(int i) {
   const Blade &b = blade[i], &next = blade[(i + 1) % blade.size()];
   const CwBladeShape &s = *b.shape, &f = *next.shape;
   const std::string number = "_" + std::to_string(i + 1);
-  const double near = margin, far = margin + far_of(i), half = mm * design->outlet_width / 2;
+  const double near = margin, far = margin + far_of(i), half = scale * design->outlet_width / 2;
   // A face of revolution between the lines of this blade and the next and the arcs below and above.
   const auto tube = [&](const Handle(Geom_Surface) & surface, int w, int line, int next_line, int low, double v_low,
                         int high, double v_high, bool outward, const char *patch) {
@@ -366,24 +367,24 @@ void Rotor::pipe_faces(int i) {
                outward, patch, "wall", patch + number);
   };
   const auto cylinder = [&](double r) -> Handle(Geom_Surface) {
-    return new Geom_CylindricalSurface(frame(b.turns), mm * r);
+    return new Geom_CylindricalSurface(frame(b.turns), scale * r);
   };
-  const double z_inlet = mm * meridian.inlet_z;
+  const double z_inlet = scale * meridian.inlet_z;
   if (has_nut)
     tube(revolved(nut_curve(b.turns * pitch - margin)), CW_HUB, b.e_end[CW_HUB], next.e_end[CW_HUB], b.a_end[CW_HUB], 0,
          b.a_up[CW_HUB], 1, false, "hub_nut");
   tube(cylinder(design->inlet_diameter / 2), CW_SHROUD, b.e_end[CW_SHROUD], next.e_end[CW_SHROUD], b.a_end[CW_SHROUD],
-       z_inlet, b.a_up[CW_SHROUD], mm * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
+       z_inlet, b.a_up[CW_SHROUD], scale * curve[CW_SHROUD]->pole[0][1], true, "suction_pipe");
   if (has_shaft) {
     tube(cylinder(meridian.shaft_radius), CW_HUB, b.e_shaft, next.e_shaft, b.a_shaft, z_inlet, b.a_end[CW_HUB],
-         mm * meridian.nut_end_z, false, "hub_shaft");
+         scale * meridian.nut_end_z, false, "hub_shaft");
     // In the plane of the inlet, whose axes are those of the passage.
     const auto spoke = [&](const CwBladeShape &shape, double offset) -> Handle(Geom2d_Curve) {
-      return slanted_line_in_plane(meridian.shaft_radius, shape.theta_up[CW_HUB] + offset, design->inlet_diameter / 2,
-                                   shape.theta_up[CW_SHROUD] + offset);
+      return slanted_line_in_plane(scale, meridian.shaft_radius, shape.theta_up[CW_HUB] + offset,
+                                   design->inlet_diameter / 2, shape.theta_up[CW_SHROUD] + offset);
     };
     const auto circle = [&](double r) -> Handle(Geom2d_Curve) {
-      return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), mm * r);
+      return new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), scale * r);
     };
     shell.face(new Geom_Plane(frame(b.turns, meridian.inlet_z)),
                {{b.e_inlet, true, spoke(s, near)},
@@ -450,13 +451,14 @@ void Rotor::disk(double height, double r, int w, bool outward, const char *patch
   for (const Blade &b : blade) {
     const double angle = b.turns * pitch - margin;
     loop.push_back({b.a_end[w], true,
-                    new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), mm * r)});
+                    new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(std::cos(angle), std::sin(angle))), scale * r)});
   }
-  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, mm * height), gp::DZ(), gp::DX())), loop, outward, patch, kind, name);
+  shell.face(new Geom_Plane(gp_Ax3(gp_Pnt(0, 0, scale * height), gp::DZ(), gp::DX())), loop, outward, patch, kind,
+             name);
 }
 
 CwSolid *Rotor::build() {
-  for (CwBladeShape &shape : shapes) cw_blade_patches(design, &meridian, &shape);
+  for (CwBladeShape &shape : shapes) cw_blade_patches(design, &meridian, unit, &shape);
   const int kinds = (int)shapes.size(), n = design->blade_count * kinds;
   curve[CW_HUB] = &meridian.hub;
   curve[CW_SHROUD] = &meridian.shroud;
@@ -483,7 +485,7 @@ CwSolid *Rotor::build() {
     disk(meridian.nut_end_z, meridian.nut_disk_radius, CW_HUB, true, "hub_nut", "wall", "hub_nut_end");
     disk(meridian.inlet_z, design->inlet_diameter / 2, CW_SHROUD, false, "inlet", "inlet", "inlet");
   }
-  return shell.finish("rotor");
+  return shell.finish("rotor", unit);
 }
 
 // Name of the first face that OpenCASCADE finds fault with; "" if all is well.
@@ -501,7 +503,7 @@ CwStatus cw_rotor_build(const CwDesign *design, CwSolid **rotor) {
   CwStatus status = CW_OK;
   *rotor = nullptr;
   try {
-    Rotor builder(design);
+    Rotor builder(design, cw_model_unit(design->outlet_diameter));
     CW_TRY(builder.sections());
     *rotor = builder.build();
     const std::string faulty = faulty_face(*rotor);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <BRep_Builder.hxx>
+#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -12,8 +13,9 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Wire.hxx>
 
-static const double least_tolerance = 1e-7; // mm, OpenCASCADE's Precision::Confusion()
-// mm, of edges and vertices: the deviation of curves on surfaces is sampled, and its peaks lie between the samples.
+static const double least_tolerance = Precision::Confusion();
+// In model units, of edges and vertices: the deviation of curves on surfaces is sampled, and its peaks lie between the
+// samples.
 static const double least_edge_tolerance = 1e-5;
 
 int CwShellBuilder::vertex(const gp_Pnt &point) {
@@ -84,7 +86,7 @@ void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEd
   faces.push_back(made);
 }
 
-CwSolid *CwShellBuilder::finish(const char *domain) {
+CwSolid *CwShellBuilder::finish(const char *domain, double unit) {
   BRep_Builder builder;
   for (size_t i = 0; i < edges.size(); i++) {
     Edge &edge = edges[i];
@@ -103,6 +105,7 @@ CwSolid *CwShellBuilder::finish(const char *domain) {
   CwSolid *result = new CwSolid;
   try {
     result->domain = domain;
+    result->unit = unit;
     builder.MakeSolid(result->solid);
     builder.Add(result->solid, shell);
     TopTools_IndexedMapOfShape map;

@@ -33,8 +33,8 @@ public:
   // points out of the solid. Each face needs a surface of its own.
   void face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward, const char *patch,
             const char *kind, const std::string &name);
-  // Makes the solid, or throws Standard_Failure with the reason.
-  CwSolid *finish(const char *domain);
+  // Makes the solid of all that was given in the model unit (m), or throws Standard_Failure with the reason.
+  CwSolid *finish(const char *domain, double unit);
 
 private:
   struct Edge {

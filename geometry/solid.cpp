@@ -26,6 +26,10 @@ const char *cw_solid_domain(const CwSolid *solid) {
   return solid->domain.c_str();
 }
 
+double cw_solid_unit(const CwSolid *solid) {
+  return solid->unit;
+}
+
 int cw_solid_face_count(const CwSolid *solid) {
   return (int)solid->faces.size();
 }

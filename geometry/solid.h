@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// One closed solid in mm with a patch for each face. Faces are counted from 0 in the order of
+// One closed solid in a model unit (model_unit.h) with a patch for each face. Faces are counted from 0 in the order of
 // TopExp::MapShapes(solid, TopAbs_FACE).
 #ifndef CUTWATER_GEOMETRY_SOLID_H
 #define CUTWATER_GEOMETRY_SOLID_H
@@ -14,6 +14,7 @@ typedef struct CwSolid CwSolid; // solid.hpp shows its members to the C++ bridge
 
 void cw_solid_free(CwSolid **solid);
 const char *cw_solid_domain(const CwSolid *solid); // "rotor", "stator", "suction" or "discharge"
+double cw_solid_unit(const CwSolid *solid);        // the model unit, m
 int cw_solid_face_count(const CwSolid *solid);
 const char *cw_solid_face_patch(const CwSolid *solid, int face);
 const char *cw_solid_face_kind(const CwSolid *solid, int face); // "wall", "inlet", "outlet" or "interface"
@@ -23,8 +24,8 @@ const char *cw_solid_face_name(const CwSolid *solid, int face);
 // the other hand, which still turns about +z by the right hand.
 CwStatus cw_solid_mirror(CwSolid *solid);
 
-// Writes the solid in OpenCASCADE's text format under a temporary name, then renames it. The same bits each
-// time.
+// Writes the solid, in its model unit, in OpenCASCADE's text format under a temporary name, then renames it. The same
+// bits each time.
 CwStatus cw_solid_write_brep(const CwSolid *solid, const char *path);
 
 #ifdef __cplusplus

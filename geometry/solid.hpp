@@ -18,6 +18,7 @@ struct CwSolidFace {
 
 struct CwSolid {
   std::string domain;
+  double unit; // model unit, m
   TopoDS_Solid solid;
   std::vector<CwSolidFace> faces; // in the order of TopExp::MapShapes
 };

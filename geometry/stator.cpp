@@ -35,18 +35,19 @@ const int PLANE_CURVE = 49, PLANE_CURVE_BENT = 97;
 // Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4
 // by 1 %.
 const double TANGENT = 0.4;
-const double TONGUE_SIDE = 1.01; // least radius of the tongue's end at the side wall, in D3/2
-const double LEAST_WALL = 0.5;   // mm, between diffuser and spiral
-const double U_MARGIN = 0.1;     // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
+const double TONGUE_SIDE = 1.01;  // least radius of the tongue's end at the side wall, in D3/2
+const double LEAST_WALL = 0.0025; // between diffuser and spiral, of D3
+const double U_MARGIN = 0.1;      // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
 enum { BOTTOM, TOP };
 
 // The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the
 // start of the kink line at the tongue. Names of the points as in volute_design.h.
 class StatorMaker {
 public:
-  explicit StatorMaker(const CwVolute &volute)
-      : v_(volute), across_(std::isnan(volute.input.corner_radius) ? ACROSS : ACROSS_CORNERS),
-        b_(volute.end_half_angle > volute.arc_half_angle ? PLANE_CURVE_BENT : PLANE_CURVE) {}
+  StatorMaker(const CwVolute &volute, double unit)
+      : v_(volute), unit_(unit), scale_(1 / unit),
+        across_(std::isnan(volute.input.corner_radius) ? ACROSS : ACROSS_CORNERS),
+        b_(volute.end_half_angle > volute.arc_half_angle ? PLANE_CURVE_BENT : PLANE_CURVE, unit) {}
 
   CwSolid *make() {
     for (int j = 0; j <= SECTORS; j++) angle_[j] = v_.start_angle + SECTOR * j;
@@ -68,10 +69,10 @@ private:
     return side == TOP ? 1 : -1;
   }
   double r3() const {
-    return 500 * v_.input.base_diameter;
+    return 0.5 * scale_ * v_.input.base_diameter;
   }
   double half_width(double r) const {
-    return 1e3 * cw_volute_half_width(&v_, r * 1e-3);
+    return scale_ * cw_volute_half_width(&v_, r * unit_);
   }
   double psi(double t) const {
     return v_.arc_half_angle * (2 * t - 1);
@@ -80,7 +81,7 @@ private:
   gp_Pnt wall(double phi, double psi) const {
     double x[3];
     cw_volute_wall_point(&v_, phi, psi, x, nullptr, nullptr);
-    return gp_Pnt(x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+    return gp_Pnt(x[0] * scale_, x[1] * scale_, x[2] * scale_);
   }
 
   static gp_Pnt polar(double r, double angle, double z) {
@@ -116,7 +117,8 @@ private:
 
   // Interface cylinder, neck, and the step from b2 to b3 at D3/2.
   void make_inner_rings() {
-    double r = 1e3 * v_.input.interface_radius, b2 = 500 * v_.input.neck_width, b3 = 500 * v_.input.inlet_width;
+    double r = scale_ * v_.input.interface_radius, b2 = 0.5 * scale_ * v_.input.neck_width,
+           b3 = 0.5 * scale_ * v_.input.inlet_width;
     Ring interface[2], neck[2];
     std::array<int, SECTORS> neck_joint[2], step_joint[2];
     for (int side : {BOTTOM, TOP}) {
@@ -182,8 +184,8 @@ private:
       cw_volute_wall_point(&v_, cw_volute_contact_angle(&v_, psi(v)), psi(v), contact, nullptr, nullptr);
       double z = contact[2] * (1 + u_share(u) * (height / v_.side_level - 1));
       double beta = direction(psi(v)) * (1 - u);
-      return gp_Pnt(1e3 * (v_.inner_wall_x - radius + radius * std::cos(beta)),
-                    1e3 * (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), 1e3 * z);
+      return gp_Pnt(scale_ * (v_.inner_wall_x - radius + radius * std::cos(beta)),
+                    scale_ * (cw_volute_nose_y(&v_, z) + radius * std::sin(beta)), scale_ * z);
     });
     for (int side : {BOTTOM, TOP}) {
       flank_vertex_[side] = b_.vertex(surface->Value(1, side));
@@ -204,7 +206,7 @@ private:
 
   // The plane x = x_i from the nose to the throat.
   void make_flank() {
-    double x = 1e3 * v_.inner_wall_x, y = 1e3 * v_.throat_y;
+    double x = scale_ * v_.inner_wall_x, y = scale_ * v_.throat_y;
     gp_Pln plane(gp_Ax3(gp_Pnt(x, 0, 0), gp::DX(), gp::DY())); // its parameters are y and z
     for (int side : {BOTTOM, TOP}) {
       double from = b_.point(flank_vertex_[side]).Y();
@@ -221,16 +223,16 @@ private:
 
   gp_Pnt throat_side(double t, int side) const {
     double a = b_.point(throat_vertex_[side]).X(), b = b_.point(kink_vertex_[SECTORS][side]).X();
-    double x = a + t * (b - a), y = 1e3 * v_.throat_y;
+    double x = a + t * (b - a), y = scale_ * v_.throat_y;
     return gp_Pnt(x, y, sign(side) * half_width(std::hypot(x, y)));
   }
 
   void make_side_walls() {
-    double cone_angle = 0.5 * PI - v_.input.side_wall_angle, b3 = 500 * v_.input.inlet_width;
+    double cone_angle = 0.5 * PI - v_.input.side_wall_angle, b3 = 0.5 * scale_ * v_.input.inlet_width;
     for (int side : {BOTTOM, TOP}) {
       std::array<int, SECTORS> ray;
       for (int j = 0; j < SECTORS; j++) ray[j] = b_.line(step_[side].vertex[j], kink_vertex_[j][side]);
-      gp_Pln throat(gp_Ax3(gp_Pnt(0, 1e3 * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
+      gp_Pln throat(gp_Ax3(gp_Pnt(0, scale_ * v_.throat_y, 0), -gp::DY(), gp::DX())); // its parameters are x and z
       Handle(Geom2d_BSplineCurve) curve = spline_plane_curve(
           SIDE, 0, 1, [&](double t) { return gp_Pnt2d(throat_side(t, side).X(), throat_side(t, side).Z()); });
       throat_side_[side] =
@@ -255,7 +257,7 @@ private:
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave
   // in the tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
-    double length = TANGENT * 1e3 * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
+    double length = TANGENT * scale_ * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
     auto outer_start = [&](double t) { return wall(cw_volute_throat_angle(&v_, psi(t)), psi(t)); };
     auto outer_direction = [&](double t) {
@@ -286,7 +288,7 @@ private:
     // where the first begins.
     double corner[5] = {-a, a, b, 2 * PI - b, 2 * PI - a};
 
-    double radius = 500 * v_.input.outlet_diameter;
+    double radius = 0.5 * scale_ * v_.input.outlet_diameter;
     for (int i = 0; i < 5; i++) corner_[i] = corner[i];
     circle_end_ = make_circle(outlet_centre(0));
     auto on_circle = [&](double angle) {
@@ -332,19 +334,19 @@ private:
 
   void keep_off_spiral(const Handle(Geom_BSplineSurface) & surface) const {
     const int samples = 24;
+    const double least = LEAST_WALL * 2 * r3();
     for (int i = 0; i <= samples; i++)
       for (int j = 1; j <= samples; j++) {
         gp_Pnt p = surface->Value(double(i) / samples, double(j) / samples);
         CwVoluteSection s = cw_volute_section(&v_, std::atan2(p.Y(), p.X()));
-        double z = std::min(std::fabs(p.Z()) * 1e-3, s.kink_height);
-        double wall = 1e3 * cw_volute_wall_radius(&s, z);
-        if (std::fabs(p.Z()) > 1e3 * s.kink_height + LEAST_WALL || std::hypot(p.X(), p.Y()) > wall + LEAST_WALL)
-          continue;
+        double z = std::min(std::fabs(p.Z()) * unit_, s.kink_height);
+        double wall = scale_ * cw_volute_wall_radius(&s, z);
+        if (std::fabs(p.Z()) > scale_ * s.kink_height + least || std::hypot(p.X(), p.Y()) > wall + least) continue;
         char text[160];
         snprintf(text, sizeof text,
                  "the diffuser meets the spiral near (%.1f, %.1f, %.1f) mm; raise diffuser_length_mm or "
                  "tongue_gap_mm, or lower outlet_diameter_mm",
-                 p.X(), p.Y(), p.Z());
+                 1e3 * unit_ * p.X(), 1e3 * unit_ * p.Y(), 1e3 * unit_ * p.Z());
         throw std::runtime_error(text);
       }
   }
@@ -358,7 +360,7 @@ private:
     return gp_Dir(c * std::cos(v_.discharge_lean), c * std::sin(v_.discharge_lean), std::sin(angle));
   }
   gp_Pnt outlet_centre(double behind) const {
-    return gp_Pnt(1e3 * v_.outlet_x, 1e3 * v_.outlet_y, 0).Translated(gp_Vec(downstream()) * behind);
+    return gp_Pnt(scale_ * v_.outlet_x, scale_ * v_.outlet_y, 0).Translated(gp_Vec(downstream()) * behind);
   }
 
   struct Circle {
@@ -366,7 +368,7 @@ private:
   };
   Circle make_circle(const gp_Pnt &centre) {
     Circle circle;
-    double radius = 500 * v_.input.outlet_diameter;
+    double radius = 0.5 * scale_ * v_.input.outlet_diameter;
     for (int i = 0; i < 4; i++) circle.vertex[i] = b_.vertex(centre.XYZ() + radius * in_outlet_plane(corner_[i]).XYZ());
     for (int i = 0; i < 4; i++)
       circle.arc[i] = b_.edge(new Geom_Circle(gp_Ax2(centre, -downstream(), in_outlet_plane(corner_[i])), radius), 0,
@@ -375,13 +377,13 @@ private:
   }
 
   void make_pipe() {
-    gp_Pnt centre = outlet_centre(1e3 * v_.input.discharge_pipe_length);
+    gp_Pnt centre = outlet_centre(scale_ * v_.input.discharge_pipe_length);
     Circle outlet = make_circle(centre);
     int line[4];
     for (int i = 0; i < 4; i++) line[i] = b_.line(circle_end_.vertex[i], outlet.vertex[i]);
     for (int i = 0; i < 4; i++) {
       gp_Ax3 at(outlet_centre(0), -downstream(), in_outlet_plane(corner_[i] - U_MARGIN));
-      b_.face(new Geom_CylindricalSurface(at, 500 * v_.input.outlet_diameter),
+      b_.face(new Geom_CylindricalSurface(at, 0.5 * scale_ * v_.input.outlet_diameter),
               {circle_end_.arc[i], line[(i + 1) % 4], outlet.arc[i], line[i]}, "discharge");
     }
     b_.face(new Geom_Plane(gp_Ax3(centre, downstream())), {outlet.arc[0], outlet.arc[1], outlet.arc[2], outlet.arc[3]},
@@ -389,6 +391,7 @@ private:
   }
 
   const CwVolute &v_;
+  const double unit_, scale_; // the model unit, m; model units in a metre
   const int across_;
   LoopBuilder b_;
   double angle_[SECTORS + 1];
@@ -401,10 +404,10 @@ private:
 
 } // namespace
 
-CwStatus cw_stator_build(const CwVolute *volute, CwSolid **stator) {
+CwStatus cw_stator_build(const CwVolute *volute, double unit, CwSolid **stator) {
   *stator = nullptr;
   try {
-    std::unique_ptr<CwSolid> fresh(StatorMaker(*volute).make());
+    std::unique_ptr<CwSolid> fresh(StatorMaker(*volute, unit).make());
     cw_stator_check(*fresh);
     *stator = fresh.release();
     return CW_OK;

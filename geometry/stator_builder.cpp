@@ -150,5 +150,5 @@ CwSolid *LoopBuilder::build(const char *domain, const gp_Trsf &motion, bool firs
     shell.face(Handle(Geom_Surface)::DownCast(face.surface->Transformed(motion)), loop, outward != flip,
                face.patch.c_str(), face.kind.c_str(), name);
   }
-  return shell.finish(domain);
+  return shell.finish(domain, unit_);
 }

@@ -30,8 +30,8 @@ struct LoopEdge {
 
 class LoopBuilder {
 public:
-  // Curves in the parameter plane are interpolated at so many points.
-  explicit LoopBuilder(int curve_points) : curve_points_(curve_points) {}
+  // Curves in the parameter plane are interpolated at so many points. The model unit in m.
+  LoopBuilder(int curve_points, double unit) : curve_points_(curve_points), unit_(unit) {}
   int vertex(const gp_Pnt &point);
   // The curve over [a, b] must run from vertex `start` to vertex `end`.
   int edge(const Handle(Geom_Curve) & curve, double a, double b, int start, int end);
@@ -66,6 +66,7 @@ private:
   std::vector<bool> turned_loops() const;
 
   const int curve_points_;
+  const double unit_;
   std::vector<gp_Pnt> vertices_;
   std::vector<Edge> edges_;
   std::vector<Face> faces_;

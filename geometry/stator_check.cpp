@@ -8,11 +8,8 @@
 #include <string>
 
 #include <BRepCheck_Analyzer.hxx>
-#include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
-#include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -28,14 +25,13 @@
 
 namespace {
 
-const double LARGEST_TOLERANCE = 1e-3;                       // mm
+const double LARGEST_TOLERANCE = 1e-3;                       // model units
 const double LEAST_FLUID_ANGLE = 66, LEAST_SOLID_ANGLE = 75; // degrees
-const double LEAST_EDGE = 0.05;                              // mm: no mesh wants to resolve less
-const double LEAST_FACE = 0.01;                              // mm2
 const int SAMPLES = 24;                                      // of an edge
 
 // BRepCheck alone passes gaps that inflated tolerances cover.
 void check_tolerances(const CwSolid &stator) {
+  const double mm = 1e3 * stator.unit;
   TopTools_IndexedMapOfShape vertices;
   TopExp::MapShapes(stator.solid, TopAbs_VERTEX, vertices);
   for (int i = 1; i <= vertices.Extent(); i++) {
@@ -45,40 +41,8 @@ void check_tolerances(const CwSolid &stator) {
     gp_Pnt p = BRep_Tool::Pnt(vertex);
     char text[200];
     snprintf(text, sizeof text, "its faces miss each other by %.2g mm at (%.3f, %.3f, %.3f) mm; allowed: %g mm",
-             tolerance, p.X(), p.Y(), p.Z(), LARGEST_TOLERANCE);
+             mm * tolerance, mm * p.X(), mm * p.Y(), mm * p.Z(), mm * LARGEST_TOLERANCE);
     throw std::runtime_error(text);
-  }
-}
-
-double length_of(const TopoDS_Edge &edge) {
-  double first, last, length = 0;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
-  for (int k = 0; k < SAMPLES; k++)
-    length += curve->Value(first + (last - first) * k / SAMPLES)
-                  .Distance(curve->Value(first + (last - first) * (k + 1) / SAMPLES));
-  return length;
-}
-
-// Slivers that a solid may have and still be valid.
-void check_sizes(const CwSolid &stator) {
-  char text[240];
-  for (const CwSolidFace &face : stator.faces) {
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(face.face, properties);
-    const gp_Pnt at = properties.CentreOfMass();
-    snprintf(text, sizeof text, "face %s at (%.1f, %.1f, %.1f) mm has an area of %.3g mm2; allowed: at least %g mm2",
-             face.name.c_str(), at.X(), at.Y(), at.Z(), properties.Mass(), LEAST_FACE);
-    if (!(properties.Mass() >= LEAST_FACE)) throw std::runtime_error(text);
-    for (TopExp_Explorer edges(face.face, TopAbs_EDGE); edges.More(); edges.Next()) {
-      const TopoDS_Edge &edge = TopoDS::Edge(edges.Current());
-      const double length = length_of(edge);
-      if (length >= LEAST_EDGE) continue;
-      const gp_Pnt p = BRep_Tool::Pnt(TopExp::FirstVertex(edge));
-      snprintf(text, sizeof text,
-               "an edge of face %s at (%.1f, %.1f, %.1f) mm is %.3g mm long; allowed: at least %g mm",
-               face.name.c_str(), p.X(), p.Y(), p.Z(), length, LEAST_EDGE);
-      throw std::runtime_error(text);
-    }
   }
 }
 
@@ -105,6 +69,7 @@ Side side_at(const TopoDS_Edge &edge, const TopoDS_Face &face, double t) {
 }
 
 void check_angles(const CwSolid &stator) {
+  const double mm = 1e3 * stator.unit;
   std::map<const void *, const CwSolidFace *> by_shape;
   for (const CwSolidFace &face : stator.faces) by_shape[face.face.TShape().get()] = &face;
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
@@ -129,7 +94,7 @@ void check_angles(const CwSolid &stator) {
       snprintf(text, sizeof text,
                "%s and %s meet through the %s at %.1f deg at (%.1f, %.1f, %.1f) mm; allowed: at least %g deg",
                face[0]->name.c_str(), face[1]->name.c_str(), fluid ? "fluid" : "solid", fluid ? angle : 360 - angle,
-               a.point.X(), a.point.Y(), a.point.Z(), fluid ? LEAST_FLUID_ANGLE : LEAST_SOLID_ANGLE);
+               mm * a.point.X(), mm * a.point.Y(), mm * a.point.Z(), fluid ? LEAST_FLUID_ANGLE : LEAST_SOLID_ANGLE);
       throw std::runtime_error(text);
     }
   }
@@ -143,6 +108,5 @@ void cw_stator_check(const CwSolid &stator) {
     if (!BRepCheck_Analyzer(face.face).IsValid())
       throw std::runtime_error("face " + face.name + " crosses itself or its edges do not fit");
   if (!BRepCheck_Analyzer(stator.solid).IsValid()) throw std::runtime_error("the solid is not valid");
-  check_sizes(stator);
   check_angles(stator);
 }

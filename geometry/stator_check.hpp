@@ -6,7 +6,7 @@
 #include "geometry/solid.hpp"
 
 // Throws std::runtime_error with one line that says what is wrong and where (mm): a vertex with a tolerance
-// of 1e-3 mm or more, a face or solid that BRepCheck rejects, two faces that meet through the fluid at less
+// of 1e-3 model units or more, a face or solid that BRepCheck rejects, two faces that meet through the fluid at less
 // than 66 degrees or through the solid at less than 75. Prism layers in sharper places are too skewed.
 void cw_stator_check(const CwSolid &stator);
 

@@ -27,6 +27,7 @@
 #include <XSControl_WorkSession.hxx>
 
 #include "geometry/solid.hpp"
+#include "geometry/solid_scale.hpp"
 #include "pipeline/atomic_file.h"
 
 namespace {
@@ -61,13 +62,16 @@ void set_name(const TDF_Label &label, const std::string &name) {
   TDataStd_Name::Set(label, TCollection_ExtendedString(name.c_str()));
 }
 
+const double millimetre = 1e-3; // m
+
 CwStatus write(const CwSolid *const *solids, int count, const char *temporary_path) {
   Document document;
   const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
   for (int i = 0; i < count; i++) {
-    const TDF_Label label = shapes->AddShape(solids[i]->solid, Standard_False);
-    set_name(label, solids[i]->domain);
-    for (const CwSolidFace &face : solids[i]->faces) {
+    const CwSolid solid = cw_solid_scaled(*solids[i], solids[i]->unit / millimetre);
+    const TDF_Label label = shapes->AddShape(solid.solid, Standard_False);
+    set_name(label, solid.domain);
+    for (const CwSolidFace &face : solid.faces) {
       const TDF_Label part = shapes->AddSubShape(label, face.face);
       if (part.IsNull()) throw Standard_Failure(("no label for face " + face.name).c_str());
       set_name(part, face.patch);
@@ -106,6 +110,7 @@ CwSolid *read(const char *path, const char *domain, CwStatus *status) {
     if (!explorer.More()) continue;
     std::unique_ptr<CwSolid> solid(new CwSolid);
     solid->domain = domain;
+    solid->unit = millimetre;
     solid->solid = TopoDS::Solid(explorer.Current());
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(solid->solid, TopAbs_FACE, faces);

@@ -101,7 +101,7 @@ CwStatus cw_json_write(const json_t *value, const char *path) {
   CwAtomicFile file = {0};
   CW_TRY(cw_atomic_file_open(path, &file));
   int broken =
-      json_dumpf(value, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) || fputc('\n', file.stream) == EOF;
+      json_dumpf(value, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) || fputc('\n', file.stream) == EOF;
   CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
   CW_TRY(cw_atomic_file_commit(&file));
 done:

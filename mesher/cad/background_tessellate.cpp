@@ -158,7 +158,7 @@ done:
 
 CwStatus start(const CwCad *cad, double deflection, double angle, CwTessellation &made) {
   IMeshTools_Parameters parameters;
-  parameters.Deflection = parameters.DeflectionInterior = deflection * 1e3;
+  parameters.Deflection = parameters.DeflectionInterior = deflection / cad->unit;
   parameters.Angle = angle;
   parameters.AngleInterior = 2 * angle;
   parameters.MinSize = std::max(IMeshTools_Parameters::RelMinSize() * parameters.Deflection, Precision::Confusion());

@@ -18,10 +18,11 @@
 #include <gp_Vec.hxx>
 
 #include "mesher/cad/cad_shape.h"
+#include "mesher/cad/cad_unit.h"
 #include "mesher/common/vec.h"
 
-static const double metre_per_mm = 1e-3;
-static const double pcurve_tolerance = 1e-7; // m: past it the point of an edge is projected onto its face
+static const double pcurve_tolerance =
+    1e-4; // in units of the B-rep: past it the point of an edge is projected onto its face
 
 double CwCadKnots::snap(double parameter) const {
   if (knot.empty()) return parameter;
@@ -34,7 +35,9 @@ double CwCadKnots::snap(double parameter) const {
 
 static CwStatus open_cad(const std::string &folder, const char *domain, CwCad *cad) {
   std::string path = folder + "/" + domain + ".brep";
-  CwStatus status = cw_cad_read_shape(path.c_str(), cad);
+  CwStatus status = cw_cad_unit_read(folder.c_str(), &cad->unit);
+  if (status != CW_OK) return status;
+  status = cw_cad_read_shape(path.c_str(), cad);
   if (status != CW_OK) return status;
   status = cw_face_table_read((folder + "/faces.csv").c_str(), domain, cad->face_map.Extent(), &cad->table);
   if (status != CW_OK) return status;
@@ -97,10 +100,10 @@ void cw_cad_turn(CwCad *cad) {
   for (CwCadFace &face : cad->face) face.reversed = !face.reversed;
 }
 
-static void to_metres(const gp_XYZ &mm, double x[3]) {
-  x[0] = mm.X() * metre_per_mm;
-  x[1] = mm.Y() * metre_per_mm;
-  x[2] = mm.Z() * metre_per_mm;
+static void to_metres(const CwCad *cad, const gp_XYZ &p, double x[3]) {
+  x[0] = p.X() * cad->unit;
+  x[1] = p.Y() * cad->unit;
+  x[2] = p.Z() * cad->unit;
 }
 
 void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[3], double xu[3], double xv[3]) {
@@ -112,10 +115,10 @@ void cw_cad_face_point(const CwCad *cad, int face, const double uv[2], double x[
   } else {
     gp_Vec du, dv;
     f.surface.D1(u, v, p, du, dv);
-    if (xu) to_metres(du.XYZ(), xu);
-    if (xv) to_metres(dv.XYZ(), xv);
+    if (xu) to_metres(cad, du.XYZ(), xu);
+    if (xv) to_metres(cad, dv.XYZ(), xv);
   }
-  to_metres(p.XYZ(), x);
+  to_metres(cad, p.XYZ(), x);
 }
 
 void cw_cad_face_normal(const CwCad *cad, int face, const double uv[2], double n[3]) {
@@ -132,7 +135,7 @@ double cw_cad_face_volume(const CwCad *cad, int face) {
     BRepGProp_Face integrand(shape);
     BRepGProp_Domain edges(shape);
     double volume = BRepGProp_Vinert(integrand, edges, gp_Pnt(0, 0, 0)).Mass();
-    return (cad->inside_out ? -volume : volume) * metre_per_mm * metre_per_mm * metre_per_mm;
+    return (cad->inside_out ? -volume : volume) * cad->unit * cad->unit * cad->unit;
   } catch (const Standard_Failure &) {
     return 0;
   }
@@ -153,10 +156,10 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]) {
   double l = suu.Dot(normal) / area, n = svv.Dot(normal) / area, k = suv.Dot(normal) / area;
   double mean = (e * n - 2 * m * k + g * l) / (2 * det);
   double gauss = (l * n - k * k) / det;
-  return (std::fabs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss))) / metre_per_mm;
+  return (std::fabs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss))) / cad->unit;
 }
 
-// One damped Newton step for the nearest point, in mm: from u, v with the vector d from x to the surface.
+// One damped Newton step for the nearest point, in the B-rep's unit: from u, v with the vector d from x to the surface.
 static void nearest_step(const gp_Vec &d, const gp_Vec &su, const gp_Vec &sv, const gp_Vec &suu, const gp_Vec &svv,
                          const gp_Vec &suv, const bool fixed[2], double step[2]) {
   double gu = d.Dot(su), gv = d.Dot(sv);
@@ -178,7 +181,7 @@ static bool pushes_out(double value, const double range[2], double gradient) {
 
 double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]) {
   const CwCadFace &f = cad->face[face];
-  const gp_Pnt target(x[0] / metre_per_mm, x[1] / metre_per_mm, x[2] / metre_per_mm);
+  const gp_Pnt target(x[0] / cad->unit, x[1] / cad->unit, x[2] / cad->unit);
   double u = std::clamp(uv[0], f.u_range[0], f.u_range[1]), v = std::clamp(uv[1], f.v_range[0], f.v_range[1]);
   gp_Pnt p;
   gp_Vec su, sv, suu, svv, suv;
@@ -190,7 +193,7 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
     double step[2];
     nearest_step(d, su, sv, suu, svv, suv, fixed, step);
     double moved = (su * step[0] + sv * step[1]).Magnitude();
-    if (!(moved > 1e-11)) break; // mm
+    if (!(moved > 1e-11)) break; // of the B-rep's unit
     bool nearer = false;
     for (int halving = 0; halving < 12 && !nearer; halving++, step[0] /= 2, step[1] /= 2) {
       double un = std::clamp(u + step[0], f.u_range[0], f.u_range[1]);
@@ -208,7 +211,7 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
   }
   uv[0] = u;
   uv[1] = v;
-  return distance * metre_per_mm;
+  return distance * cad->unit;
 }
 
 int cw_cad_edge_count(const CwCad *cad) {
@@ -236,11 +239,11 @@ void cw_cad_edge_point(const CwCad *cad, int edge, double t, double x[3], double
   if (xt) {
     gp_Vec tangent;
     e.curve.D1(e.knots.snap(t), p, tangent);
-    to_metres(tangent.XYZ(), xt);
+    to_metres(cad, tangent.XYZ(), xt);
   } else {
     e.curve.D0(e.knots.snap(t), p);
   }
-  to_metres(p.XYZ(), x);
+  to_metres(cad, p.XYZ(), x);
 }
 
 void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]) {
@@ -254,7 +257,7 @@ void cw_cad_edge_uv(const CwCad *cad, int edge, int face, double t, double uv[2]
   cw_cad_edge_point(cad, edge, t, on_edge, nullptr);
   cw_cad_face_point(cad, face, uv, on_face, nullptr, nullptr);
   double off = std::hypot(on_edge[0] - on_face[0], on_edge[1] - on_face[1], on_edge[2] - on_face[2]);
-  if (off > pcurve_tolerance) cw_cad_face_project(cad, face, on_edge, uv);
+  if (off > pcurve_tolerance * cad->unit) cw_cad_face_project(cad, face, on_edge, uv);
 }
 
 int cw_cad_vertex_count(const CwCad *cad) {
@@ -262,5 +265,5 @@ int cw_cad_vertex_count(const CwCad *cad) {
 }
 
 void cw_cad_vertex_point(const CwCad *cad, int vertex, double x[3]) {
-  to_metres(BRep_Tool::Pnt(TopoDS::Vertex(cad->vertex_map(vertex + 1))).XYZ(), x);
+  to_metres(cad, BRep_Tool::Pnt(TopoDS::Vertex(cad->vertex_map(vertex + 1))).XYZ(), x);
 }

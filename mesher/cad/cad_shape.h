@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, background_tessellate.cpp).
-// Lengths in here are the millimetres of the B-rep; only the C functions speak metres.
+// Lengths in here are in the unit of the B-rep; only the C functions speak metres.
 #ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
 #define CUTWATER_MESHER_CAD_CAD_SHAPE_H
 
@@ -41,6 +41,7 @@ struct CwCadEdge {
 };
 
 struct CwCad {
+  double unit; // of the B-rep, m
   TopoDS_Shape solid;
   TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based
   std::vector<CwCadFace> face;

@@ -25,7 +25,7 @@ static CwSolid *rotor, *stator;
 static int setup(void **state) {
   CwCase table;
   return cw_case_read(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", &table) || cw_hydraulic_design(&table, &design) ||
-         cw_rotor_build(&design, &rotor) || cw_stator_build(&design.volute, &stator);
+         cw_rotor_build(&design, &rotor) || cw_stator_build(&design.volute, cw_solid_unit(rotor), &stator);
 }
 
 static int teardown(void **state) {

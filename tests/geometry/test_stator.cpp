@@ -68,7 +68,7 @@ static CwSolid *stator;
 
 static int setup(void **) {
   CwVoluteInput input = paper();
-  return cw_volute_design(&input, &volute) || cw_stator_build(&volute, &stator);
+  return cw_volute_design(&input, &volute) || cw_stator_build(&volute, mm, &stator);
 }
 
 static int teardown(void **) {
@@ -278,7 +278,7 @@ static void families(void **) {
     input.diffuser_area_ratio = 1.7;
     CwVolute trial;
     CwSolid *solid = NULL;
-    if (cw_volute_design(&input, &trial) != CW_OK || cw_stator_build(&trial, &solid) != CW_OK)
+    if (cw_volute_design(&input, &trial) != CW_OK || cw_stator_build(&trial, mm, &solid) != CW_OK)
       fail_msg("%d: %s", kind, cw_fail_message());
     CwMeasuredSolid measured;
     assert_int_equal(cw_measure_solid(solid, &measured), CW_OK);
@@ -318,7 +318,7 @@ static void parameter_sets(void **) {
         CwVolute trial;
         CwSolid *solid = NULL;
         CwStatus status = cw_volute_design(&input, &trial);
-        if (status == CW_OK) status = cw_stator_build(&trial, &solid);
+        if (status == CW_OK) status = cw_stator_build(&trial, mm, &solid);
         sets++;
         if (status == CW_OK) {
           CwMeasuredSolid measured;
@@ -359,7 +359,7 @@ static std::string text_of(const CwSolid *solid) {
 
 static void same_bits(void **) {
   CwSolid *again = NULL;
-  assert_int_equal(cw_stator_build(&volute, &again), CW_OK);
+  assert_int_equal(cw_stator_build(&volute, mm, &again), CW_OK);
   assert_true(text_of(stator) == text_of(again));
   cw_solid_free(&again);
 }

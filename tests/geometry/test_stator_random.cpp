@@ -23,6 +23,7 @@ extern "C" {
 }
 
 #include "geometry/measure.h"
+#include "geometry/model_unit.h"
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
 
@@ -102,7 +103,7 @@ static void random_volutes(void **) {
     CwVolute volute;
     CwSolid *solid = NULL;
     CwStatus status = cw_volute_design(&in, &volute);
-    if (status == CW_OK) status = cw_stator_build(&volute, &solid);
+    if (status == CW_OK) status = cw_stator_build(&volute, cw_model_unit(in.base_diameter), &solid);
     std::string kind = std::string(section[in.section]) + (std::isnan(in.corner_radius) ? "" : " with corners");
     kinds[kind].second++;
     if (status == CW_OK) {

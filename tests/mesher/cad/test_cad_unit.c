@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/cad/cad_unit.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char folder[] = "cad-unit-test-XXXXXX";
+
+static int setup(void **state) {
+  return !mkdtemp(folder);
+}
+
+static int teardown(void **state) {
+  return rmdir(folder);
+}
+
+static CwStatus read_of(const char *text, double *unit) {
+  char path[64];
+  snprintf(path, sizeof path, "%s/model.json", folder);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs(text, file);
+  fclose(file);
+  const CwStatus status = cw_cad_unit_read(folder, unit);
+  unlink(path);
+  return status;
+}
+
+static void unit_of_the_file_or_a_millimetre(void **state) {
+  double unit = 0;
+  assert_int_equal(cw_cad_unit_read(folder, &unit), CW_OK);
+  assert_true(unit == 1e-3);
+  assert_int_equal(read_of("{\"format\": 1, \"unit_m\": 0.000125}", &unit), CW_OK);
+  assert_true(unit == 1e-3 / 8);
+}
+
+static void a_file_without_it_is_named(void **state) {
+  double unit;
+  assert_int_equal(read_of("{\"format\": 1}", &unit), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "model.json"));
+  assert_non_null(strstr(cw_fail_message(), "unit_m"));
+  cw_fail_clear();
+  assert_int_equal(read_of("{\"unit_m\": -1}", &unit), CW_ERR_INPUT);
+  cw_fail_clear();
+  assert_int_equal(read_of("unit", &unit), CW_ERR_INPUT);
+  cw_fail_clear();
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(unit_of_the_file_or_a_millimetre),
+      cmocka_unit_test(a_file_without_it_is_named),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}
