@@ -66,7 +66,7 @@ static void record_is_written_whole_and_in_order(void **state) {
            "    {\n      \"name\": \"fill\",\n      \"seconds\": 0.25,\n      \"items\": 3000000000,\n"
            "      \"unit\": \"cells\"\n    }\n  ],\n"
            "  \"warnings\": [\n    \"narrow gap at 5 mm in \\\"pa?per\\\"\"\n  ],\n"
-           "  \"results\": {\n    \"zeta\": 2,\n    \"alpha\": 0.1,\n    \"undefined\": null,\n"
+           "  \"results\": {\n    \"zeta\": 2,\n    \"alpha\": 0.10000000000000001,\n    \"undefined\": null,\n"
            "    \"endless\": null,\n"
            "    \"list\": [\n      1,\n      2\n    ]\n  }\n}\n",
            digits, place + 11);
