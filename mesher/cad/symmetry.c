@@ -27,29 +27,32 @@ void cw_orbits_free(CwOrbits *orbits) {
   memset(orbits, 0, sizeof *orbits);
 }
 
-CwStatus cw_orbits_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwOrbits *orbits) {
+CwStatus cw_orbits_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwOrbits *orbits,
+                        int *whole) {
   CwStatus status = CW_OK;
+  *whole = 0;
   memset(orbits, 0, sizeof *orbits);
   orbits->next = next;
   CW_NEW(orbits->first, item_count);
   CW_NEW(orbits->turns, item_count);
   for (int32_t i = 0; i < item_count; i++) orbits->first[i] = -1;
-  for (int32_t i = 0; i < item_count && status == CW_OK; i++) {
+  *whole = 1;
+  for (int32_t i = 0; i < item_count && *whole; i++) {
     if (orbits->first[i] >= 0) continue;
     int32_t size = 0, at = i;
     do {
       if (at < 0 || orbits->first[at] >= 0 || size == count) {
-        status = CW_RETRY;
+        *whole = 0;
         break;
       }
       orbits->first[at] = i;
       orbits->turns[at] = size++;
       at = next[at];
     } while (at != i);
-    if (size != count && !(size == 1 && allow_fixed)) status = CW_RETRY;
+    if (size != count && !(size == 1 && allow_fixed)) *whole = 0;
   }
 done:
-  if (status != CW_OK) cw_orbits_free(orbits);
+  if (!*whole) cw_orbits_free(orbits);
   return status;
 }
 
@@ -182,35 +185,31 @@ static int32_t vertex_image(const CwCad *cad, int32_t count, int32_t vertex) {
   return -1;
 }
 
-// CW_RETRY where `count` turns do not bring the solid to itself.
-static CwStatus try_count(const CwCad *cad, const FaceSamples *samples, int32_t count, CwSymmetry *symmetry) {
+// *whole: whether `count` turns bring the solid to itself.
+static CwStatus try_count(const CwCad *cad, const FaceSamples *samples, int32_t count, CwSymmetry *symmetry,
+                          int *whole) {
   CwStatus status = CW_OK;
   int32_t *next = NULL, faces = cw_cad_face_count(cad), edges = cw_cad_edge_count(cad), turning = 0;
   symmetry->count = count;
+  *whole = 0;
   CW_NEW(next, faces);
   for (int32_t f = 0; f < faces; f++) {
     next[f] = face_image(cad, samples, count, f);
-    if (next[f] < 0) {
-      status = CW_RETRY;
-      goto done;
-    }
+    if (next[f] < 0) goto done;
     turning += next[f] != f;
   }
-  if (turning == 0) {
-    status = CW_RETRY;
-    goto done;
-  }
-  status = cw_orbits_make(faces, next, count, 1, &symmetry->face);
+  if (turning == 0) goto done;
+  status = cw_orbits_make(faces, next, count, 1, &symmetry->face, whole);
   next = NULL;
-  if (status != CW_OK) goto done;
+  if (!*whole) goto done;
   CW_NEW(next, edges);
   for (int32_t e = 0; e < edges; e++) next[e] = edge_image(cad, &symmetry->face, count, e);
-  status = cw_orbits_make(edges, next, count, 0, &symmetry->edge);
+  status = cw_orbits_make(edges, next, count, 0, &symmetry->edge, whole);
   next = NULL;
-  if (status != CW_OK) goto done;
+  if (!*whole) goto done;
   CW_NEW(next, cw_cad_vertex_count(cad));
   for (int32_t v = 0; v < cw_cad_vertex_count(cad); v++) next[v] = vertex_image(cad, count, v);
-  status = cw_orbits_make(cw_cad_vertex_count(cad), next, count, 0, &symmetry->vertex);
+  status = cw_orbits_make(cw_cad_vertex_count(cad), next, count, 0, &symmetry->vertex, whole);
   next = NULL;
 done:
   free(next);
@@ -273,11 +272,8 @@ CwStatus cw_symmetry_find(const CwCad *cad, const CwBackground *background, CwSy
   CW_NEW(*symmetry, 1);
   int found = 0;
   for (int32_t count = TURNS_MOST; count >= 2 && !found; count--) {
-    CwStatus tried = try_count(cad, samples, count, *symmetry);
-    found = tried == CW_OK;
-    if (found) break;
-    clear(*symmetry);
-    CW_REQUIRE(tried == CW_RETRY, tried, "out of memory: symmetry");
+    CW_TRY(try_count(cad, samples, count, *symmetry, &found));
+    if (!found) clear(*symmetry);
   }
   if (found) {
     CW_TRY(gather_firsts(cad, *symmetry));

@@ -38,9 +38,10 @@ void cw_symmetry_free(CwSymmetry **symmetry);
 // x turned by `turns` z-ths of a revolution; `turned` may be x.
 void cw_symmetry_turn(int32_t count, int32_t turns, const double x[3], double turned[3]);
 
-// Orbits from next[0..item_count), which they take over; the first of each is the one with the least number. CW_RETRY
+// Orbits from next[0..item_count), which they take over; the first of each is the one with the least number. *whole: 0
 // (and `next` freed) unless every item comes back to itself after exactly `count` turns, or, with `allow_fixed`, one.
-CwStatus cw_orbits_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwOrbits *orbits);
+CwStatus cw_orbits_make(int32_t item_count, int32_t *next, int32_t count, int allow_fixed, CwOrbits *orbits,
+                        int *whole);
 void cw_orbits_free(CwOrbits *orbits);
 int32_t cw_orbits_turned(const CwOrbits *orbits, int32_t item, int32_t turns);
 // Members of the orbit: 1 for a fixed item.

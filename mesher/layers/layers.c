@@ -20,7 +20,7 @@ static CwStatus find_height(void *context, int32_t v, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
+CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwLayerWork work = {0};
   CwBoxTree tree = {0};
@@ -31,7 +31,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
   CW_NEW(layers->height, work.n);
   CW_NEW(layers->reason, work.n);
   cw_ledger_part("layers: directions taken");
-  CW_TRY(cw_layers_normals(&work));
+  CW_TRY_STAGE(cw_layers_normals(&work, outcome), outcome);
   cw_ledger_part("layers: tree");
   CW_TRY(cw_gap_tree_make(&work, &tree));
   CW_TRY(cw_layers_limit_by_hollow(&work));
@@ -58,7 +58,7 @@ CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers) {
 done:
   cw_box_tree_free(&tree);
   cw_layers_work_free(&work);
-  if (status != CW_OK) cw_layers_free(layers);
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_layers_free(layers);
   return status;
 }
 

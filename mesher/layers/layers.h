@@ -18,6 +18,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -73,10 +74,10 @@ typedef struct {
 } CwLayers;
 
 // Fails with CW_ERR_MESH (place in mm) where no valid envelope is found: the wall crosses itself, an edge leaves no
-// direction that sees all faces, or 40 rounds of repair do not do, or a guide that stays leaves none; with CW_RETRY, on
-// all ranks, where another one leaves none; with CW_ERR_INPUT on wrong input (triangles without area, points without
-// triangles, heights not above 0). Every column has a height > 0. Equal input gives equal bits.
-CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers);
+// direction that sees all faces, or 40 rounds of repair do not do, or a guide that stays leaves none; with CW_ERR_INPUT
+// on wrong input (triangles without area, points without triangles, heights not above 0). Outcome: CW_OUTCOME_REPLAN
+// where another guide leaves none. Every column has a height > 0. Equal input gives equal bits. Collective.
+CwStatus cw_layers_make(const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome);
 void cw_layers_free(CwLayers *layers);
 
 #ifdef __cplusplus

@@ -27,8 +27,8 @@ double cw_layers_shortest_edge(const CwLayerWork *work, int32_t v); // m
 double cw_layers_most_normal(int count, const double (*normal)[3], int guide_count, const double (*guide)[3],
                              double g[3]);
 // Directions and creases of all vertices. Collective. CW_ERR_MESH where the faces around a vertex see no
-// common direction or a guide that stays holds none, CW_RETRY on all ranks where other guides hold none.
-CwStatus cw_layers_normals(CwLayerWork *work);
+// common direction or a guide that stays holds none; outcome CW_OUTCOME_REPLAN where other guides hold none.
+CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome);
 // Distinct normals around vertex v, at most CW_LAYER_NORMALS; returns the count.
 enum { CW_LAYER_NORMALS = 48 };
 int cw_layers_distinct_normals(const CwLayerWork *work, int32_t v, double (*normal)[3]);

@@ -200,7 +200,24 @@ static CwStatus find_held(void *context, int32_t i, void *out) {
   return CW_OK;
 }
 
-CwStatus cw_layers_normals(CwLayerWork *work) {
+// Whether a column of this cosine leaves the wall inside what holds it at vertex v. Not in a block: all ranks fail
+// alike, and may go on with other planes, but not with other caps.
+static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  const double *x = work->in->x[v];
+  if (cosine > LEAST_COSINE) goto done;
+  CW_REQUIRE(!work->in->guide_stays || !work->in->guide_stays[v], CW_ERR_MESH,
+             "layers: no column inside the cap at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
+             "%.2f needed): it is nearly tangent to the wall there",
+             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, cosine, LEAST_COSINE);
+  cw_outcome_set(outcome, CW_OUTCOME_REPLAN, x,
+                 "no column inside a dividing plane leaves the wall (best cosine %.3f, at least %.2f needed)", cosine,
+                 LEAST_COSINE);
+done:
+  return status;
+}
+
+CwStatus cw_layers_normals(CwLayerWork *work, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Direction *made = NULL;
   Special special = {.work = work};
@@ -219,13 +236,7 @@ CwStatus cw_layers_normals(CwLayerWork *work) {
   CW_TRY(cw_share("layers: directions", special.count, sizeof *held, find_held, &special, held));
   for (int32_t i = 0; i < special.count; i++) {
     int32_t v = special.vertex[i];
-    const double *x = work->in->x[v];
-    int stays = work->in->guide_stays && work->in->guide_stays[v];
-    // Not in a block: all ranks fail alike, and may go on with other planes, but not with other caps.
-    CW_REQUIRE(held[i].base_cos > LEAST_COSINE, stays ? CW_ERR_MESH : CW_RETRY,
-               "layers: no column inside the %s at (%.4f, %.4f, %.4f) mm leaves the wall (best "
-               "cosine %.3f, at least %.2f needed): it is nearly tangent to the wall there",
-               stays ? "cap" : "dividing plane", x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, held[i].base_cos, LEAST_COSINE);
+    CW_TRY_STAGE(judge_column(work, v, held[i].base_cos, outcome), outcome);
     memcpy(work->base[v], held[i].base, sizeof held[i].base);
     memcpy(work->along[v], held[i].along, sizeof held[i].along);
     work->base_cos[v] = held[i].base_cos;

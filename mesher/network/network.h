@@ -12,6 +12,7 @@
 #define CUTWATER_MESHER_NETWORK_NETWORK_H
 
 #include "mesher/cad/inside.h"
+#include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan.h"
 
 typedef enum { CW_CURVE_EDGE, CW_CURVE_CUT, CW_CURVE_LINE } CwCurveKind;
@@ -51,10 +52,10 @@ typedef struct {
   CwCurve *curve;
 } CwNetwork;
 
-// Builds corners and curves (not yet discretised). CW_RETRY where a plane touches a face or an edge in a way that
-// cannot be resolved, with the place in mm: other planes may not. Collective.
+// Builds corners and curves (not yet discretised). Collective. Outcome: CW_OUTCOME_REPLAN where a plane touches a face
+// or an edge in a way that cannot be resolved.
 CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
-                         CwNetwork *network);
+                         CwNetwork *network, CwOutcome *outcome);
 void cw_network_free(CwNetwork *network);
 
 // Point of a curve at arc length `length` of its fine polyline, exactly on its surfaces; parameter (2 values) as in
@@ -82,7 +83,7 @@ CwStatus cw_network_add_curve(CwNetwork *network, CwCurve *curve);
 
 // Steps of cw_network_make: traces the plane of `node` on every CAD face and adds the pieces within its cell; and the
 // same for all planes, which the ranks share.
-CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node);
-CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background);
+CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node, CwOutcome *outcome);
+CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background, CwOutcome *outcome);
 
 #endif

@@ -124,7 +124,7 @@ done:
 }
 
 CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwPlan *plan,
-                         CwNetwork *network) {
+                         CwNetwork *network, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Place *place = NULL;
   int32_t *below = NULL;
@@ -136,7 +136,7 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
     cw_cad_vertex_point(cad, v, corner.x);
     CW_REQUIRE(cw_network_corner(network, &corner, 0) == v, CW_ERR_MEMORY, "out of memory: %d corners", v);
   }
-  CW_TRY(cw_network_trace_all(network, background));
+  CW_TRY_STAGE(cw_network_trace_all(network, background, outcome), outcome);
 
   // Three planes meet only where one is above the two others: cells side by side touch on a plane above both alone.
   CW_NEW(below, plan->node_count);
@@ -168,6 +168,6 @@ CwStatus cw_network_make(const CwCad *cad, const CwBackground *background, const
 done:
   free(place);
   free(below);
-  if (status != CW_OK) cw_network_free(network);
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_network_free(network);
   return status;
 }

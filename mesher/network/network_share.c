@@ -7,13 +7,12 @@
 #include "mesher/network/network.h"
 #include "mesher/parallel/schedule.h"
 
-enum { MESSAGE_SIZE = 1024, DOUBLES = 6 }; // of a fine point: place, two parameters, length
+enum { DOUBLES = 6 }; // of a fine point: place, two parameters, length
 
 // Corners, curves and then the arrays of each curve follow it, aligned as numbers need it.
 typedef struct {
-  _Alignas(double) CwStatus outcome; // CW_OK, or CW_RETRY with its message
-  int32_t corners, curves;
-  char message[MESSAGE_SIZE];
+  CwOutcome outcome;
+  _Alignas(double) int32_t corners, curves;
 } Head;
 
 typedef struct {
@@ -21,15 +20,14 @@ typedef struct {
   const CwBackground *background;
 } Traces;
 
-static CwStatus pack(const CwNetwork *network, CwStatus outcome, void **bytes, int64_t *size) {
+static CwStatus pack(const CwNetwork *network, const CwOutcome *outcome, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  Head head = {.outcome = outcome, .corners = network->corner_count, .curves = network->curve_count};
+  Head head = {.outcome = *outcome, .corners = network->corner_count, .curves = network->curve_count};
   size_t corners = (size_t)head.corners * sizeof *network->corner;
   size_t curves = (size_t)head.curves * sizeof *network->curve, points = 0;
   char *block;
   for (int32_t i = 0; i < head.curves; i++) points += (size_t)network->curve[i].fine_count;
   size_t all = sizeof head + corners + curves + points * DOUBLES * sizeof(double);
-  if (outcome != CW_OK) strncpy(head.message, cw_fail_message(), MESSAGE_SIZE - 1);
   CW_NEW(block, all);
   memcpy(block, &head, sizeof head);
   if (corners) memcpy(block + sizeof head, network->corner, corners);
@@ -55,9 +53,9 @@ static CwStatus trace_plane(void *context, int32_t node, void **bytes, int64_t *
   CwStatus status = CW_OK;
   const Traces *traces = context;
   CwNetwork made = {.cad = traces->network->cad, .plan = traces->network->plan};
-  CwStatus outcome = cw_network_trace(&made, traces->background, node);
-  if (outcome != CW_RETRY) CW_TRY(outcome);
-  CW_TRY(pack(&made, outcome, bytes, size));
+  CwOutcome outcome = {0};
+  CW_TRY(cw_network_trace(&made, traces->background, node, &outcome));
+  CW_TRY(pack(&made, &outcome, bytes, size));
 done:
   cw_network_free(&made);
   return status;
@@ -88,12 +86,13 @@ done:
   return status;
 }
 
-static CwStatus join(CwNetwork *network, const void *bytes) {
+static CwStatus join(CwNetwork *network, const void *bytes, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Head head;
   int32_t *corner = NULL;
   memcpy(&head, bytes, sizeof head);
-  CW_REQUIRE(head.outcome == CW_OK, CW_RETRY, "%s", head.message);
+  *outcome = head.outcome;
+  if (outcome->kind != CW_OUTCOME_DONE) goto done;
   const CwCorner *corners = (const CwCorner *)((const char *)bytes + sizeof head);
   const CwCurve *curves = (const CwCurve *)(corners + head.corners);
   const char *at = (const char *)(curves + head.curves);
@@ -111,7 +110,7 @@ done:
   return status;
 }
 
-CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background) {
+CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int32_t nodes = network->plan->node_count;
   Traces traces = {network, background};
@@ -122,7 +121,7 @@ CwStatus cw_network_trace_all(CwNetwork *network, const CwBackground *background
   CwSchedule schedule = {
       .step = "traces of the planes", .count = nodes, .run = trace_plane, .context = &traces, .gather = 1};
   CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  for (int32_t node = 0; node < nodes; node++) CW_TRY(join(network, bytes[node]));
+  for (int32_t node = 0; node < nodes; node++) CW_TRY_STAGE(join(network, bytes[node], outcome), outcome);
 done:
   for (int32_t node = 0; bytes && node < nodes; node++) free(bytes[node]);
   free(bytes);

@@ -117,7 +117,7 @@ static double nearest_sample(const CwCad *cad, int32_t edge, const double x[3], 
 
 // The corner where the plane crosses the CAD edge that the background edge of `key` belongs to.
 static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found, int32_t key, int32_t node,
-                               CwCorner *corner) {
+                               CwCorner *corner, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwCad *cad = network->cad;
   const CwBackground *background = found->background;
@@ -134,8 +134,8 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
     double distance = nearest_sample(cad, e, guess, &t);
     if (distance < best) best = distance, corner->edge = e, corner->t = t;
   }
-  CW_REQUIRE(corner->edge >= 0, CW_RETRY, "no CAD edge between faces %s and %s at (%.3f, %.3f, %.3f) mm",
-             cw_cad_face_name(cad, f), cw_cad_face_name(cad, g), 1e3 * guess[0], 1e3 * guess[1], 1e3 * guess[2]);
+  CW_END_UNLESS(corner->edge >= 0, outcome, CW_OUTCOME_REPLAN, guess, "no CAD edge between faces %s and %s",
+                cw_cad_face_name(cad, f), cw_cad_face_name(cad, g));
   cw_cad_edge_range(cad, corner->edge, range);
   double distance = INFINITY;
   for (int step = 0; step < 50; step++) {
@@ -147,16 +147,16 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
     corner->t = fmin(fmax(corner->t - distance / slope, range[0]), range[1]);
   }
   double length = cw_distance(background->x[found->crossing[2 * key].a], background->x[found->crossing[2 * key].b]);
-  CW_REQUIRE(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + 1e-4, CW_RETRY,
-             "dividing plane %d grazes the edge between faces %s and %s at (%.3f, %.3f, %.3f) mm", node,
-             cw_cad_face_name(cad, f), cw_cad_face_name(cad, g), 1e3 * guess[0], 1e3 * guess[1], 1e3 * guess[2]);
+  CW_END_UNLESS(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + 1e-4, outcome, CW_OUTCOME_REPLAN,
+                guess, "dividing plane %d grazes the edge between faces %s and %s", node, cw_cad_face_name(cad, f),
+                cw_cad_face_name(cad, g));
 done:
   return status;
 }
 
 // Walks from `key` through `triangle` to the end of the trace; marks triangles. Fills the trace.
 static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t node, int32_t key, int32_t triangle,
-                     uint8_t *seen, Trace *trace) {
+                     uint8_t *seen, Trace *trace, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwCad *cad = network->cad;
   int32_t face = found->background->face[triangle], capacity = 64, first = key;
@@ -175,14 +175,14 @@ static CwStatus walk(const CwNetwork *network, const Crossings *found, int32_t n
     double *x = trace->x[trace->count], *uv = trace->uv[trace->count];
     if (on_face_border(found, key)) {
       CwCorner *end = &trace->end[trace->count > 0];
-      CW_TRY(corner_on_edge(network, found, key, node, end));
+      CW_TRY_STAGE(corner_on_edge(network, found, key, node, end, outcome), outcome);
       cw_cad_edge_uv(cad, end->edge, face, end->t, uv);
       cw_copy(end->x, x);
     } else {
       crossing_on_face(found, key, triangle, uv, x);
       double left = cw_face_onto_plane(cad, face, found->plane, uv, x);
-      CW_REQUIRE(left < FOUND, CW_RETRY, "dividing plane %d grazes face %s at (%.3f, %.3f, %.3f) mm", node,
-                 cw_cad_face_name(cad, face), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, x, "dividing plane %d grazes face %s", node,
+                    cw_cad_face_name(cad, face));
     }
     trace->count++;
     if (trace->count > 1 && (on_face_border(found, key) || key == first)) break;
@@ -205,8 +205,8 @@ static int compare_splits(const void *p, const void *q) {
 }
 
 // All places where planes that belong together with `node` divide the trace.
-static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace *trace, int32_t *count,
-                            Split **splits) {
+static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace *trace, int32_t *count, Split **splits,
+                            CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwPlan *plan = network->plan;
   int32_t capacity = 16;
@@ -223,10 +223,9 @@ static CwStatus find_splits(const CwNetwork *network, int32_t node, const Trace 
       Split split = {.place = i + s, .plane = q};
       for (int k = 0; k < 2; k++) split.uv[k] = trace->uv[i][k] + s * (trace->uv[i + 1][k] - trace->uv[i][k]);
       double left = cw_face_onto_planes(network->cad, trace->face, &plan->node[node].plane, other, split.uv, split.x);
-      CW_REQUIRE(left < FOUND, CW_RETRY,
-                 "dividing planes %d and %d meet too flatly on face %s near (%.3f, %.3f, %.3f) mm", node, q,
-                 cw_cad_face_name(network->cad, trace->face), 1e3 * trace->x[i][0], 1e3 * trace->x[i][1],
-                 1e3 * trace->x[i][2]);
+      CW_END_UNLESS(left < FOUND, outcome, CW_OUTCOME_REPLAN, trace->x[i],
+                    "dividing planes %d and %d meet too flatly on face %s", node, q,
+                    cw_cad_face_name(network->cad, trace->face));
       int32_t skip[1] = {node};
       if (below && !cw_plan_in_cell(plan, q, split.x, 1e-9, skip, 1)) continue;
       CW_GROW(*splits, capacity, *count + 1);
@@ -297,11 +296,11 @@ done:
   return status;
 }
 
-static CwStatus add_trace(CwNetwork *network, int32_t node, const Trace *trace) {
+static CwStatus add_trace(CwNetwork *network, int32_t node, const Trace *trace, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Split *split = NULL;
   int32_t count = 0;
-  CW_TRY(find_splits(network, node, trace, &count, &split));
+  CW_TRY_STAGE(find_splits(network, node, trace, &count, &split, outcome), outcome);
   if (trace->closed && count) {
     for (int32_t i = 0; i < count; i++) CW_TRY(add_piece(network, node, trace, &split[i], &split[(i + 1) % count]));
   } else {
@@ -314,7 +313,7 @@ done:
   return status;
 }
 
-CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node) {
+CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, int32_t node, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Crossings found = {.background = background, .plane = &network->plan->node[node].plane};
   uint8_t *seen = NULL;
@@ -326,8 +325,8 @@ CwStatus cw_network_trace(CwNetwork *network, const CwBackground *background, in
     for (int32_t i = 0; i < 2 * found.key_count; i++) {
       int32_t triangle = found.crossing[i].triangle;
       if (seen[triangle] || (pass == 0 && !on_face_border(&found, i / 2))) continue;
-      CW_TRY(walk(network, &found, node, i / 2, triangle, seen, &trace));
-      CW_TRY(add_trace(network, node, &trace));
+      CW_TRY_STAGE(walk(network, &found, node, i / 2, triangle, seen, &trace, outcome), outcome);
+      CW_TRY_STAGE(add_trace(network, node, &trace, outcome), outcome);
       free(trace.x);
       free(trace.uv);
       trace = (Trace){0};

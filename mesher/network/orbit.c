@@ -164,32 +164,34 @@ done:
   return status;
 }
 
-CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits) {
+static const char UNCLOSED[] = "turns do not bring corners and curves of the planes to themselves";
+
+CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   const CwSymmetry *symmetry = orbits->symmetry;
   int32_t *next = NULL;
+  int whole;
   CW_NEW(next, network->corner_count);
   for (int32_t i = 0; i < network->corner_count; i++) {
     CwCorner turned = turned_corner(network, symmetry, &network->corner[i]);
     next[i] = find_corner(network, &turned);
-    CW_REQUIRE(next[i] >= 0, CW_RETRY, "the corner of planes and edges at (%.3f, %.3f, %.3f) mm has no turned copy",
-               1e3 * network->corner[i].x[0], 1e3 * network->corner[i].x[1], 1e3 * network->corner[i].x[2]);
+    CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, network->corner[i].x,
+                  "a corner of planes and edges has no turned copy");
   }
-  status = cw_orbits_make(network->corner_count, next, symmetry->count, 0, &orbits->corner);
+  status = cw_orbits_make(network->corner_count, next, symmetry->count, 0, &orbits->corner, &whole);
   next = NULL;
-  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring corners and curves of the planes to themselves");
   CW_TRY(status);
+  CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, UNCLOSED);
   CW_NEW(next, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const double *x = network->corner[network->curve[i].corner[0]].x;
     next[i] = find_curve(network, symmetry, &orbits->corner, &network->curve[i]);
-    CW_REQUIRE(next[i] >= 0, CW_RETRY, "the curve from (%.3f, %.3f, %.3f) mm has no turned copy", 1e3 * x[0],
-               1e3 * x[1], 1e3 * x[2]);
+    CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, x, "a curve has no turned copy, from its end");
   }
-  status = cw_orbits_make(network->curve_count, next, symmetry->count, 0, &orbits->curve);
+  status = cw_orbits_make(network->curve_count, next, symmetry->count, 0, &orbits->curve, &whole);
   next = NULL;
-  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring corners and curves of the planes to themselves");
   CW_TRY(status);
+  CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, UNCLOSED);
   for (int32_t i = 0; i < network->corner_count; i++) {
     const CwCorner *first = &network->corner[orbits->corner.first[i]];
     cw_orbit_point(orbits, orbits->corner.turns[i], first->x, network->corner[i].x);
@@ -200,7 +202,7 @@ CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits) {
   }
 done:
   free(next);
-  if (status != CW_OK) {
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) {
     cw_orbits_free(&orbits->corner);
     cw_orbits_free(&orbits->curve);
   }

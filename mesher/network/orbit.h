@@ -15,9 +15,9 @@ typedef struct {
   int32_t node_capacity, *node_next, *node_turns;
 } CwSkeletonOrbits;
 
-// Finds the orbits of corners and curves and makes each the turned copy of its first. CW_RETRY where the network is not
-// symmetric: where a plane grazes something, the passages may have been traced differently.
-CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits);
+// Finds the orbits of corners and curves and makes each the turned copy of its first. Outcome: CW_OUTCOME_ASYMMETRIC
+// where the network is not symmetric: where a plane grazes something, the passages may have been traced differently.
+CwStatus cw_orbit_network(CwNetwork *network, CwSkeletonOrbits *orbits, CwOutcome *outcome);
 void cw_orbit_free(CwSkeletonOrbits *orbits);
 
 // Notes that one turn takes `node` to `next`, which is `turns` turns from the first of its orbit.

@@ -9,7 +9,7 @@
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
 
-enum { LEAST_RANKS = 2, MESSAGE_SIZE = 1024 };
+enum { LEAST_RANKS = 2 };
 
 typedef struct {
   int groups, group_of[CW_SIDES_MOST], ranks_of[CW_SIDES_MOST];
@@ -65,36 +65,18 @@ void cw_side_give(const CwSideHand *hand, void *data, int64_t size) {
   cw_mpi_broadcast(data, size, hand->from);
 }
 
-// How it went on a side.
-typedef struct {
-  CwStatus outcome;
-  char message[MESSAGE_SIZE];
-  int64_t account_size;
-} Told;
-
-static CwStatus run_side(const CwSides *sides, int32_t side, Told *told) {
-  CwStatus status = CW_OK;
-  cw_fail_clear();
-  cw_ledger_side(side);
-  told->outcome = sides->run(sides->context, side);
-  cw_ledger_side(-1);
-  snprintf(told->message, sizeof told->message, "%s", cw_fail_message());
-  if (told->outcome != CW_RETRY) CW_TRY(told->outcome);
-done:
-  return status;
-}
-
-// Outcome, account and results of a side to the ranks that were on others.
-static CwStatus hand_over(const CwSides *sides, const CwSideHand *hand, Told *told) {
+// Account and results of a side to the ranks that were on others.
+static CwStatus hand_over(const CwSides *sides, const CwSideHand *hand, const CwOutcome *outcome) {
   CwStatus status = CW_OK;
   char *account = NULL; // that of the rank that gives, also on others of its group
+  int64_t size = 0;
   int gives = cw_mpi_rank() == hand->from;
-  if (gives) CW_TRY(cw_ledger_pack_side(hand->side, &account, &told->account_size));
-  cw_side_give(hand, told, sizeof *told);
-  if (!gives) CW_NEW_UNSET(account, told->account_size);
-  cw_side_give(hand, account, told->account_size);
-  if (!hand->mine) CW_TRY(cw_ledger_take_side(hand->side, account, told->account_size));
-  if (told->outcome == CW_OK) CW_TRY(sides->hand(sides->context, hand));
+  if (gives) CW_TRY(cw_ledger_pack_side(hand->side, &account, &size));
+  cw_side_give(hand, &size, sizeof size);
+  if (!gives) CW_NEW_UNSET(account, size);
+  cw_side_give(hand, account, size);
+  if (!hand->mine) CW_TRY(cw_ledger_take_side(hand->side, account, size));
+  if (outcome->kind == CW_OUTCOME_DONE) CW_TRY(sides->hand(sides->context, hand));
 done:
   free(account);
   return status;
@@ -117,13 +99,12 @@ done:
   return status;
 }
 
-CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome) {
+CwStatus cw_sides_run(const CwSides *sides, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  Told *told = NULL;
-  int group_of[CW_SIDES_MOST], ranks_of[CW_SIDES_MOST], first[CW_SIDES_MOST] = {0}, mine = 0;
+  int group_of[CW_SIDES_MOST], ranks_of[CW_SIDES_MOST], first[CW_SIDES_MOST] = {0}, owner[CW_SIDES_MOST], mine = 0;
   CW_REQUIRE(sides->count <= CW_SIDES_MOST, CW_ERR_INPUT, "%d sides; at most %d are allowed", sides->count,
              CW_SIDES_MOST);
-  CW_NEW(told, sides->count);
+  memset(outcome, 0, (size_t)sides->count * sizeof *outcome);
   CW_TRY(cw_ledger_sides(sides->step, sides->count, sides->cost, sides->own));
   int groups = cw_sides_group(sides->count, sides->cost, sides->own, cw_mpi_ranks(), group_of, ranks_of);
   for (int g = 1; g < groups; g++) {
@@ -133,24 +114,23 @@ CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome) {
   if (groups > 1) cw_mpi_split(mine);
   cw_log_keep(cw_mpi_rank() == first[mine]);
   for (int32_t s = 0; s < sides->count; s++) {
-    if (group_of[s] == mine) CW_TRY(run_side(sides, s, &told[s]));
+    owner[s] = first[group_of[s]];
+    if (group_of[s] != mine) continue;
+    cw_ledger_side(s);
+    CW_TRY(sides->run(sides->context, s, &outcome[s]));
+    cw_ledger_side(-1);
   }
   cw_log_keep(0);
   if (groups > 1) cw_mpi_join();
   const char *part = cw_ledger_part("exchange");
+  if (groups > 1) cw_outcomes_agree(sides->count, outcome, owner);
   for (int32_t s = 0; s < sides->count && groups > 1; s++) {
-    CwSideHand hand = {.side = s, .mine = group_of[s] == mine, .from = first[group_of[s]]};
-    CW_TRY(hand_over(sides, &hand, &told[s]));
+    CwSideHand hand = {.side = s, .mine = group_of[s] == mine, .from = owner[s]};
+    CW_TRY(hand_over(sides, &hand, &outcome[s]));
   }
   for (int g = 1; g < groups; g++) CW_TRY(print_kept(first[g]));
   cw_log_drop_kept();
   cw_ledger_part(part);
-  cw_fail_clear();
-  for (int32_t s = sides->count - 1; s >= 0; s--) {
-    outcome[s] = told[s].outcome;
-    if (outcome[s] != CW_OK && told[s].message[0]) CW_FAIL(outcome[s], "%s", told[s].message);
-  }
 done:
-  free(told);
   return status;
 }

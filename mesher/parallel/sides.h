@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+#include "mesher/parallel/outcome.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -27,16 +28,16 @@ typedef struct {
   int32_t count;      // sides
   const double *cost; // predicted, of each
   double own;         // the share of the cost that every rank of a group does for itself
-  // Works on a side: collective over the ranks of the group, with the same result on all of them.
-  CwStatus (*run)(void *context, int32_t side);
+  // Works on a side: collective over the ranks of the group, with the same result and outcome on all of them.
+  CwStatus (*run)(void *context, int32_t side, CwOutcome *outcome);
   // Gives the results of a side to the ranks that have not run it, by cw_side_give. Collective over all ranks.
   CwStatus (*hand)(void *context, const CwSideHand *hand);
   void *context;
 } CwSides;
 
-// Runs all sides; collective. outcome[side]: CW_OK, or CW_RETRY of `run`, which is not handed over; then the first such
-// message stands on all ranks. Other failures end all ranks, or are returned where there is one.
-CwStatus cw_sides_run(const CwSides *sides, CwStatus *outcome);
+// Runs all sides; collective. outcome[side], the same on all ranks: that of `run`; a side that is not done is not
+// handed over. Failures end all ranks, or are returned where there is one.
+CwStatus cw_sides_run(const CwSides *sides, CwOutcome *outcome);
 
 // Hands over `size` bytes, as many on all ranks. Straight from array to array.
 void cw_side_give(const CwSideHand *hand, void *data, int64_t size);

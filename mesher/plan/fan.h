@@ -13,6 +13,7 @@
 #ifndef CUTWATER_MESHER_PLAN_FAN_H
 #define CUTWATER_MESHER_PLAN_FAN_H
 
+#include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan.h"
 
 #ifdef __cplusplus
@@ -35,10 +36,10 @@ int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, i
 // The region that this one is a turned copy of, or itself.
 int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region);
 
-// Plans a domain that `count` turns bring to itself. CW_RETRY where it has no fluid on the axis on one side only, or no
-// plane fits.
+// Plans a domain that `count` turns bring to itself. Outcome: CW_OUTCOME_ASYMMETRIC where it has no fluid on the axis
+// on one side only, or no plane fits.
 CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                          const CwPlanOptions *options, int32_t count, CwPlan *plan);
+                          const CwPlanOptions *options, int32_t count, CwPlan *plan, CwOutcome *outcome);
 
 #ifdef __cplusplus
 }

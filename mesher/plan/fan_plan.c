@@ -80,8 +80,8 @@ done:
   return status;
 }
 
-// Finds which side of the domain has fluid on the axis; CW_RETRY where both or none have it.
-static CwStatus find_axis(Fan *fan) {
+// Finds which side of the domain has fluid on the axis; CW_OUTCOME_ASYMMETRIC where both or none have it.
+static void find_axis(Fan *fan, CwOutcome *outcome) {
   const CwBackground *background = fan->model->background;
   double low = INFINITY, high = -INFINITY;
   for (int32_t i = 0; i < background->point_count; i++) {
@@ -95,13 +95,15 @@ static CwStatus find_axis(Fan *fan) {
     wet[i] = cw_inside_test(fan->model->inside, x);
     runs += i > 0 && wet[i] != wet[i - 1];
   }
-  if (runs != 1) return CW_FAIL(CW_RETRY, "fluid on the axis at both ends, or at none");
+  if (runs != 1) {
+    cw_outcome_set(outcome, CW_OUTCOME_ASYMMETRIC, NULL, "fluid on the axis at both ends, or at none");
+    return;
+  }
   while (wet[last] == wet[0]) last++;
   fan->up = wet[0] ? 1 : -1;
   fan->low = wet[0] ? low : -high;
   fan->high = wet[0] ? high : -low;
   fan->nose = fan->up * (low + step * last);
-  return CW_OK;
 }
 
 // The side of the pipe in steps of equal work, from node 0 outwards.
@@ -171,7 +173,7 @@ done:
 
 // The plane across the axis and those between slices: as little as can be before it, for that is meshed whole, and
 // slices that are as large as the regions of a pitch (0: one slice as it comes).
-static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
+static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
   double all = fan->along.below[CW_PROFILE_BINS], chosen = 0, best = INFINITY, cost;
@@ -192,7 +194,7 @@ static CwStatus place_root(Fan *fan, int32_t regions, int32_t *slices) {
       if (cost < best) best = cost, chosen = place, *slices = count;
     }
   }
-  CW_REQUIRE(best < INFINITY, CW_RETRY, "no plane across the axis fits");
+  CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no plane across the axis fits");
   plan->node[0] = (CwPlanNode){across(fan, chosen), -1, {-1, 1}};
   judge_across(fan, chosen, &plan->worst_angle[0]);
   double before = cw_profile_below(&fan->along, chosen);
@@ -235,7 +237,7 @@ done:
 }
 
 // The half-planes: `wedges` in each pitch, evenly, where they cost least.
-static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
+static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlan *plan = fan->plan;
   const Judged *judged = fan->judged;
@@ -251,7 +253,7 @@ static CwStatus place_fan(Fan *fan, const CwPlanPart *wheel, int wedges) {
     for (int w = 0; w < wedges; w++) sum += judged[start + w * apart].cost;
     if (sum < best) best = sum, chosen = start;
   }
-  CW_REQUIRE(best < INFINITY, CW_RETRY, "no half-planes fit");
+  CW_END_UNLESS(best < INFINITY, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no half-planes fit");
   plan->fan_count = wedges * fan->count;
   plan->fan_turns = fan->count;
   plan->node_count += plan->fan_count;
@@ -326,15 +328,15 @@ static void make_sum(CwPlan *plan, int32_t first, int32_t end, double wanted) {
 }
 
 // The plan with so many regions in one pitch.
-static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, int32_t regions) {
+static CwStatus divide(Fan *fan, CwPlanModel *model, const CwPlanPart *whole, int32_t regions, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlanPart wheel = {0};
   int32_t slices;
   int wedges = fan->count == 2 ? 2 : 1; // a wedge is narrower than half a turn
-  CW_TRY(place_root(fan, regions, &slices));
+  CW_TRY_STAGE(place_root(fan, regions, &slices, outcome), outcome);
   CW_TRY(cw_plan_part_clip(model, whole, &fan->plan->node[0].plane, 1, &wheel));
   model->mean_work = whole->work / (slices + fan->count * regions);
-  CW_TRY(place_fan(fan, &wheel, wedges));
+  CW_TRY_STAGE(place_fan(fan, &wheel, wedges, outcome), outcome);
   CW_TRY(divide_wedges(fan, &wheel, wedges, wheel.work / fan->count / regions));
   // The samples of all pitches together tell the work of one better than its own.
   make_sum(fan->plan, 0, slices, whole->work - wheel.work);
@@ -391,7 +393,7 @@ static double pipe_cost(const Fan *fan, int32_t slices, double mean) {
 // The numbers of regions in one pitch that bring the plan near the asked number, best first: those with which regions
 // and slices would be about as large if `pipe` were the work of the slices, and of these, those with the best slices.
 static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked, Number number[NUMBERS],
-                              int32_t *count) {
+                              int32_t *count, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Number *all = NULL;
   double whole = pipe + fan->count * pitch, wanted = pitch / whole * asked;
@@ -408,7 +410,7 @@ static CwStatus weigh_numbers(Fan *fan, double pipe, double pitch, int32_t asked
   int32_t weighed = *count > 1 ? *count : 0; // one alone is taken
   for (int32_t i = 0; i < weighed; i++) {
     int32_t slices;
-    CW_TRY(place_root(fan, all[i].regions, &slices));
+    CW_TRY_STAGE(place_root(fan, all[i].regions, &slices, outcome), outcome);
     int32_t regions = slices + fan->count * all[i].regions;
     all[i].cost = pipe_cost(fan, slices, whole / regions) + OTHER_NUMBER * fabs(log((double)regions / asked));
   }
@@ -420,7 +422,7 @@ done:
 }
 
 CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                          const CwPlanOptions *options, int32_t count, CwPlan *plan) {
+                          const CwPlanOptions *options, int32_t count, CwPlan *plan, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0};
@@ -434,14 +436,15 @@ CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, cons
   CW_TRY(new_plan(room, &tried));
   CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
   CW_TRY(cw_plan_part_whole(&model, &whole));
-  CW_TRY(find_axis(&fan));
+  find_axis(&fan, outcome);
+  if (outcome->kind != CW_OUTCOME_DONE) goto done;
   CwPlane along = across(&fan, 0);
   cw_plan_profile(&model, &whole, along.normal, INT32_MAX, &fan.along);
-  CW_TRY(place_root(&fan, 0, &slices));
+  CW_TRY_STAGE(place_root(&fan, 0, &slices, outcome), outcome);
   double pipe = cw_profile_below(&fan.along, tried.node[0].plane.offset), pitch = (whole.work - pipe) / count;
-  CW_TRY(weigh_numbers(&fan, pipe, pitch, options->region_count, number, &numbers));
+  CW_TRY_STAGE(weigh_numbers(&fan, pipe, pitch, options->region_count, number, &numbers, outcome), outcome);
   for (int k = 0; k < numbers && k < NUMBERS_TRIED && least > EVEN; k++) {
-    CW_TRY(divide(&fan, &model, &whole, number[k].regions));
+    CW_TRY_STAGE(divide(&fan, &model, &whole, number[k].regions, outcome), outcome);
     double bad = badness(&tried);
     if (bad >= least) continue;
     CwPlan better = tried;
@@ -453,6 +456,6 @@ done:
   cw_plan_part_free(&whole);
   cw_plan_model_free(&model);
   cw_plan_free(&tried);
-  if (status != CW_OK) cw_plan_free(plan);
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_plan_free(plan);
   return status;
 }

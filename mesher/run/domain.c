@@ -306,7 +306,7 @@ int cw_domain_least_regions(const CwCase *table, double cells) {
   return (int)fmin(table->mesh.least_regions, fmax(FREE_REGIONS, floor(cells / FEWEST_CELLS)));
 }
 
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor) {
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlan plan = {0};
   double regions = fmax(ceil(cells / cells_per_region(table)), cw_domain_least_regions(table, cells));
@@ -325,11 +325,11 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .prism_factor = prism_factor};
   status = domain->symmetry
                ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
-                                  domain->symmetry->count, &plan)
+                                  domain->symmetry->count, &plan, outcome)
                : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
-  CW_TRY(status);
-  CW_REQUIRE(!domain->symmetry || fixed_faces_fit(domain, &plan), CW_RETRY,
-             "a face round the axis lies on the side of the passages");
+  CW_TRY_STAGE(status, outcome);
+  CW_END_UNLESS(!domain->symmetry || fixed_faces_fit(domain, &plan), outcome, CW_OUTCOME_ASYMMETRIC, NULL,
+                "a face round the axis lies on the side of the passages");
   cw_plan_free(&domain->plan);
   domain->plan = plan;
   plan = (CwPlan){0};
@@ -340,7 +340,7 @@ done:
   return status;
 }
 
-CwStatus cw_domain_start(CwDomain *domain) {
+CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwSkeleton *skeleton = &domain->skeleton;
   cw_domain_clear(domain);
@@ -352,9 +352,11 @@ CwStatus cw_domain_start(CwDomain *domain) {
   CW_NEW(skeleton->largest, patches);
   for (int p = 0; p < patches; p++)
     skeleton->largest[p] = LARGEST_ON_WALL / LONGEST_ON_WALL * longest_on_wall(domain, p);
-  CW_TRY(cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network));
+  CW_TRY_STAGE(
+      cw_network_make(domain->cad, &domain->background, domain->inside, &domain->plan, &skeleton->network, outcome),
+      outcome);
   skeleton->orbits.symmetry = domain->symmetry;
-  if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits));
+  if (domain->symmetry) CW_TRY(cw_orbit_network(&skeleton->network, &skeleton->orbits, outcome));
 done:
   return status;
 }

@@ -81,13 +81,13 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale);
 int cw_domain_least_regions(const CwCase *table, double cells);
 
 // Divides the domain into regions: their number follows from `cells`, the predicted cells of this domain. Collective:
-// the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan;
-// CW_RETRY where none can be had.
-CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor);
+// the ranks look along some of the directions each, and have the same plan. With a symmetry it is a fan; outcome:
+// CW_OUTCOME_ASYMMETRIC where none can be had.
+CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, double prism_factor, CwOutcome *outcome);
 
 // Starts the skeleton anew at the present scale of the size field: curve network. Then cw_couple_rims and
-// cw_skeleton_wall_curves. CW_RETRY, on all ranks, where a plane grazes something (cw_network_make).
-CwStatus cw_domain_start(CwDomain *domain);
+// cw_skeleton_wall_curves. Outcome: that of cw_network_make and cw_orbit_network.
+CwStatus cw_domain_start(CwDomain *domain, CwOutcome *outcome);
 
 // First heights and targets of all wall vertices, once the walls are merged, and what they take of the volume.
 // Collective.

@@ -187,21 +187,23 @@ done:
   return status;
 }
 
-// CW_RETRY where it has a symmetry and the plan cannot have it. Collective.
-static CwStatus plan_domain(CwMeshRun *run, int d) {
+// Collective. Outcome: CW_OUTCOME_ASYMMETRIC where it has a symmetry and the plan cannot have it.
+static CwStatus plan_domain(CwMeshRun *run, int d, CwOutcome *outcome) {
   cw_ledger_part("planes weighed");
-  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor);
+  return cw_domain_plan(&run->domain[d], run->table, cw_predicted_cells(run, d), run->prism_factor, outcome);
 }
 
-// Plans a domain anew, at the scale and factors of the first plan: a run that goes on from a later pass plans alike.
+// Plans a domain without symmetry anew, at the scale and factors of the first plan: a run that goes on from a later
+// pass plans alike.
 static CwStatus plan_anew(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
+  CwOutcome outcome = {0}; // done: there is no symmetry to miss
   double prism_factor = run->prism_factor, tet_factor = run->tet_factor, scale = run->scale;
   cw_domain_clear(&run->domain[d]);
   run->prism_factor = run->planned_prism_factor;
   run->tet_factor = run->planned_tet_factor;
   cw_mesh_set_scale(run, run->planned_scale);
-  CW_TRY(plan_domain(run, d));
+  CW_TRY(plan_domain(run, d, &outcome));
   run->prism_factor = prism_factor;
   run->tet_factor = tet_factor;
   cw_mesh_set_scale(run, scale);
@@ -210,12 +212,9 @@ done:
 }
 
 // Gives up the symmetry of a domain: it is planned as if it had none, to be meshed whole.
-static CwStatus plan_whole(CwMeshRun *run, int d) {
+static CwStatus plan_whole(CwMeshRun *run, int d, const char *reason) {
   CwStatus status = CW_OK;
-  const char *reason = cw_fail_message();
-  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name,
-         reason[0] ? reason : "as in the run that this one goes on from");
-  cw_fail_clear();
+  cw_log("%s: its passages are not meshed alike (%s); it is meshed whole", run->domain[d].name, reason);
   cw_domain_clear(&run->domain[d]); // what hangs on the symmetry goes first
   cw_symmetry_free(&run->domain[d].symmetry);
   run->whole = 1;
@@ -224,10 +223,10 @@ done:
   return status;
 }
 
-CwStatus cw_mesh_plan_whole(CwMeshRun *run) {
+CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->domains.count; d++) {
-    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d));
+    if (run->domain[d].symmetry) CW_TRY(plan_whole(run, d, reason));
   }
 done:
   return status;
@@ -247,19 +246,19 @@ static void log_plan(const CwMeshRun *run, int d) {
          domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
 }
 
-CwStatus cw_mesh_plan_again(CwMeshRun *run, int d) {
+CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
   CwStatus status = CW_OK;
-  CwDomain *domain = &run->domain[d];
-  char reason[1000];
-  snprintf(reason, sizeof reason, "%s", cw_fail_message());
+  CwDomain *domain = &run->domain[why->domain];
+  char text[CW_OUTCOME_TEXT_SIZE];
+  const char *reason = cw_outcome_text(why, text);
+  if (domain->symmetry) return plan_whole(run, why->domain, reason);
   CW_REQUIRE(domain->more_regions < PLANS_MORE, CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
              PLANS_MORE);
   cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
-  cw_fail_clear();
   domain->more_regions++;
   run->retries++;
-  CW_TRY(plan_anew(run, d));
-  log_plan(run, d);
+  CW_TRY(plan_anew(run, why->domain));
+  log_plan(run, why->domain);
 done:
   return status;
 }
@@ -272,8 +271,8 @@ static void warn_of_few_cells(const CwMeshRun *run, int d) {
               run->domain[d].name, asked, least, cells);
 }
 
-static CwStatus plan_side(void *context, int32_t d) {
-  return plan_domain(context, d);
+static CwStatus plan_side(void *context, int32_t d, CwOutcome *outcome) {
+  return plan_domain(context, d, outcome);
 }
 
 static CwStatus hand_plan(void *context, const CwSideHand *hand) {
@@ -296,7 +295,9 @@ done:
 }
 
 CwStatus cw_mesh_plan(CwMeshRun *run) {
-  CwStatus status = CW_OK, outcome[CW_DOMAINS_MOST];
+  CwStatus status = CW_OK;
+  CwOutcome outcome[CW_DOMAINS_MOST];
+  char text[CW_OUTCOME_TEXT_SIZE];
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
   run->planned_prism_factor = run->prism_factor;
   run->planned_tet_factor = run->tet_factor;
@@ -314,7 +315,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   cw_progress(run->domains.count);
   cw_progress_end();
   for (int d = 0; d < run->domains.count; d++) {
-    if (outcome[d] == CW_RETRY) CW_TRY(plan_whole(run, d));
+    if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], text)));
     warn_of_few_cells(run, d);
     log_plan(run, d);
   }

@@ -13,11 +13,12 @@ CwStatus cw_mesh_open(CwMeshRun *run);
 // Regions for each domain by its share of the predicted cells, at the present scale and factors.
 CwStatus cw_mesh_plan(CwMeshRun *run);
 
-// Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole.
-CwStatus cw_mesh_plan_whole(CwMeshRun *run);
+// Gives up the symmetry of all domains that have one: they are planned anew, to be meshed whole. reason: for the log.
+CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason);
 
-// Another plan for a domain that the present one does not fit (a plane grazes a wall, or leaves no room to layers): by
-// one region more, so that all planes lie elsewhere. Fails with the present message after three such plans.
-CwStatus cw_mesh_plan_again(CwMeshRun *run, int domain);
+// Another plan for the domain of an outcome. A domain with a symmetry gives it up. Any other, whose plan does not fit
+// (a plane grazes a wall, or leaves no room to layers), gets one region more, so that all planes lie elsewhere;
+// CW_ERR_MESH with the reason after three such plans.
+CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why);
 
 #endif

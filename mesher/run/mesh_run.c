@@ -101,14 +101,12 @@ done:
   return status;
 }
 
-// Skeletons with all wall curves, those along interfaces divided alike on both sides. CW_RETRY where the plan of a
-// domain, *unfit, cuts no curves.
-static CwStatus start_walls(CwMeshRun *run, int *unfit) {
+// Skeletons with all wall curves, those along interfaces divided alike on both sides. Outcome: that of cw_domain_start.
+static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->domains.count; d++) {
-    status = cw_domain_start(&run->domain[d]);
-    if (status == CW_RETRY) *unfit = d;
-    CW_TRY(status);
+    outcome->domain = d;
+    CW_TRY_STAGE(cw_domain_start(&run->domain[d], outcome), outcome);
   }
   for (int i = 0; i < run->domains.interface_count; i++) {
     const CwDomainInterface *between = &run->domains.interface[i];
@@ -122,7 +120,7 @@ done:
 
 // Walls of all domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
 // is asked.
-static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
+static CwStatus mesh_walls(CwMeshRun *run, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int again = 0; // the same walls, for thinner layers
   CwResults results = {0};
@@ -135,7 +133,7 @@ static CwStatus mesh_walls(CwMeshRun *run, int *unfit) {
     int64_t triangles = 0;
     double integral = 0;
     cw_ledger_part("curves of the walls");
-    CW_TRY(start_walls(run, unfit));
+    CW_TRY_STAGE(start_walls(run, outcome), outcome);
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_ledger_part("walls merged");
@@ -168,19 +166,23 @@ done:
   return status;
 }
 
-// *tight: places where layers leave no room on the planes; then there are no inner surfaces.
-static CwStatus mesh_inner(CwMeshRun *run, int32_t *tight) {
+// Outcome: CW_OUTCOME_THIN where layers leave no room on the planes, with the places of all domains;
+// CW_OUTCOME_ASYMMETRIC.
+static CwStatus mesh_inner(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwResults results = {0}; // of each domain first those of its faces
   CwMeshTask *cap = NULL, *task = NULL;
   int32_t caps, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
   cw_ledger_part("free curves");
-  *tight = 0;
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton));
-    *tight += run->domain[d].skeleton.tight_count;
+    CwOutcome of_domain = {.domain = d};
+    CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton, &of_domain));
+    if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
+    if (of_domain.kind == CW_OUTCOME_DONE) continue;
+    *outcome = of_domain;
+    if (outcome->kind == CW_OUTCOME_ASYMMETRIC) goto done;
   }
-  if (*tight > 0) goto done;
+  if (outcome->kind != CW_OUTCOME_DONE) goto done;
   cw_face_counts(run, faces);
   CW_TRY(face_tasks(run, 0, &caps, &cap));
   count = caps;
@@ -265,9 +267,9 @@ static void take_summaries(CwMeshRun *run, int d, int32_t region, const CwRegion
   }
 }
 
-// Regions are made, and the turned copies of each as soon as it is whole. *failed: how many regions could not be made;
-// they have no copies.
-static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
+// Regions are made, and the turned copies of each as soon as it is whole. Outcome: CW_OUTCOME_THIN with the places
+// where regions could not be made; they have no copies.
+static CwStatus mesh_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwResults results = {0};
   CwMeshTask *task = NULL;
@@ -304,14 +306,13 @@ static CwStatus mesh_regions(CwMeshRun *run, int32_t *failed) {
       cw_run_step(run, "regions", "regions", cw_step_region, count, task, after, results.bytes, run->region_seconds));
   cw_ledger_part("results");
   run->cells = 0;
-  *failed = 0;
   for (int32_t i = 0; i < count; i++) {
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
     if (after[i] < 0) take_summaries(run, task[i].domain, task[i].index, made);
     open_faces[task[i].domain] += made->quality.open_faces;
-    *failed += made->failure.failed;
+    if (made->failure.failed) outcome->kind = CW_OUTCOME_THIN;
   }
-  if (*failed) goto done;
+  if (outcome->kind == CW_OUTCOME_THIN) CW_TRY_STAGE(cw_thin_places_in_regions(run, places), outcome);
   for (int d = 0; d < run->domains.count; d++) {
     CW_REQUIRE(open_faces[d] == 0, CW_ERR_MESH, "%s: the regions in %s/mesh do not fit together on the dividing planes",
                run->domain[d].name, run->run_path);
@@ -335,45 +336,40 @@ static void learn_tets(CwMeshRun *run) {
                run->prism_factor / run->table->walls.layer_count);
 }
 
-// CW_RETRY where a symmetric domain does not come out symmetric, or the plan of one, *unfit (else -1), fits neither
-// walls nor layers.
-static CwStatus mesh_surfaces(CwMeshRun *run, int32_t *tight, int *unfit) {
+// The stages of one attempt, in their order.
+static CwStatus mesh_attempt(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  *unfit = -1;
-  CW_TRY(mesh_walls(run, unfit));
-  CW_TRY(cw_run_layers(run, unfit));
-  CW_TRY(mesh_inner(run, tight));
+  CW_TRY_STAGE(mesh_walls(run, outcome), outcome);
+  CW_TRY_STAGE(cw_run_layers(run, outcome), outcome);
+  CW_TRY_STAGE(mesh_inner(run, places, outcome), outcome);
+  CW_TRY(refine_interfaces(run));
+  cw_ledger_part("points that regions share");
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
+  CW_TRY(mesh_regions(run, places, outcome));
 done:
   return status;
 }
 
-// One pass at the present scale: walls, layers, inner surfaces, regions. Where equal passages do not come out equal,
-// the impeller is meshed whole; a domain with a plane that grazes a wall, or on which no column leaves one, gets other
-// planes; surfaces and regions that fail are tried again with thinner layers.
+// One pass at the present scale. Where equal passages do not come out equal, the impeller is meshed whole; a domain
+// with a plane that grazes a wall, or on which no column leaves one, gets other planes; surfaces and regions that fail
+// are tried again with thinner layers.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  int32_t failed = 0, tight = 0;
-  int unfit;
+  CwThinPlaces places = {0};
   for (int attempt = 0;;) {
-    status = mesh_surfaces(run, &tight, &unfit);
-    if (status == CW_RETRY) {
+    CwOutcome outcome = {0};
+    places.count = 0;
+    CW_TRY(mesh_attempt(run, &places, &outcome));
+    if (outcome.kind == CW_OUTCOME_DONE) break;
+    if (outcome.kind == CW_OUTCOME_THIN) {
+      CW_TRY(cw_thin(run, &places, attempt++));
+    } else {
       cw_end_thinning(run); // the walls will be others
-      CW_TRY(unfit < 0 || run->domain[unfit].symmetry ? cw_mesh_plan_whole(run) : cw_mesh_plan_again(run, unfit));
-      continue;
+      CW_TRY(cw_mesh_plan_again(run, &outcome));
     }
-    CW_TRY(status);
-    if (tight > 0) {
-      CW_TRY(cw_thin_tight(run, attempt++));
-      continue;
-    }
-    CW_TRY(refine_interfaces(run));
-    cw_ledger_part("points that regions share");
-    for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_share(&run->domain[d], run->table));
-    CW_TRY(mesh_regions(run, &failed));
-    if (!failed) break;
-    CW_TRY(cw_thin_columns(run, attempt++));
   }
 done:
+  cw_thin_places_free(&places);
   cw_end_thinning(run);
   return status;
 }
@@ -403,7 +399,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
     run->tet_factor = state.tet_factor;
     cw_mesh_solve_scale(run);
     cw_log("going on with pass %d of an earlier run", state.pass);
-    if (state.whole) CW_TRY(cw_mesh_plan_whole(run));
+    if (state.whole) CW_TRY(cw_mesh_plan_whole(run, "as in the run that this one goes on from"));
   }
   for (run->passes = state.pass;; run->passes++) {
     CW_TRY(mesh_pass(run));

@@ -24,7 +24,7 @@ static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DO
   return all;
 }
 
-static CwStatus find_heights(void *context, int32_t d) {
+static CwStatus find_heights(void *context, int32_t d, CwOutcome *outcome) {
   CwMeshRun *run = context;
   return cw_domain_targets(&run->domain[d]);
 }
@@ -46,7 +46,7 @@ done:
 }
 
 CwStatus cw_run_heights(CwMeshRun *run) {
-  CwStatus outcome[CW_DOMAINS_MOST]; // all fine: heights are never tried another way
+  CwOutcome outcome[CW_DOMAINS_MOST]; // all done: heights are never tried another way
   double cost[CW_DOMAINS_MOST];
   find_costs(run, COPIED_HEIGHTS, cost);
   CwSides sides = {.step = "heights of the layers",
@@ -67,13 +67,14 @@ static double last_layer(const void *context, int32_t vertex, double height) {
   return 1 - fraction[heights->layer_count - 1];
 }
 
-static CwStatus grow(void *context, int32_t d) {
+static CwStatus grow(void *context, int32_t d, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[d];
   CwLayerDivision division = {domain->layer_count, last_layer, &domain->heights};
-  CW_TRY(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least,
-                          &division));
+  CW_TRY_STAGE(cw_skeleton_grow(&domain->skeleton, &domain->background, domain->heights.target, domain->heights.least,
+                                &division, outcome),
+               outcome);
   cw_ledger_part("layers: small prisms");
   CW_TRY(cw_column_heights_even(&domain->heights, &domain->skeleton));
 done:
@@ -95,8 +96,9 @@ done:
   return status;
 }
 
-CwStatus cw_run_layers(CwMeshRun *run, int *unfit) {
-  CwStatus status = CW_OK, outcome[CW_DOMAINS_MOST];
+CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  CwOutcome of_domain[CW_DOMAINS_MOST];
   double started = cw_seconds(), cost[CW_DOMAINS_MOST];
   int64_t faces = find_costs(run, COPIED_LAYERS, cost);
   CwSides sides = {.step = "layers",
@@ -107,15 +109,11 @@ CwStatus cw_run_layers(CwMeshRun *run, int *unfit) {
                    .hand = hand_layers,
                    .context = run};
   cw_progress_start("layers", faces, "wall faces");
-  CW_TRY(cw_sides_run(&sides, outcome));
-  for (int d = run->domains.count - 1; d >= 0; d--) {
-    if (outcome[d] != CW_RETRY) continue;
-    *unfit = d;
-    status = CW_RETRY;
-  }
-  if (status == CW_OK) cw_progress(faces);
+  CW_TRY(cw_sides_run(&sides, of_domain));
+  *outcome = cw_outcomes_first(run->domains.count, of_domain);
+  if (outcome->kind == CW_OUTCOME_DONE) cw_progress(faces);
   cw_progress_end();
-  CW_TRY(status);
+  if (outcome->kind != CW_OUTCOME_DONE) goto done;
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "layers", cw_seconds() - started, run->domains.count, "domains"));
 done:

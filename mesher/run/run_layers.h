@@ -10,8 +10,8 @@
 // First heights and targets of all wall vertices, and what they take of the volume, once the walls are merged.
 CwStatus cw_run_heights(CwMeshRun *run);
 
-// Layers of those heights and the room of their columns. CW_RETRY where the layers of a domain, *unfit, do not fit its
-// symmetry or plan.
-CwStatus cw_run_layers(CwMeshRun *run, int *unfit);
+// Layers of those heights and the room of their columns. Outcome: that of cw_skeleton_grow for the first domain whose
+// layers do not fit its symmetry or plan.
+CwStatus cw_run_layers(CwMeshRun *run, CwOutcome *outcome);
 
 #endif

@@ -37,62 +37,86 @@ done:
   return status;
 }
 
-CwStatus cw_thin_tight(CwMeshRun *run, int attempt) {
+void cw_thin_places_free(CwThinPlaces *places) {
+  free(places->place);
+  memset(places, 0, sizeof *places);
+}
+
+static CwStatus add_place(int32_t domain, int32_t region, const CwRegionFailure *failure, CwThinPlaces *places) {
   CwStatus status = CW_OK;
-  for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    if (skeleton->tight_count == 0) continue;
-    double at[3];
-    for (int k = 0; k < 3; k++) at[k] = 1e3 * skeleton->tight[0][k];
-    CW_REQUIRE(
-        attempt < ATTEMPTS, CW_ERR_MESH,
-        "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it, after %d attempts "
-        "with thinner layers",
-        run->domain[d].name, at[0], at[1], at[2], ATTEMPTS);
-    if (run->rank == 0) {
-      cw_log_warn(
-          "%s: near (%.3f, %.3f, %.3f) mm the layers fill a line of two dividing planes or cross it; tried again "
-          "with thinner layers there",
-          run->domain[d].name, at[0], at[1], at[2]);
-    }
-    CW_TRY(start_thinning(run, d));
-    for (int32_t i = 0; i < skeleton->tight_count; i++) {
-      CwRegionFailure place = {.failed = 1};
-      memcpy(place.at, skeleton->tight[i], sizeof place.at);
-      cw_region_failure_thin(skeleton, -1, &place, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
-    }
-    thin_alike(skeleton, run->most_height[d]);
-  }
-  run->retries++;
+  CW_GROW(places->place, places->space, places->count + 1);
+  places->place[places->count++] = (CwThinPlace){domain, region, *failure};
 done:
   return status;
 }
 
-CwStatus cw_thin_columns(CwMeshRun *run, int attempt) {
+CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &run->domain[why->domain].skeleton;
+  CwRegionFailure failure = {.failed = 1, .patch = "dividing plane"};
+  snprintf(failure.message, sizeof failure.message, "%s", why->reason);
+  for (int32_t i = 0; i < skeleton->tight_count; i++) {
+    memcpy(failure.at, skeleton->tight[i], sizeof failure.at);
+    CW_TRY(add_place(why->domain, -1, &failure, places));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_thin_places_in_regions(const CwMeshRun *run, CwThinPlaces *places) {
   CwStatus status = CW_OK;
   for (int d = 0; d < run->domains.count; d++) {
-    const CwSkeleton *skeleton = &run->domain[d].skeleton;
     for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
       const CwRegionFailure *failure = &run->summary[d][r].failure;
-      char place[160] = "no place is known";
-      if (!failure->failed) continue;
-      if (!failure->everywhere) {
-        snprintf(place, sizeof place, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, 1e3 * failure->at[0],
-                 1e3 * failure->at[1], 1e3 * failure->at[2]);
-      }
-      CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH,
-                 "%s region %d, %s: not filled after %d attempts with thinner layers: %s; its boundary is in "
-                 "%s/mesh/failed-%s-%04d.vtk",
-                 run->domain[d].name, r + 1, place, ATTEMPTS, failure->message, run->run_path, run->domain[d].name,
-                 r + 1);
-      if (run->rank == 0) {
-        cw_log_warn("%s region %d, %s: %s; tried again with thinner layers there", run->domain[d].name, r + 1, place,
-                    failure->message);
-      }
-      CW_TRY(start_thinning(run, d));
-      cw_region_failure_thin(skeleton, r, failure, FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
+      if (failure->failed) CW_TRY(add_place(d, r, failure, places));
     }
-    if (run->most_height[d]) thin_alike(skeleton, run->most_height[d]);
+  }
+done:
+  return status;
+}
+
+// "rotor region 3, at shroud, (x, y, z) mm: message".
+static void describe(const CwMeshRun *run, const CwThinPlace *place, size_t size, char *text) {
+  const CwRegionFailure *failure = &place->failure;
+  char region[24] = "", at[160] = "no place is known";
+  if (place->region >= 0) snprintf(region, sizeof region, " region %d", place->region + 1);
+  if (!failure->everywhere) {
+    snprintf(at, sizeof at, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, 1e3 * failure->at[0], 1e3 * failure->at[1],
+             1e3 * failure->at[2]);
+  }
+  snprintf(text, size, "%s%s, %s: %s", run->domain[place->domain].name, region, at, failure->message);
+}
+
+// Where the boundary of a failed region lies for a look.
+static void describe_file(const CwMeshRun *run, const CwThinPlace *place, size_t size, char *text) {
+  text[0] = '\0';
+  if (place->region < 0) return;
+  snprintf(text, size, "; its boundary is in %s/mesh/failed-%s-%04d.vtk", run->run_path,
+           run->domain[place->domain].name, place->region + 1);
+}
+
+// Of the places on the planes of a domain the first speaks for all.
+static int is_told(const CwThinPlaces *places, int32_t i) {
+  const CwThinPlace *place = &places->place[i];
+  return i == 0 || place->region >= 0 || place[-1].region >= 0 || place[-1].domain != place->domain;
+}
+
+CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt) {
+  CwStatus status = CW_OK;
+  char text[800], file[4200];
+  for (int32_t i = 0; i < places->count; i++) {
+    const CwThinPlace *place = &places->place[i];
+    int d = place->domain;
+    describe(run, place, sizeof text, text);
+    describe_file(run, place, sizeof file, file);
+    CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH, "%s; after %d attempts with thinner layers%s", text, ATTEMPTS, file);
+    if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
+    CW_TRY(start_thinning(run, d));
+    cw_region_failure_thin(&run->domain[d].skeleton, place->region, &place->failure,
+                           FIRST_REACH * (double)(1 << attempt), run->most_height[d]);
+  }
+  for (int d = 0; d < run->domains.count; d++) {
+    if (run->most_height[d]) thin_alike(&run->domain[d].skeleton, run->most_height[d]);
   }
   run->retries++;
 done:

@@ -6,11 +6,25 @@
 
 #include "mesher/run/mesh_run.h"
 
-// Where layers leave no room on the planes; attempt: from 0.
-CwStatus cw_thin_tight(CwMeshRun *run, int attempt);
+// A place where the layers have to be thinner, and why.
+typedef struct {
+  int32_t domain, region; // region -1: on a dividing plane, of no region alone
+  CwRegionFailure failure;
+} CwThinPlace;
 
-// Where regions have failed.
-CwStatus cw_thin_columns(CwMeshRun *run, int attempt);
+typedef struct {
+  int32_t count, space;
+  CwThinPlace *place; // by domain and region
+} CwThinPlaces;
+
+void cw_thin_places_free(CwThinPlaces *places);
+
+// Adds those where the layers of the domain of `why` leave no room on its planes; those where regions have failed.
+CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places);
+CwStatus cw_thin_places_in_regions(const CwMeshRun *run, CwThinPlaces *places);
+
+// Lowers the columns about these places; attempt: from 0. CW_ERR_MESH where there were three.
+CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt);
 
 // Forgets what columns were thinned to.
 void cw_end_thinning(CwMeshRun *run);

@@ -360,7 +360,7 @@ done:
   return status;
 }
 
-CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers) {
+CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, CwLayers *layers, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   Part part = {0};
   CwLayers made = {0};
@@ -373,7 +373,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
   CW_NEW(bad, input->point_count);
   cw_ledger_part("layers: copies");
   CW_TRY(part_make(skeleton, input, &part));
-  CW_TRY(cw_layers_make(&part.wall.in, &made));
+  CW_TRY_STAGE(cw_layers_make(&part.wall.in, &made, outcome), outcome);
   cw_ledger_part("layers: copies");
   CW_TRY(spread(&part, &made, layers));
   CW_TRY(choose(&part, &made, layers));
@@ -390,14 +390,12 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
                  bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
     CW_TRY(thin(&part, bad, layers));
   }
-  CW_REQUIRE(!bad_count, CW_RETRY,
-             "after %d rounds %d prisms and pairs of the front do not fit their turned copies, near "
-             "(%.3f, %.3f, %.3f) mm",
-             ROUNDS, bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
+  CW_END_UNLESS(!bad_count, outcome, CW_OUTCOME_ASYMMETRIC, near,
+                "after %d rounds %d prisms and pairs of the front do not fit their turned copies", ROUNDS, bad_count);
 done:
   part_free(&part);
   cw_layers_free(&made);
   free(bad);
-  if (status != CW_OK) cw_layers_free(layers);
+  if (status != CW_OK || outcome->kind != CW_OUTCOME_DONE) cw_layers_free(layers);
   return status;
 }

@@ -45,8 +45,9 @@ done:
   return status;
 }
 
-CwStatus cw_orbit_outlines(CwSkeleton *skeleton) {
+CwStatus cw_orbit_outlines(CwSkeleton *skeleton, CwOutcome *outcome) {
   CwStatus status = CW_OK;
+  int whole;
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t count = skeleton->outline_count, turns = orbits->symmetry->count, *next = NULL, *corner = NULL, *start = NULL;
   CW_NEW(start, count + 1);
@@ -73,12 +74,13 @@ CwStatus cw_orbit_outlines(CwSkeleton *skeleton) {
       if (!memcmp(corner + start[j], corner + start[count] + start[i], size)) next[i] = j;
     }
     const double *x = skeleton->node_x[outline->corner[0]];
-    CW_REQUIRE(next[i] >= 0, CW_RETRY, "an interface on plane %d has no turned copy, near (%.3f, %.3f, %.3f) mm",
-               outline->node, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+    CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, x, "an interface on plane %d has no turned copy",
+                  outline->node);
   }
-  status = cw_orbits_make(count, next, turns, 1, &orbits->outline);
+  status = cw_orbits_make(count, next, turns, 1, &orbits->outline, &whole);
   next = NULL;
-  CW_REQUIRE(status != CW_RETRY, CW_RETRY, "turns do not bring the interfaces to themselves");
+  CW_TRY(status);
+  CW_END_UNLESS(whole, outcome, CW_OUTCOME_ASYMMETRIC, NULL, "turns do not bring the interfaces to themselves");
 done:
   free(next);
   free(corner);

@@ -98,15 +98,15 @@ CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes);
 
 // Grows the envelope of the layers to `target` heights (m, per wall vertex) and sets the front; for its shape columns
 // are thinned down to `least` (NULL: 0), and for the determinants of their layers turned (division NULL: not).
-// Collective: all ranks work on it and have the same result. CW_RETRY, on all ranks, where no symmetric front is found
-// or no column leaves the wall on a plane.
+// Collective: all ranks work on it and have the same result. Outcome: CW_OUTCOME_ASYMMETRIC where no symmetric front is
+// found, CW_OUTCOME_REPLAN where no column leaves the wall on a plane.
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          const double *least, const CwLayerDivision *division);
+                          const double *least, const CwLayerDivision *division, CwOutcome *outcome);
 
 // Discretises the free curves between the ends of the layers; finds the interface polygons on every plane.
-// Where layers leave no room for that, it only collects the places (skeleton->tight): the layers there want to be
-// thinner. CW_RETRY, with a message, where the polygons are not symmetric.
-CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton);
+// Outcome: CW_OUTCOME_THIN where layers leave no room for that, with all places in skeleton->tight;
+// CW_OUTCOME_ASYMMETRIC where the polygons are not symmetric.
+CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton, CwOutcome *outcome);
 
 // Meshes cap face or interface outline `index`; results for cw_skeleton_merge_inner.
 CwStatus cw_skeleton_mesh_cap(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size);

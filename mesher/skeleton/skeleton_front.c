@@ -184,7 +184,7 @@ done:
 }
 
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
-                          const double *least, const CwLayerDivision *division) {
+                          const double *least, const CwLayerDivision *division, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int32_t n = skeleton->wall_count, caps = 0, opened;
   int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
@@ -224,7 +224,9 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
                         .obstacle_x = (const double(*)[3])background->x,
                         .obstacle_triangle_count = caps,
                         .obstacle_triangle = (const int32_t(*)[3])cap_triangle};
-  CW_TRY(skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers) : cw_layers_make(&input, &layers));
+  CW_TRY_STAGE(skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers, outcome)
+                                         : cw_layers_make(&input, &layers, outcome),
+               outcome);
   skeleton->front = layers.front;
   skeleton->height = layers.height;
   skeleton->reason = layers.reason;

@@ -178,7 +178,7 @@ done:
   return status;
 }
 
-CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
+CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
   CW_TRY(start_nodes(skeleton));
@@ -192,8 +192,12 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton) {
   if (skeleton->tight_count > 0) goto done; // not all curves are divided
   CW_TRY(cw_outline_start(&outline, skeleton->node_count));
   for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node, &outline));
-  if (skeleton->tight_count == 0 && skeleton->orbits.symmetry) status = cw_orbit_outlines(skeleton);
+  if (skeleton->tight_count == 0 && skeleton->orbits.symmetry) CW_TRY(cw_orbit_outlines(skeleton, outcome));
 done:
+  if (status == CW_OK && skeleton->tight_count > 0) {
+    cw_outcome_set(outcome, CW_OUTCOME_THIN, skeleton->tight[0],
+                   "the layers fill a line of two dividing planes or cross it");
+  }
   cw_outline_free(&outline);
   return status;
 }

@@ -183,6 +183,7 @@ CwStatus cw_patch_front(CwPatchWork *work) {
   Front front = {0};
   Entry entry;
   double uv[2];
+  int inserted;
   for (int32_t p = 0; p < work->point_count; p++) CW_TRY(set_row(&front, p, 0));
   for (int32_t t = 0; t < work->triangle_count; t++) CW_TRY(push_edges(work, &front, t));
   while (pop(&front, &entry)) {
@@ -193,12 +194,8 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     if (i == 3 || is_done(work, t) || !place_point(work, t, i, uv)) continue;
     double cap = fmin(work->size[a], work->size[b]);
     cap += growth * cap;
-    status = cw_patch_insert(work, uv, t, least_room, cap);
-    if (status == CW_RETRY) {
-      status = CW_OK;
-      continue;
-    }
-    CW_TRY(status);
+    CW_TRY(cw_patch_insert(work, uv, t, least_room, cap, &inserted));
+    if (!inserted) continue;
     CW_TRY(set_row(&front, work->point_count - 1, 1 + (front.row[a] > front.row[b] ? front.row[a] : front.row[b])));
     for (int32_t k = 0; k < work->rim_count; k++) CW_TRY(push_edges(work, &front, work->fresh[k]));
   }
@@ -208,9 +205,7 @@ CwStatus cw_patch_front(CwPatchWork *work) {
     if (is_done(work, t) || !shape_of(work, t, 0, &shape)) continue;
     int32_t a = work->corner[t][1], b = work->corner[t][2];
     for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]) + shape.centre * shape.square[k];
-    status = cw_patch_insert(work, uv, t, least_room, size_cap(work, t) * (1 + 2 * growth));
-    if (status != CW_RETRY) CW_TRY(status);
-    status = CW_OK;
+    CW_TRY(cw_patch_insert(work, uv, t, least_room, size_cap(work, t) * (1 + 2 * growth), &inserted));
   }
 done:
   free(front.entry);

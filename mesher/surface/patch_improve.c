@@ -113,6 +113,7 @@ static void smooth(CwPatchWork *work) {
 static CwStatus split_long(CwPatchWork *work) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
+  int inserted;
   for (int32_t t = 0; t < count; t++) {
     if (work->corner[t][0] < 0) continue;
     // The longest edge only: splitting the others would make needles.
@@ -130,9 +131,7 @@ static CwStatus split_long(CwPatchWork *work) {
     double size = edge_size(work, a, b);
     if (most < long_edge * long_edge * size * size) continue;
     double uv[2] = {0.5 * (work->uv[a][0] + work->uv[b][0]), 0.5 * (work->uv[a][1] + work->uv[b][1])};
-    status = cw_patch_insert(work, uv, t, 0.55, size * 1.1);
-    if (status == CW_RETRY) status = CW_OK;
-    CW_TRY(status);
+    CW_TRY(cw_patch_insert(work, uv, t, 0.55, size * 1.1, &inserted));
   }
 done:
   return status;
@@ -357,6 +356,7 @@ static int is_too_large(const CwPatchWork *work, int32_t t) {
 static CwStatus mend_unfit(CwPatchWork *work, int64_t *changes) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
+  int inserted;
   for (int32_t t = 0; t < count; t++) {
     if (work->corner[t][0] < 0) continue;
     int steep = least_cosine(work, t) < steep_cosine;
@@ -374,10 +374,8 @@ static CwStatus mend_unfit(CwPatchWork *work, int64_t *changes) {
       for (int k = 0; k < 2; k++) uv[k] = 0.5 * (work->uv[a][k] + work->uv[b][k]);
     }
     if (most == 0) continue;
-    status = cw_patch_insert(work, uv, t, steep_room, 0.5 * sqrt(most));
-    *changes += status == CW_OK;
-    if (status == CW_RETRY) status = CW_OK;
-    CW_TRY(status);
+    CW_TRY(cw_patch_insert(work, uv, t, steep_room, 0.5 * sqrt(most), &inserted));
+    *changes += inserted;
   }
 done:
   return status;

@@ -335,13 +335,12 @@ static CwStatus collect_least_cavity(CwPatchWork *work, const double p[2], const
   return collect_cavity(work, p, m, seeds, 0);
 }
 
-CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap) {
+CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap,
+                         int *inserted) {
   CwStatus status = CW_OK;
   int32_t p = work->point_count, t = cw_patch_find(work, uv, from);
-  if (t < 0) {
-    status = CW_RETRY;
-    goto done;
-  }
+  *inserted = 0;
+  if (t < 0) goto done;
   CW_TRY(grow_points(work, p + 1));
   memcpy(work->uv[p], uv, sizeof work->uv[p]);
   work->input->surface(work->input->surface_context, uv, work->x[p], work->xu[p], work->xv[p]);
@@ -351,12 +350,10 @@ CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, do
   work->cavity[0] = t;
   CW_TRY(collect_cavity(work, uv, m, 1, 1));
   if (!cavity_is_star(work, uv, m)) CW_TRY(collect_least_cavity(work, uv, m, t));
-  if (!cavity_is_star(work, uv, m) || !cavity_has_room(work, uv, m, work->size[p], least)) {
-    status = CW_RETRY;
-    goto done;
-  }
+  if (!cavity_is_star(work, uv, m) || !cavity_has_room(work, uv, m, work->size[p], least)) goto done;
   CW_TRY(fill_cavity(work, p));
   work->point_count++;
+  *inserted = 1;
 done:
   return status;
 }

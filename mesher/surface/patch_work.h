@@ -51,11 +51,12 @@ void cw_patch_work_close(CwPatchWork *work);
 // The triangle that holds uv, found by walking from triangle `from` on; -1 where a given edge is in the way.
 int32_t cw_patch_find(const CwPatchWork *work, const double uv[2], int32_t from);
 
-// Puts a point at uv, looked for from triangle `from` on without crossing a given edge. Refuses with CW_RETRY
-// a point that is outside, nearer than `least` times its size to another point, or nearer than 0.4 of its
-// size to a given edge of the cavity. `size_cap` bounds the size of the new point. On CW_OK the new point is
-// the last one and fresh[0 .. rim_count) are its triangles.
-CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap);
+// Puts a point at uv, looked for from triangle `from` on without crossing a given edge. Refuses (*inserted 0) a point
+// that is outside, nearer than `least` times its size to another point, or nearer than 0.4 of its size to a given edge
+// of the cavity. `size_cap` bounds the size of the new point. Where *inserted is 1 the new point is the last one and
+// fresh[0 .. rim_count) are its triangles.
+CwStatus cw_patch_insert(CwPatchWork *work, const double uv[2], int32_t from, double least, double size_cap,
+                         int *inserted);
 
 // Turns edge i of triangle t; refuses (returns 0) where the edge is given or a triangle would not be
 // counter-clockwise in (u,v).

@@ -26,6 +26,7 @@ typedef struct {
   void (*snap)(const void *context, int32_t v, double x[3]);
   CwLayerInput in;
   CwLayers out;
+  CwOutcome outcome;
   double share; // of columns at the asked height
   double mean;  // of all heights, over the asked one
 } Case;
@@ -62,7 +63,7 @@ static inline CwStatus case_make(Case *c) {
                          .obstacle_x = (const double(*)[3])c->cap.x,
                          .obstacle_triangle_count = c->cap.triangle_count,
                          .obstacle_triangle = (const int32_t(*)[3])c->cap.triangle};
-  return cw_layers_make(&c->in, &c->out);
+  return cw_layers_make(&c->in, &c->out, &c->outcome);
 }
 
 static inline void case_free(Case *c) {

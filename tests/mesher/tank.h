@@ -96,6 +96,7 @@ struct Tank {
   std::vector<double> none;
   CwPlan plan;
   CwSkeleton skeleton = {};
+  CwOutcome outcome = {};
 
   // Plane 0 at z = 8 mm through the hub; `wedges` half-planes in each pitch; `divided`: a plane across each wedge, 24
   // mm from the axis, whose lines on the half-planes before and after differ.
@@ -120,7 +121,8 @@ struct Tank {
     skeleton.cad = cad;
     skeleton.plan = &plan;
     skeleton.size_at = even_size;
-    check(cw_network_make(cad, &background, inside, &plan, &skeleton.network));
+    check(cw_network_make(cad, &background, inside, &plan, &skeleton.network, &outcome));
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     skeleton.orbits.symmetry = symmetry;
   }
   ~Tank() {

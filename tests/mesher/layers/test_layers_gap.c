@@ -81,7 +81,7 @@ static void low_crease(void **state) {
     if (hypot(c.wall.x[v][0], c.wall.x[v][2]) < 1e-9) ((double *)c.in.target)[v] = 1.2 * MM;
   }
   cw_layers_free(&c.out);
-  assert_int_equal(cw_layers_make(&c.in, &c.out), CW_OK);
+  assert_int_equal(cw_layers_make(&c.in, &c.out, &c.outcome), CW_OK);
   case_check_prisms(&c);
   case_check_front(&c);
   double least = 90;

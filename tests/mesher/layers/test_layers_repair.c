@@ -28,7 +28,7 @@ static void leaning_column(void **state) {
     CwLayerWork work = {0};
     CwBoxTree tree = {0};
     assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
-    assert_int_equal(cw_layers_normals(&work), CW_OK);
+    assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
     assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
     for (int32_t v = 0; v < n; v++) work.t[v] = c.target;
     const double leaning[3] = {0.87 / 0.6, 0, 1};
@@ -76,7 +76,7 @@ static void sheared_prism(void **state) {
     CwLayerWork work = {0};
     CwBoxTree tree = {0};
     assert_int_equal(cw_layers_topology(&c.in, &work), CW_OK);
-    assert_int_equal(cw_layers_normals(&work), CW_OK);
+    assert_int_equal(cw_layers_normals(&work, &c.outcome), CW_OK);
     assert_int_equal(cw_gap_tree_make(&work, &tree), CW_OK);
     for (int v = 0; v < 3; v++) {
       work.t[v] = c.target;

@@ -9,7 +9,8 @@ extern "C" {
 static void network_is_its_own_copy(void **) {
   Tank tank(5, 2, true);
   CwSkeleton &skeleton = tank.skeleton;
-  check(cw_orbit_network(&skeleton.network, &skeleton.orbits));
+  check(cw_orbit_network(&skeleton.network, &skeleton.orbits, &tank.outcome));
+  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   const CwOrbits &orbits = skeleton.orbits.curve;
   for (int i = 0; i < skeleton.network.curve_count; i++) {
     const CwCurve &curve = skeleton.network.curve[i], &first = skeleton.network.curve[orbits.first[i]];
@@ -35,8 +36,9 @@ static void uneven_plans_are_told(void **) {
   cw_network_free(&tank.skeleton.network);
   const double angle = 0.33 * 2 * M_PI / 6;
   tank.node[1].plane = {{-std::sin(angle), std::cos(angle), 0}, 0};
-  check(cw_network_make(tank.cad, &tank.background, tank.inside, &tank.plan, &tank.skeleton.network));
-  assert_int_equal(cw_orbit_network(&tank.skeleton.network, &tank.skeleton.orbits), CW_RETRY);
+  check(cw_network_make(tank.cad, &tank.background, tank.inside, &tank.plan, &tank.skeleton.network, &tank.outcome));
+  check(cw_orbit_network(&tank.skeleton.network, &tank.skeleton.orbits, &tank.outcome));
+  assert_int_equal(tank.outcome.kind, CW_OUTCOME_ASYMMETRIC);
 }
 
 int main() {

@@ -102,7 +102,9 @@ static void make_plan_of(CwDomain *of, int32_t regions, double each, CwPlan *pla
   while (cells_at(of, scale) < each * regions) scale *= 0.99;
   cw_size_set_scale(of->size, scale);
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(of, scale) / (regions - 0.5));
-  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor));
+  CwOutcome outcome = {0};
+  check(cw_domain_plan(of, &table, cells_at(of, scale), prism_factor, &outcome));
+  assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
   *plan = of->plan;
   of->plan = (CwPlan){0};
 }
@@ -257,18 +259,18 @@ static void plans_that_do_not_fit_give_way(void **state) {
   table.mesh.cells_per_region = (int64_t)ceil(cells_at(&domain[1], 2) / 5.5);
   cw_mesh_set_scale(&run, 1.7);
   const double x[3] = {0.05, 0.1, 0.001}, wanted = cw_size_at(domain[1].size, x);
-  check(cw_mesh_plan_again(&run, 1));
+  CwOutcome why = {.kind = CW_OUTCOME_REPLAN, .domain = 1, .reason = "dividing plane 3 grazes a face"};
+  check(cw_mesh_plan_again(&run, &why));
   CwPlane first = run.domain[1].plan.node[0].plane;
   assert_int_equal(run.domain[1].plan.region_count, 7);
-  check(cw_mesh_plan_again(&run, 1));
+  check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 8);
   assert_memory_not_equal(&first, &run.domain[1].plan.node[0].plane, sizeof first);
-  check(cw_mesh_plan_again(&run, 1));
+  check(cw_mesh_plan_again(&run, &why));
   assert_int_equal(run.domain[1].plan.region_count, 9);
   assert_true(run.scale == 1.7 && run.prism_factor == 2 * prism_factor && run.tet_factor == 2 * TET_FACTOR);
   assert_true(cw_size_at(domain[1].size, x) == wanted);
-  assert_int_equal(CW_FAIL(CW_RETRY, "dividing plane 3 grazes a face"), CW_RETRY);
-  assert_int_equal(cw_mesh_plan_again(&run, 1), CW_ERR_MESH);
+  assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans");
   cw_fail_clear();
   cw_plan_free(&run.domain[1].plan);
@@ -331,14 +333,14 @@ typedef struct {
   int touching; // likewise, of those that come much nearer
 } Room;
 
-// By the network that follows from the plan, not by what the planner thought of it. CW_RETRY where a plane grazes an
-// edge: then the mesher plans again with one region more.
-static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
+// By the network that follows from the plan, not by what the planner thought of it. False where a plane grazes an edge:
+// then the mesher plans again with one region more.
+static int room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
   CwNetwork network;
+  CwOutcome outcome = {0};
   Room room = {0};
-  CwStatus status = cw_network_make(of->cad, &of->background, of->inside, plan, &network);
-  if (status == CW_RETRY) return status;
-  check(status);
+  check(cw_network_make(of->cad, &of->background, of->inside, plan, &network, &outcome));
+  if (outcome.kind != CW_OUTCOME_DONE) return 0;
   for (int32_t i = 0; i < network.curve_count; i++) {
     const CwCurve *curve = &network.curve[i];
     if (curve->kind != CW_CURVE_LINE) continue;
@@ -353,7 +355,7 @@ static CwStatus room_of(const CwDomain *of, const CwPlan *plan, Room *found) {
     for (int32_t n = 0; n < plan->node_count; n++) room.along += !is_copy(plan, n) && runs_along(of, plan, n, e);
   }
   *found = room;
-  return CW_OK;
+  return 1;
 }
 
 // All ways of dividing the pump: regions are even, planes and lines keep clear of layers, but for `filled` lines, and
@@ -367,9 +369,8 @@ static void judge_room(int32_t regions, double each, int few, int filled, int al
     of->symmetry = way == 1 ? symmetry : NULL;
     Room room;
     make_plan_of(of, regions, each, &plan);
-    for (int more = 1; room_of(of, &plan, &room) == CW_RETRY; more++) {
+    for (int more = 1; !room_of(of, &plan, &room); more++) {
       assert_true(more <= 3 && way != 1);
-      cw_fail_clear();
       cw_plan_free(&plan);
       make_plan_of(of, regions + more, each, &plan);
     }

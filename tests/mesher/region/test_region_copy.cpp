@@ -19,7 +19,7 @@ static void fill_the_tank(bool divided) {
   const int faces = cw_cad_face_count(tank.cad);
   std::vector<void *> walls(faces, nullptr), caps(faces, nullptr), interfaces;
   int64_t size;
-  check(cw_orbit_network(&skeleton.network, &skeleton.orbits));
+  check(cw_orbit_network(&skeleton.network, &skeleton.orbits, &tank.outcome));
   check(cw_skeleton_wall_curves(&skeleton));
   for (int f = 0; f < faces; f++) {
     if (orbits.symmetry->face.first[f] != f) continue;
@@ -28,8 +28,9 @@ static void fill_the_tank(bool divided) {
   check(cw_skeleton_merge_walls(&skeleton, walls.data()));
   std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4),
       growth(skeleton.wall_count, 1.5);
-  check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), nullptr, nullptr));
-  check(cw_skeleton_free_curves(&skeleton));
+  check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), nullptr, nullptr, &tank.outcome));
+  check(cw_skeleton_free_curves(&skeleton, &tank.outcome));
+  assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (orbits.symmetry->face.first[f] != f) continue;
     if (!cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));

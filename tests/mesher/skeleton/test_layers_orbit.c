@@ -47,7 +47,9 @@ static void seams_get_the_sounder_column(void **state) {
                        .guide_stays = stays,
                        .snap = leave};
     CwLayers layers;
-    assert_int_equal(cw_orbit_layers(&skeleton, &in, &layers), CW_OK);
+    CwOutcome outcome = {0};
+    assert_int_equal(cw_orbit_layers(&skeleton, &in, &layers, &outcome), CW_OK);
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
     for (int k = 0; k < PASSAGES; k++) {
       int32_t v = ring_point(k * OF_PASSAGE, middle);
       const double *end = layers.front[v];

@@ -43,6 +43,7 @@ struct Box {
   double none[4] = {0, 0, 0, 0};
   CwPlan plan;
   CwSkeleton skeleton;
+  CwOutcome outcome = {};
 
   explicit Box(int nodes, double across = 0.009, const TopoDS_Shape &solid = BRepPrimAPI_MakeBox(40, 30, 20).Shape())
       : cad(open_solid(solid, [](const TopoDS_Face &face) -> std::string {
@@ -67,7 +68,8 @@ struct Box {
     skeleton.cad = cad;
     skeleton.plan = &plan;
     skeleton.size_at = even_size;
-    check(cw_network_make(cad, &background, inside, &plan, &skeleton.network));
+    check(cw_network_make(cad, &background, inside, &plan, &skeleton.network, &outcome));
+    assert_int_equal(outcome.kind, CW_OUTCOME_DONE);
   }
   ~Box() {
     cw_skeleton_free(&skeleton);
@@ -204,7 +206,8 @@ static void make_layers(Box &box) {
   }
   Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
   std::vector<double> target(skeleton.wall_count, 1.5e-3);
-  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), nullptr, nullptr));
+  Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), nullptr, nullptr, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (void *bytes : walls) free(bytes);
 }
 
@@ -213,7 +216,9 @@ static void layers_that_cross_a_line_are_found(void **) {
   Box box(3, 0.001);
   const CwSkeleton &skeleton = box.skeleton;
   make_layers(box);
-  Box::check(cw_skeleton_free_curves(&box.skeleton));
+  Box::check(cw_skeleton_free_curves(&box.skeleton, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
+  assert_near(box.outcome.place[0], 0.021, 1e-9);
   assert_true(skeleton.tight_count > 0);
   for (int i = 0; i < skeleton.tight_count; i++) {
     assert_near(skeleton.tight[i][0], 0.021, 1e-9);
@@ -252,8 +257,8 @@ static void make_surfaces(Box &box) {
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
     }
   }
-  Box::check(cw_skeleton_free_curves(&skeleton));
-  assert_int_equal(skeleton.tight_count, 0);
+  Box::check(cw_skeleton_free_curves(&skeleton, &box.outcome));
+  assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (int f = 0; f < faces; f++) {
     if (!cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/parallel/outcome.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "mesher/parallel/schedule.h"
+
+void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3], const char *format, ...) {
+  va_list arguments;
+  outcome->kind = kind;
+  outcome->has_place = place != NULL;
+  memset(outcome->place, 0, sizeof outcome->place);
+  if (place) memcpy(outcome->place, place, sizeof outcome->place);
+  va_start(arguments, format);
+  vsnprintf(outcome->reason, sizeof outcome->reason, format, arguments);
+  va_end(arguments);
+}
+
+const char *cw_outcome_text(const CwOutcome *outcome, char text[CW_OUTCOME_TEXT_SIZE]) {
+  const double *x = outcome->place;
+  int used = snprintf(text, CW_OUTCOME_TEXT_SIZE, "%s", outcome->reason);
+  if (outcome->has_place) {
+    snprintf(text + used, (size_t)(CW_OUTCOME_TEXT_SIZE - used), " at (%.3f, %.3f, %.3f) mm", 1e3 * x[0], 1e3 * x[1],
+             1e3 * x[2]);
+  }
+  return text;
+}
+
+void cw_outcomes_agree(int32_t count, CwOutcome *outcome, const int *owner) {
+  for (int32_t i = 0; i < count; i++) cw_mpi_broadcast(&outcome[i], sizeof outcome[i], owner[i]);
+}
+
+CwOutcome cw_outcomes_first(int32_t count, const CwOutcome *outcome) {
+  CwOutcome first = {0};
+  for (int32_t i = count - 1; i >= 0; i--) {
+    if (outcome[i].kind == CW_OUTCOME_DONE) continue;
+    first = outcome[i];
+    first.domain = i;
+  }
+  return first;
+}
