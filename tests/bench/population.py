@@ -9,7 +9,8 @@ A pump is good when every stage ends with status 0 and
 - its cells are within 2 % of those asked;
 - no tetrahedron of a region has a dihedral angle under 12 degrees, or under what the region's boundary allows;
 - the first height is met on 99 % of the wall faces;
-- cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check.
+- cgnscheck has no error, and checkMesh (-allGeometry -allTopology; every 8th pump, --check-mesh) no failed check
+  but those that the mesher has warned of: cells of small determinant in layers as thin as the case asks.
 
 Progress goes to the standard error. At the end: failures by stage and cause, numbers in the message as #, each with the
 command that repeats one; then quantiles of the quality of all pumps that were meshed. DIR keeps cases/ and
@@ -18,7 +19,6 @@ judged (--keep: they stay, in DIR/runs). The status is 1 where a pump fails afte
 import argparse
 import hashlib
 import json
-import os
 import re
 import shutil
 import sys
@@ -34,11 +34,13 @@ STAGES = ("geometry", "mesh", "export")
 COUNT_OFF = 0.02
 LEAST_DIHEDRAL = 12.0  # degrees
 FIRST_HEIGHT_MET = 0.99
+WARNED_DETERMINANT = "checkMesh calls their determinant small"
 TIMED_OUT = "ran past the limit"
 FIGURES = (("cells over asked", "count", "{:.3f}"), ("least dihedral, degrees", "dihedral", "{:.1f}"),
            ("dihedral over its bound", "dihedral_over_bound", "{:.2f}"), ("mean aspect", "aspect", "{:.2f}"),
            ("greatest aspect", "aspect_most", "{:.1f}"), ("first height met", "first_height", "{:.3f}"),
-           ("last layer 0.5 to 1.5 of its tetrahedron", "last_layer", "{:.3f}"),
+           ("layer top with volumes alike, share", "even", "{:.3f}"),
+           ("greatest volume ratio across it", "volume_ratio", "{:.0f}"),
            ("greatest non-orthogonality, degrees", "non_orthogonality", "{:.1f}"), ("passes", "passes", "{:.0f}"),
            ("retries", "retries", "{:.0f}"), ("seconds", "seconds", "{:.1f}"))
 
@@ -120,7 +122,8 @@ def judge_mesh(run, figures):
         "aspect": sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"] for domain in domains) / tetrahedra,
         "aspect_most": max(domain["tetrahedron_aspect_max"] for domain in domains),
         "first_height": sum(wall["first_height_met_faces"] for wall in walls) / faces,
-        "last_layer": sum(wall["last_layer_fair_faces"] for wall in walls) / faces,
+        "even": 1 - sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls) / faces,
+        "volume_ratio": max(wall["volume_ratio_greatest"] for wall in walls),
         "full_thickness": sum(wall["full_thickness_faces"] for wall in walls) / faces,
         "warnings": record["warnings"]})
     bad = []
@@ -149,7 +152,8 @@ def judge_files(run, check_mesh, figures):
         if not failed and "Mesh OK." not in text:
             failed = ["ends without a verdict"]
         figures["check_mesh"] = failed or ["Mesh OK"]
-        bad += [f"checkMesh: {line}" for line in failed]
+        warned = any(WARNED_DETERMINANT in warning for warning in figures["warnings"])
+        bad += [f"checkMesh: {line}" for line in failed if not (warned and "small determinant" in line)]
     return bad
 
 
@@ -213,6 +217,8 @@ def run_all(options):
     with ThreadPoolExecutor(options.jobs) as pool, (options.work / "results.jsonl").open("a") as file:
         running = [pool.submit(run_pump, options, index, result, case) for index, case, result in waiting]
         for number, future in enumerate(as_completed(running), 1):
+            if future.exception():
+                pool.shutdown(cancel_futures=True)
             result = future.result()
             results[result["index"]] = result
             file.write(json.dumps(result) + "\n")
@@ -261,7 +267,6 @@ def main():
     options.work = options.work.resolve()
     options.bin = options.bin.resolve()
     (options.work / "cases").mkdir(parents=True, exist_ok=True)
-    os.nice(5)
     results = run_all(options)
     verdicts = [result["verdict"] for result in results]
     stages = [result.get("stage") for result in results]
