@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/cad/background_tessellate.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 
 typedef struct {
@@ -18,7 +19,7 @@ static CwStatus not_closed(const CwCad *cad, const CwBackground *background, con
   const double *x = background->x[point];
   return CW_FAIL(CW_ERR_GEOMETRY, "face '%s': the tessellation %s at (%.3f, %.3f, %.3f) mm",
                  cw_cad_face_name(cad, background->face[half->triangle]), pair ? "folds or turns over" : "is open",
-                 x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+                 CW_MM(x));
 }
 
 // Pairs the half edges of one point, whose other ends have greater numbers.

@@ -28,6 +28,7 @@
 #include <TopoDS_Face.hxx>
 
 #include "mesher/cad/cad_shape.h"
+#include "mesher/common/model_unit.h"
 
 struct CwTessellation {
   const CwCad *cad;
@@ -95,8 +96,7 @@ CwStatus weld_edge(const CwCad *cad, int e, Weld &weld) {
       cw_cad_vertex_point(cad, edge.vertex[0], x);
       return CW_FAIL(CW_ERR_GEOMETRY,
                      "faces '%s' and '%s': the tessellations do not match along their edge at (%.3f, %.3f, %.3f) mm",
-                     cw_cad_face_name(cad, edge.face[0]), cw_cad_face_name(cad, edge.face[1]), x[0] * 1e3, x[1] * 1e3,
-                     x[2] * 1e3);
+                     cw_cad_face_name(cad, edge.face[0]), cw_cad_face_name(cad, edge.face[1]), CW_MM(x));
     }
     if (side == 0) {
       point.push_back(edge.vertex[0]);

@@ -21,6 +21,7 @@
 #include "mesher/cad/cad_unit.h"
 #include "mesher/common/vec.h"
 
+enum { BOX_PARTS = 8 }; // of an edge
 static const double pcurve_tolerance =
     1e-4; // in units of the B-rep: past it the point of an edge is projected onto its face
 
@@ -65,6 +66,17 @@ void cw_cad_close(CwCad **cad) {
   cw_face_table_free(&(*cad)->table);
   delete *cad;
   *cad = nullptr;
+}
+
+void cw_cad_add_to_box(const CwCad *cad, CwBox *box) {
+  for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+    const double *range = cad->edge[e].range;
+    for (int i = 0; i <= BOX_PARTS; i++) {
+      double x[3];
+      cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / BOX_PARTS, x, nullptr);
+      cw_box_add_point(box, x);
+    }
+  }
 }
 
 int cw_cad_patch_count(const CwCad *cad) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The exact geometry of one domain (rotor, stator or a pipe), read from the geometry stage. The one bridge of the
-// mesher to OpenCASCADE. All lengths are metres here; the B-rep itself is in millimetres. Indices are
-// 0-based.
+// mesher to OpenCASCADE. The B-rep has a unit of its own; lengths here are metres until cw_cad_rescale brings them to
+// the unit of the model (common/model_unit). Indices are 0-based.
 #ifndef CUTWATER_MESHER_CAD_CAD_H
 #define CUTWATER_MESHER_CAD_CAD_H
 
+#include "mesher/common/box.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus
@@ -19,6 +20,13 @@ typedef struct CwCad CwCad;
 // (a face with a seam or a degenerate edge, a face without a row).
 CwStatus cw_cad_open(const char *geometry_dir, const char *domain, CwCad **cad);
 void cw_cad_close(CwCad **cad);
+
+// Widens the box by the vertices of the solid and places along its edges.
+void cw_cad_add_to_box(const CwCad *cad, CwBox *box);
+// Makes the solid 2^power times as large about the origin: no number loses a bit (of moved faces the place does), so
+// that solids which are powers of two of one another become one and the same. What was asked of it before, parameters
+// included, holds no more.
+CwStatus cw_cad_rescale(CwCad *cad, int power);
 
 int cw_cad_patch_count(const CwCad *cad);
 const char *cw_cad_patch_name(const CwCad *cad, int patch);

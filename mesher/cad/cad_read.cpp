@@ -50,9 +50,8 @@ CwStatus cw_cad_read_shape(const char *path, CwCad *cad) {
   for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next(), solids++) cad->solid = it.Current();
   if (solids != 1) return CW_FAIL(CW_ERR_INPUT, "%s: holds %d solids; it must hold one", path, solids);
   BRepTools::Clean(cad->solid); // a stored triangulation is not ours
-  TopExp::MapShapes(cad->solid, TopAbs_FACE, cad->face_map);
-  TopExp::MapShapes(cad->solid, TopAbs_EDGE, cad->edge_map);
-  TopExp::MapShapes(cad->solid, TopAbs_VERTEX, cad->vertex_map);
+  cad->path = path;
+  cw_cad_map_parts(cad);
   return CW_OK;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Inside of CwCad, for the C++ files of the bridge only (cad.cpp, cad_read.cpp, background_tessellate.cpp).
-// Lengths in here are in the unit of the B-rep; only the C functions speak metres.
+// Lengths in here are in the unit of the B-rep; only the C functions speak metres, or the unit of the model.
 #ifndef CUTWATER_MESHER_CAD_CAD_SHAPE_H
 #define CUTWATER_MESHER_CAD_CAD_SHAPE_H
 
+#include <string>
 #include <vector>
 
 #include <Geom2dAdaptor_Curve.hxx>
@@ -41,7 +42,8 @@ struct CwCadEdge {
 };
 
 struct CwCad {
-  double unit; // of the B-rep, m
+  double unit;      // of the B-rep, m; of the model's unit once the solid has that
+  std::string path; // of the file
   TopoDS_Shape solid;
   TopTools_IndexedMapOfShape face_map, edge_map, vertex_map; // 1-based
   std::vector<CwCadFace> face;
@@ -52,6 +54,11 @@ struct CwCad {
 
 // Fills everything but the table from the B-rep file; throws Standard_Failure where OpenCASCADE does.
 CwStatus cw_cad_read_shape(const char *path, CwCad *cad);
+// Lists faces, edges and vertices of the solid.
+void cw_cad_map_parts(CwCad *cad);
+// The shape 2^power times as large about the origin: each number in it is the old one or that times 2^power, also those
+// of its curves in (u,v). Throws Standard_Failure.
+TopoDS_Shape cw_cad_scaled_shape(const TopoDS_Shape &shape, int power);
 // Checks edges and builds face and edge evaluators; needs the table for its messages.
 CwStatus cw_cad_read_parts(const char *path, CwCad *cad);
 

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
+
 // Half-edges: 2e runs along edge e, 2e + 1 against it.
 typedef struct {
   int32_t point_count, edge_count;
@@ -135,7 +137,7 @@ static CwStatus check_closed(const Graph *graph, const uint8_t *boundary) {
   for (int32_t i = 0; i < graph->point_count; i++) {
     CW_REQUIRE(!odd_degree[i], CW_ERR_MESH,
                "the outline of an interface is open at (%.4f, %.4f) mm of its plane; every loop must close",
-               1e3 * graph->point[i][0], 1e3 * graph->point[i][1]);
+               cw_mm(graph->point[i][0]), cw_mm(graph->point[i][1]));
   }
 done:
   free(odd_degree);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "mesher/common/intersect.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_shape.h"
@@ -12,7 +13,7 @@
 static void middle(const CwFillInput *input, int32_t triangle, double mm[3]) {
   for (int i = 0; i < 3; i++) {
     mm[i] = 0.0;
-    for (int k = 0; k < 3; k++) mm[i] += 1e3 / 3.0 * input->x[input->triangle[triangle][k]][i];
+    for (int k = 0; k < 3; k++) mm[i] += cw_mm(input->x[input->triangle[triangle][k]][i]) / 3.0;
   }
 }
 
@@ -43,8 +44,7 @@ CwStatus cw_boundary_check(const CwFillInput *input) {
   for (int32_t p = 0; p < input->point_count; p++) {
     const double *x = input->x[p];
     CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_MESH,
-               "%s: boundary point %d is not finite: (%g, %g, %g) mm", input->name, p, 1e3 * x[0], 1e3 * x[1],
-               1e3 * x[2]);
+               "%s: boundary point %d is not finite: (%g, %g, %g) mm", input->name, p, CW_MM(x));
   }
   for (int32_t t = 0; t < input->triangle_count; t++) {
     const int32_t *p = input->triangle[t];

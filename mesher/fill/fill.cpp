@@ -15,6 +15,7 @@
 #include <cstring>
 #include <new>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/fill_points.h"
@@ -154,7 +155,7 @@ CwStatus check_volume(const CwFillInput *input, const CwFill *fill) {
   }
   CW_REQUIRE(std::fabs(enclosed - filled) <= 1e-6 * filled, CW_ERR_MESH,
              "%s: the boundary encloses %.6g mm3, of which %.6g mm3 can be filled: some of its normals point inward",
-             input->name, 1e9 * enclosed, 1e9 * filled);
+             input->name, cw_mm3(enclosed), cw_mm3(filled));
 done:
   return status;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/common/mix.h"
+#include "mesher/common/model_unit.h"
 
 // Corners of the face opposite corner i, outward.
 static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -41,8 +42,7 @@ static CwStatus check_points(const CwFillInput *input) {
     uint64_t k = (scatter(x) >> 32) * space >> 32;
     for (; table[k]; k = k + 1 < space ? k + 1 : 0)
       CW_REQUIRE(!same_place(input->x[table[k] - 1], x), CW_ERR_MESH,
-                 "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, 1e3 * x[0],
-                 1e3 * x[1], 1e3 * x[2]);
+                 "%s: two points of the boundary coincide at (%.6g, %.6g, %.6g) mm", input->name, CW_MM(x));
     table[k] = 1 + p;
   }
 done:
@@ -82,7 +82,7 @@ CwStatus cw_fill_check_closed(const CwFillInput *input) {
       CW_REQUIRE(sum[edge[k].high] == 0, CW_ERR_MESH,
                  "%s: the boundary is open or turned over at the edge from (%.6g, %.6g, %.6g) to (%.6g, %.6g, "
                  "%.6g) mm",
-                 input->name, 1e3 * a[0], 1e3 * a[1], 1e3 * a[2], 1e3 * b[0], 1e3 * b[1], 1e3 * b[2]);
+                 input->name, CW_MM(a), CW_MM(b));
     }
   }
 done:
@@ -182,7 +182,7 @@ static int same_turn(const int32_t p[3], const int32_t q[3]) {
 static CwStatus fail_triangle(const CwFillInput *input, int32_t t, const char *fault) {
   double mean[3] = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 3; i++) mean[i] += 1e3 / 3.0 * input->x[input->triangle[t][k]][i];
+    for (int i = 0; i < 3; i++) mean[i] += cw_mm(input->x[input->triangle[t][k]][i]) / 3.0;
   }
   return CW_FAIL(CW_ERR_MESH, "%s: boundary triangle at (%.6g, %.6g, %.6g) mm %s", input->name, mean[0], mean[1],
                  mean[2], fault);
@@ -271,7 +271,7 @@ CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill) {
       const double *at = fill->x[fill->tetrahedron[t][0]];
       CW_REQUIRE(side[other] == side[t], CW_ERR_MESH,
                  "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
-                 input->name, 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
+                 input->name, CW_MM(at));
     }
   }
   int32_t kept = 0, points = input->point_count;

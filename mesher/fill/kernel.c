@@ -7,6 +7,7 @@
 #include <malloc.h>
 #endif
 
+#include "mesher/common/model_unit.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill_points.h"
@@ -114,7 +115,7 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     add_place(outside, 1u << outer % 4);
     CW_REQUIRE((place_of(inside) & OUTSIDE) == 0 && (place_of(outside) & INNER) == 0, CW_ERR_MESH,
                "%s: boundary triangle at (%.6g, %.6g, %.6g) mm has its normal turned against its neighbours",
-               input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+               input->name, CW_MM(y));
     int bare = f >= input->bare_first && f < input->bare_first + input->bare_count;
     mesh->tet[inner / 4].neighbour[inner % 4] = bare ? CW_BESIDE_NOTHING : CW_BESIDE_OTHERS;
   }
@@ -128,7 +129,7 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
       const double *y = mesh->point[tet->corner[0]].x;
       CW_REQUIRE((place_of(next) & INNER) == 0, CW_ERR_MESH,
                  "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
-                 input->name, 1e3 * y[0], 1e3 * y[1], 1e3 * y[2]);
+                 input->name, CW_MM(y));
       if (!(place_of(next) & OUTSIDE)) enclosing |= add_outside(mesh, tet->neighbour[i] / 4, &waiting);
     }
     cw_delaunay_free_tet(mesh, t); // its place stays
@@ -139,7 +140,7 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     status = CW_FAIL(CW_ERR_MESH,
                      "%s: the boundary encloses all that lies outside it: its normals point inward near "
                      "(%.6g, %.6g, %.6g) mm",
-                     input->name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+                     input->name, CW_MM(x));
     goto done;
   }
   if (freed > mesh->tet_count / 4) cw_delaunay_pack(mesh);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
+
 static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 enum { EMPTY = -1 };                                             // place of a table
@@ -104,8 +106,7 @@ CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFace
     for (int k = 0; k < 3; k++) p[k] = number[input->triangle[facets->count][k]];
     const double *x = mesh->point[p[0]].x;
     CW_REQUIRE(cw_facets_find(facets, p) < 0, CW_ERR_MESH,
-               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm is listed twice", input->name, 1e3 * x[0], 1e3 * x[1],
-               1e3 * x[2]);
+               "%s: boundary triangle at (%.6g, %.6g, %.6g) mm is listed twice", input->name, CW_MM(x));
     note_facet(facets, facets->count);
   }
 done:

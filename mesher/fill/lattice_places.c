@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/mix.h"
+#include "mesher/common/model_unit.h"
 
 static const double jitter = 1e-3; // of the cell
 enum { DIGIT = 11, ROUNDS = 9, SEEN = 13 };
@@ -29,8 +30,8 @@ typedef struct {
 CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size) {
   CwStatus status = CW_OK;
   *size = input->size(input->size_context, x);
-  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH, "%s: the size field gives %g m at (%.6g, %.6g, %.6g) mm",
-             input->name, *size, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+  CW_REQUIRE(*size > 0.0 && isfinite(*size), CW_ERR_MESH, "%s: the size field gives %g mm at (%.6g, %.6g, %.6g) mm",
+             input->name, cw_mm(*size), CW_MM(x));
 done:
   return status;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/heights/layer_heights.h"
 #include "mesher/layers/height_gradation.h"
@@ -176,7 +177,7 @@ static CwStatus find_asked(void *context, int32_t v, void *out) {
     of.growth = fmax(of.growth, columns->layers[face].growth);
   }
   CW_REQUIRE(isfinite(of.thickness), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
-             1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+             CW_MM(x));
   *(CwLayerTarget *)out = of;
 done:
   return status;

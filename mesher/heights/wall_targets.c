@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/heights/layer_heights.h"
 #include "pipeline/json_read.h"
 #include "pipeline/wall_group.h"
@@ -84,5 +85,7 @@ void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *
       speed = scales->discharge_speed, length = scales->pipe_length;
     }
     layers[p] = kind == CW_PATCH_WALL ? cw_layer_target(table, group, speed, length) : (CwLayerTarget){0};
+    layers[p].first_height /= cw_model_unit();
+    layers[p].thickness /= cw_model_unit();
   }
 }

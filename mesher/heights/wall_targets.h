@@ -28,10 +28,11 @@ typedef struct {
 // Reads the scales. Fails with CW_ERR_IO or CW_ERR_INPUT naming file and key.
 CwStatus cw_flow_scales_read(const char *design_path, CwFlowScales *scales);
 
-// For each patch of the CAD: relative size, and its layers (0 on caps). Both arrays hold cw_cad_patch_count values.
+// For each patch of the CAD: relative size, and its layers in the unit of the model (0 on caps). Both arrays hold
+// cw_cad_patch_count values.
 void cw_wall_targets(const CwCad *cad, const CwCase *table, const CwFlowScales *scales, double *relative_size,
                      CwLayerTarget *layers);
-// The layers that `group` asks for where the flow has the speed `speed` (m/s) over the length `length` (m).
+// The layers, m, that `group` asks for where the flow has the speed `speed` (m/s) over the length `length` (m).
 CwLayerTarget cw_layer_target(const CwCase *table, const CwWallGroup *group, double speed, double length);
 
 #endif

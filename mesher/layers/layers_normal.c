@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/layers/layers_inner.h"
 
 static const double LEAST_COSINE = 0.05; // of a column to the normals of the faces around
@@ -156,7 +157,7 @@ static CwStatus find_direction(void *context, int32_t v, void *out) {
   CW_REQUIRE(c > LEAST_COSINE, CW_ERR_MESH,
              "layers: the wall faces around (%.4f, %.4f, %.4f) mm see no common direction (best cosine %.3f, at "
              "least %.2f needed): the wall is folded or has an edge too sharp there",
-             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, c, LEAST_COSINE);
+             CW_MM(x), c, LEAST_COSINE);
   made->normal_cos = c;
   if (c >= 0.92) goto done;
   double most = -1;
@@ -209,7 +210,7 @@ static CwStatus judge_column(const CwLayerWork *work, int32_t v, double cosine, 
   CW_REQUIRE(!work->in->guide_stays || !work->in->guide_stays[v], CW_ERR_MESH,
              "layers: no column inside the cap at (%.4f, %.4f, %.4f) mm leaves the wall (best cosine %.3f, at least "
              "%.2f needed): it is nearly tangent to the wall there",
-             x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, cosine, LEAST_COSINE);
+             CW_MM(x), cosine, LEAST_COSINE);
   cw_outcome_set(outcome, CW_OUTCOME_REPLAN, x,
                  "no column inside a dividing plane leaves the wall (best cosine %.3f, at least %.2f needed)", cosine,
                  LEAST_COSINE);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <stdlib.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/layers/layers_crossing.h"
 #include "mesher/layers/layers_inner.h"
 #include "mesher/parallel/schedule.h"
@@ -152,7 +153,7 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
     CW_REQUIRE(pair->kind_f == 0, CW_ERR_MESH,
                "layers: the wall itself crosses or touches itself near "
                "(%.4f, %.4f, %.4f) mm (wall triangles %d and %d)",
-               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3, pair->f, pair->g);
+               CW_MM(x), pair->f, pair->g);
     double share = 0;
     for (int k = 0; k < 3; k++) {
       int32_t v = in->triangle[pair->f][k];
@@ -167,7 +168,7 @@ static CwStatus find_crossings(Repair *repair, int32_t *crossing) {
     CW_REQUIRE(share > LEAST_SHARE, CW_ERR_MESH,
                "layers: near (%.4f, %.4f, %.4f) mm the front crosses %s however thin the layers are made; ask for more "
                "cells",
-               x[0] * 1e3, x[1] * 1e3, x[2] * 1e3,
+               CW_MM(x),
                pair->kind_g == 0   ? "itself"
                : pair->kind_g == 1 ? "the wall"
                                    : "a cap");
@@ -386,7 +387,7 @@ static CwStatus not_repaired(Repair *repair, int32_t crossing) {
   status = CW_FAIL(CW_ERR_MESH,
                    "layers: no valid front after %d rounds: %d prisms without positive volume, %d pairs crossing, near "
                    "(%.4f, %.4f, %.4f) mm",
-                   ROUNDS, repair->bad_count, crossing, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+                   ROUNDS, repair->bad_count, crossing, CW_MM(x));
 done:
   return status;
 }

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "mesher/common/incident.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/layers/layers_inner.h"
 
 static int find_near(const CwLayerWork *work, int32_t v, int32_t w) {
@@ -37,15 +38,13 @@ static CwStatus check_vertex(const CwLayerInput *in, int32_t v) {
   CW_REQUIRE(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]), CW_ERR_INPUT,
              "layers: wall vertex %d has a coordinate that is not a number", v);
   CW_REQUIRE(isfinite(in->target[v]) && in->target[v] > 0, CW_ERR_INPUT,
-             "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", in->target[v] * 1e3, x[0] * 1e3,
-             x[1] * 1e3, x[2] * 1e3);
+             "layers: height %g mm asked at (%.4f, %.4f, %.4f) mm; it must be above 0", cw_mm(in->target[v]), CW_MM(x));
   int guides = in->guide_count ? in->guide_count[v] : 0;
   CW_REQUIRE(guides >= 0 && guides <= 2, CW_ERR_INPUT, "layers: %d guides at (%.4f, %.4f, %.4f) mm; allowed are 0 to 2",
-             guides, x[0] * 1e3, x[1] * 1e3, x[2] * 1e3);
+             guides, CW_MM(x));
   for (int i = 0; i < guides; i++)
     CW_REQUIRE(fabs(cw_norm(in->guide_normal[v][i]) - 1) < 1e-6, CW_ERR_INPUT,
-               "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", x[0] * 1e3, x[1] * 1e3,
-               x[2] * 1e3);
+               "layers: guide normal at (%.4f, %.4f, %.4f) mm is not a unit vector", CW_MM(x));
 done:
   return status;
 }
@@ -68,7 +67,7 @@ static CwStatus list_near(void *context, int32_t v, void *out) {
   int32_t *list = out, count = 0, room = 2 * (work->face_start[v + 1] - work->face_start[v]);
   CW_TRY(check_vertex(in, v));
   CW_REQUIRE(room > 0, CW_ERR_INPUT, "layers: vertex %d at (%.4f, %.4f, %.4f) mm belongs to no wall triangle", v,
-             in->x[v][0] * 1e3, in->x[v][1] * 1e3, in->x[v][2] * 1e3);
+             CW_MM(in->x[v]));
   for (int32_t k = work->face_start[v]; k < work->face_start[v + 1]; k++) {
     const int32_t *corner = in->triangle[work->face[k]];
     for (int i = 0; i < 3; i++) {
@@ -118,8 +117,7 @@ static CwStatus find_normal(void *context, int32_t f, void *out) {
   double e1[3], e2[3], *normal = out;
   area_vector(in, f, e1, e2, normal);
   CW_REQUIRE(cw_unit(normal) > 1e-12 * (cw_dot(e1, e1) + cw_dot(e2, e2)), CW_ERR_INPUT,
-             "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", in->x[corner[0]][0] * 1e3,
-             in->x[corner[0]][1] * 1e3, in->x[corner[0]][2] * 1e3);
+             "layers: wall triangle without area at (%.4f, %.4f, %.4f) mm", CW_MM(in->x[corner[0]]));
 done:
   return status;
 }

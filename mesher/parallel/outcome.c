@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/parallel/schedule.h"
 
 void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3], const char *format, ...) {
@@ -22,8 +23,7 @@ const char *cw_outcome_text(const CwOutcome *outcome, char text[CW_OUTCOME_TEXT_
   const double *x = outcome->place;
   int used = snprintf(text, CW_OUTCOME_TEXT_SIZE, "%s", outcome->reason);
   if (outcome->has_place) {
-    snprintf(text + used, (size_t)(CW_OUTCOME_TEXT_SIZE - used), " at (%.3f, %.3f, %.3f) mm", 1e3 * x[0], 1e3 * x[1],
-             1e3 * x[2]);
+    snprintf(text + used, (size_t)(CW_OUTCOME_TEXT_SIZE - used), " at (%.3f, %.3f, %.3f) mm", CW_MM(x));
   }
   return text;
 }

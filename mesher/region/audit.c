@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "mesher/common/mix.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/quality.h"
 #include "pipeline/mesh/cell.h"
 #include "pipeline/mesh/region_faces.h"
@@ -76,7 +77,7 @@ static CwStatus check_indices(const CwRegionMesh *r) {
   }
   for (int32_t p = 0; p < r->point_count; p++) {
     CW_REQUIRE(used[p], CW_ERR_MESH, "%s region %d: point %d at (%.6g, %.6g, %.6g) mm belongs to no cell", r->domain,
-               r->region, p, 1e3 * r->x[p][0], 1e3 * r->x[p][1], 1e3 * r->x[p][2]);
+               r->region, p, CW_MM(r->x[p]));
   }
 done:
   free(used);
@@ -118,9 +119,9 @@ static CwStatus check_volume(const CwRegionMesh *r, const CwRegionData *data, in
   if (!(*volume > doubt)) {
     double centre[3];
     cw_cell_centre(data, cell, centre);
-    status = CW_FAIL(
-        CW_ERR_MESH, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3", r->domain,
-        r->region, cell_name(*corners), cell, 1e3 * centre[0], 1e3 * centre[1], 1e3 * centre[2], 1e9 * *volume);
+    status =
+        CW_FAIL(CW_ERR_MESH, "%s region %d: %s of cell %d at (%.6g, %.6g, %.6g) mm has no positive volume: %.3g mm3",
+                r->domain, r->region, cell_name(*corners), cell, CW_MM(centre), cw_mm3(*volume));
   }
   return status;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/hash.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_sure.h"
 #include "mesher/heights/layer_heights.h"
@@ -291,8 +292,7 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
     CW_REQUIRE(mesh->triangle_cell[build->boundary.wall_count + t] >= 0, CW_ERR_MESH,
                "%s region %d: a face of patch %s at (%.3f, %.3f, %.3f) mm has no tetrahedron", build->context->domain,
                build->region + 1,
-               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), 1e3 * x[0],
-               1e3 * x[1], 1e3 * x[2]);
+               cw_cad_patch_name(skeleton->cad, mesh->triangle_patch[build->boundary.wall_count + t]), CW_MM(x));
   }
 done:
   free(face);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/hash.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/heights/layer_heights.h"
 
@@ -46,7 +47,7 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
   int32_t from = node_of(context, id), node = cw_orbit_node(&skeleton->orbits, from, turns);
   int64_t level = id - context->shared_base[from];
   CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no turned copy", context->domain,
-             1e3 * skeleton->node_x[from][0], 1e3 * skeleton->node_x[from][1], 1e3 * skeleton->node_x[from][2]);
+             CW_MM(skeleton->node_x[from]));
   *turned = context->shared_base[node] + level;
   if (node < skeleton->wall_count && level < context->layer_count) {
     double fraction[CW_LAYERS_MOST + 1];
@@ -96,8 +97,7 @@ CwStatus cw_region_copy(const CwRegionContext *context, const CwRegionMesh *firs
     CW_TRY(turned_point(context, first->shared_id[i], turns, &mesh->shared_id[i], mesh->x[i]));
     CW_REQUIRE(cw_distance(turned, mesh->x[i]) < SAME_POINT, CW_ERR_MESH,
                "%s region %d: a shared point at (%.3f, %.3f, %.3f) mm lies %.3g mm off its turned copy",
-               context->domain, mesh->region, 1e3 * turned[0], 1e3 * turned[1], 1e3 * turned[2],
-               1e3 * cw_distance(turned, mesh->x[i]));
+               context->domain, mesh->region, CW_MM(turned), cw_mm(cw_distance(turned, mesh->x[i])));
   }
   struct {
     const void *from;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "mesher/common/intersect.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "pipeline/atomic_file.h"
 
@@ -21,7 +22,9 @@ static CwStatus write_boundary(const CwRegionBoundary *boundary, const uint8_t *
   fprintf(file.stream, "# vtk DataFile Version 3.0\n%s, m\nASCII\nDATASET POLYDATA\nPOINTS %d double\n", name,
           boundary->node_count);
   for (int32_t p = 0; p < boundary->node_count; p++) {
-    fprintf(file.stream, "%.17g %.17g %.17g\n", boundary->x[p][0], boundary->x[p][1], boundary->x[p][2]);
+    double x[3];
+    for (int k = 0; k < 3; k++) x[k] = cw_model_unit() * boundary->x[p][k];
+    fprintf(file.stream, "%.17g %.17g %.17g\n", x[0], x[1], x[2]);
   }
   fprintf(file.stream, "POLYGONS %d %d\n", count, 4 * count);
   for (int32_t t = 0; t < count; t++) {

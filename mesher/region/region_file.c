@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "mesher/common/model_unit.h"
+
 static CwStatus write_attribute(hid_t file, const char *name, hid_t type, const void *data) {
   CwStatus status = CW_OK;
   hid_t space = H5Screate(H5S_SCALAR);
@@ -74,9 +76,19 @@ static void take_data(const CwRegionData *data, CwRegionMesh *r) {
   r->quad_cell = data->quad_cell;
 }
 
+static void multiply(int32_t count, const double (*x)[3], double by, double (*to)[3]) {
+  for (int32_t p = 0; p < count; p++) {
+    for (int k = 0; k < 3; k++) to[p][k] = by * x[p][k];
+  }
+}
+
 static CwStatus write_items(hid_t file, const CwRegionMesh *r) {
   CwStatus status = CW_OK;
-  const CwRegionData data = cw_region_data(r);
+  CwRegionData data = cw_region_data(r);
+  double(*metres)[3] = NULL;
+  CW_NEW_UNSET(metres, r->point_count);
+  multiply(r->point_count, (const double(*)[3])r->x, cw_model_unit(), metres);
+  data.points = metres;
   CW_TRY(write_integer(file, "format", CW_REGION_FORMAT));
   CW_TRY(write_text(file, "domain", r->domain));
   CW_TRY(write_integer(file, "region", r->region));
@@ -87,6 +99,7 @@ static CwStatus write_items(hid_t file, const CwRegionMesh *r) {
   CW_TRY(write_integer(file, "tetgen", r->recovery.tetgen));
   CW_TRY(cw_region_items_write(file, &data));
 done:
+  free(metres);
   return status;
 }
 
@@ -151,6 +164,7 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   take_data(&data, r); // what was read before a failure is freed with the region
   CW_TRY(status);
   CW_TRY(cw_region_items_check(path, CW_REGION_WHOLE, INT32_MAX, INT64_MAX, &data));
+  multiply(r->point_count, (const double(*)[3])r->x, 1 / cw_model_unit(), r->x);
 done:
   return status;
 }

@@ -135,14 +135,16 @@ double cw_domain_tet_integral(const CwDomain *domain, double scale) {
   return fmax(domain->volume_integral - layers, 0.1 * domain->volume_integral);
 }
 
-CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
-                        const CwFlowScales *scales) {
-  CwStatus status = CW_OK;
+CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir) {
   memset(domain, 0, sizeof *domain);
   domain->name = name;
+  return cw_cad_open(geometry_dir, name, &domain->cad);
+}
+
+CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales *scales) {
+  CwStatus status = CW_OK;
   domain->layer_count = table->walls.layer_count;
   domain->layer_share = CW_LAYER_SHARE;
-  CW_TRY(cw_cad_open(geometry_dir, name, &domain->cad));
   CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
   CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
   cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_layers);

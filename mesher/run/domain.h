@@ -49,9 +49,9 @@ typedef struct {
   CwInterfaceRuleCounts rule;
 } CwDomain;
 
-// Opens the exact geometry.
-CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir, const CwCase *table,
-                        const CwFlowScales *scales);
+// Opens the exact geometry; then, once it has the unit of the model, notes what the case asks of its patches.
+CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir);
+CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales *scales);
 
 // What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
 // part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these

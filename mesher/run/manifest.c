@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/tet_bound.h"
 #include "mesher/heights/layer_heights.h"
@@ -14,6 +15,11 @@
 #include "pipeline/log.h"
 
 static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};
+
+// A length, area or volume of the run in m, m2 or m3.
+static json_t *metres_json(double value, int dimension) {
+  return cw_json_number(value * pow(cw_model_unit(), dimension));
+}
 
 static json_t *patches_json(const CwDomain *domain) {
   json_t *patches = json_array();
@@ -54,7 +60,7 @@ static json_t *manifest_json(const CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     json_array_append_new(domains, json_pack("{s:s, s:I, s:o, s:o, s:o}", "name", domain->name, "shared_points",
                                              (json_int_t)domain->context.shared_count, "solid_volume_m3",
-                                             cw_json_number(domain->solid_volume), "patches", patches_json(domain),
+                                             metres_json(domain->solid_volume, 3), "patches", patches_json(domain),
                                              "regions", regions_json(run, d)));
   }
   return json_pack("{s:i, s:o, s:o}", "format", 1, "domains", domains, "interfaces", interfaces_json(&run->domains));
@@ -112,9 +118,9 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:I, s:I, s:I}", "patch", cw_cad_patch_name(domain->cad, patch),
       "wall_faces", (json_int_t)sum.faces, "full_thickness_faces", (json_int_t)sum.full, "first_height_met_faces",
-      (json_int_t)sum.first_met, "first_height_target_m", cw_json_number(target->first_height), "mean_thickness_m",
-      cw_json_number(sum.faces ? sum.thickness / (double)sum.faces : 0), "least_thickness_m",
-      cw_json_number(sum.faces ? sum.least : 0), "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP],
+      (json_int_t)sum.first_met, "first_height_target_m", metres_json(target->first_height, 1), "mean_thickness_m",
+      metres_json(sum.faces ? sum.thickness / (double)sum.faces : 0, 1), "least_thickness_m",
+      metres_json(sum.faces ? sum.least : 0, 1), "thinned_by_gap_faces", (json_int_t)sum.reason[CW_LAYER_GAP],
       "thinned_by_gradation_faces", (json_int_t)sum.reason[CW_LAYER_GRADATION], "thinned_by_repair_faces",
       (json_int_t)sum.reason[CW_LAYER_REPAIR]);
   json_object_set_new(result, "growth_ratio_most", cw_json_number(target->growth));
@@ -127,8 +133,8 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
   if (sum.thin > 0) {
     json_object_set_new(result, "thin_prisms_height_wanted", cw_json_number(sum.thin_wanted));
     json_object_set_new(result, "thinnest_prism_at_m",
-                        json_pack("[o, o, o]", cw_json_number(sum.thin_at[0]), cw_json_number(sum.thin_at[1]),
-                                  cw_json_number(sum.thin_at[2])));
+                        json_pack("[o, o, o]", metres_json(sum.thin_at[0], 1), metres_json(sum.thin_at[1], 1),
+                                  metres_json(sum.thin_at[2], 1)));
   }
   cw_put_layer_ratio(&ratio, result);
   return result;
@@ -241,9 +247,9 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
-      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", cw_json_number(quality.volume),
-      "solid_volume_m3", cw_json_number(solid), "volume_error", cw_json_number(quality.volume / solid - 1),
-      "least_cell_volume_m3", cw_json_number(quality.least_volume));
+      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", metres_json(quality.volume, 3),
+      "solid_volume_m3", metres_json(solid, 3), "volume_error", cw_json_number(quality.volume / solid - 1),
+      "least_cell_volume_m3", metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));
@@ -271,7 +277,7 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     double area = 0;
     for (int32_t r = 0; r < domain->plan.region_count; r++) area += run->summary[d][r].patch_area[p];
     json_array_append_new(patches, json_pack("{s:s, s:s, s:o}", "name", cw_cad_patch_name(domain->cad, p), "kind",
-                                             KIND_NAMES[kind], "area_m2", cw_json_number(area)));
+                                             KIND_NAMES[kind], "area_m2", metres_json(area, 2)));
     if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
   warn_of_thin(domain->name, coverage);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/sides.h"
 #include "mesher/run/run_step.h"
@@ -162,6 +163,22 @@ done:
   return status;
 }
 
+// Brings the solids to the unit of the model, which their size decides.
+static CwStatus settle_unit(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwBox box = cw_box_empty();
+  double extent = 0;
+  for (int d = 0; d < run->domains.count; d++) cw_cad_add_to_box(run->domain[d].cad, &box);
+  for (int k = 0; k < 3; k++) extent = fmax(extent, box.high[k] - box.low[k]);
+  CW_REQUIRE(extent > 0 && isfinite(extent), CW_ERR_INPUT, "%s/geometry: the solids have no extent", run->run_path);
+  int power = cw_model_unit_power(extent);
+  cw_model_unit_set(power);
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_cad_rescale(run->domain[d].cad, -power));
+  cw_log_debug("the model reaches over %.6g mm; the unit of lengths is 2^%d m", 1e3 * extent, power);
+done:
+  return status;
+}
+
 CwStatus cw_mesh_open(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwFlowScales scales;
@@ -173,11 +190,13 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
   snprintf(path, sizeof path, "%s/geometry", run->run_path);
   CW_TRY(cw_domain_table_read(path, &run->domains));
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path, run->table, &scales));
+    CW_TRY(cw_domain_open(&run->domain[d], run->domains.name[d], path));
     CW_REQUIRE(cw_cad_patch_count(run->domain[d].cad) <= CW_PATCH_LIMIT, CW_ERR_INPUT,
                "%s: %s has %d patches; at most %d are allowed", path, run->domains.name[d],
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
   }
+  CW_TRY(settle_unit(run));
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_ask(&run->domain[d], run->table, &scales));
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
   CW_TRY(triangulate_domains(run));
@@ -240,7 +259,7 @@ static void log_plan(const CwMeshRun *run, int d) {
     worst = fmin(worst, domain->plan.worst_angle[n]);
     cw_log_debug("%s: plane %d under %d: normal (%.4f, %.4f, %.4f) at %.3f mm, %.0f degrees to the walls", domain->name,
                  n, domain->plan.node[n].parent, plane->normal[0], plane->normal[1], plane->normal[2],
-                 1e3 * plane->offset, asin(domain->plan.worst_angle[n]) * 180 / M_PI);
+                 cw_mm(plane->offset), asin(domain->plan.worst_angle[n]) * 180 / M_PI);
   }
   cw_log("%s: %d regions, %.0f cells predicted, planes at least %.0f degrees to the walls", domain->name,
          domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "pipeline/log.h"
 
 enum { ATTEMPTS = 3 };
@@ -81,8 +82,7 @@ static void describe(const CwMeshRun *run, const CwThinPlace *place, size_t size
   char region[24] = "", at[160] = "no place is known";
   if (place->region >= 0) snprintf(region, sizeof region, " region %d", place->region + 1);
   if (!failure->everywhere) {
-    snprintf(at, sizeof at, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, 1e3 * failure->at[0], 1e3 * failure->at[1],
-             1e3 * failure->at[2]);
+    snprintf(at, sizeof at, "at %s, (%.3f, %.3f, %.3f) mm", failure->patch, CW_MM(failure->at));
   }
   snprintf(text, size, "%s%s, %s: %s", run->domain[place->domain].name, region, at, failure->message);
 }

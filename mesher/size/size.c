@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/cad/scanlines.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/size/size_grid.h"
 #include "mesher/size/size_sources.h"
 
@@ -32,7 +33,7 @@ struct CwSize {
 static CwStatus check_input(const CwSizeInput *input) {
   CwStatus status = CW_OK;
   CW_REQUIRE(input->base_size > 0 && isfinite(input->base_size), CW_ERR_USAGE,
-             "base size %g m must be greater than zero", input->base_size);
+             "base size %g mm must be greater than zero", cw_mm(input->base_size));
   CW_REQUIRE(input->table->gradation > 0 && input->table->curvature_angle > 0, CW_ERR_USAGE,
              "gradation %g and curvature angle %g rad must be greater than zero", input->table->gradation,
              input->table->curvature_angle);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "mesher/common/incident.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/layers/layers_crossing.h"
 #include "mesher/parallel/ledger.h"
@@ -293,7 +294,7 @@ static CwStatus check(const Part *part, const CwLayers *made, const CwLayers *la
     mark(part, f, bad);
   }
   cw_log_debug("layers of one passage: %d of %d wall triangles, columns within %.2g mm of their turned copies",
-               in->triangle_count, part->wall.whole->triangle_count, 1e3 * most);
+               in->triangle_count, part->wall.whole->triangle_count, cw_mm(most));
   if (*bad_count || most < SAME) goto done; // crossings only between sound prisms
   CW_TRY(cw_layers_crossing_make(&spread.work, &crossing));
   CW_TRY(cw_layers_crossing_find(&crossing, (const double(*)[3])spread.front, spread.moved));
@@ -387,7 +388,7 @@ CwStatus cw_orbit_layers(const CwSkeleton *skeleton, const CwLayerInput *input, 
     while (!bad[first]) first++;
     near = input->x[first];
     cw_log_debug("%d prisms and pairs of the front do not fit their turned copies, near (%.3f, %.3f, %.3f) mm",
-                 bad_count, 1e3 * near[0], 1e3 * near[1], 1e3 * near[2]);
+                 bad_count, CW_MM(near));
     CW_TRY(thin(&part, bad, layers));
   }
   CW_END_UNLESS(!bad_count, outcome, CW_OUTCOME_ASYMMETRIC, near,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/parallel/share.h"
@@ -99,7 +100,7 @@ static CwStatus corner_guide(const CwSkeleton *skeleton, int32_t corner, CwGuide
   }
   CW_REQUIRE(free_curves <= 1, CW_ERR_MESH,
              "%d dividing planes or caps meet in one point of the wall at (%.3f, %.3f, %.3f) mm; at most two can",
-             free_curves + 1, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
+             free_curves + 1, CW_MM(x));
 done:
   return status;
 }
@@ -326,8 +327,7 @@ static CwStatus check_triangle(void *context, int32_t t, void *out) {
     const double *x = skeleton->wall_x[skeleton->wall_triangle[t][k]];
     CW_REQUIRE(cw_plan_in_region(skeleton->plan, skeleton->wall_region[t], x, ON_PLANE), CW_ERR_MESH,
                "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
-               cw_cad_face_name(skeleton->cad, skeleton->wall_face[t]), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
-               skeleton->wall_region[t] + 1);
+               cw_cad_face_name(skeleton->cad, skeleton->wall_face[t]), CW_MM(x), skeleton->wall_region[t] + 1);
   }
   *(uint8_t *)out = 1;
 done:

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/common/model_unit.h"
+
 namespace {
 
 struct FaceInfo {
@@ -47,7 +49,7 @@ Pair sorted_pair(int32_t a, int32_t b) {
 #define PLACE "(%.6g, %.6g, %.6g) mm, (u,v) = (%.9g, %.9g)"
 // What helps where edges are too long for what they go round, or cuts leave the layers no room.
 #define ADVICE "; ask for more cells, for fewer regions or for thinner layers"
-#define PLACE_OF(p) 1e3 * input->x[p][0], 1e3 * input->x[p][1], 1e3 * input->x[p][2], input->uv[p][0], input->uv[p][1]
+#define PLACE_OF(p) CW_MM(input->x[p]), input->uv[p][0], input->uv[p][1]
 
 CwStatus check_numbers(const CwPatchInput *input, const double scale[2]) {
   CwStatus status = CW_OK;
@@ -100,7 +102,7 @@ CwStatus fail_crossing(const CwPatchInput *input, const std::vector<Vertex> &ver
         CGAL::orientation(at(a), at(b), at(c)) == CGAL::orientation(at(a), at(b), at(d)))
       continue;
     double t = ca == cb ? 0.5 : ca / (ca - cb), x[3], uv[2];
-    for (int k = 0; k < 3; k++) x[k] = 1e3 * ((1 - t) * input->x[a][k] + t * input->x[b][k]);
+    for (int k = 0; k < 3; k++) x[k] = cw_mm((1 - t) * input->x[a][k] + t * input->x[b][k]);
     for (int k = 0; k < 2; k++) uv[k] = (1 - t) * input->uv[a][k] + t * input->uv[b][k];
     return CW_FAIL(CW_ERR_MESH,
                    "patch %s: edges %d (points %d and %d) and %d (points %d and %d) cross at " PLACE ADVICE,

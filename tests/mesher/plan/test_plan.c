@@ -38,7 +38,8 @@ static void check(CwStatus status) {
 static void open_domain(CwDomain *made, const char *name, const char *folder, const CwFlowScales *scales) {
   void **part, **seed, **field;
   int64_t size;
-  check(cw_domain_open(made, name, folder, &table, scales));
+  check(cw_domain_open(made, name, folder));
+  check(cw_domain_ask(made, &table, scales));
   int faces = cw_cad_face_count(made->cad);
   part = calloc((size_t)faces, sizeof *part);
   assert_non_null(part);

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 #include <hdf5.h>
 
+#include "mesher/common/model_unit.h"
 #include "mesher/region/region_file.h"
 #include "tests/refused_write.h"
 
@@ -68,6 +69,21 @@ static void comes_back_as_it_was(void **state) {
   assert_memory_equal(got.quad, quads, sizeof quads);
   assert_memory_equal(got.quad_patch, quad_patch, sizeof quad_patch);
   assert_memory_equal(got.quad_cell, quad_cell, sizeof quad_cell);
+  cw_region_free(&got);
+}
+
+static void file_is_in_metres(void **state) {
+  CwRegionMesh r = region_by_hand(), got;
+  cw_model_unit_set(3);
+  assert_int_equal(cw_region_write(path, &r), CW_OK);
+  assert_int_equal(cw_region_read(path, &got), CW_OK);
+  assert_memory_equal(got.x, points, sizeof points);
+  cw_region_free(&got);
+  cw_model_unit_set(0);
+  assert_int_equal(cw_region_read(path, &got), CW_OK);
+  for (int p = 0; p < 7; p++) {
+    for (int k = 0; k < 3; k++) assert_true(got.x[p][k] == 8 * points[p][k]);
+  }
   cw_region_free(&got);
 }
 
@@ -161,11 +177,9 @@ static void no_write_is_lost_unseen(void **state) {
 int main(void) {
   H5dont_atexit(); // HDF5 stumbles there over files that could not be closed
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(comes_back_as_it_was),
-      cmocka_unit_test(equal_regions_give_equal_bytes),
-      cmocka_unit_test(current_only_with_the_fingerprint_and_whole),
-      cmocka_unit_test(wrong_index_is_named),
-      cmocka_unit_test(folder_that_is_not_there_is_an_io_error),
+      cmocka_unit_test(comes_back_as_it_was),           cmocka_unit_test(file_is_in_metres),
+      cmocka_unit_test(equal_regions_give_equal_bytes), cmocka_unit_test(current_only_with_the_fingerprint_and_whole),
+      cmocka_unit_test(wrong_index_is_named),           cmocka_unit_test(folder_that_is_not_there_is_an_io_error),
       cmocka_unit_test(no_write_is_lost_unseen),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);

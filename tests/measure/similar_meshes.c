@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Whether two meshes are one but for their size.
+//
+//   similar_meshes RUN OTHER_RUN POWER DOMAIN...
+//
+// All cells, boundary faces and shared numbers are to be the same, and every coordinate of OTHER_RUN 2^POWER times that
+// of RUN, to the last bit. Prints what differs first and returns 1 where something does.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/measure/domain_mesh.h"
+
+static CwStatus same_items(const char *what, const CwRegionMesh *a, int64_t count, int64_t other_count, size_t size,
+                           const void *items, const void *other) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(count == other_count && !memcmp(items, other, (size_t)count * size), CW_ERR_INPUT,
+             "%s region %d: the %s differ", a->domain, a->region, what);
+done:
+  return status;
+}
+
+static CwStatus compare(const CwRegionMesh *a, const CwRegionMesh *b, int power) {
+  CwStatus status = CW_OK;
+#define SAME(items, count) CW_TRY(same_items(#items, a, a->count, b->count, sizeof *a->items, a->items, b->items))
+  SAME(shared_id, shared_count);
+  SAME(tetrahedron, tetrahedron_count);
+  SAME(pyramid, pyramid_count);
+  SAME(prism, prism_count);
+  SAME(triangle, triangle_count);
+  SAME(triangle_patch, triangle_count);
+  SAME(triangle_cell, triangle_count);
+  SAME(quad, quad_count);
+  SAME(quad_patch, quad_count);
+  SAME(quad_cell, quad_count);
+#undef SAME
+  CW_REQUIRE(a->point_count == b->point_count, CW_ERR_INPUT, "%s region %d: %d and %d points", a->domain, a->region,
+             a->point_count, b->point_count);
+  for (int32_t p = 0; p < a->point_count; p++) {
+    for (int k = 0; k < 3; k++)
+      CW_REQUIRE(ldexp(a->x[p][k], power) == b->x[p][k], CW_ERR_INPUT, "%s region %d: point %d: %.17g and %.17g m",
+                 a->domain, a->region, p, a->x[p][k], b->x[p][k]);
+  }
+done:
+  return status;
+}
+
+static CwStatus compare_domain(const char *run, const char *other, int power, const char *domain, int32_t *regions) {
+  CwStatus status = CW_OK;
+  CwDomainMesh a = {0}, b = {0};
+  char path[4096];
+  snprintf(path, sizeof path, "%s/mesh", run);
+  CW_TRY(cw_domain_mesh_read(path, domain, &a));
+  snprintf(path, sizeof path, "%s/mesh", other);
+  CW_TRY(cw_domain_mesh_read(path, domain, &b));
+  CW_REQUIRE(a.region_count == b.region_count, CW_ERR_INPUT, "%s: %d and %d regions", domain, a.region_count,
+             b.region_count);
+  for (int32_t r = 0; r < a.region_count; r++) CW_TRY(compare(&a.region[r], &b.region[r], power));
+  *regions += a.region_count;
+done:
+  cw_domain_mesh_free(&a);
+  cw_domain_mesh_free(&b);
+  return status;
+}
+
+int main(int argc, char **argv) {
+  CwStatus status = CW_OK;
+  int32_t regions = 0;
+  CW_REQUIRE(argc >= 5, CW_ERR_USAGE, "similar_meshes RUN OTHER_RUN POWER DOMAIN...");
+  for (int i = 4; i < argc; i++) CW_TRY(compare_domain(argv[1], argv[2], atoi(argv[3]), argv[i], &regions));
+  printf("%d regions alike\n", regions);
+done:
+  if (status != CW_OK) printf("%s\n", cw_fail_message());
+  return status == CW_OK ? 0 : 1;
+}
