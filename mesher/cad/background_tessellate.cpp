@@ -39,7 +39,7 @@ struct CwTessellation {
 
 namespace {
 
-const double POINTS_FOR_AREA = 0.14; // 1/mm2: of a face that bends both ways, by that of its box
+const double POINTS_FOR_AREA = 2e-4; // per deflection squared: of a face that bends both ways, by that of its box
 
 // A face as it travels between ranks: head, nodes, triangles, and for each of its edges, ascending, number, count of
 // nodes and the nodes in the order of the edge's parameter.
@@ -337,7 +337,8 @@ double cw_tessellation_cost(const CwTessellation *tessellation, int face) {
   }
   GeomAbs_SurfaceType type = cad->face[face].surface.GetType();
   bool ruled = type == GeomAbs_Plane || type == GeomAbs_Cylinder || type == GeomAbs_Cone; // no points inside
-  return ruled || box.IsVoid() ? points : points + POINTS_FOR_AREA * box.SquareExtent();
+  double deflection = tessellation->context->GetParameters().Deflection;
+  return ruled || box.IsVoid() ? points : points + POINTS_FOR_AREA * box.SquareExtent() / (deflection * deflection);
 }
 
 CwStatus cw_tessellation_face(const CwTessellation *tessellation, int face, void **bytes, int64_t *byte_count) {

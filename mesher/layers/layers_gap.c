@@ -183,7 +183,7 @@ static CwStatus find_most(void *context, int32_t v, void *out) {
     // Without guides: the fan sees to what those tilt. Of the edge's length squared, by the height:
     double closing = cw_dot(e, work->normal[v]) / fmax(work->normal_cos[v], cw_layers_floor(work, v)) -
                      cw_dot(e, work->normal[w]) / fmax(work->normal_cos[w], cw_layers_floor(work, w));
-    most = fmin(most, share * cw_dot(e, e) / fmax(closing, 1e-30));
+    if (closing > 0) most = fmin(most, share * cw_dot(e, e) / closing);
   }
   *(double *)out = most;
   return CW_OK;

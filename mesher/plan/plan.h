@@ -51,6 +51,7 @@ typedef struct {
   const double *thickness; // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
   const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
   double tallest;
+  double base_size;    // at which the model is looked at: a wanted edge length of a mesh of about a million cells
   double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
 } CwPlanOptions;
 

@@ -9,11 +9,12 @@
 #include "mesher/plan/fan.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, HITS_MOST = 64 };
-static const double LINE_STEP = 1e-3; // m between samples of a line
-static const double ROOM = 1.5;       // thicknesses of the layers: lines of two planes start behind the layers
+static const double LINE_STEP = 0.5; // base sizes between samples of a line
+static const double ROOM = 1.5;      // thicknesses of the layers: lines of two planes start behind the layers
 // Edge lengths between two lines on one interface: nearer than the first they are one, from the second on they
 // have room.
 static const double SAME_LINE = 1, APART = 3;
+static const double NEIGHBOUR_REACH = 5; // base sizes: planes farther from a line do not matter to it
 static const double SAME_POINT = 1e-9;   // m
 static const double LEANING = 0.55;      // cosine of a line to a wall's normal: columns that lean more are lower
 static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
@@ -206,7 +207,7 @@ static void judge_run(const Line *line, const CwPlanPart *part, End *from, End *
   if (lines->impossible) return;
   cramped = fmax(cramped, judge_crossings(line, from->place, to->place, lines));
   if (taken > 0) cramped = fmax(cramped, shortage(run, taken, ROOM * taken));
-  int samples = (int)fmin(fmax(ceil(run / LINE_STEP), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
+  int samples = (int)fmin(fmax(ceil(run / (LINE_STEP * model->base_size)), LINE_SAMPLES_LEAST), LINE_SAMPLES_MOST);
   double step = run / samples;
   for (int i = 0; i < samples && !lines->impossible; i++) {
     double x[3], s = from->place + step * (i + 0.5);
@@ -242,7 +243,7 @@ static CwStatus judge_line(Line *line, int32_t node, const CwPlanPart *part, con
     if (i < hits) to.place = hit[i].place, to.triangle = hit[i].triangle;
     at(line, (from.place + to.place) / 2, x);
     if (to.place - from.place > SAME_POINT && cw_inside_test(line->model->inside, x)) {
-      if (!found) CW_TRY(find_neighbours(line, node, plane, 10e-3));
+      if (!found) CW_TRY(find_neighbours(line, node, plane, NEIGHBOUR_REACH * line->model->base_size));
       found = 1;
       lines->sharp = fmin(lines->sharp, sine);
       judge_run(line, part, &from, &to, lines);

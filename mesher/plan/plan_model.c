@@ -14,7 +14,7 @@ enum {
   TOGETHER = 8,             // places of the size field in one sample, at most
   PARTS_ALONG = 4           // parts of a place along each side, at most
 };
-static const double EDGE_STEP = 0.5e-3;   // m between points along CAD edges
+static const double EDGE_STEP = 0.25;     // base sizes between points along CAD edges
 static const double SMOOTH_COSINE = 0.98; // between the faces of an edge that is no feature
 // Room that planes keep, in thicknesses of the layers there: beside an edge its columns and those of the plane's cut
 // want a cell between them; beside a smooth edge only the surface triangles do.
@@ -22,10 +22,10 @@ static const double EDGE_ROOM = 2, SMOOTH_ROOM = 0.5;
 static const double TOUCH_ROOM = 0.5; // between a cut and an edge beside it, in wanted lengths
 // Predicted tetrahedra: those of the lattice, and a shell of them that fits it to the front (the paper's pump from 1 to
 // 20 million cells, by region).
-static const double LATTICE = 8.4;      // per volume / h^3
-static const double SHELL = 4.2;        // per area of the walls / h^2
-static const double WALL_STEP = 2e-3;   // m: between points on walls, at most
-static const double FIRST_REACH = 2e-3; // m: how far the wall near a place is looked for first
+static const double LATTICE = 8.4;   // per volume / h^3
+static const double SHELL = 4.2;     // per area of the walls / h^2
+static const double WALL_STEP = 1;   // base sizes between points on walls, at most
+static const double FIRST_REACH = 1; // base sizes: how far the wall near a place is looked for first
 
 int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
   int face[2];
@@ -40,23 +40,23 @@ int cw_plan_edge_is_smooth(const CwCad *cad, int edge) {
   return cw_dot(normal[0], normal[1]) > SMOOTH_COSINE;
 }
 
-static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2]) {
+static int32_t points_of_edge(const CwCad *cad, int edge, const double range[2], double step) {
   double before[3], x[3], length = 0;
   for (int i = 0; i <= EDGE_ROUGH; i++) {
     cw_cad_edge_point(cad, edge, range[0] + (range[1] - range[0]) * i / EDGE_ROUGH, x, NULL);
     if (i > 0) length += cw_distance(before, x);
     cw_copy(x, before);
   }
-  return (int32_t)fmin(fmax(ceil(length / EDGE_STEP) + 1, EDGE_POINTS_LEAST), EDGE_POINTS_MOST);
+  return (int32_t)fmin(fmax(ceil(length / step) + 1, EDGE_POINTS_LEAST), EDGE_POINTS_MOST);
 }
 
 static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwPlanModel *model) {
   CwStatus status = CW_OK;
   int32_t most = 0;
-  double range[2];
+  double range[2], step = EDGE_STEP * options->base_size;
   for (int e = 0; e < cw_cad_edge_count(cad); e++) {
     cw_cad_edge_range(cad, e, range);
-    most += points_of_edge(cad, e, range);
+    most += points_of_edge(cad, e, range, step);
   }
   CW_NEW(model->edge_x, most);
   CW_NEW(model->edge_tangent, most);
@@ -73,7 +73,7 @@ static CwStatus sample_edges(const CwCad *cad, const CwPlanOptions *options, CwP
     if (room == 0) continue; // between two caps
     int smooth = cw_plan_edge_is_smooth(cad, e);
     room *= smooth ? SMOOTH_ROOM : EDGE_ROOM;
-    int32_t points = points_of_edge(cad, e, range);
+    int32_t points = points_of_edge(cad, e, range, step);
     for (int32_t i = 0; i < points; i++) {
       int32_t at = model->edge_count++;
       cw_cad_edge_point(cad, e, range[0] + (range[1] - range[0]) * i / (points - 1), model->edge_x[at],
@@ -120,7 +120,7 @@ static int32_t divide_triangle(const CwPlanModel *model, int32_t t, double (*poi
   for (int k = 0; k < 3; k++) cw_copy(background->x[background->triangle[t][k]], stack[0].x[k]);
   while (top > 0) {
     Facet facet = stack[--top], other;
-    if (top + 2 <= PIECE_STACK && halve(&facet, WALL_STEP, &other)) {
+    if (top + 2 <= PIECE_STACK && halve(&facet, WALL_STEP * model->base_size, &other)) {
       stack[top++] = other;
       stack[top++] = facet;
       continue;
@@ -163,7 +163,8 @@ static CwStatus sample_walls(CwPlanModel *model) {
     for (int32_t i = start[t]; i < start[t + 1]; i++) model->wall_triangle[i] = t;
   }
   CW_TRY(cw_share_lists("decomposition", triangles, start, sizeof *model->wall_x, find_points, model, model->wall_x));
-  CW_TRY(cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP, &model->walls));
+  CW_TRY(
+      cw_cubes_make(model->wall_count, (const double(*)[3])model->wall_x, WALL_STEP * model->base_size, &model->walls));
 done:
   free(count);
   free(start);
@@ -192,10 +193,10 @@ static int32_t wall_point_near(const CwPlanModel *model, const double x[3], doub
 }
 
 CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double reach) {
-  double most = hypot(reach, 0.5 * WALL_STEP), square, d[3];
+  double step = WALL_STEP * model->base_size, most = hypot(reach, 0.5 * step), square, d[3];
   int32_t nearest = -1;
   // As a rule the wall is much nearer than the reach; the search is the dearer the farther it goes.
-  for (double radius = fmin(FIRST_REACH, most);; radius = fmin(2 * radius, most)) {
+  for (double radius = fmin(FIRST_REACH * model->base_size, most);; radius = fmin(2 * radius, most)) {
     nearest = wall_point_near(model, x, radius, &square);
     if (radius == most || (nearest >= 0 && square <= radius * radius)) break;
   }
@@ -205,7 +206,7 @@ CwPlanWall cw_plan_wall_near(const CwPlanModel *model, const double x[3], double
   // Beside a point the wall goes on: then its plane is what counts.
   cw_sub(x, model->wall_x[nearest], d);
   double off = fabs(cw_dot(d, model->normal[wall.triangle]));
-  if (square - off * off < WALL_STEP * WALL_STEP) wall.distance = off;
+  if (square - off * off < step * step) wall.distance = off;
   return wall;
 }
 
@@ -419,6 +420,7 @@ CwStatus cw_plan_model_make(const CwCad *cad, const CwBackground *background, co
   model->inside = inside;
   model->size = size;
   model->region_count = options->region_count;
+  model->base_size = options->base_size;
   CW_TRY(measure_walls(cad, options, model));
   CW_TRY(sample_walls(model));
   CW_TRY(sort_triangles(model));

@@ -19,6 +19,7 @@ typedef struct {
   double (*sample_x)[3];
   double *sample_volume, *sample_work; // m3; predicted tetrahedra, none within the layers
   double sample_spacing;               // m
+  double base_size;                    // see CwPlanOptions
   uint8_t *wall;                       // of each background triangle: on a wall
   double *density, *thickness;         // of each: predicted prisms per m2; of the layers, m
   double (*normal)[3];                 // of each background triangle

@@ -22,10 +22,8 @@ static const double LONGEST_AT_RIM = 16;    // of first heights: there prisms ha
 static const double LONGEST_ON_WALL = 30;   // of second heights: inside, prisms of the second layer are the thinnest
 static const double LARGEST_ON_WALL = 40;   // the same of an equilateral triangle as large as any may be
 static const double SAMPLE_STEP = 1.02;     // ratio of sizes of wall that count together
-static const double BASE_SIZE = 2e-3;       // m: edge length at relative size 1 and scale 1
-static const double SEED_AREA = 1e-6;       // m2, that takes as long to seed as a triangle does by itself
+static const double SEED_AREA = 0.25;       // of base sizes squared, that takes as long to seed as a triangle by itself
 static const double MORE_SEEDS = 0.12;      // of the triangles: as many take as long as edges or lines
-static const double DEFLECTION = 4e-5;      // m, of the background triangulation
 static const double DEFLECTION_ANGLE = 0.2; // rad
 
 static double triangle_area(const CwBackground *background, int32_t t, double centre[3]) {
@@ -152,8 +150,8 @@ done:
   return status;
 }
 
-CwStatus cw_domain_start_background(CwDomain *domain) {
-  return cw_tessellation_start(domain->cad, DEFLECTION, DEFLECTION_ANGLE, &domain->tessellation);
+CwStatus cw_domain_start_background(CwDomain *domain, double deflection) {
+  return cw_tessellation_start(domain->cad, deflection, DEFLECTION_ANGLE, &domain->tessellation);
 }
 
 double cw_domain_background_cost(const CwDomain *domain, int face) {
@@ -178,16 +176,16 @@ done:
 void cw_domain_seed_costs(const CwDomain *domain, double *cost) {
   const CwBackground *background = &domain->background;
   int faces = cw_cad_face_count(domain->cad);
-  double centre[3];
+  double centre[3], area = SEED_AREA * domain->base_size * domain->base_size;
   for (int32_t t = 0; t < background->triangle_count; t++)
-    cost[background->face[t]] += 1 + triangle_area(background, t, centre) / SEED_AREA;
+    cost[background->face[t]] += 1 + triangle_area(background, t, centre) / area;
   for (int i = faces; i < cw_size_seed_parts(domain->cad); i++) cost[i] = MORE_SEEDS * background->triangle_count;
 }
 
 CwStatus cw_domain_seed(CwDomain *domain, const CwCase *table, int part, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
   if (!domain->seeds) {
-    CW_TRY(cw_size_seeds_start(domain->cad, &domain->background, &table->mesh, domain->relative_size, BASE_SIZE,
+    CW_TRY(cw_size_seeds_start(domain->cad, &domain->background, &table->mesh, domain->relative_size, domain->base_size,
                                &domain->seeds));
   }
   CW_TRY(cw_size_seeds_part(domain->seeds, part, bytes, byte_count));
@@ -249,7 +247,7 @@ CwStatus cw_domain_make_size(const CwDomain *domain, const CwCase *table, double
     if (wall) wall[p] = longest_on_wall(domain, p) / wall_scale;
   }
   CwSizeLimits limits = {rim, wall};
-  CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, BASE_SIZE, &limits, seeds,
+  CW_TRY(cw_size_make(domain->cad, &domain->background, &mesh, domain->relative_size, domain->base_size, &limits, seeds,
                       (CwSizePart)part, bytes, byte_count));
 done:
   free(rim);
@@ -324,6 +322,7 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .thickness = thickness,
                            .least_thickness = least,
                            .tallest = CW_TALLEST_COLUMN,
+                           .base_size = domain->base_size,
                            .prism_factor = prism_factor};
   status = domain->symmetry
                ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,

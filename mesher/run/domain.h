@@ -30,6 +30,7 @@ typedef struct {
   CwSymmetry *symmetry; // of solid and plan; NULL: the domain is meshed whole
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
   CwSize *size;
+  double base_size;            // edge length at relative size 1 and scale 1; the same for all domains
   double *relative_size;       // of each patch
   CwLayerTarget *patch_layers; // of each patch
   int layer_count;
@@ -55,8 +56,9 @@ CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales
 
 // What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
 // part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these
-// few, for ranks that none is left for, what each face adds to the exact volume.
-CwStatus cw_domain_start_background(CwDomain *domain);
+// few, for ranks that none is left for, what each face adds to the exact volume. `deflection`: of chords of the
+// background.
+CwStatus cw_domain_start_background(CwDomain *domain, double deflection);
 double cw_domain_background_cost(const CwDomain *domain, int face);
 CwStatus cw_domain_background_face(const CwDomain *domain, int face, void **bytes, int64_t *byte_count);
 CwStatus cw_domain_take_background(CwDomain *domain, void *const *bytes);

@@ -13,6 +13,11 @@
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
 enum { GRADATION_ROUNDS = 4 };
+// Of the background triangulation, of the extent of the smallest domain: the impeller's, of which that is the 5000th.
+static const double DEFLECTION = 2e-4;
+// Edge length at relative size 1 and scale 1, of the cube root of the volume of all domains: a mesh of about 1.5
+// million cells has such edges.
+static const double BASE_SIZE = 0.01875;
 static const double GRADATION_TOLERANCE = 0.05; // over that of the case
 static const double MOST_ASKED = 2;             // by walls, of the prisms they have without their limits
 static const double MOST_GREATER = 1.5;         // scale that walls are limited at, of that without limits
@@ -20,16 +25,40 @@ static const double OWN_PLAN = 0.15;            // of the work on a plan, what e
 static const double PERIODIC_PLAN =
     0.5; // of equal passages, over that of others: 0.55 to 0.6 from 3 to 21 million cells
 
-// Background triangulations, face by face.
+static double extent_of(const CwBox *box) {
+  double extent = 0;
+  for (int k = 0; k < 3; k++) extent = fmax(extent, box->high[k] - box->low[k]);
+  return extent;
+}
+
+// The extent of the smallest domain.
+static double least_extent(const CwMeshRun *run) {
+  double least = INFINITY;
+  for (int d = 0; d < run->domains.count; d++) {
+    CwBox box = cw_box_empty();
+    cw_cad_add_to_box(run->domain[d].cad, &box);
+    least = fmin(least, extent_of(&box));
+  }
+  return least;
+}
+
+static void settle_base_size(CwMeshRun *run) {
+  double volume = 0;
+  for (int d = 0; d < run->domains.count; d++) volume += fabs(cw_background_volume(&run->domain[d].background));
+  for (int d = 0; d < run->domains.count; d++) run->domain[d].base_size = BASE_SIZE * cbrt(volume);
+}
+
+// Background triangulations, face by face, and the base size that follows from their volume.
 static CwStatus triangulate_domains(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwResults results = {0};
   CwMeshTask *task = NULL;
   int32_t faces[CW_DOMAINS_MOST], count = 0, all = 0;
+  double deflection = DEFLECTION * least_extent(run);
   cw_ledger_part("edges of the background");
   cw_face_counts(run, faces);
   for (int d = 0; d < run->domains.count; d++) {
-    CW_TRY(cw_domain_start_background(&run->domain[d]));
+    CW_TRY(cw_domain_start_background(&run->domain[d], deflection));
     all += faces[d];
   }
   CW_TRY(cw_results_make(&results, run->domains.count, faces));
@@ -46,6 +75,7 @@ static CwStatus triangulate_domains(CwMeshRun *run) {
     cw_log("%s: %d faces, %d background triangles", run->domain[d].name, faces[d],
            run->domain[d].background.triangle_count);
   }
+  settle_base_size(run);
 done:
   cw_results_free(&results);
   free(task);
@@ -167,9 +197,8 @@ done:
 static CwStatus settle_unit(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwBox box = cw_box_empty();
-  double extent = 0;
   for (int d = 0; d < run->domains.count; d++) cw_cad_add_to_box(run->domain[d].cad, &box);
-  for (int k = 0; k < 3; k++) extent = fmax(extent, box.high[k] - box.low[k]);
+  double extent = extent_of(&box);
   CW_REQUIRE(extent > 0 && isfinite(extent), CW_ERR_INPUT, "%s/geometry: the solids have no extent", run->run_path);
   int power = cw_model_unit_power(extent);
   cw_model_unit_set(power);

@@ -182,7 +182,7 @@ static void seed_piece(Surface *surface, const Piece *whole, double size, double
     }
     double x[3], curvature;
     centre_of(&piece, x, &curvature);
-    double turn = surface->input.table->curvature_angle / fmax(curvature, 1e-9);
+    double turn = curvature > 0 ? surface->input.table->curvature_angle / curvature : INFINITY;
     cw_size_grid_seed(&surface->grid, x, fmin(size, fmax(turn, least_curvature_share * patch_size)));
   }
 }

@@ -41,7 +41,7 @@ struct PlannedSolid {
     check(cw_size_make(cad, &background, &table, &relative, 2e-3, nullptr, seed.data(), CW_SIZE_SEEDS, &block, &bytes));
     check(cw_size_unpack(&block, &size));
     for (void *one : seed) free(one);
-    CwPlanOptions options = {3, &thickness, nullptr, 0, 12};
+    CwPlanOptions options = {3, &thickness, nullptr, 0, 2e-3, 12};
     check(cw_plan_model_make(cad, &background, inside, size, &options, &model));
     check(cw_plan_part_whole(&model, &whole));
     model.mean_work = whole.work / 3;

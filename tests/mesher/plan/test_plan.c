@@ -43,7 +43,8 @@ static void open_domain(CwDomain *made, const char *name, const char *folder, co
   int faces = cw_cad_face_count(made->cad);
   part = calloc((size_t)faces, sizeof *part);
   assert_non_null(part);
-  check(cw_domain_start_background(made));
+  check(cw_domain_start_background(made, 4e-5));
+  made->base_size = 2e-3;
   for (int f = 0; f < faces; f++) check(cw_domain_background_face(made, f, &part[f], &size));
   check(cw_domain_take_background(made, part));
   for (int f = 0; f < faces; f++) free(part[f]);
