@@ -5,19 +5,34 @@
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
+static const double LEAST_WIDENING = 0.006; // of D2, from b2 to b3
 
 // Guelich, table 3.9, single-stage radial pumps: 1 - a Q^-m - b (c - lg(nq / d))^2 Q^-e with Q in m3/s.
-static double guelich_efficiency(const CwDesign *d, double a, double b, double c, double reference, double e,
-                                 double exponent) {
-  const double nq = d->specific_speed_nq, inverse = 1 / d->flow_rate, large = d->flow_rate > 1 ? 0.5 : 1;
-  const double m = exponent * large * pow(inverse, 0.15) * pow(45 / nq, 0.06);
-  const double off = c - log10(nq / reference);
-  return 1 - a * pow(inverse, m) - b * off * off * pow(inverse, e);
+typedef struct {
+  double a, b, c, reference, e, exponent;
+} Efficiency;
+
+static double guelich_table(const Efficiency *table, double nq, double flow_rate) {
+  const double inverse = 1 / flow_rate, large = flow_rate > 1 ? 0.5 : 1;
+  const double m = table->exponent * large * pow(inverse, 0.15) * pow(45 / nq, 0.06);
+  const double off = table->c - log10(nq / table->reference);
+  return 1 - table->a * pow(inverse, m) - table->b * off * off * pow(inverse, table->e);
+}
+
+// Below the flow rate to which the table reaches, its ratio of losses (1 - eta) / eta goes on as a power of Q with the
+// value and the slope that it has there: the efficiency falls all the way to 0 with Q, and the table would be negative.
+static double guelich_efficiency(const CwDesign *d, const Efficiency *table) {
+  const double nq = d->specific_speed_nq, q = d->water_flow_rate, least = CW_GUELICH_LEAST_FLOW, step = 1e-4;
+  const double at = guelich_table(table, nq, fmax(q, least));
+  if (q >= least) return at;
+  const double above = guelich_table(table, nq, least * (1 + step)), losses = (1 - at) / at;
+  const double power = log((1 - above) / above / losses) / log1p(step);
+  return 1 / (1 + losses * pow(q / least, power));
 }
 
 // (Q/n)^(1/3) with n in rpm, m: the size in Guan's formulas.
 static double guan_size(const CwDesign *d) {
-  return cbrt(d->flow_rate / (d->angular_speed * 30 / M_PI));
+  return cbrt(d->water_flow_rate / (d->angular_speed * 30 / M_PI));
 }
 
 // d = (16 M / (pi tau))^(1/3): with M = P / omega this is Guelich's 3.65 (P / (n tau))^(1/3).
@@ -25,24 +40,32 @@ static double torsion_diameter(const CwDesign *d, double stress) {
   return cbrt(16 * d->shaft_power / d->angular_speed / (M_PI * stress));
 }
 
+// A hub that the shaft asks for, within what stiffness needs and the eye leaves room for.
+static double hub(double by_shaft, double d2, const char *shaft_source, const char **source) {
+  *source = by_shaft < 0.12 * d2                   ? "stiffness: 0.12 D2"
+            : by_shaft > CW_LARGEST_HUB_SHARE * d2 ? "at most 0.35 D2, which leaves the eye open"
+                                                   : shaft_source;
+  return fmin(CW_LARGEST_HUB_SHARE * d2, fmax(0.12 * d2, by_shaft));
+}
+
 static double guelich(CwCorrelated quantity, const CwDesign *d, const char **source) {
   const double nq = d->specific_speed_nq, d2 = d->outlet_diameter, share = d->hub_diameter / d2;
+  const int small = d->water_flow_rate < CW_GUELICH_LEAST_FLOW;
   switch (quantity) {
   case CW_CORRELATED_EFFICIENCY:
-    *source = "Guelich, table 3.9";
-    return guelich_efficiency(d, 0.095, 0.3, 0.35, 23, 0.05, 0.1);
+    *source = small ? "Guelich, table 3.9, its losses continued below 18 m3/h" : "Guelich, table 3.9";
+    return guelich_efficiency(d, &(Efficiency){0.095, 0.3, 0.35, 23, 0.05, 0.1});
   case CW_CORRELATED_HYDRAULIC_EFFICIENCY:
-    *source = "Guelich, table 3.9";
-    return guelich_efficiency(d, 0.055, 0.2, 0.26, 25, 0.1, 0.08);
+    *source = small ? "Guelich, table 3.9, its losses continued below 18 m3/h" : "Guelich, table 3.9";
+    return guelich_efficiency(d, &(Efficiency){0.055, 0.2, 0.26, 25, 0.1, 0.08});
   case CW_CORRELATED_SHAFT_DIAMETER:
     *source = "Guelich: 3.65 (1.2 P / (n tau))^(1/3), tau = 20 MPa";
     return cbrt(1.2) * torsion_diameter(d, 20e6);
   case CW_CORRELATED_OUTLET_DIAMETER:
     *source = "Guelich: psi = 1.21 exp(-0.77 nq/100)";
-    return 2 / d->angular_speed * sqrt(2 * gravity * d->head / (1.21 * exp(-0.77 * nq / 100)));
+    return 2 / d->angular_speed * sqrt(2 * gravity * d->water_head / (1.21 * exp(-0.77 * nq / 100)));
   case CW_CORRELATED_HUB_DIAMETER:
-    *source = 1.35 * d->shaft_diameter > 0.12 * d2 ? "1.35 shaft diameters" : "stiffness: 0.12 D2";
-    return fmax(0.12 * d2, 1.35 * d->shaft_diameter);
+    return hub(1.35 * d->shaft_diameter, d2, "1.35 shaft diameters", source);
   case CW_CORRELATED_OUTLET_WIDTH:
     *source = "Guelich: b2/D2 = 0.017 + 0.262 x - 0.08 x^2 + 0.0093 x^3, x = nq/100";
     return d2 * (0.017 + nq / 100 * (0.262 + nq / 100 * (-0.08 + nq / 100 * 0.0093)));
@@ -63,7 +86,7 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
     return 1.04 * d2;
   case CW_CORRELATED_INLET_WIDTH:
     *source = "Guelich: b3/b2 from 2 at low to 1.05 at high nq: 1.6 - 0.75 nq/100";
-    return d->outlet_width + fmax(1.2e-3, d->outlet_width * fmax(0.15, 0.6 - 0.75 * nq / 100));
+    return d->outlet_width + fmax(LEAST_WIDENING * d2, d->outlet_width * fmax(0.15, 0.6 - 0.75 * nq / 100));
   default:
     *source = "";
     return NAN;
@@ -87,11 +110,11 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
     *source = "Guan: eta_h eta_v eta_m, eta_v = 1/(1 + 0.68 ns^(-2/3)), eta_m = 0.98 - 0.07 (ns/100)^(-7/6)";
     const double volumetric = 1 / (1 + 0.68 * pow(ns, -2.0 / 3));
     const double mechanical = 0.98 - 0.07 * pow(ns / 100, -7.0 / 6);
-    return (1 + 0.0835 * log10(size)) * volumetric * fmax(0.3, mechanical);
+    return fmin(0.96, 1 + 0.0835 * log10(size)) * volumetric * mechanical;
   }
   case CW_CORRELATED_HYDRAULIC_EFFICIENCY:
-    *source = "Guan: 1 + 0.0835 lg (Q/n)^(1/3)";
-    return 1 + 0.0835 * log10(size);
+    *source = "Guan: 1 + 0.0835 lg (Q/n)^(1/3), at most 0.96";
+    return fmin(0.96, 1 + 0.0835 * log10(size));
   case CW_CORRELATED_SHAFT_DIAMETER:
     *source = "Guan: torsion, (1.2 M / (0.2 tau))^(1/3), tau = 35 MPa";
     return cbrt(1.2 * d->shaft_power / d->angular_speed / (0.2 * 35e6));
@@ -99,8 +122,7 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
     *source = "Guan: 9.35 (ns/100)^-0.5 (Q/n)^(1/3)";
     return 9.35 / sqrt(ns / 100) * size;
   case CW_CORRELATED_HUB_DIAMETER:
-    *source = 1.3 * d->shaft_diameter > 0.12 * d2 ? "Guan: 1.2 to 1.4 shaft diameters" : "stiffness: 0.12 D2";
-    return fmax(0.12 * d2, 1.3 * d->shaft_diameter);
+    return hub(1.3 * d->shaft_diameter, d2, "Guan: 1.2 to 1.4 shaft diameters", source);
   case CW_CORRELATED_OUTLET_WIDTH:
     *source = "Guan: 0.64 (ns/100)^(5/6) (Q/n)^(1/3)";
     return 0.64 * pow(ns / 100, 5.0 / 6) * size;
@@ -112,7 +134,7 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
     return ns < 45 ? 8 : ns < 60 ? 7 : ns < 120 ? 6 : 5;
   case CW_CORRELATED_BLADE_THICKNESS: {
     *source = "Guan: 1 mm + K D2 H^0.5 / z, K of cast iron; at least 3 mm or 0.02 D2";
-    const double strength = (1 + guan_thickness(ns) * d2 * sqrt(d->head) / d->blade_count) * 1e-3;
+    const double strength = (1 + guan_thickness(ns) * d2 * sqrt(d->water_head) / d->blade_count) * 1e-3;
     return fmax(strength, fmin(3e-3, 0.02 * d2));
   }
   case CW_CORRELATED_INCIDENCE:
@@ -123,7 +145,7 @@ static double guan(CwCorrelated quantity, const CwDesign *d, const char **source
     return 1.05 * d2;
   case CW_CORRELATED_INLET_WIDTH:
     *source = "Guan: b2 + 0.05 D2";
-    return d->outlet_width + fmax(1.2e-3, 0.05 * d2);
+    return d->outlet_width + 0.05 * d2;
   default:
     *source = "";
     return NAN;

@@ -12,8 +12,11 @@ extern "C" {
 
 enum { CW_CORRELATION_FAMILIES = 2 };
 
+#define CW_GUELICH_LEAST_FLOW 0.005 // m3/s, to which the efficiencies of his table 3.9 reach, as commonly quoted
+#define CW_LARGEST_HUB_SHARE 0.35   // of D2, of a hub that is left open
+
 // Quantities that are correlated. Each reads members of the design that come before it in this order, besides
-// the duty point; lengths in m, angles in rad.
+// the duty point with water; lengths in m, angles in rad.
 typedef enum {
   CW_CORRELATED_EFFICIENCY, // overall
   CW_CORRELATED_HYDRAULIC_EFFICIENCY,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "geometry/correlations.h"
+#include "geometry/viscous_correction.h"
 
 static const double degree = M_PI / 180;
 
@@ -38,6 +39,75 @@ static void against_correlations(const CwDesign *d, CwDesignRemarks *remarks) {
   }
 }
 
+// Where the sources of efficiency, shaft and viscous correction do not reach.
+static void reach_of_sources(const CwDesign *d, CwDesignRemarks *remarks) {
+  const double q = 3600 * d->water_flow_rate, rpm = d->angular_speed * 30 / M_PI;
+  const int corrected = d->viscous_efficiency_factor < 1;
+  remark(
+      remarks, d->correlations == CW_CORRELATIONS_GUELICH && d->water_flow_rate < CW_GUELICH_LEAST_FLOW,
+      "%.3g m3/h lie below the %.0f m3/h to which Guelich's efficiencies reach; %.0f %% (hydraulic %.0f %%) continue "
+      "his losses to this size",
+      q, 3600 * CW_GUELICH_LEAST_FLOW, 100 * d->efficiency, 100 * d->hydraulic_efficiency);
+  remark(remarks, d->specific_speed_nq > 100, "nq is %.0f; the correlations are those of radial wheels, nq up to 100",
+         d->specific_speed_nq);
+  remark(
+      remarks, d->hub_diameter < 1.1 * d->shaft_diameter,
+      "the hub of %.4g mm has no room for the shaft of %.4g mm that the torque at %.0f rpm asks for: a stronger shaft, "
+      "or give hub_diameter_mm",
+      1e3 * d->hub_diameter, 1e3 * d->shaft_diameter, rpm);
+  remark(remarks, corrected && d->viscous_parameter > CW_VISCOUS_LARGEST_B,
+         "the viscosity of %.4g cSt gives B = %.0f; ANSI/HI 9.6.7 has factors up to B = %.0f, which are taken",
+         1e6 * d->viscosity, d->viscous_parameter, CW_VISCOUS_LARGEST_B);
+  remark(
+      remarks,
+      corrected && (q < 3 || q > 410 || d->water_head < 6 || d->water_head > 130 || d->specific_speed_nq > 60 ||
+                    d->viscosity > CW_VISCOUS_LARGEST_NU),
+      "the viscous correction of ANSI/HI 9.6.7 was held against pumps of 3 to 410 m3/h and 6 to 130 m with nq up to 60 "
+      "and up to %.0f cSt; this one has %.3g m3/h and %.3g m with water",
+      1e6 * CW_VISCOUS_LARGEST_NU, q, d->water_head);
+}
+
+static void of_wheel(const CwDesign *d, CwDesignRemarks *remarks) {
+  remark(remarks, d->incidence > 8 * degree || d->incidence < -2 * degree,
+         "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual", d->incidence / degree);
+  remark(remarks, d->diffusion_ratio < 0.7, "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate",
+         d->diffusion_ratio);
+  remark(remarks, d->diffusion_ratio > 1.1, "w2 / w1 is %.2f; 0.7 to 1 are usual: the wheel accelerates its flow",
+         d->diffusion_ratio);
+  remark(remarks, d->overlap < 0.8 || d->overlap > 1.8,
+         "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual: %s the wrap or blade_count", d->overlap,
+         d->overlap < 1 ? "raise" : "lower");
+  remark(remarks, d->wrap_spread != 0,
+         "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay "
+         "within 12 to "
+         "60 deg and the blades stand steep on the walls",
+         d->wrap_spread / degree);
+  remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
+         "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);
+  remark(remarks, d->passage_area_reversal > 1e-3,
+         "the passage's area goes from %.3g mm2 in the eye to %.3g mm2 at D2, but steps back by %.1f %% on its way: "
+         "change axial_length_mm or the poles of hub and shroud, or leave them out",
+         d->passage_area_eye * 1e6, d->passage_area_outlet * 1e6, 100 * d->passage_area_reversal);
+  remark(remarks, d->shroud_bend_radius < 0.6 * d->inlet_passage_width,
+         "the shroud bends with a radius of %.3g mm, %.2f of the passage's width there; at least 0.6 are usual",
+         d->shroud_bend_radius * 1e3, d->shroud_bend_radius / d->inlet_passage_width);
+  remark(remarks, d->npsh_required > d->npsh_available,
+         "the wheel needs an NPSH of about %.1f m, the inlet pressure gives %.1f m (vapour pressure %.0f Pa)",
+         d->npsh_required, d->npsh_available, d->vapour_pressure);
+}
+
+static void of_volute(const CwDesign *d, CwDesignRemarks *remarks) {
+  const double tip = 2 * d->tongue_tip_radius / d->outlet_diameter, d3 = d->base_diameter / d->outlet_diameter;
+  remark(remarks, d3 < 1.03 || d3 > 1.15, "D3 is %.3f D2; 1.03 to 1.08 are usual", d3);
+  remark(remarks, tip < 1.045 || tip > 1.25,
+         "the tongue's tip lies at %.3f of the wheel's radius; 1.05 to 1.2 are usual: give tongue_gap_mm", tip);
+  remark(remarks, d->diffuser_angle > 10.05 * degree, "the diffuser opens by %.1f deg; at most 10 deg are usual",
+         d->diffuser_angle / degree);
+  remark(remarks, d->diffuser_area_ratio < 1.45 || d->diffuser_area_ratio > 3.05,
+         "the diffuser has an area ratio of %.2f; 1.5 to 3 are usual: change outlet_diameter_mm",
+         d->diffuser_area_ratio);
+}
+
 void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
   const double blades = 6.5 * (d->outlet_diameter + d->inlet_diameter) / (d->outlet_diameter - d->inlet_diameter) *
                         sin(0.5 * (d->inlet_blade_angle + d->outlet_blade_angle));
@@ -55,31 +125,7 @@ void cw_design_check(const CwDesign *d, CwDesignRemarks *remarks) {
   remark(remarks, fabs(d->outlet_angle_residual) > 0.1 * degree,
          "beta2 is %.2f deg, the table asks for %.2f deg: the priority decides", d->outlet_blade_angle / degree,
          (d->outlet_blade_angle - d->outlet_angle_residual) / degree);
-  remark(remarks, d->incidence > 8 * degree || d->incidence < -2 * degree,
-         "the blades meet the flow with an incidence of %.1f deg; -2 to 8 deg are usual", d->incidence / degree);
-  remark(remarks, d->diffusion_ratio < 0.7, "w2 / w1 is %.2f; under 0.7 the flow in the wheel tends to separate",
-         d->diffusion_ratio);
-  remark(remarks, d->overlap < 0.8, "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual: raise the wrap",
-         d->overlap);
-  remark(remarks, d->wrap_spread != 0,
-         "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay "
-         "within 12 to "
-         "60 deg and the blades stand steep on the walls",
-         d->wrap_spread / degree);
-  remark(remarks, d->inlet_throat_ratio < 0.55 || d->inlet_throat_ratio > 1,
-         "the flow in the inlet throat has %.2f of w1; 0.65 to 0.9 are usual", d->inlet_throat_ratio);
-  remark(remarks, d->passage_area_reversal > 1e-3,
-         "the passage's area goes from %.0f mm2 in the eye to %.0f mm2 at D2, but steps back by %.1f %% on its way: "
-         "change axial_length_mm or the poles of hub and shroud, or leave them out",
-         d->passage_area_eye * 1e6, d->passage_area_outlet * 1e6, 100 * d->passage_area_reversal);
-  remark(remarks, d->shroud_bend_radius < 0.6 * d->inlet_passage_width,
-         "the shroud bends with a radius of %.1f mm, %.2f of the passage's width there; at least 0.6 are usual",
-         d->shroud_bend_radius * 1e3, d->shroud_bend_radius / d->inlet_passage_width);
-  remark(remarks, d->npsh_required > d->npsh_available,
-         "the wheel needs an NPSH of about %.1f m, the inlet pressure gives %.1f m (cold water)", d->npsh_required,
-         d->npsh_available);
-  remark(remarks, d->base_diameter < 1.03 * d->outlet_diameter, "D3 is %.3f D2; 1.03 to 1.08 are usual",
-         d->base_diameter / d->outlet_diameter);
-  remark(remarks, d->diffuser_angle > 10 * degree, "the diffuser opens by %.1f deg; at most 10 deg are usual",
-         d->diffuser_angle / degree);
+  of_wheel(d, remarks);
+  of_volute(d, remarks);
+  reach_of_sources(d, remarks);
 }

@@ -2,49 +2,51 @@
 #include "geometry/hydraulic_design.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "geometry/blade.h"
 #include "geometry/correlations.h"
+#include "geometry/design_source.h"
+#include "geometry/design_volute.h"
 #include "geometry/meridian.h"
 #include "geometry/meridian_passage.h"
 #include "geometry/meridian_shape.h"
 #include "geometry/velocity_triangles.h"
-#include "geometry/volute_diffuser.h"
-#include "geometry/volute_section.h"
+#include "geometry/viscous_correction.h"
+#include "pipeline/water.h"
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
 
-// Takes the case's value where it is given, else the computed one, and notes which.
-#define TAKE(member, given, computed, text)                                                                            \
-  do {                                                                                                                 \
-    const double take_given = (given);                                                                                 \
-    design->member = cw_case_given(take_given) ? take_given : (computed);                                              \
-    design->source[CW_DESIGN_##member] = cw_case_given(take_given) ? "case" : (text);                                  \
-  } while (0)
-#define SET(member, value, text)                                                                                       \
-  do {                                                                                                                 \
-    design->member = (value);                                                                                          \
-    design->source[CW_DESIGN_##member] = (text);                                                                       \
-  } while (0)
-
 // The family's value of a quantity with the design so far.
 #define CORRELATED(quantity) cw_correlation(design->correlations, quantity, design, &source)
 
+// The duty point with water to which that of the fluid corresponds.
+static void water_duty(const CwCase *table, CwDesign *design) {
+  SET(viscosity, table->fluid.kinematic_viscosity, "case or its default");
+  const CwViscousCorrection c =
+      cw_viscous_selection(design->viscosity, design->flow_rate, design->head, design->angular_speed);
+  SET(viscous_parameter, c.parameter, "ANSI/HI 9.6.7: 16.5 nu^0.5 H^0.0625 / (Q^0.375 n^0.25)");
+  SET(viscous_head_factor, c.head, "ANSI/HI 9.6.7: exp(-0.165 (lg B)^3.15), over that of water");
+  SET(viscous_efficiency_factor, c.efficiency, "ANSI/HI 9.6.7: B^(-0.0547 B^0.69), over that of water");
+  SET(water_flow_rate, design->flow_rate / c.head, "Q / C_Q");
+  SET(water_head, design->head / c.head, "H / C_H");
+}
+
 static void specific_speeds(const CwCase *table, CwDesign *design) {
-  const double q = design->flow_rate, h = design->head, omega = design->angular_speed, rpm = omega * 30 / M_PI;
+  const double q = design->water_flow_rate, h = design->water_head, omega = design->angular_speed;
+  const double rpm = omega * 30 / M_PI;
   const char *source;
   double value;
-  SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75, rpm, m3/s, m");
+  SET(specific_speed_nq, rpm * sqrt(q) / pow(h, 0.75), "n Q^0.5 / H^0.75 with water, rpm, m3/s, m");
   SET(specific_speed_ns, 3.65 * design->specific_speed_nq, "3.65 nq");
   SET(specific_speed_us, rpm * sqrt(q * 60e12 / 3785411784.0) / pow(h / 0.3048, 0.75), "n Q^0.5 / H^0.75");
   SET(type_number, omega * sqrt(q) / pow(gravity * h, 0.75), "omega Q^0.5 / (g H)^0.75, ISO 2548");
   value = CORRELATED(CW_CORRELATED_EFFICIENCY);
-  SET(efficiency, fmin(0.95, fmax(0.1, value)), source);
+  SET(efficiency, value * design->viscous_efficiency_factor, source);
   value = CORRELATED(CW_CORRELATED_HYDRAULIC_EFFICIENCY);
-  SET(hydraulic_efficiency, fmin(0.96, fmax(0.3, value)), source);
-  SET(shaft_power, table->fluid.density * gravity * q * h / design->efficiency, "rho g Q H / efficiency");
+  SET(hydraulic_efficiency, value, source);
+  SET(shaft_power, table->fluid.density * gravity * design->flow_rate * design->head / design->efficiency,
+      "rho g Q H / efficiency");
   value = CORRELATED(CW_CORRELATED_SHAFT_DIAMETER);
   SET(shaft_diameter, value, source);
 }
@@ -66,7 +68,7 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   value = CORRELATED(CW_CORRELATED_OUTLET_WIDTH);
   TAKE(outlet_width, given->outlet_width, value, source);
   SET(impeller_tip_speed, design->angular_speed * d2 / 2, "omega D2 / 2");
-  SET(head_coefficient, 2 * gravity * design->head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
+  SET(head_coefficient, 2 * gravity * design->water_head / pow(design->impeller_tip_speed, 2), "2 g H / u2^2");
   value = CORRELATED(CW_CORRELATED_INLET_DIAMETER);
   TAKE(inlet_diameter, given->inlet_diameter, fmin(value, 0.78 * d2), value > 0.78 * d2 ? "at most 0.78 D2" : source);
   const double d1 = design->inlet_diameter;
@@ -142,7 +144,7 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   double x[2];
   cw_meridian_blade_point(meridian, 0.5, 0, x, NULL);
   const double r = x[0], u = design->angular_speed * r, z = design->blade_count;
-  const double cm = design->flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
+  const double cm = design->water_flow_rate / cw_meridian_area(meridian, 0), given = table->impeller.inlet_blade_angle;
   SET(inlet_blade_speed, u, "omega r at the mid-span leading edge");
   SET(inlet_meridional_speed, cm, "Q / area");
   // The flow with a little incidence, but within a nearly even law: the wrap leaves no more.
@@ -154,11 +156,13 @@ static void inlet_triangle(const CwCase *table, const CwMeridian *meridian, CwDe
   const double incidence = cw_case_given(asked) ? asked : usual;
   incidence_source = cw_case_given(asked) ? "flow angle + the case's incidence" : "flow angle + the family's incidence";
   source = incidence_source;
+  // On the shroud, at a greater radius, the angle is less; 12 degrees are the least.
+  const double least = fmax(13 * degree, atan(tan(12.05 * degree) * design->leading_edge_radius_shroud / r));
   double beta = cw_case_given(given) ? given : 25 * degree, tau = 1, flow = 0;
   for (int i = 0; i < 50; i++) {
     tau = cw_blockage(z, design->leading_edge_thickness, r, beta);
     flow = atan2(cm * tau, u);
-    if (!cw_case_given(given)) beta = fmax(flow + incidence, 13 * degree);
+    if (!cw_case_given(given)) beta = fmax(flow + incidence, least);
     if (!cw_case_given(given) && wrapped) beta = fmin(fmax(beta, spiral - 4 * degree), spiral + 2 * degree);
   }
   if (wrapped && beta == spiral - 4 * degree) source = "4 deg under the logarithmic spiral of the wrap";
@@ -258,7 +262,7 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
   // Twice, since the walls are shaped for a diameter that then changes.
   const double correlated = design->outlet_diameter;
   for (int pass = 0; pass < 2; pass++) {
-    double low = 0.7 * correlated, high = 1.5 * correlated;
+    double low = 0.7 * correlated, high = 3 * correlated;
     CW_TRY(impeller(table, design->outlet_diameter, fixed, 1, meridian, design));
     for (int i = 0; i < 50; i++) {
       const double middle = 0.5 * (low + high);
@@ -267,7 +271,7 @@ static CwStatus solve_outlet_diameter(const CwCase *table, CwMeridian *meridian,
     }
   }
   CW_REQUIRE(fabs(design->head_residual) < 1e-6 * design->head, CW_ERR_DESIGN,
-             "no outlet diameter from 0.7 to 1.5 times the correlation's meets the head of %.3f m with beta2 "
+             "no outlet diameter from 0.7 to 3 times the correlation's meets the head of %.3f m with beta2 "
              "= %.2f deg "
              "(%.3f m at D2 = %.1f mm): give outlet_diameter_mm, or change outlet_width_mm or blade_count",
              design->head, design->outlet_blade_angle / degree, design->predicted_head, design->outlet_diameter * 1e3);
@@ -298,117 +302,6 @@ static void choose_wrap_spread(const CwImpellerTable *given, const CwMeridian *m
   }
   SET(wrap_spread, best_spread,
       best_spread != 0 ? "angles within 12 to 60 deg, steep blades at the walls" : "none needed");
-}
-
-// Least radius of the tongue's tip over r2: Guelich's 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m), within the
-// usual 1.05 to 1.2.
-static const double LEAST_CUTWATER = 1.05, LARGEST_CUTWATER = 1.2;
-static double cutwater_ratio(const CwDesign *design) {
-  const double guelich =
-      1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->density / 1000 * design->head / 1000;
-  return fmin(LARGEST_CUTWATER, fmax(LEAST_CUTWATER, guelich));
-}
-
-// The volute with the design's b3, side walls and tongue.
-static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
-  CwStatus status = CW_OK;
-  const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
-  const int rectangle = given->section == CW_SECTION_RECTANGLE;
-  if (rectangle) SET(side_wall_angle, 0, "rectangle");
-  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40, as commonly quoted, not
-  // held against the chart.
-  const double factor =
-      cw_case_given(given->velocity_factor) ? given->velocity_factor : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
-  SET(section_speed, factor * sqrt(2 * gravity * design->head),
-      cw_case_given(given->velocity_factor) ? "case: K3" : "Stepanoff: K3 = 0.42 (nq / 20)^-0.2");
-  // A plain trapezoid is near enough to see how wide the throat will be.
-  const int velocity = given->area_law == CW_AREA_LAW_VELOCITY;
-  const double b3 = design->inlet_width, slope = tan(design->side_wall_angle);
-  const double spiral =
-      cw_volute_trapezoid_height(r3, b3, design->side_wall_angle, design->flow_rate / design->swirl_constant);
-  const double area = velocity ? design->flow_rate / design->section_speed : spiral * (b3 + spiral * slope);
-  const double height = 2 * area / (b3 + sqrt(b3 * b3 + 4 * slope * area));
-  TAKE(corner_radius, given->corner_radius, rectangle ? fmin(b3, height) / 6 : 0,
-       rectangle ? "a sixth of b3 or of the throat's height" : "one arc");
-  if (!cw_case_given(given->tongue_radius) && design->tongue_radius > height / 6)
-    SET(tongue_radius, height / 6, "a sixth of the throat's height");
-  const int chosen = !cw_case_given(given->tongue_gap) && !cw_case_given(given->tongue_angle);
-  const CwVoluteInput input = {
-      .flow_rate = design->flow_rate,
-      .area_law = given->area_law,
-      .angular_momentum = design->swirl_constant,
-      .section_speed = design->section_speed,
-      .section = given->section,
-      .corner_radius = design->corner_radius > 0 ? design->corner_radius : NAN,
-      .interface_radius = design->interface_radius,
-      .neck_width = design->outlet_width,
-      .base_diameter = design->base_diameter,
-      .inlet_width = design->inlet_width,
-      .side_wall_angle = design->side_wall_angle,
-      .throat_area = given->throat_area,
-      .tongue_radius = design->tongue_radius,
-      .tongue_gap = given->tongue_gap,
-      .tongue_angle = given->tongue_angle,
-      .tongue_gap_range = {chosen ? fmax(0, r2 * cutwater_ratio(design) - r3) : NAN,
-                           chosen ? fmax(0, r2 * LARGEST_CUTWATER - r3) : NAN},
-      .diffuser_length = given->diffuser_length,
-      .diffuser_angle = cw_case_given(given->diffuser_angle) ? given->diffuser_angle : CW_DIFFUSER_ANGLE,
-      .outlet_diameter = given->outlet_diameter,
-      .diffuser_area_ratio = given->diffuser_area_ratio,
-      .discharge = given->discharge,
-      .discharge_pipe_length = given->discharge_pipe_length,
-  };
-  CW_TRY(cw_volute_design(&input, &design->volute));
-done:
-  return status;
-}
-
-// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side
-// walls, which else would make the spiral too tall, at low specific speed the tongue's radius, which is too
-// large for its throat.
-static CwStatus volute(const CwVoluteTable *given, CwDesign *design) {
-  CwStatus status = CW_OK;
-  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
-            tongue_open = !cw_case_given(given->tongue_radius);
-  const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
-  const double tongue = 0.0075 * design->outlet_diameter;
-  SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
-  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
-  TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
-  status = volute_of(given, design);
-  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && tongue_open; i++) {
-    cw_fail_clear();
-    SET(tongue_radius, tongue * pow(0.75, i), "0.0075 D2, reduced for the small throat");
-    status = volute_of(given, design);
-  }
-  for (int i = 1; status == CW_ERR_DESIGN && i <= 12 && (width_open || side_open); i++) {
-    cw_fail_clear();
-    if (tongue_open) SET(tongue_radius, tongue, "0.0075 D2: casting");
-    if (width_open)
-      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
-    if (side_open) SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
-    status = volute_of(given, design);
-  }
-  CW_TRY(status);
-  TAKE(throat_area, given->throat_area, design->volute.throat_area,
-       given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
-  SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
-  SET(tongue_tip_radius, design->volute.tip_radius,
-      cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
-                                       : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
-  SET(tongue_angle, design->volute.tip_angle,
-      cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
-  TAKE(discharge_diameter, given->outlet_diameter, design->volute.input.outlet_diameter,
-       cw_case_given(given->diffuser_area_ratio) ? "area ratio of the diffuser"
-                                                 : "standard bore, area ratio 1.5 to 3, under 4 m/s where that allows");
-  TAKE(discharge_pipe_length, given->discharge_pipe_length, design->volute.input.discharge_pipe_length, "2 DN");
-  TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length,
-       cw_case_given(given->diffuser_angle) ? "full angle of the case" : "full angle 9 deg");
-  SET(diffuser_area_ratio, design->volute.diffuser_area_ratio,
-      cw_case_given(given->diffuser_area_ratio) ? "case" : "outlet over throat");
-  SET(diffuser_angle, design->volute.diffuser_angle, "cone of equal areas");
-done:
-  return status;
 }
 
 static CwPriority resolved_priority(const CwImpellerTable *given) {
@@ -475,6 +368,9 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(flow_rate, table->operating_point.flow_rate, "case");
   SET(head, table->operating_point.head, "case");
   SET(angular_speed, table->operating_point.speed, "case");
+  const double vapour = table->fluid.vapour_pressure;
+  SET(vapour_pressure, cw_case_given(vapour) ? vapour : cw_water_vapour_pressure(20), "case, or that of water (IAPWS)");
+  water_duty(table, design);
   specific_speeds(table, design);
   if (cw_case_given(table->impeller.outlet_diameter))
     CW_TRY(impeller(table, NAN, NAN, 1, &meridian, design));
@@ -492,7 +388,7 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
        cw_blade_usual_bevel(design->trailing_edge, design->trailing_edge_thickness, design->outlet_blade_angle),
        design->trailing_edge == CW_EDGE_SHARP ? "leg along the blade twice the cut"
                                               : "as long as the rest of the trailing edge");
-  CW_TRY(volute(&table->volute, design));
+  CW_TRY(cw_design_volute(&table->volute, design));
   const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
   SET(relative_speed, 0.5 * (design->inlet_relative_speed + design->outlet_relative_speed), "(w1 + w2) / 2");
   SET(volute_speed, 0.5 * (design->outlet_swirl_speed * r2 / r3 + design->throat_speed),
@@ -501,48 +397,4 @@ CwStatus cw_hydraulic_design(const CwCase *table, CwDesign *design) {
   SET(discharge_speed, design->flow_rate / (M_PI / 4 * pow(design->discharge_diameter, 2)), "Q / (pi DN^2 / 4)");
 done:
   return status;
-}
-
-// How each kind of quantity is shown, and stored in design.json.
-enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY, POWER };
-static const struct {
-  double shown;
-  const char *unit;
-  double stored;
-  const char *suffix;
-} units[] = {
-    [NUMBER] = {1, "", 1, ""},
-    [LENGTH] = {1e3, "mm", 1, "_m"},
-    [HEAD] = {1, "m", 1, "_m"},
-    [ANGLE] = {180 / M_PI, "deg", 180 / M_PI, "_deg"},
-    [SPEED] = {1, "m/s", 1, "_m_per_s"},
-    [FLOW] = {3600, "m3/h", 1, "_m3_per_s"},
-    [ANGULAR_SPEED] = {30 / M_PI, "rpm", 1, "_rad_per_s"},
-    [AREA] = {1e6, "mm2", 1, "_m2"},
-    [DIFFUSIVITY] = {1, "m2/s", 1, "_m2_per_s"},
-    [POWER] = {1e-3, "kW", 1, "_w"},
-};
-
-CwDesignValue cw_hydraulic_design_value(const CwDesign *design, CwDesignQuantity quantity) {
-#define ROW(member, kind, text) {#member, text, kind},
-  static const struct {
-    const char *member, *text;
-    int kind;
-  } rows[] = {CW_DESIGN_LIST(ROW)};
-#undef ROW
-#define VALUE(member, kind, text) design->member,
-  const double values[] = {CW_DESIGN_LIST(VALUE)};
-#undef VALUE
-  const int kind = rows[quantity].kind;
-  CwDesignValue value = {.text = rows[quantity].text,
-                         .unit = units[kind].unit,
-                         .shown = values[quantity] * units[kind].shown,
-                         .stored = values[quantity] * units[kind].stored};
-  snprintf(value.key, sizeof value.key, "%s%s", rows[quantity].member, units[kind].suffix);
-  return value;
-}
-
-void cw_hydraulic_design_row(const CwDesign *design, CwDesignQuantity quantity, char *line, size_t size) {
-  const CwDesignValue value = cw_hydraulic_design_value(design, quantity);
-  snprintf(line, size, "%-52s %10.5g %-5s %s", value.text, value.shown, value.unit, design->source[quantity]);
 }

@@ -23,6 +23,12 @@ extern "C" {
 #define CW_DESIGN_LIST(X)                                                                                              \
   X(flow_rate, FLOW, "flow rate Q")                                                                                    \
   X(head, HEAD, "head H asked")                                                                                        \
+  X(viscosity, DIFFUSIVITY, "kinematic viscosity of the fluid")                                                        \
+  X(viscous_parameter, NUMBER, "parameter B of the viscous correction")                                                \
+  X(viscous_head_factor, NUMBER, "head and flow rate over those with water")                                           \
+  X(viscous_efficiency_factor, NUMBER, "efficiency over that with water")                                              \
+  X(water_flow_rate, FLOW, "flow rate with water, for which the pump is designed")                                     \
+  X(water_head, HEAD, "head with water, for which the pump is designed")                                               \
   X(angular_speed, ANGULAR_SPEED, "angular speed")                                                                     \
   X(specific_speed_nq, NUMBER, "specific speed nq = n Q^0.5 / H^0.75")                                                 \
   X(specific_speed_ns, NUMBER, "specific speed ns = 3.65 nq")                                                          \
@@ -89,7 +95,7 @@ extern "C" {
   X(outlet_flow_angle, ANGLE, "relative flow angle at the outlet")                                                     \
   X(outlet_absolute_angle, ANGLE, "absolute flow angle alpha2")                                                        \
   X(diffusion_ratio, NUMBER, "w2 / w1")                                                                                \
-  X(hydraulic_efficiency, NUMBER, "hydraulic efficiency")                                                              \
+  X(hydraulic_efficiency, NUMBER, "hydraulic efficiency with water")                                                   \
   X(theoretical_head, HEAD, "theoretical head u2 c_u2 / g")                                                            \
   X(predicted_head, HEAD, "predicted head")                                                                            \
   X(head_residual, HEAD, "predicted minus asked head")                                                                 \
@@ -100,7 +106,8 @@ extern "C" {
   X(inlet_throat_ratio, NUMBER, "w in the inlet throat / w1")                                                          \
   X(outlet_throat_width, LENGTH, "throat between the blades at the outlet, width")                                     \
   X(npsh_required, HEAD, "NPSH3 estimated")                                                                            \
-  X(npsh_available, HEAD, "NPSH at the inlet pressure, cold water")                                                    \
+  X(vapour_pressure, PRESSURE, "vapour pressure of the fluid")                                                         \
+  X(npsh_available, HEAD, "NPSH at the inlet pressure")                                                                \
   X(suction_specific_speed, NUMBER, "suction specific speed nss = n Q^0.5 / NPSH3^0.75")                               \
   X(base_diameter, LENGTH, "volute base circle D3")                                                                    \
   X(inlet_width, LENGTH, "volute inlet width b3")                                                                      \

@@ -54,7 +54,7 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   const double beta = design->outlet_blade_angle, d2 = design->outlet_diameter, u2 = design->impeller_tip_speed;
   const double ratio = (design->leading_edge_radius_hub + design->leading_edge_radius_shroud) / d2;
   const double blades = slip_blades(design);
-  SET(outlet_meridional_speed, design->flow_rate / (M_PI * d2 * design->outlet_width), "Q / (pi D2 b2)");
+  SET(outlet_meridional_speed, design->water_flow_rate / (M_PI * d2 * design->outlet_width), "Q / (pi D2 b2)");
   SET(outlet_blockage, cw_blockage(outlet_blades(design), design->trailing_edge_thickness, d2 / 2, beta),
       "1 / (1 - z e / (pi D2 sin beta2))");
   const double cm = design->outlet_meridional_speed, turned = cm * design->outlet_blockage / tan(beta);
@@ -72,11 +72,11 @@ void cw_outlet_triangle(const CwMeridian *meridian, CwDesign *design) {
   SET(outlet_flow_angle, atan2(cm, u2 - cu), "outlet triangle");
   SET(outlet_absolute_angle, atan2(cm, cu), "outlet triangle");
   SET(diffusion_ratio, design->outlet_relative_speed / design->inlet_relative_speed, "w2 / w1");
-  const double euler = design->hydraulic_efficiency * u2 / gravity;
+  const double euler = design->viscous_head_factor * design->hydraulic_efficiency * u2 / gravity;
   SET(theoretical_head, u2 * cu / gravity, "Euler: u2 c_u2 / g");
-  SET(predicted_head, euler * cu, "eta_h u2 c_u2 / g");
-  SET(predicted_head_wiesner, euler * (design->slip_factor_wiesner * u2 - turned), "eta_h u2 c_u2 / g");
-  SET(predicted_head_pfleiderer, euler * (design->slip_factor_pfleiderer * u2 - turned), "eta_h u2 c_u2 / g");
+  SET(predicted_head, euler * cu, "C_H eta_h u2 c_u2 / g");
+  SET(predicted_head_wiesner, euler * (design->slip_factor_wiesner * u2 - turned), "C_H eta_h u2 c_u2 / g");
+  SET(predicted_head_pfleiderer, euler * (design->slip_factor_pfleiderer * u2 - turned), "C_H eta_h u2 c_u2 / g");
   SET(head_residual, design->predicted_head - design->head, "predicted - asked");
 }
 
@@ -146,7 +146,7 @@ CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure
   SET(inlet_throat_width, throat(&section, cw_blade_leading_edge(&section, 0), CW_BLADE_SUCTION, pitch, &place),
       "least distance to the next blade, mid-span");
   SET(inlet_throat_area, design->blade_count * design->inlet_throat_width * passage_width(meridian, place), "z a1 b");
-  SET(inlet_throat_ratio, design->flow_rate / design->inlet_throat_area / design->inlet_relative_speed,
+  SET(inlet_throat_ratio, design->water_flow_rate / design->inlet_throat_area / design->inlet_relative_speed,
       "Q / (throat area w1)");
   SET(outlet_throat_width,
       throat(&section, cw_blade_side(&section, CW_BLADE_SUCTION, section.end), CW_BLADE_PRESSURE, -pitch, &place),
@@ -157,9 +157,9 @@ CwStatus cw_velocity_triangles(const CwMeridian *meridian, double inlet_pressure
   const double lambda = 0.3 * pow(tan(tip->blade_angle), 0.57), rpm = omega * 30 / M_PI;
   SET(npsh_required, (1.1 * cm * cm + lambda * w * w) / (2 * gravity),
       "Guelich: 1.1 c_m1^2/2g + 0.3 tan(beta1)^0.57 w1^2/2g, shroud");
-  SET(npsh_available, fmax(0, inlet_pressure - 2339) / (design->density * gravity),
-      "(inlet pressure - 2339 Pa) / (rho g)");
-  SET(suction_specific_speed, rpm * sqrt(design->flow_rate) / pow(design->npsh_required, 0.75),
+  SET(npsh_available, fmax(0, inlet_pressure - design->vapour_pressure) / (design->density * gravity),
+      "(inlet pressure - vapour pressure) / (rho g)");
+  SET(suction_specific_speed, rpm * sqrt(design->water_flow_rate) / pow(design->npsh_required, 0.75),
       "rpm, m3/s, m; 160 to 260 are usual");
 done:
   return status;

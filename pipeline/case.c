@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "pipeline/case_check.h"
+#include "pipeline/case_fluid.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
 
@@ -316,6 +317,7 @@ CwStatus cw_case_read(const char *path, CwCase *table) {
              "%s: libfyaml cannot start", shown_path);
   CW_TRY(read_stream(&reader));
   CW_TRY(require_all(&reader));
+  CW_TRY(cw_case_fluid(shown_path, reader.places, &reader.table));
   CW_TRY(cw_case_check(shown_path, &reader.table, reader.places));
   *table = reader.table;
 done:

@@ -46,6 +46,8 @@ typedef struct {
 typedef struct {
   double density;             // kg/m3
   double kinematic_viscosity; // m2/s
+  double temperature;         // degrees Celsius, of water; NAN: not given
+  double vapour_pressure;     // Pa
 } CwFluid;
 
 // How the hydraulic design works out what the table leaves open.

@@ -4,6 +4,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "pipeline/water.h"
+
 static const double pi = 3.14159265358979323846;
 
 static const char *const priorities[] = {"wrap", "head", "beta", "auto", NULL};
@@ -62,6 +64,12 @@ const CwCaseKey cw_case_keys[] = {
                  "density; the default is water at 20 degrees Celsius"),
     REAL_DEFAULT("fluid", "kinematic_viscosity_m2_per_s", "m2_per_s", 1e-8, 1e-2, 1.004e-6, fluid.kinematic_viscosity,
                  "kinematic viscosity; the default is water at 20 degrees Celsius"),
+    REAL_COMPUTED(
+        "fluid", "temperature_c", "c", CW_WATER_COLDEST, CW_WATER_HOTTEST, fluid.temperature,
+        "of water: sets density, viscosity and vapour pressure where they are left out (IAPWS); computed: none"),
+    REAL_COMPUTED(
+        "fluid", "vapour_pressure_pa", "pa", 0, 3e7, fluid.vapour_pressure,
+        "absolute, for the NPSH at the inlet; computed: of water at temperature_c, else at 20 degrees Celsius"),
 
     CHOICE("design", "correlations", correlation_families, CW_CORRELATIONS_GUELICH, design.correlations,
            "whose correlations give what the table leaves open: those of Guelich or of Guan (docs/geometry.md)"),
@@ -258,6 +266,7 @@ static const CwUnit units[] = {
     {"mm2_per_s", "mm2/s", "viscosity", 1, 1e6},
     {"cst", "cSt", "viscosity", 1, 1e6},
     {"ft2_per_s", "ft2/s", "viscosity", 9290304, 1e8},
+    {"c", "degrees Celsius", "temperature", 1, 1},
 };
 enum { UNIT_COUNT = sizeof units / sizeof *units };
 
@@ -313,7 +322,7 @@ int cw_case_section_known(const char *section) {
 
 int cw_case_key_shapes_pump(const CwCaseKey *key) {
   return strcmp(key->section, "walls") && strcmp(key->section, "mesh") &&
-         key->offset != AT(fluid.kinematic_viscosity) && key->offset != AT(operating_point.time_step_angle);
+         key->offset != AT(operating_point.time_step_angle);
 }
 
 void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]) {

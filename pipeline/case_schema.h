@@ -54,8 +54,8 @@ int cw_case_key_find(const char *section, const char *key);
 // it ends in, or NULL.
 int cw_case_key_find_in(const char *section, const char *key, const CwUnit **unit);
 
-// Whether the hydraulic design and its solids follow from the key: those of walls and mesh, the viscosity and the step
-// of time only shape what comes after, or nothing but the solver's files.
+// Whether the hydraulic design and its solids follow from the key: those of walls and mesh and the step of time only
+// shape what comes after, or nothing but the solver's files.
 int cw_case_key_shapes_pump(const CwCaseKey *key);
 
 // Whether the schema has keys in `section`.

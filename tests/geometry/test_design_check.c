@@ -51,7 +51,38 @@ static void far_off_values_are_remarked(void **state) {
   assert_false(remarked(&design, "predicts a head"));
 }
 
+// Both ends of what is usual, and where the sources do not reach.
+static void ends_and_reach_are_remarked(void **state) {
+  const CwCase table = paper();
+  const CwDesign paper_design = design_of(&table);
+  CwDesign design = paper_design;
+  assert_false(remarked(&design, "overlap"));
+  assert_false(remarked(&design, "tongue's tip"));
+  assert_false(remarked(&design, "ANSI/HI"));
+  assert_false(remarked(&design, "Guelich's efficiencies"));
+  design.overlap = 0.7;
+  assert_true(remarked(&design, "raise the wrap"));
+  design.overlap = 2.1;
+  assert_true(remarked(&design, "lower the wrap"));
+  design.diffusion_ratio = 1.3;
+  assert_true(remarked(&design, "accelerates"));
+  design.tongue_tip_radius = 0.13;
+  assert_true(remarked(&design, "tongue's tip lies at 1.300"));
+  design.tongue_tip_radius = 0.102;
+  assert_true(remarked(&design, "tongue's tip lies at 1.020"));
+  design.diffuser_area_ratio = 4;
+  assert_true(remarked(&design, "area ratio of 4.00"));
+  design.water_flow_rate = 0.5 / 3600;
+  assert_true(remarked(&design, "0.5 m3/h lie below the 18 m3/h"));
+  design.viscous_efficiency_factor = 0.1;
+  design.viscous_parameter = 55;
+  assert_true(remarked(&design, "B = 55"));
+  design.shaft_diameter = 2 * design.hub_diameter;
+  assert_true(remarked(&design, "has no room for the shaft"));
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(far_off_values_are_remarked)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_remarks), cmocka_unit_test(ends_and_reach_are_remarked),
+                                     cmocka_unit_test(far_off_values_are_remarked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -176,6 +176,53 @@ static void splitters_raise_the_slip_factor(void **state) {
   near_to(design_of(&table).slip_factor, 0.8493, 1e-3);
 }
 
+// 50 m3/h and 32 m at 2900 rpm with 200 cSt: the pump for water has Q / C_Q and H / C_H by ANSI/HI 9.6.7. With C = 0.90
+// B = 16.5 14.142 1.2456 / (4.512 7.338) = 8.78 (Q 55.6, H 35.6), lg B = 0.9435, C = exp(-0.165 0.8326) = 0.8717; with
+// C = 0.872 B = 8.69, C = 0.8728; and C_eta = 8.69^(-0.0547 4.447) = 0.591.
+static void viscous_fluid_by_hand(void **state) {
+  CwCase table = duty_point(50, 32, 2900);
+  const CwDesign water = design_of(&table);
+  table.fluid.kinematic_viscosity = 200e-6;
+  const CwDesign design = design_of(&table);
+  near_to(design.viscous_head_factor, 0.8728, 1e-3);
+  near_to(design.viscous_efficiency_factor, 0.591, 2e-3);
+  near_to(design.water_head, 32 / design.viscous_head_factor, 1e-9);
+  near_to(design.predicted_head, 32, 1e-4);
+  near_to(design.theoretical_head * design.hydraulic_efficiency * design.viscous_head_factor, 32, 1e-4);
+  assert_true(design.outlet_diameter > 1.05 * water.outlet_diameter);
+  assert_true(design.efficiency < 0.65 * water.efficiency);
+  // The same wheel as that of water for the water's duty.
+  CwCase larger = duty_point(3600 * design.water_flow_rate, design.water_head, 2900);
+  near_to(design_of(&larger).outlet_diameter, design.outlet_diameter, 1e-6);
+}
+
+// Guelich's efficiencies go on below 18 m3/h without a jump of value or slope, and fall to 0 and not below.
+static void efficiency_of_small_pumps(void **state) {
+  CwDesign before = {.flow_rate = 0};
+  for (double q = 100; q > 0.02; q *= 0.97) {
+    CwCase table = duty_point(q, 1450 * 1450, 1450);
+    table.operating_point.head = pow(1450 * sqrt(q / 3600) / 20, 4.0 / 3);
+    table.fluid.kinematic_viscosity = 1e-6;
+    CwDesign design;
+    if (cw_hydraulic_design(&table, &design) != CW_OK) fail_msg("%g m3/h: %s", q, cw_fail_message());
+    assert_true(design.efficiency > 0.01 && design.hydraulic_efficiency > 0.2);
+    if (before.flow_rate > 0) {
+      const double fall = before.efficiency - design.efficiency;
+      assert_true(fall > 0 && fall < 0.02);
+    }
+    before = design;
+  }
+  assert_true(before.efficiency < 0.1);
+}
+
+// At the vapour pressure of 47.4 kPa of water at 80 degrees Celsius: (101325 - 47400) / (971.8 9.80665) = 5.66 m.
+static void npsh_at_the_vapour_pressure(void **state) {
+  CwCase table = paper();
+  table.fluid.vapour_pressure = 47400;
+  table.fluid.density = 971.8;
+  near_to(design_of(&table).npsh_available, 5.658, 1e-3);
+}
+
 static void case_overrides(void **state) {
   CwCase table = paper();
   table.impeller.hub_diameter = 0.028;
@@ -247,6 +294,9 @@ int main(void) {
       cmocka_unit_test(pfleiderer_by_hand),
       cmocka_unit_test(triangles_over_the_span),
       cmocka_unit_test(splitters_raise_the_slip_factor),
+      cmocka_unit_test(viscous_fluid_by_hand),
+      cmocka_unit_test(efficiency_of_small_pumps),
+      cmocka_unit_test(npsh_at_the_vapour_pressure),
       cmocka_unit_test(case_overrides),
       cmocka_unit_test(impossible_wrap_is_refused),
       cmocka_unit_test(fillets_need_room_between_the_blades),

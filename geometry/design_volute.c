@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/design_volute.h"
+
+#include <math.h>
+
+#include "geometry/design_source.h"
+#include "geometry/volute_diffuser.h"
+#include "geometry/volute_section.h"
+
+static const double gravity = 9.80665;
+static const double degree = M_PI / 180;
+
+// Least radius of the tongue's tip over r2: Guelich's 1.03 + 0.1 nq/40 + 0.07 rho H/(1000 kg/m3 1000 m), within the
+// usual 1.05 to 1.2.
+static const double LEAST_CUTWATER = 1.05, LARGEST_CUTWATER = 1.2;
+static double cutwater_ratio(const CwDesign *design) {
+  const double guelich =
+      1.03 + 0.1 * design->specific_speed_nq / 40 + 0.07 * design->density / 1000 * design->head / 1000;
+  return fmin(LARGEST_CUTWATER, fmax(LEAST_CUTWATER, guelich));
+}
+
+// The volute with the design's b3, side walls and tongue.
+static CwStatus volute_of(const CwVoluteTable *given, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const double r2 = design->outlet_diameter / 2, r3 = design->base_diameter / 2;
+  const int rectangle = given->section == CW_SECTION_RECTANGLE;
+  if (rectangle) SET(side_wall_angle, 0, "rectangle");
+  // Stepanoff's chart of K3 over specific speed: about 0.48 at nq 10, 0.42 at 20, 0.36 at 40, as commonly quoted, not
+  // held against the chart.
+  const double factor =
+      cw_case_given(given->velocity_factor) ? given->velocity_factor : 0.42 * pow(design->specific_speed_nq / 20, -0.2);
+  SET(section_speed, factor * sqrt(2 * gravity * design->water_head),
+      cw_case_given(given->velocity_factor) ? "case: K3" : "Stepanoff: K3 = 0.42 (nq / 20)^-0.2");
+  // A plain trapezoid is near enough to see how wide the throat will be.
+  const int velocity = given->area_law == CW_AREA_LAW_VELOCITY;
+  const double b3 = design->inlet_width, slope = tan(design->side_wall_angle);
+  const double spiral =
+      cw_volute_trapezoid_height(r3, b3, design->side_wall_angle, design->water_flow_rate / design->swirl_constant);
+  const double area = velocity ? design->water_flow_rate / design->section_speed : spiral * (b3 + spiral * slope);
+  const double height = 2 * area / (b3 + sqrt(b3 * b3 + 4 * slope * area));
+  TAKE(corner_radius, given->corner_radius, rectangle ? fmin(b3, height) / 6 : 0,
+       rectangle ? "a sixth of b3 or of the throat's height" : "one arc");
+  if (!cw_case_given(given->tongue_radius) && design->tongue_radius > height / 6)
+    SET(tongue_radius, height / 6, "a sixth of the throat's height");
+  const int chosen = !cw_case_given(given->tongue_gap) && !cw_case_given(given->tongue_angle);
+  const CwVoluteInput input = {
+      .flow_rate = design->water_flow_rate,
+      .area_law = given->area_law,
+      .angular_momentum = design->swirl_constant,
+      .section_speed = design->section_speed,
+      .section = given->section,
+      .corner_radius = design->corner_radius > 0 ? design->corner_radius : NAN,
+      .interface_radius = design->interface_radius,
+      .neck_width = design->outlet_width,
+      .base_diameter = design->base_diameter,
+      .inlet_width = design->inlet_width,
+      .side_wall_angle = design->side_wall_angle,
+      .throat_area = given->throat_area,
+      .tongue_radius = design->tongue_radius,
+      .tongue_gap = given->tongue_gap,
+      .tongue_angle = given->tongue_angle,
+      .tongue_gap_range = {chosen ? fmax(0, r2 * cutwater_ratio(design) - r3) : NAN,
+                           chosen ? fmax(0, r2 * LARGEST_CUTWATER - r3) : NAN},
+      .diffuser_length = given->diffuser_length,
+      .diffuser_angle = cw_case_given(given->diffuser_angle) ? given->diffuser_angle : CW_DIFFUSER_ANGLE,
+      .outlet_diameter = given->outlet_diameter,
+      .diffuser_area_ratio = given->diffuser_area_ratio,
+      .discharge = given->discharge,
+      .discharge_pipe_length = given->discharge_pipe_length,
+  };
+  CW_TRY(cw_volute_design(&input, &design->volute));
+done:
+  return status;
+}
+
+// Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side
+// walls, which else would make the spiral too tall, at low specific speed the tongue's radius, which is too
+// large for its throat.
+CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
+  CwStatus status = CW_OK;
+  const int width_open = !cw_case_given(given->inlet_width), side_open = !cw_case_given(given->side_wall_angle),
+            tongue_open = !cw_case_given(given->tongue_radius);
+  const double width = design->inlet_width, widest = fmin(2.4 * design->outlet_width, 0.38 * design->base_diameter);
+  const double tongue = 0.0075 * design->outlet_diameter;
+  SET(swirl_constant, design->outlet_swirl_speed * design->outlet_diameter / 2, "c_u2 r2");
+  TAKE(side_wall_angle, given->side_wall_angle, 20 * degree, "20 deg: full angle 40, usual 30 to 45");
+  TAKE(tongue_radius, given->tongue_radius, tongue, "0.0075 D2: casting");
+  status = volute_of(given, design);
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 5 && tongue_open; i++) {
+    cw_fail_clear();
+    SET(tongue_radius, tongue * pow(0.75, i), "0.0075 D2, reduced for the small throat");
+    status = volute_of(given, design);
+  }
+  for (int i = 1; status == CW_ERR_DESIGN && i <= 12 && (width_open || side_open); i++) {
+    cw_fail_clear();
+    if (tongue_open) SET(tongue_radius, tongue, "0.0075 D2: casting");
+    if (width_open)
+      SET(inlet_width, width + fmax(0, widest - width) * fmin(1, i / 8.0), "widened for a spiral that is not too tall");
+    if (side_open) SET(side_wall_angle, (20 + i) * degree, "widened for a spiral that is not too tall");
+    status = volute_of(given, design);
+  }
+  CW_TRY(status);
+  TAKE(throat_area, given->throat_area, design->volute.throat_area,
+       given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
+  SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");
+  SET(tongue_tip_radius, design->volute.tip_radius,
+      cw_case_given(given->tongue_gap) ? "case: D3/2 + tongue gap"
+                                       : "well shaped, from Guelich's r2 (1.03 + 0.1 nq/40 + 0.07 H/1000 m) to 1.2 r2");
+  SET(tongue_angle, design->volute.tip_angle,
+      cw_case_given(given->tongue_angle) ? "case" : "where its gap asks for it");
+  TAKE(discharge_diameter, given->outlet_diameter, design->volute.input.outlet_diameter,
+       cw_case_given(given->diffuser_area_ratio) ? "area ratio of the diffuser"
+                                                 : "standard bore, area ratio 1.5 to 3, under 4 m/s where that allows");
+  TAKE(discharge_pipe_length, given->discharge_pipe_length, design->volute.input.discharge_pipe_length, "2 DN");
+  TAKE(diffuser_length, given->diffuser_length, design->volute.diffuser_length,
+       cw_case_given(given->diffuser_angle) ? "full angle of the case" : "full angle 9 deg");
+  SET(diffuser_area_ratio, design->volute.diffuser_area_ratio,
+      cw_case_given(given->diffuser_area_ratio) ? "case" : "outlet over throat");
+  SET(diffuser_angle, design->volute.diffuser_angle, "cone of equal areas");
+done:
+  return status;
+}
