@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double RELATIVE_TOLERANCE = 1e-4;
+#include "pipeline/mesh/interface_tolerance.h"
+
+static const double ROUNDING = 1e-9; // of the size of the interface
 
 // Donor faces by the bins of the surface's coordinates that they reach into. On a cylinder the first goes round.
 typedef struct {
@@ -207,22 +209,28 @@ static double off_surface(const CwInterface *in, const double x[3]) {
   return fabs(off);
 }
 
-static CwStatus measure_side(const CwAssembly *a, int number, int s, double tolerance, CwInterface *in) {
+// *longest: edge of a face.
+static CwStatus measure_side(const CwAssembly *a, int number, int s, CwInterface *in, double *longest) {
   CwStatus status = CW_OK;
   int patch = a->mesh->interfaces[number].patch[s];
   CwInterfaceSide *side = &in->sides[s];
   *side = (CwInterfaceSide){a->patches[patch].area, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
   for (int64_t i = 0; i < in->count[s]; ++i) {
     const CwInterfaceFace *face = &a->interface[number][s][i];
+    const double *nodes[4];
     double flat[4][2];
     unroll(in, face, flat);
+    for (int n = 0; n < face->count; ++n) nodes[n] = face->nodes[n];
+    double tolerance = cw_interface_tolerance(face->count, nodes);
     for (int n = 0; n < face->count; ++n) {
-      const double *x = face->nodes[n];
+      const double *x = nodes[n], *next = nodes[(n + 1) % face->count];
       double off = off_surface(in, x);
+      *longest = fmax(*longest, hypot(hypot(next[0] - x[0], next[1] - x[1]), next[2] - x[2]));
       CW_REQUIRE(off <= tolerance || in->is_flat, CW_ERR_INPUT,
-                 "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.6g mm; the interface has %.6g mm",
+                 "patch '%s': node at (%.6g, %.6g, %.6g) mm has the radius %.9g mm; the interface has %.9g mm, and "
+                 "%.3g mm more or less are allowed beside edges as short as there",
                  a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * hypot(x[0], x[1]),
-                 1e3 * in->radius);
+                 1e3 * in->radius, 1e3 * tolerance);
       CW_REQUIRE(off <= tolerance, CW_ERR_INPUT,
                  "patch '%s': node at (%.6g, %.6g, %.6g) mm is %.3g mm off the interface's plane; allowed: %.3g mm",
                  a->mesh->patches[patch].name, 1e3 * x[0], 1e3 * x[1], 1e3 * x[2], 1e3 * off, 1e3 * tolerance);
@@ -282,10 +290,10 @@ CwStatus cw_interface_make(const CwAssembly *a, int number, double radius, CwInt
     in->count[s] = sum->triangles + sum->quads;
   }
   if (in->is_flat) make_plane(a, number, in);
-  double size = in->is_flat ? sqrt(a->patches[a->mesh->interfaces[number].patch[0]].area / M_PI) : radius;
-  for (int s = 0; s < 2; ++s) CW_TRY(measure_side(a, number, s, RELATIVE_TOLERANCE * size, in));
-  // The ends of a disc are corners of a polygon: those that its rim shares with the other side's.
-  CW_TRY(check_ends(a, number, (in->is_flat ? 100 : 1) * RELATIVE_TOLERANCE * size, in));
+  double size = in->is_flat ? sqrt(a->patches[a->mesh->interfaces[number].patch[0]].area / M_PI) : radius, longest = 0;
+  for (int s = 0; s < 2; ++s) CW_TRY(measure_side(a, number, s, in, &longest));
+  // The ends of a disc are corners of a polygon, within it by the rise of an arc over its longest edge at most.
+  CW_TRY(check_ends(a, number, in->is_flat ? longest * longest / (8 * size) : ROUNDING * size, in));
   for (int s = 0; s < 2; ++s) CW_TRY(find_donors(a, number, s, in));
 done:
   return status;

@@ -26,9 +26,9 @@ typedef struct {
 } CwInterface;
 
 // Works on interface `number` of the mesh: on the unrolled cylinder of the design's `radius` (m) for the first,
-// on a plane for the others. Fails with CW_ERR_INPUT where a node is off the cylinder by more than 1e-4 of the
-// radius, or off the plane by as much of the size, or where the sides have different ends. The gap that the
-// first check excludes is one that no solver's interface weights show. For rank 0, which holds the faces.
+// on a plane for the others. Fails with CW_ERR_INPUT where a node is off the cylinder or the plane by more than
+// cw_interface_tolerance, or where the sides have different ends. The gap that the first check excludes is one that no
+// solver's interface weights show. For rank 0, which holds the faces.
 CwStatus cw_interface_make(const CwAssembly *assembly, int number, double radius, CwInterface *interface);
 void cw_interface_free(CwInterface *interface);
 

@@ -8,11 +8,13 @@
 #include <BRepGProp_Domain.hxx>
 #include <BRepGProp_Face.hxx>
 #include <BRepGProp_Vinert.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <gp_Lin.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Pnt2d.hxx>
 #include <gp_Vec.hxx>
@@ -21,7 +23,7 @@
 #include "mesher/cad/cad_unit.h"
 #include "mesher/common/vec.h"
 
-enum { BOX_PARTS = 8 }; // of an edge
+enum { BOX_PARTS = 8, SEARCH_PARTS = 12 }; // of an edge; of a face along u and v
 static const double pcurve_tolerance =
     1e-4; // in units of the B-rep: past it the point of an edge is projected onto its face
 
@@ -224,6 +226,40 @@ double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double
   uv[0] = u;
   uv[1] = v;
   return distance * cad->unit;
+}
+
+// From the nearest of some places all over the face.
+static double searched_distance(const CwCad *cad, int face, const double x[3]) {
+  double range[4], nearest[2] = {0, 0}, best = INFINITY;
+  BRepTools::UVBounds(TopoDS::Face(cad->face_map(face + 1)), range[0], range[1], range[2], range[3]);
+  for (int i = 0; i <= SEARCH_PARTS; i++) {
+    for (int j = 0; j <= SEARCH_PARTS; j++) {
+      double uv[2] = {range[0] + (range[1] - range[0]) * i / SEARCH_PARTS,
+                      range[2] + (range[3] - range[2]) * j / SEARCH_PARTS},
+             p[3];
+      cw_cad_face_point(cad, face, uv, p, nullptr, nullptr);
+      double distance = cw_distance(p, x);
+      if (distance >= best) continue;
+      best = distance;
+      std::copy(uv, uv + 2, nearest);
+    }
+  }
+  return cw_cad_face_project(cad, face, x, nearest);
+}
+
+double cw_cad_face_distance(const CwCad *cad, int face, const double x[3]) {
+  const GeomAdaptor_Surface &surface = cad->face[face].surface;
+  const gp_Pnt p(x[0] / cad->unit, x[1] / cad->unit, x[2] / cad->unit);
+  switch (surface.GetType()) {
+  case GeomAbs_Plane:
+    return surface.Plane().Distance(p) * cad->unit;
+  case GeomAbs_Cylinder:
+    return std::fabs(gp_Lin(surface.Cylinder().Axis()).Distance(p) - surface.Cylinder().Radius()) * cad->unit;
+  case GeomAbs_Sphere:
+    return std::fabs(surface.Sphere().Location().Distance(p) - surface.Sphere().Radius()) * cad->unit;
+  default:
+    return searched_distance(cad, face, x);
+  }
 }
 
 int cw_cad_edge_count(const CwCad *cad) {

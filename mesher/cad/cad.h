@@ -61,6 +61,9 @@ double cw_cad_face_curvature(const CwCad *cad, int face, const double uv[2]);
 // distance, m.
 double cw_cad_face_project(const CwCad *cad, int face, const double x[3], double uv[2]);
 
+// Distance of x from the surface of a face, wherever on it; exact for planes, cylinders and spheres.
+double cw_cad_face_distance(const CwCad *cad, int face, const double x[3]);
+
 int cw_cad_edge_count(const CwCad *cad);
 // Ends of the edge's parameter; vertices at those ends; its two faces (both differ: there are no seams).
 void cw_cad_edge_range(const CwCad *cad, int edge, double t[2]);

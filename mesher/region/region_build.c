@@ -13,6 +13,7 @@
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/source_hash.h"
+#include "pipeline/mesh/interface_tolerance.h"
 
 static int compare_rims(const void *p, const void *q) {
   const int32_t *a = p, *b = q;
@@ -70,6 +71,7 @@ CwStatus cw_region_context_make(CwRegionContext *context) {
     context->shared_count += i < skeleton->wall_count ? context->layer_count + 1 : 1;
   }
   CW_TRY(find_rims(context));
+  CW_TRY(cw_rim_places_make(skeleton, &context->rim_places));
 done:
   return status;
 }
@@ -78,6 +80,7 @@ void cw_region_context_free(CwRegionContext *context) {
   free(context->shared_base);
   free(context->shared_node);
   free(context->rim);
+  cw_rim_places_free(&context->rim_places);
   context->shared_base = NULL;
   context->shared_node = NULL;
   context->rim = NULL;
@@ -165,7 +168,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
       cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth[node], fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->shared_id[*next] = base + k;
-        cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[k], mesh->x[(*next)++]);
+        cw_column_place(skeleton, &context->rim_places, node, fraction[k], mesh->x[(*next)++]);
       }
     }
     if (base >= 0) mesh->shared_id[*next] = base + (on_front ? levels : 0);
@@ -185,6 +188,27 @@ static int32_t rim_cap(const CwRegionContext *context, int32_t a, int32_t b) {
   int32_t key[3] = {a < b ? a : b, a < b ? b : a, 0};
   const int32_t(*found)[3] = bsearch(key, context->rim, (size_t)context->rim_count, sizeof *context->rim, compare_rims);
   return found ? (*found)[2] : -1;
+}
+
+// Nodes of a face of an interface lie on its exact surface: solvers couple the two sides there.
+static CwStatus check_on_cap(const Build *build, const CwRegionMesh *mesh, int32_t face, const int32_t *corner,
+                             int count) {
+  CwStatus status = CW_OK;
+  const CwCad *cad = build->context->skeleton->cad;
+  const double *x[4];
+  int patch = cw_cad_face_patch(cad, face);
+  if (cw_cad_patch_kind(cad, patch) != CW_PATCH_INTERFACE) return CW_OK;
+  for (int c = 0; c < count; c++) x[c] = mesh->x[corner[c]];
+  double allowed = cw_interface_tolerance(count, x);
+  for (int c = 0; c < count; c++) {
+    double off = cw_cad_face_distance(cad, face, x[c]);
+    CW_REQUIRE(off <= allowed, CW_ERR_MESH,
+               "%s region %d: the node at (%.6g, %.6g, %.6g) mm is %.3g mm off patch %s; allowed: %.3g mm",
+               build->context->domain, build->region + 1, CW_MM(x[c]), cw_mm(off), cw_cad_patch_name(cad, patch),
+               cw_mm(allowed));
+  }
+done:
+  return status;
 }
 
 // Prisms of all columns, wall triangles under them, and the quads of their sides on caps.
@@ -218,6 +242,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
           mesh->quad[q][3] = column_point(build, b, k + 1);
           mesh->quad_patch[q] = cw_cad_face_patch(skeleton->cad, cap);
           mesh->quad_cell[q] = first_cell + k;
+          CW_TRY(check_on_cap(build, mesh, cap, mesh->quad[q], 4));
         }
       }
       if (pass == 0) continue;
@@ -271,9 +296,10 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
     face[t] = face_of(corner[0], corner[1], corner[2], t);
     int32_t made = mesh->triangle_count++;
     for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
-    mesh->triangle_patch[made] =
-        cw_cad_face_patch(skeleton->cad, skeleton->cap_face[build->boundary.source[first + t]]);
+    int32_t cap = skeleton->cap_face[build->boundary.source[first + t]];
+    mesh->triangle_patch[made] = cw_cad_face_patch(skeleton->cad, cap);
     mesh->triangle_cell[made] = -1;
+    CW_TRY(check_on_cap(build, mesh, cap, mesh->triangle[made], 3));
   }
   qsort(face, (size_t)build->boundary.cap_count, sizeof *face, compare_faces);
   for (int32_t t = 0; t < build->fill.tetrahedron_count; t++) {

@@ -3,6 +3,7 @@
 #ifndef CUTWATER_MESHER_REGION_REGION_BUILD_H
 #define CUTWATER_MESHER_REGION_REGION_BUILD_H
 
+#include "mesher/region/column_place.h"
 #include "mesher/region/region_file.h"
 #include "mesher/skeleton/skeleton.h"
 #include "pipeline/case.h"
@@ -19,6 +20,7 @@ typedef struct {
   int64_t *shared_base; // of each skeleton node: first shared number of its column (or its own), -1: not shared
   int64_t shared_count;
   int32_t shared_node_count, *shared_node; // the shared nodes by ascending base
+  CwRimPlaces rim_places;
   int32_t rim_count;
   int32_t (*rim)[3]; // wall edges on caps: smaller vertex, greater vertex, cap face; sorted
 } CwRegionContext;

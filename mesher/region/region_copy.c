@@ -53,7 +53,7 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
     double fraction[CW_LAYERS_MOST + 1];
     cw_layer_fractions(skeleton->height[node], context->first_height[node], context->layer_count, context->growth[node],
                        fraction);
-    cw_lerp(skeleton->wall_x[node], skeleton->front[node], fraction[level], x);
+    cw_column_place(skeleton, &context->rim_places, node, fraction[level], x);
   } else {
     cw_copy(skeleton->node_x[node], x);
   }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/region/column_place.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vec.h"
+
+static int compare_places(const void *p, const void *q) {
+  const CwRimPlace *a = p, *b = q;
+  if (a->vertex != b->vertex) return a->vertex < b->vertex ? -1 : 1;
+  return (a->face > b->face) - (a->face < b->face);
+}
+
+CwStatus cw_rim_places_make(const CwSkeleton *skeleton, CwRimPlaces *places) {
+  CwStatus status = CW_OK;
+  int32_t count = 0;
+  memset(places, 0, sizeof *places);
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass == 1) CW_NEW(places->place, count);
+    for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
+      const CwCurve *curve = &skeleton->network.curve[i];
+      if (curve->kind != CW_CURVE_EDGE || !curve->wall) continue;
+      for (int side = 0; side < 2; side++) {
+        int32_t face = curve->face[side];
+        if (cw_face_is_wall(skeleton->cad, face)) continue;
+        count += pass == 0 ? curve->point_count : 0;
+        for (int32_t k = 0; pass == 1 && k < curve->point_count; k++) {
+          CwRimPlace *made = &places->place[places->count++];
+          *made = (CwRimPlace){curve->node[k], face, {0, 0}};
+          cw_cad_edge_uv(skeleton->cad, curve->edge, face, curve->parameter[k][0], made->uv);
+        }
+      }
+    }
+  }
+  qsort(places->place, (size_t)places->count, sizeof *places->place, compare_places);
+done:
+  return status;
+}
+
+void cw_rim_places_free(CwRimPlaces *places) {
+  free(places->place);
+  memset(places, 0, sizeof *places);
+}
+
+void cw_column_place(const CwSkeleton *skeleton, const CwRimPlaces *places, int32_t vertex, double share, double x[3]) {
+  CwGuide guide = skeleton->guide[vertex];
+  cw_lerp(skeleton->wall_x[vertex], skeleton->front[vertex], share, x);
+  if (share <= 0 || share >= 1) return;
+  if (guide.kind == CW_GUIDE_CAP) {
+    CwRimPlace key = {vertex, guide.index, {0, 0}};
+    const CwRimPlace *found =
+        bsearch(&key, places->place, (size_t)places->count, sizeof *places->place, compare_places);
+    if (!found) return;
+    double uv[2] = {found->uv[0], found->uv[1]}, from[3];
+    cw_copy(x, from);
+    cw_cad_face_project(skeleton->cad, guide.index, from, uv);
+    cw_cad_face_point(skeleton->cad, guide.index, uv, x, NULL, NULL);
+  } else if (guide.kind == CW_GUIDE_CURVE) {
+    const CwCurve *curve = &skeleton->network.curve[guide.index];
+    double parameter[2];
+    if (curve->kind == CW_CURVE_LINE) return;
+    cw_curve_point(&skeleton->network, curve, cw_curve_nearest(curve, x), x, parameter);
+  }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Columns along the rim of a cylinder that is no wall.
+#include <cmath>
+#include <vector>
+
+#include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+
+extern "C" {
+#include "mesher/region/column_place.h"
+}
+
+#include "mesher/common/vec.h"
+#include "solids.h"
+
+namespace {
+
+const double radius = 5e-3, height = 12e-3; // m
+enum { NODES = 9 };
+
+// By shape alone: of the spline's faces the curved one is told by the middle of its (u,v).
+std::string by_kind(const TopoDS_Face &face) {
+  double u0, u1, v0, v1;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  gp_Pnt p = BRepAdaptor_Surface(face).Value((u0 + u1) / 2, (v0 + v1) / 2);
+  bool curved = std::fabs(std::hypot(p.X(), p.Y()) - 1e3 * radius) < 1e-9;
+  return curved ? "cylinder,interface" : "flat,wall";
+}
+
+// The rim on the floor as the curve network has it, with one column on each of its nodes.
+struct Rim {
+  CwCad *cad;
+  CwSkeleton skeleton = {};
+  CwCurve curve = {};
+  CwRimPlaces places = {};
+  std::vector<int32_t> node;
+  double parameter[NODES][2], wall[NODES][3], front[NODES][3];
+  CwGuide guide[NODES];
+
+  // On the first four fifths of the rim, so that columns may lean along it by `lean`, rad.
+  Rim(const TopoDS_Shape &solid, double lean) : cad(open_solid(solid, by_kind)) {
+    skeleton.cad = cad;
+    curve.kind = CW_CURVE_EDGE;
+    curve.wall = 1;
+    curve.edge = find_rim();
+    int face[2];
+    double range[2];
+    cw_cad_edge_faces(cad, curve.edge, face);
+    cw_cad_edge_range(cad, curve.edge, range);
+    for (int k = 0; k < 2; k++) curve.face[k] = face[k];
+    int cap = cw_face_is_wall(cad, face[0]) ? face[1] : face[0];
+    for (int i = 0; i < NODES; i++) {
+      parameter[i][0] = range[0] + (range[1] - range[0]) * 0.8 * i / NODES;
+      cw_cad_edge_point(cad, curve.edge, parameter[i][0], wall[i], nullptr);
+      double angle = std::atan2(wall[i][1], wall[i][0]) + lean;
+      const double top[3] = {radius * std::cos(angle), radius * std::sin(angle), 2e-3};
+      cw_copy(top, front[i]);
+      node.push_back(i);
+      guide[i].kind = CW_GUIDE_CAP;
+      guide[i].index = cap;
+    }
+    curve.point_count = NODES;
+    curve.node = node.data();
+    curve.parameter = parameter;
+    skeleton.network.cad = cad;
+    skeleton.network.curve = &curve;
+    skeleton.network.curve_count = 1;
+    skeleton.wall_count = NODES;
+    skeleton.wall_x = wall;
+    skeleton.front = front;
+    skeleton.guide = guide;
+    assert_int_equal(cw_rim_places_make(&skeleton, &places), CW_OK);
+  }
+  ~Rim() {
+    cw_rim_places_free(&places);
+    cw_cad_close(&cad);
+  }
+
+  int find_rim() const {
+    for (int e = 0; e < cw_cad_edge_count(cad); e++) {
+      double range[2], x[3];
+      cw_cad_edge_range(cad, e, range);
+      cw_cad_edge_point(cad, e, (range[0] + range[1]) / 2, x, nullptr);
+      if (x[2] == 0 && std::fabs(std::hypot(x[0], x[1]) - radius) < 1e-12) return e;
+    }
+    fail_msg("no rim");
+    return -1;
+  }
+};
+
+// On the cylinder, and as far from the chord as the arc rises there.
+void check_columns(const TopoDS_Shape &solid) {
+  const double lean = 0.2;
+  Rim rim(solid, lean);
+  assert_int_equal(rim.places.count, NODES);
+  for (int i = 0; i < NODES; i++) {
+    for (double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      double x[3], chord[3];
+      cw_column_place(&rim.skeleton, &rim.places, i, share, x);
+      cw_lerp(rim.wall[i], rim.front[i], share, chord);
+      assert_near(std::hypot(x[0], x[1]), radius, 1e-14);
+      assert_near(x[2], chord[2], 1e-9);
+      assert_near(cw_distance(x, chord), radius - std::hypot(chord[0], chord[1]), 1e-9);
+      assert_near(cw_cad_face_distance(rim.cad, rim.guide[i].index, x), 0, 1e-14);
+      assert_near(cw_cad_face_distance(rim.cad, rim.guide[i].index, chord), cw_distance(x, chord), 1e-14);
+    }
+  }
+}
+
+} // namespace
+
+static void layers_follow_the_cylinder(void **state) {
+  TopoDS_Shape quarter = BRepPrimAPI_MakeCylinder(1e3 * radius, 1e3 * height, M_PI / 2).Shape();
+  check_columns(quarter);
+  check_columns(BRepBuilderAPI_NurbsConvert(quarter).Shape());
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(layers_follow_the_cylinder)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
