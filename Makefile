@@ -6,6 +6,7 @@
 #   make check-long                          the long ones
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
 #   make -C cases NAME                       another case; `make -C cases` lists them
+#   make measurements [SECTIONS="scale cases"]  the benches, for docs/measurements.md (hours)
 #   make clean                               removes build/ (runs/ stays)
 #
 # CELLS: asked number of cells (default: of the case file); NP: ranks; OUT: folder of the run (default runs/paper).
@@ -14,7 +15,7 @@ include pipeline/build.mk
 include pipeline/run.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help check check-long check-sanitized clean
+.PHONY: help check check-long check-sanitized measurements clean
 
 help:
 	@sed -n '/^#   make/s/^#  //p; /^# CELLS/s/^# //p' Makefile
@@ -31,6 +32,9 @@ check check-long:
 check-sanitized:
 	@$(MAKE) --no-print-directory check BUILD=$(BUILD)/sanitized OPTIONS=-DCUTWATER_SANITIZE=ON \
 	  CHOICE='-L quick -R "/test_|^run/quick$$$$"'
+
+measurements: everything
+	@python3 $(ROOT)/tests/bench/measurements.py $(SECTIONS)
 
 clean:
 	@rm -rf $(BUILD)

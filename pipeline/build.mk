@@ -19,7 +19,7 @@ endef
 
 # Checks need the programs of others too.
 packages:
-	@$(ROOT)/pipeline/packages.sh $(if $(filter check check-long,$(MAKECMDGOALS)),check,build)
+	@$(ROOT)/pipeline/packages.sh $(if $(filter check check-long measurements,$(MAKECMDGOALS)),check,build)
 
 configure: packages
 	@mkdir -p $(BUILD)

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""measurements.py [SECTION ...] [--list] [--write-only]
+
+Makes docs/measurements.md from the benches' own output. Each section is one command of tests/bench; all of them take
+hours, so sections may be named to be measured anew (--list tells them). The page keeps the other sections as far as
+they were measured on the present sources; the rest is left out and named at the end of the page. The sources that count
+are those of the programs and of the bench, whose digest stands beside each section: a change of docs alone leaves a
+measurement as it is. With --write-only nothing is measured."""
+import argparse
+import hashlib
+import os
+import platform
+import re
+import shlex
+import subprocess
+import sys
+import time
+from collections import namedtuple
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+PAGE = SOURCE / "docs/measurements.md"
+PROGRAMS = ["pipeline", "geometry", "mesher", "export", "cases", "CMakeLists.txt"]
+
+Section = namedtuple("Section", "title command text")
+
+SECTIONS = {
+    "scale": Section(
+        "One pump, from 0.3 to 20 million cells", "tests/bench/scale.py 300k 1M 3M 8M 20M --judge",
+        "The paper's pump. `balance` is the cells of a region over their mean; `aspect` the mean of longest over "
+        "shortest edge of the tetrahedra."),
+    "large": Section(
+        "100 and 145 million cells, killed and called again", "tests/bench/scale.py 100M 145M --kill",
+        "The mesher is run again, all ranks are killed when half of the regions are whole, and it is called once more: "
+        "its files must have the same bytes."),
+    "cases": Section(
+        "All cases at their own sizes", "tests/bench/cases.py",
+        "The options print what the columns mean (`tests/bench/cases.py --help`)."),
+    "cases_1M": Section("All cases at 300,000 and 1 million cells", "tests/bench/cases.py --cells 300k 1M", ""),
+    "population": Section(
+        "500 pumps by flow, head and speed", "tests/bench/population.py 500",
+        "Drawn at random over the whole range of the case file (`tests/bench/population.py --help`)."),
+    "population_options": Section(
+        "500 pumps with options", "tests/bench/population.py 500 --options",
+        "The same with blade counts, splitters, fillets, shafts, sections, zones and y+ targets drawn too."),
+    "ablation": Section(
+        "What each number of the policy does", "tests/bench/ablate.py",
+        "Each number of `mesher/policy.h` moved by a factor, over a population of pumps."),
+    "table1": Section(
+        "Table 1 of the paper: shapes of the tetrahedra", "tests/bench/table1.py --cells 3M",
+        "Shares of the tetrahedra by longest over shortest edge, %."),
+    "table2": Section(
+        "Table 2 of the paper: speed-up over ranks", "tests/bench/speedup.py --cells 21M",
+        "1 and 2 ranks by the clock; all further rows are a model, marked so."),
+    "whole_run": Section(
+        "The whole run beside gmsh's HXT", "tests/bench/whole_run.py --cells 8M",
+        "Geometry to CGNS and OpenFOAM, layers included, beside `gmsh -3 -algo hxt` on the same solids and cores, in "
+        "turn; gmsh makes no layers, no interface and no solver's case."),
+    "fill": Section(
+        "Filling regions", "tests/bench/fill.py build --ring 0.0018 0.0009 --cores 1 --equal",
+        "The kernel, TetGen behind the same call, and gmsh's HXT with as many cells (`hxt, =`), one core each, in "
+        "turn."),
+    "patch_mesh": Section("Triangles on a square", "tests/bench/patch_mesh.py", "Beside gmsh, one core."),
+    "surface": Section("Triangles on the pump's walls", "tests/bench/surface.py --cells 2M", "Beside gmsh, one core."),
+    "boundaries": Section(
+        "500 random boundaries", "build/bin/mesher_test_hard_boundaries 500 1 1",
+        "How the boundary of each was recovered; each fill is proven sound."),
+    "periodic": Section("One passage beside the whole impeller", "tests/bench/periodic.py --cells 1M",
+                        "Processor seconds on one rank."),
+}
+
+
+def run_text(*line):
+    return subprocess.run(line, cwd=SOURCE, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def sources_digest(command):
+    """Of all tracked files that a measurement follows from."""
+    bench = [word for word in command.split() if word.startswith("tests/")] + ["tests/bench/programs.py", "tests/mesher"]
+    digest = hashlib.sha256()
+    for name in run_text("git", "ls-files", *PROGRAMS, *bench).splitlines():
+        if not name.endswith(".md"):
+            digest.update(name.encode() + b"\0" + (SOURCE / name).read_bytes())
+    return digest.hexdigest()
+
+
+def machine():
+    cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return f"{os.cpu_count()} cores ({cpu[1] if cpu else platform.machine()}), {memory:.0f} GiB"
+
+
+def measure(name):
+    """Runs a section's command; the section as it stands in the page."""
+    section = SECTIONS[name]
+    print(f"measurements: {name}: {section.command}", file=sys.stderr, flush=True)
+    began = time.monotonic()
+    done = subprocess.run(shlex.split(section.command), cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          text=True)
+    if done.returncode:
+        sys.exit(f"measurements: {section.command} ended with {done.returncode}; the page is as it was")
+    changed = run_text("git", "status", "--porcelain", "--untracked-files=no", *PROGRAMS)
+    commit = run_text("git", "rev-parse", "--short=9", "HEAD") + (" with changes" if changed else "")
+    return "\n".join([f"<!-- section {name} {sources_digest(section.command)} -->", f"## {section.title}", "",
+                      *([section.text, ""] if section.text else []),
+                      f"`{section.command}`, commit {commit}, {time.strftime('%Y-%m-%d')}, {machine()}, "
+                      f"{(time.monotonic() - began) / 60:.0f} minutes:", "", "```", done.stdout.rstrip(), "```", ""])
+
+
+def kept_sections():
+    """Sections of the page that were measured on the present sources, by name."""
+    text = PAGE.read_text() if PAGE.exists() else ""
+    found = {}
+    for match in re.finditer(r"<!-- section (\w+) (\w+) -->\n.*?\n```\n.*?\n```\n", text, re.S):
+        name, digest = match[1], match[2]
+        if name in SECTIONS and digest == sources_digest(SECTIONS[name].command):
+            found[name] = match[0]
+    return found
+
+
+def write_page(sections):
+    lines = ["<!-- SPDX-License-Identifier: AGPL-3.0-or-later -->",
+             "<!-- Made by tests/bench/measurements.py (`make measurements`): change that, not this page. -->",
+             "# Measurements", "",
+             "Each section is the output of one command, on the commit that stands beside it. Terms stand in "
+             "[glossary.md](glossary.md), the method in [mesher.md](mesher.md). The machine is shared: compare "
+             "programs within a table, not seconds between tables.", ""]
+    lines += [sections[name] for name in SECTIONS if name in sections]
+    missing = [name for name in SECTIONS if name not in sections]
+    if missing:
+        lines += ["Not measured on these sources: " + ", ".join(missing) +
+                  " (`make measurements SECTIONS=\"...\"`).", ""]
+    part = PAGE.with_suffix(".part")
+    part.write_text("\n".join(lines))
+    part.replace(PAGE)
+    print(f"measurements: {PAGE.relative_to(SOURCE)}: {len(SECTIONS) - len(missing)} of {len(SECTIONS)} sections",
+          flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("sections", nargs="*", metavar="SECTION")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--write-only", action="store_true", help="makes the page from what was measured before")
+    options = parser.parse_args()
+    if options.list:
+        for name, section in SECTIONS.items():
+            print(f"{name:20} {section.command}")
+        return
+    unknown = set(options.sections) - set(SECTIONS)
+    if unknown:
+        sys.exit(f"measurements: no section is called '{min(unknown)}'; allowed: {', '.join(SECTIONS)}")
+    if options.write_only:
+        write_page(kept_sections())
+        return
+    for name in options.sections or SECTIONS:
+        made = measure(name)
+        write_page({**kept_sections(), name: made})
+
+
+main()
