@@ -2,6 +2,7 @@
 # The front door.
 #
 #   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
+#   make solve [CELLS=..] [NP=2] [OUT=DIR]   the same, and its steady flow with OpenFOAM until head and torque settle
 #   make check                               the quick tests, with everything they need
 #   make check-long                          the long ones
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
@@ -22,6 +23,9 @@ help:
 
 OUT ?= runs/paper
 $(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))
+
+.PHONY: solve
+solve: paper-solve
 
 check check-long: everything
 check: CHOICE := -L '^quick$$'

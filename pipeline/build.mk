@@ -17,9 +17,10 @@ endef
 
 .PHONY: packages configure programs everything FORCE
 
-# Checks need the programs of others too.
+# Checks need the programs of others too, solving one of them.
 packages:
-	@$(ROOT)/pipeline/packages.sh $(if $(filter check check-long measurements,$(MAKECMDGOALS)),check,build)
+	@$(ROOT)/pipeline/packages.sh $(if $(filter check check-long measurements,$(MAKECMDGOALS)),check,$\
+	  $(if $(SOLVE)$(filter solve %-solve,$(MAKECMDGOALS)),solve,build))
 
 configure: packages
 	@mkdir -p $(BUILD)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# Installs what is missing from Debian: packages.sh build|check. `build` is what the programs need, `check` also what
-# the tests hold them against: programs of others.
+# Installs what is missing from Debian: packages.sh build|solve|check. `build` is what the programs need, `solve` also
+# the flow solver, `check` also what the tests hold them against: programs of others.
 set -eu
 
 build="gcc g++ cmake make python3 pkg-config libfyaml-dev libjansson-dev libcmocka-dev libcairo2-dev
@@ -12,8 +12,9 @@ judges="cgns-convert gmsh python3-gmsh openfoam tetgen valgrind"
 
 case "${1:-}" in
 build) wanted=$build ;;
+solve) wanted="$build openfoam" ;;
 check) wanted="$build $judges" ;;
-*) echo "packages: usage: packages.sh build|check" >&2; exit 2 ;;
+*) echo "packages: usage: packages.sh build|solve|check" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query > /dev/null; then

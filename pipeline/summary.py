@@ -36,6 +36,7 @@ def files(run):
             ("export/pump.cgns", "the mesh with patches and interface, CGNS"),
             ("export/openfoam", "the OpenFOAM case: ./Allrun"),
             ("export/cfx", "the CFX set-up on pump.cgns"),
+            ("solve", "the solved flow: steady/ is the OpenFOAM case"),
             ("report/index.html", "the report")]
     for name, text in what:
         path = os.path.join(run, name)
@@ -67,6 +68,19 @@ def mesh_lines(result):
         " from its solid; least cell " + f"{1e9 * min(domain['least_cell_volume_m3'] for domain in domains):.2g} mm3"
 
 
+def solved_line(run):
+    """The solved flow in one line, and the record's warnings; nothing where the run was not solved."""
+    if not os.path.exists(os.path.join(run, "solve/record.json")):
+        return [], []
+    record = read(run, "solve")
+    result = record["results"]
+    efficiency = result["hydraulic_efficiency"]
+    text = (f"{'head and torque settled' if result['settled'] else 'NOT settled'} after {result['iterations']} iterations: "
+            f"head {result['head_m']:.2f} m, torque {result['torque_n_m']:.3g} N m, shaft power "
+            f"{result['shaft_power_w']:.3g} W" + (f", hydraulic efficiency {100 * efficiency:.1f} %" if efficiency else ""))
+    return [("solved", text)], [("solve", warning) for warning in record["warnings"]]
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: summary.py RUN")
@@ -83,6 +97,9 @@ def main():
         lines.append(("memory", ", ".join(f"{stage} {shown_size(record[stage]['peak_memory_bytes'])}"
                                           for stage in record)))
         warnings = [(stage, text) for stage in record for text in record[stage]["warnings"]]
+        line, more = solved_line(run)
+        lines[1:1] = line
+        warnings += more
         made = list(files(run))
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f"summary: error: {run}: {type(error).__name__}: {error}")

@@ -18,7 +18,17 @@ SOLVED = {"head_m": r"^head +([-\d.e+]+) m", "torque_n_m": r"^shaft torque +([-\
 
 
 def solved(run):
-    """What the solver reported last, as far as it did."""
+    """What the flow came to, by the stage `solve`, or what the solver reported last, as far as either was run."""
+    record = os.path.join(run, "solve/record.json")
+    if os.path.exists(record):
+        with open(record, encoding="utf-8") as file:
+            result = json.load(file)["results"]
+        walls = result["y_plus"].values()
+        found = {"head_m": result["head_m"], "torque_n_m": result["torque_n_m"],
+                 "y_plus_most": max((wall["most"] for wall in walls), default=None)}
+        if result["hydraulic_efficiency"]:
+            found["hydraulic_efficiency_percent"] = 100 * result["hydraulic_efficiency"]
+        return {name: value for name, value in found.items() if value is not None}
     case = os.path.join(run, "export/openfoam")
     if not os.path.isdir(os.path.join(case, "postProcessing")):
         return {}

@@ -108,6 +108,7 @@ static const struct {
     {"quality", "Cell quality", cw_page_quality},
     {"layers", "Prism layers", cw_page_layers},
     {"export", "Export", cw_page_export},
+    {"solve", "Solved flow", cw_page_solve},
     {"times", "Times and memory", cw_page_times},
     {"warnings", "Warnings", cw_page_warnings},
 };

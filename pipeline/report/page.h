@@ -17,6 +17,7 @@ typedef struct {
   char *run;
   json_t *design;            // geometry/design.json
   json_t *record[CW_STAGES]; // geometry, mesh, export; the last may be NULL
+  json_t *solve;             // solve/record.json, or NULL
   CwMesh mesh;
   CwReportPictures pictures;
 } CwReportData;
@@ -42,6 +43,7 @@ CwStatus cw_page_regions(FILE *page, const CwReportData *data);
 CwStatus cw_page_quality(FILE *page, const CwReportData *data);
 CwStatus cw_page_layers(FILE *page, const CwReportData *data);
 CwStatus cw_page_export(FILE *page, const CwReportData *data);
+CwStatus cw_page_solve(FILE *page, const CwReportData *data);
 CwStatus cw_page_times(FILE *page, const CwReportData *data);
 CwStatus cw_page_warnings(FILE *page, const CwReportData *data);
 

@@ -40,6 +40,20 @@ done:
   return status;
 }
 
+// The solved flow, where there is one.
+static CwStatus read_solve(const char *run, json_t **record) {
+  CwStatus status = CW_OK;
+  char path[4096];
+  json_t *value;
+  snprintf(path, sizeof path, "%s/solve/record.json", run);
+  if (access(path, F_OK) != 0) goto done;
+  CW_TRY(cw_json_read(path, record));
+  CW_TRY(cw_json_object(*record, path, "results", &value));
+  CW_TRY(cw_json_array(*record, path, "warnings", &value));
+done:
+  return status;
+}
+
 // An export that an earlier mesh of the same pump left behind.
 static CwStatus require_export_of_mesh(const CwReportData *data) {
   CwStatus status = CW_OK;
@@ -68,6 +82,7 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   CW_TRY(cw_json_read(path, &data->design));
   for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, table, s, &data->record[s]));
+  CW_TRY(read_solve(run, &data->solve));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
   CW_TRY(require_export_of_mesh(data));
 done:
@@ -78,6 +93,7 @@ void cw_report_data_free(CwReportData *data) {
   free(data->run);
   json_decref(data->design);
   for (int s = 0; s < CW_STAGES; s++) json_decref(data->record[s]);
+  json_decref(data->solve);
   cw_mesh_free(&data->mesh);
   cw_report_pictures_free(&data->pictures);
   *data = (CwReportData){0};

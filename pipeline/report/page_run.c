@@ -224,19 +224,24 @@ done:
   return status;
 }
 
+static int warnings_of(FILE *page, const char *stage, json_t *record) {
+  int count = 0;
+  size_t k;
+  json_t *warning, *list = json_object_get(record, "warnings");
+  json_array_foreach(list, k, warning) {
+    const char *text = json_string_value(warning);
+    fprintf(page, "<div class=\"warn\"><b>%s:</b> ", stage);
+    cw_html_text(page, text ? text : "");
+    fputs("</div>\n", page);
+    count++;
+  }
+  return count;
+}
+
 CwStatus cw_page_warnings(FILE *page, const CwReportData *data) {
   int count = 0;
-  for (int s = 0; s < CW_STAGES; s++) {
-    size_t k;
-    json_t *warning, *list = json_object_get(data->record[s], "warnings");
-    json_array_foreach(list, k, warning) {
-      const char *text = json_string_value(warning);
-      fprintf(page, "<div class=\"warn\"><b>%s:</b> ", cw_report_stage[s]);
-      cw_html_text(page, text ? text : "");
-      fputs("</div>\n", page);
-      count++;
-    }
-  }
+  for (int s = 0; s < CW_STAGES; s++) count += warnings_of(page, cw_report_stage[s], data->record[s]);
+  count += warnings_of(page, "solve", data->solve);
   if (!count) fputs("<div class=\"fine\">No stage had anything to warn of.</div>\n", page);
   return CW_OK;
 }

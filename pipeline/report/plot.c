@@ -143,3 +143,89 @@ void cw_plot_bars(FILE *page, const CwPlot *plot) {
   text(page, left + 0.5 * width, top + body + 36, "middle", "x", plot->axis);
   fputs("</svg>\n", page);
 }
+
+// Where values stand on the axis of a line plot.
+typedef struct {
+  double low, high, step; // of the values, or of their decimal logarithms
+  int logarithmic;
+} Scale;
+
+static double on_scale(const Scale *scale, double value) {
+  double at = scale->logarithmic ? (value > 0 ? log10(value) : NAN) : value;
+  return (at - scale->low) / (scale->high - scale->low);
+}
+
+static Scale scale_of(const CwLinePlot *plot) {
+  Scale scale = {INFINITY, -INFINITY, 1, plot->logarithmic};
+  for (int s = 0; s < plot->series_count; s++) {
+    for (int k = 0; k < plot->count; k++) {
+      double value = plot->series[s].value[k];
+      if (plot->logarithmic) value = value > 0 ? log10(value) : NAN;
+      if (!isfinite(value)) continue;
+      scale.low = fmin(scale.low, value);
+      scale.high = fmax(scale.high, value);
+    }
+  }
+  double mark = plot->logarithmic && isfinite(plot->mark) ? log10(plot->mark) : plot->mark;
+  if (isfinite(mark)) scale = (Scale){fmin(scale.low, mark), fmax(scale.high, mark), 1, plot->logarithmic};
+  if (!(scale.low < scale.high)) {
+    double middle = isfinite(scale.low) ? scale.low : 0, half = fmax(0.05 * fabs(middle), 1e-12);
+    scale = (Scale){middle - half, middle + half, 1, plot->logarithmic};
+  }
+  scale.step = plot->logarithmic ? fmax(1, ceil((scale.high - scale.low) / 8)) : cw_plot_step(scale.high - scale.low);
+  scale.low = floor(scale.low / scale.step + 1e-9) * scale.step;
+  scale.high = ceil(scale.high / scale.step - 1e-9) * scale.step;
+  return scale;
+}
+
+static void path_of(FILE *page, const CwLinePlot *plot, const Scale *scale, const double *value, uint32_t colour,
+                    const double frame[4]) {
+  int drawing = 0;
+  double from = plot->x[0], span = fmax(plot->x[plot->count - 1] - from, 1e-300);
+  fprintf(page, "<path fill=\"none\" stroke=\"#%06x\" stroke-width=\"1.6\" d=\"", (unsigned)colour);
+  for (int k = 0; k < plot->count; k++) {
+    double up = on_scale(scale, value[k]);
+    if (!isfinite(up)) {
+      drawing = 0;
+      continue;
+    }
+    fprintf(page, "%c%.1f %.1f", drawing ? 'L' : 'M', frame[0] + frame[2] * (plot->x[k] - from) / span,
+            frame[1] + frame[3] * (1 - up));
+    drawing = 1;
+  }
+  fputs("\"/>\n", page);
+}
+
+void cw_plot_lines(FILE *page, const CwLinePlot *plot) {
+  const double left = 62, right = 14, above = 18, below = 44, body = 220;
+  CwPlot keys = {.series = plot->series, .series_count = plot->series_count, .width = plot->width};
+  double top = begin(page, &keys, above + body + below) + above, width = plot->width - left - right;
+  const double frame[4] = {left, top, width, body};
+  char words[40];
+  if (plot->count > 0) {
+    Scale scale = scale_of(plot);
+    for (double at = scale.low; at <= scale.high + 1e-9 * scale.step; at += scale.step) {
+      double y = top + body * (1 - (at - scale.low) / (scale.high - scale.low));
+      line(page, left, y, left + width, y, at == scale.low ? "a" : "g");
+      if (scale.logarithmic)
+        snprintf(words, sizeof words, "%.0e", pow(10, at));
+      else
+        tick_text(at, scale.step, words, sizeof words);
+      text(page, left - tick_gap, y + 4, "end", "t", words);
+    }
+    double from = plot->x[0], span = fmax(plot->x[plot->count - 1] - from, 1e-300), step = cw_plot_step(span);
+    for (double at = ceil(from / step) * step; at <= from + span * (1 + 1e-9); at += step) {
+      tick_text(at, step, words, sizeof words);
+      text(page, left + width * (at - from) / span, top + body + 17, "middle", "t", words);
+    }
+    double mark = on_scale(&scale, plot->mark);
+    if (isfinite(mark)) line(page, left, top + body * (1 - mark), left + width, top + body * (1 - mark), "m");
+    for (int s = 0; s < plot->series_count; s++)
+      path_of(page, plot, &scale, plot->series[s].value, plot->series[s].colour, frame);
+  }
+  text(page, left + 0.5 * width, top + body + 38, "middle", "x", plot->x_axis);
+  fprintf(page, "<text transform=\"translate(12 %.1f) rotate(-90)\" text-anchor=\"middle\" class=\"x\">",
+          top + 0.5 * body);
+  cw_html_text(page, plot->axis);
+  fputs("</text>\n</svg>\n", page);
+}

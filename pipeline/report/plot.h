@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Charts as SVG text: columns side by side, and stacked bars.
+// Charts as SVG text: columns side by side, stacked bars, and lines.
 #ifndef CUTWATER_PIPELINE_REPORT_PLOT_H
 #define CUTWATER_PIPELINE_REPORT_PLOT_H
 
@@ -26,6 +26,17 @@ typedef struct {
   int width;               // px
 } CwPlot;
 
+typedef struct {
+  const char *axis, *x_axis;  // what is drawn over what, with units
+  const double *x;            // ascending
+  int count;                  // places
+  const CwPlotSeries *series; // each of `count` values; NAN: a gap
+  int series_count;
+  int logarithmic; // values as powers of ten; those not above 0 are gaps
+  double mark;     // a line across at this value; NAN: none
+  int width;       // px
+} CwLinePlot;
+
 // Step of 1, 2 or 5 times a power of ten that gives 4 to 10 ticks up to `most`; 1 where `most` is not above
 // 0.
 double cw_plot_step(double most);
@@ -34,5 +45,7 @@ double cw_plot_step(double most);
 void cw_plot_columns(FILE *page, const CwPlot *plot);
 // Bars from left to right, the series stacked, one bar a category.
 void cw_plot_bars(FILE *page, const CwPlot *plot);
+// Lines over x. The axis holds all values and the mark, but not always 0.
+void cw_plot_lines(FILE *page, const CwLinePlot *plot);
 
 #endif

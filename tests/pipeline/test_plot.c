@@ -133,12 +133,83 @@ static void an_empty_plot_is_a_plot(void **state) {
   }
 }
 
+static char *drawn_lines(const CwLinePlot *plot) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *page = open_memstream(&text, &size);
+  cw_plot_lines(page, plot);
+  fclose(page);
+  return text;
+}
+
+// The places of the first path; 'L' or 'M' in `command`.
+static int path_places(const char *text, char *command, double (*place)[2]) {
+  int count = 0, used;
+  const char *at = strstr(text, " d=\"");
+  assert_non_null(at);
+  for (at += 4; sscanf(at, "%c%lf %lf%n", &command[count], &place[count][0], &place[count][1], &used) == 3; count++)
+    at += used;
+  return count;
+}
+
+// A straight line stays straight, ends at the edges of the frame, and goes up where its values do.
+static void lines_stand_where_their_values_are(void **state) {
+  const double x[] = {10, 20, 40}, value[] = {11, 12, 14};
+  const CwPlotSeries series = {"head", 0x112233, value};
+  CwLinePlot plot = {.axis = "m",
+                     .x_axis = "iteration",
+                     .x = x,
+                     .count = 3,
+                     .series = &series,
+                     .series_count = 1,
+                     .mark = NAN,
+                     .width = 400};
+  char *text = drawn_lines(&plot), command[8];
+  double p[8][2];
+  assert_int_equal(path_places(text, command, p), 3);
+  assert_near((p[1][0] - p[0][0]) / (p[2][0] - p[0][0]), 1.0 / 3, 0.002);
+  assert_near((p[1][1] - p[0][1]) / (p[2][1] - p[0][1]), 1.0 / 3, 0.002);
+  assert_true(p[2][1] < p[0][1]);
+  assert_null(strstr(text, "class=\"m\""));
+  free(text);
+  plot.mark = 10; // below all values: the axis reaches it, and the line moves up
+  text = drawn_lines(&plot);
+  double q[8][2];
+  assert_int_equal(path_places(text, command, q), 3);
+  assert_non_null(strstr(text, "class=\"m\""));
+  assert_true(q[0][1] < p[0][1]);
+  free(text);
+}
+
+static void logarithmic_lines_have_a_gap_at_zero(void **state) {
+  const double x[] = {1, 2, 3, 4}, value[] = {1, 0, 0.01, 0.0001};
+  const CwPlotSeries series = {"p", 0x112233, value};
+  CwLinePlot plot = {.axis = "residual",
+                     .x_axis = "iteration",
+                     .x = x,
+                     .count = 4,
+                     .series = &series,
+                     .series_count = 1,
+                     .logarithmic = 1,
+                     .mark = NAN,
+                     .width = 400};
+  char *text = drawn_lines(&plot), command[8];
+  double p[8][2];
+  assert_int_equal(path_places(text, command, p), 3);
+  assert_int_equal(command[1], 'M'); // begins anew behind the gap
+  assert_int_equal(command[2], 'L');
+  assert_near((p[1][1] - p[0][1]) / (p[2][1] - p[0][1]), 0.5, 0.01); // two of four decades
+  free(text);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(steps_are_round),
       cmocka_unit_test(columns_are_as_high_as_their_values),
       cmocka_unit_test(bars_are_stacked_and_noted),
       cmocka_unit_test(an_empty_plot_is_a_plot),
+      cmocka_unit_test(lines_stand_where_their_values_are),
+      cmocka_unit_test(logarithmic_lines_have_a_gap_at_zero),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The solved flow: what solve/record.json tells (pipeline/solve.py), beside the design's prediction.
+#include <math.h>
+#include <stdlib.h>
+
+#include "pipeline/json_read.h"
+#include "pipeline/report/format.h"
+#include "pipeline/report/html.h"
+#include "pipeline/report/page.h"
+#include "pipeline/report/plot.h"
+
+typedef struct {
+  int count; // reports
+  double *iteration, *head, *torque, *residual_p, *residual_u;
+} History;
+
+static CwStatus read_column(json_t *history, const char *where, const char *key, int count, double **column) {
+  CwStatus status = CW_OK;
+  json_t *list;
+  CW_TRY(cw_json_array(history, where, key, &list));
+  CW_REQUIRE(json_array_size(list) == (size_t)count, CW_ERR_INPUT, "%s: '%s' has %zu values; it must have %d", where,
+             key, json_array_size(list), count);
+  CW_NEW(*column, count);
+  for (int k = 0; k < count; k++) {
+    json_t *value = json_array_get(list, (size_t)k);
+    (*column)[k] = json_is_number(value) ? json_number_value(value) : NAN;
+  }
+done:
+  return status;
+}
+
+static void history_free(History *history) {
+  free(history->iteration);
+  free(history->head);
+  free(history->torque);
+  free(history->residual_p);
+  free(history->residual_u);
+}
+
+static CwStatus history_read(json_t *results, const char *where, History *history) {
+  CwStatus status = CW_OK;
+  json_t *object, *list;
+  CW_TRY(cw_json_object(results, where, "history", &object));
+  CW_TRY(cw_json_array(object, where, "iteration", &list));
+  history->count = (int)json_array_size(list);
+  CW_TRY(read_column(object, where, "iteration", history->count, &history->iteration));
+  CW_TRY(read_column(object, where, "head_m", history->count, &history->head));
+  CW_TRY(read_column(object, where, "torque_n_m", history->count, &history->torque));
+  CW_TRY(read_column(object, where, "residual_p", history->count, &history->residual_p));
+  CW_TRY(read_column(object, where, "residual_u", history->count, &history->residual_u));
+done:
+  return status;
+}
+
+static void row(FILE *page, const char *name, double value, double scatter, double design, const char *unit) {
+  char text[CW_FORMAT_SIZE];
+  fprintf(page, "<tr><td>%s</td><td class=\"n\">%s</td>", name, cw_format_number(value, 4, text));
+  fprintf(page, "<td class=\"n\">%s</td>", isfinite(scatter) ? cw_format_number(scatter, 2, text) : "");
+  fprintf(page, "<td class=\"n\">%s</td><td>%s</td></tr>\n", isfinite(design) ? cw_format_number(design, 4, text) : "",
+          unit);
+}
+
+static void result_table(FILE *page, const CwReportData *data, json_t *results) {
+  double efficiency = cw_json_real(results, "hydraulic_efficiency");
+  fputs("<table class=\"plain\"><tr><th></th><th class=\"n\">solved</th><th class=\"n\">&plusmn;</th>"
+        "<th class=\"n\">design</th><th></th></tr>\n",
+        page);
+  row(page, "Head", cw_json_real(results, "head_m"), cw_json_real(results, "head_scatter_m"),
+      cw_json_real(data->design, "predicted_head_m"), "m");
+  row(page, "Shaft torque", cw_json_real(results, "torque_n_m"), cw_json_real(results, "torque_scatter_n_m"), NAN,
+      "N&#8239;m");
+  row(page, "Shaft power", cw_json_real(results, "shaft_power_w") * 1e-3, NAN, NAN, "kW");
+  if (isfinite(efficiency))
+    row(page, "Hydraulic efficiency", 100 * efficiency, NAN, 100 * cw_json_real(data->design, "hydraulic_efficiency"),
+        "%");
+  fputs("</table>\n", page);
+}
+
+static void history_plots(FILE *page, const History *history, double asked) {
+  const CwPlotSeries head = {"head, m", 0x0b5c8a, history->head};
+  const CwPlotSeries residual[] = {{"pressure", 0x0b5c8a, history->residual_p},
+                                   {"velocity, greatest component", 0xd9a24e, history->residual_u}};
+  fputs("<div class=\"grid\">\n<figure>", page);
+  cw_plot_lines(page, &(CwLinePlot){.axis = "head, m",
+                                    .x_axis = "iteration",
+                                    .x = history->iteration,
+                                    .count = history->count,
+                                    .series = &head,
+                                    .series_count = 1,
+                                    .mark = asked,
+                                    .width = 560});
+  fputs("<figcaption><b>Head.</b> The broken line is the head that the case asks.</figcaption></figure>\n<figure>",
+        page);
+  cw_plot_lines(page, &(CwLinePlot){.axis = "initial residual",
+                                    .x_axis = "iteration",
+                                    .x = history->iteration,
+                                    .count = history->count,
+                                    .series = residual,
+                                    .series_count = 2,
+                                    .logarithmic = 1,
+                                    .mark = 1e-4,
+                                    .width = 560});
+  fputs("<figcaption><b>Residuals.</b> The broken line is 1e-4.</figcaption></figure>\n</div>\n", page);
+}
+
+static void y_plus_table(FILE *page, json_t *walls) {
+  const char *patch;
+  json_t *wall;
+  char text[CW_FORMAT_SIZE];
+  if (json_object_size(walls) == 0) return;
+  fputs("<h3>y+ of the solution</h3>\n<table class=\"plain\"><tr><th>Patch</th><th class=\"n\">least</th>"
+        "<th class=\"n\">mean</th><th class=\"n\">greatest</th></tr>\n",
+        page);
+  json_object_foreach(walls, patch, wall) {
+    fputs("<tr><td>", page);
+    cw_html_label(page, patch);
+    static const char *const keys[] = {"least", "mean", "most"};
+    for (int k = 0; k < 3; k++)
+      fprintf(page, "</td><td class=\"n\">%s", cw_format_number(cw_json_real(wall, keys[k]), 3, text));
+    fputs("</td></tr>\n", page);
+  }
+  fputs("</table>\n", page);
+}
+
+CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
+  CwStatus status = CW_OK;
+  History history = {0};
+  json_t *results;
+  char where[4096], text[CW_FORMAT_SIZE], more[CW_FORMAT_SIZE];
+  int64_t iterations, cells, exported = -1;
+  if (!data->solve) {
+    fputs("<p>The flow of this run has not been solved (<code>make solve</code>).</p>\n", page);
+    goto done;
+  }
+  snprintf(where, sizeof where, "%s/solve/record.json", data->run);
+  CW_TRY(cw_json_object(data->solve, where, "results", &results));
+  CW_TRY(cw_json_count(results, where, "cells", &cells));
+  CW_TRY(cw_json_count(results, where, "iterations", &iterations));
+  if (data->record[2])
+    exported = json_integer_value(json_object_get(json_object_get(data->record[2], "results"), "cells"));
+  if (cells != exported) {
+    fprintf(page, "<p>The flow was solved on another mesh, of %s cells.</p>\n", cw_format_count(cells, text));
+    goto done;
+  }
+  CW_TRY(history_read(results, where, &history));
+  fprintf(page, "<p>Steady flow with a frozen rotor, by OpenFOAM: head and torque %s after %s iterations (%s).</p>\n",
+          json_is_true(json_object_get(results, "settled")) ? "have settled" : "have <b>not settled</b>",
+          cw_format_count(iterations, text), cw_format_seconds(cw_json_real(data->solve, "seconds"), more));
+  result_table(page, data, results);
+  if (history.count > 1) history_plots(page, &history, data->table->operating_point.head);
+  y_plus_table(page, json_object_get(results, "y_plus"));
+done:
+  history_free(&history);
+  return status;
+}
