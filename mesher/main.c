@@ -5,6 +5,7 @@
 
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/policy.h"
 #include "mesher/run/mesh_run.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
@@ -27,6 +28,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_mpi_start(&argc, &argv, &run.rank, &run.ranks));
   CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
   if (args.finished) goto done;
+  CW_TRY(cw_policy_start());
   CW_TRY(cw_stop_watch(args.run_path, "mesh", run.rank == 0));
   // Were rank 0 late with the file of cw_stop_claim, it would tell of its end beside the rank that failed.
   MPI_Barrier(MPI_COMM_WORLD);

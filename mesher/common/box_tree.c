@@ -6,50 +6,11 @@
 #include <string.h>
 
 #include "mesher/common/hilbert.h"
+#include "mesher/common/radix.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/share.h"
 
-enum { LEAF = 4, BITS = 13, DEPTH = 64, DIGITS = 1 << BITS };
-
-// An item, with what is left of its place on the curve once it is sorted by the last digit.
-typedef struct {
-  uint32_t key;
-  int32_t item;
-} Place;
-
-// Makes counts the places where those counted begin.
-static void begin(int32_t start[DIGITS]) {
-  int32_t sum = 0;
-  for (int32_t d = 0; d < DIGITS; d++) {
-    int32_t found = start[d];
-    start[d] = sum;
-    sum += found;
-  }
-}
-
-// Lists the items by key, digit by digit from the last; equal keys keep their order.
-static CwStatus sort_items(int32_t count, const uint64_t *key, int32_t *item) {
-  CwStatus status = CW_OK;
-  Place *once = NULL, *twice = NULL;
-  int32_t(*start)[DIGITS] = NULL;
-  CW_NEW(start, 3);
-  CW_NEW_UNSET(once, count);
-  CW_NEW_UNSET(twice, count);
-  for (int32_t i = 0; i < count; i++) {
-    for (int digit = 0; digit < 3; digit++) start[digit][key[i] >> digit * BITS & (DIGITS - 1)]++;
-  }
-  for (int digit = 0; digit < 3; digit++) begin(start[digit]);
-  for (int32_t i = 0; i < count; i++) {
-    once[start[0][key[i] & (DIGITS - 1)]++] = (Place){(uint32_t)(key[i] >> BITS), i};
-  }
-  for (int32_t i = 0; i < count; i++) twice[start[1][once[i].key & (DIGITS - 1)]++] = once[i];
-  for (int32_t i = 0; i < count; i++) item[start[2][twice[i].key >> BITS]++] = twice[i].item;
-done:
-  free(start);
-  free(once);
-  free(twice);
-  return status;
-}
+enum { LEAF = 4, BITS = 13, DEPTH = 64 };
 
 // What the tasks below read.
 typedef struct {
@@ -113,21 +74,26 @@ static CwStatus make(int32_t count, const CwBox *within, CwBoxOf box_of, const v
                      CwBoxTree *tree) {
   CwStatus status = CW_OK;
   uint64_t *key = NULL;
+  CwRadix *place = NULL;
   memset(tree, 0, sizeof *tree);
   tree->count = count;
   tree->leaves = 1;
   while ((int64_t)tree->leaves * LEAF < count) tree->leaves *= 2;
   CW_NEW_UNSET(key, count);
+  CW_NEW_UNSET(place, count);
   CW_NEW_UNSET(tree->item, count);
   CW_NEW_UNSET(tree->node, 2 * (size_t)tree->leaves);
   double side = 0;
   for (int k = 0; k < 3; k++) side = fmax(side, within->high[k] - within->low[k]);
   Boxes boxes = {box_of, context, tree, within->low, side > 0 ? (double)((1u << BITS) - 1) / side : 0};
   CW_TRY(share("places of boxes", count, sizeof *key, find_key, &boxes, key));
-  CW_TRY(sort_items(count, key, tree->item));
+  for (int32_t i = 0; i < count; i++) place[i] = (CwRadix){key[i], i, 0};
+  CW_TRY(cw_radix_sort(count, place));
+  for (int32_t i = 0; i < count; i++) tree->item[i] = place[i].item;
   CW_TRY(fit(tree, box_of, context, share));
 done:
   free(key);
+  free(place);
   if (status != CW_OK) cw_box_tree_free(tree);
   return status;
 }

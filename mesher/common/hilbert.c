@@ -82,7 +82,7 @@ CwStatus cw_hilbert_order(int32_t count, const double (*x)[3], int32_t *order) {
     find_places(cell, BITS, place);
     for (int l = 0; l < lanes; l++) {
       int32_t p = first + l;
-      record[p] = (CwRadix){(uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | place[l], p};
+      record[p] = (CwRadix){(uint64_t)round_of((uint64_t)p, rounds) << (3 * BITS) | place[l], p, 0};
     }
   }
   CW_TRY(cw_radix_sort(count, record));

@@ -4,16 +4,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "mesher/common/tet.h"
 #include "mesher/common/vec.h"
-
-double cw_tet_volume6(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  double u[3], v[3], w[3], n[3];
-  cw_sub(b, a, u);
-  cw_sub(c, a, v);
-  cw_sub(d, a, w);
-  cw_cross(u, v, n);
-  return cw_dot(n, w);
-}
 
 double cw_tet_volume6_error(const double a[3], const double b[3], const double c[3], const double d[3]) {
   double u[3], v[3], w[3], permanent = 0.0;
@@ -29,12 +21,11 @@ double cw_tet_volume6_error(const double a[3], const double b[3], const double c
 }
 
 void cw_tet_shape(const double *const x[4], CwTetShape *shape) {
-  static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; // outward, opposite corner i
   double normal[4][3], square[4], longest = 0.0, shortest = INFINITY, squares = 0.0;
   for (int i = 0; i < 4; i++) {
     double u[3], v[3];
-    cw_sub(x[face[i][1]], x[face[i][0]], u);
-    cw_sub(x[face[i][2]], x[face[i][0]], v);
+    cw_sub(x[cw_tet_face[i][1]], x[cw_tet_face[i][0]], u);
+    cw_sub(x[cw_tet_face[i][2]], x[cw_tet_face[i][0]], v);
     cw_cross(u, v, normal[i]);
     square[i] = cw_dot(normal[i], normal[i]);
     for (int j = i + 1; j < 4; j++) {

@@ -18,7 +18,12 @@ typedef struct {
 } CwTetShape;
 
 // Six times the signed volume, m3: positive where (b - a) x (c - a) points towards d.
-double cw_tet_volume6(const double a[3], const double b[3], const double c[3], const double d[3]);
+static inline double cw_tet_volume6(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
+  double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
+  double rx = d[0] - a[0], ry = d[1] - a[1], rz = d[2] - a[2];
+  return (py * qz - pz * qy) * rx + (pz * qx - px * qz) * ry + (px * qy - py * qx) * rz;
+}
 // A bound of the rounding error of cw_tet_volume6: a larger value has the right sign.
 double cw_tet_volume6_error(const double a[3], const double b[3], const double c[3], const double d[3]);
 void cw_tet_shape(const double *const x[4], CwTetShape *shape);

@@ -14,12 +14,12 @@ extern "C" {
 
 typedef struct {
   uint64_t key;
-  int32_t item;
+  int32_t item, tag; // go with it
 } CwRadix;
 
-// By ascending keys; equal ones stay in their order. Takes as much memory again meanwhile. Digits that all keys have in
+// By ascending keys; equal ones stay in their order. Takes as much memory again meanwhile. Bits that all keys have in
 // common cost nothing.
-CwStatus cw_radix_sort(int32_t count, CwRadix *record);
+CwStatus cw_radix_sort(int64_t count, CwRadix *record);
 
 // A key that ascends as the number does; -0 comes before 0. Not for NaN.
 static inline uint64_t cw_radix_key(double number) {

@@ -4,20 +4,16 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 #include "mesher/common/box.h"
-#include "mesher/common/eight.h"
+#include "mesher/common/simd_8f.h"
 #include "mesher/common/hilbert.h"
-#include "mesher/common/number.h"
+#include "mesher/common/branchless.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/radix.h"
+#include "mesher/common/tet.h"
 #include "mesher/fill/sphere.h"
 
-// Corners of the face opposite corner i, outward.
-static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-enum { LARGE_PAGE = 1 << 21, CACHE_LINE = 64 };
 enum { LOCAL = 64 }; // points round a cavity that the edge table holds
 
 typedef struct {
@@ -37,122 +33,32 @@ typedef struct {
   double (*arm)[4]; // from the new point to each point round the cavity, and its square
   int32_t *round;   // these points
   int32_t arm_space, round_space;
-  CwDelaunayTet none; // a sphere without radius far from all points: in place of a neighbour where there is none
+  CwTet none; // a sphere without radius far from all points: in place of a neighbour where there is none
   int32_t table[LOCAL * LOCAL]; // 4 * tetrahedron + face at a directed edge of the cavity's boundary
 } Work;
 
-// Aligned to large pages, which realloc is not. Pages not yet touched cost nothing. The first `sure` tetrahedra, which
-// are certain to come, are asked for in large pages: thousands of small ones would take a tenth of the time to connect
-// points.
-static CwStatus make_pool(CwDelaunay *mesh, int64_t space, int64_t sure) {
-  CwStatus status = CW_OK;
-  CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
-  size_t large = sure * (int64_t)sizeof *mesh->tet >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
-  size_t size = ((size_t)space * sizeof *mesh->tet + large - 1) / large * large;
-  CwDelaunayTet *pool = aligned_alloc(large, size);
-  CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
-#ifdef MADV_HUGEPAGE
-  if (large == LARGE_PAGE)
-    (void)madvise(pool, (size_t)sure * sizeof *pool / large * large, MADV_HUGEPAGE); // else small
-#endif
-  if (mesh->tet_count) memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
-  free(mesh->tet);
-  mesh->tet = pool;
-  mesh->tet_space = (int32_t)space;
-done:
-  return status;
-}
-
-CwStatus cw_delaunay_new_tet(CwDelaunay *mesh, int32_t *tet) {
-  CwStatus status = CW_OK;
-  if (mesh->spare) {
-    *tet = mesh->spare - 1;
-    mesh->spare = mesh->tet[*tet].corner[1];
-    goto done;
-  }
-  if (mesh->tet_count == mesh->tet_space)
-    CW_TRY(make_pool(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64, 0));
-  *tet = mesh->tet_count++;
-  mesh->tet[*tet] = (CwDelaunayTet){.stamp = 0};
-done:
-  return status;
-}
-
-void cw_delaunay_free_tet(CwDelaunay *mesh, int32_t tet) {
-  mesh->tet[tet].corner[0] = -1;
-  mesh->tet[tet].corner[1] = mesh->spare;
-  mesh->spare = tet + 1;
-}
-
-void cw_delaunay_pack(CwDelaunay *mesh) {
-  int32_t kept = 0;
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    cw_delaunay_ask_ahead(&mesh->tet[t]);
-    if (mesh->tet[t].corner[0] < 0) continue;
-    const CwDelaunayTet *from = &mesh->tet[t];
-    CwDelaunayTet *to = &mesh->tet[kept];
-    if (kept != t) {
-      memcpy(to->corner, from->corner, sizeof to->corner);
-      for (int i = 0; i < 4; i++) {
-        int32_t next = to->neighbour[i] = from->neighbour[i];
-        if (next >= 0) mesh->tet[next >> 2].neighbour[next & 3] = 4 * kept + i;
-      }
-    }
-    kept++;
-  }
-  mesh->tet_count = kept;
-  mesh->spare = 0;
-  // Some room is left for those to come, since a larger pool stands beside this one for a moment.
-  int32_t space = kept + kept / 32 + 64;
-  CwDelaunayTet *pool = space < mesh->tet_space ? realloc(mesh->tet, (size_t)space * sizeof *pool) : NULL;
-  if (pool) { // as a rule in its place, and so aligned as before
-    mesh->tet = pool;
-    mesh->tet_space = space;
-  }
-}
-
-CwStatus cw_delaunay_add_point(CwDelaunay *mesh, const double x[3], int32_t source, int32_t *point) {
-  CwStatus status = CW_OK;
-  if (mesh->point_count == mesh->point_space) {
-    int32_t space = mesh->point_space + mesh->point_space / 8 + 64;
-    CwDelaunayPoint *points = realloc(mesh->point, (size_t)space * sizeof *points);
-    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", space);
-    mesh->point = points;
-    int32_t *sources = realloc(mesh->source, (size_t)space * sizeof *sources);
-    CW_REQUIRE(sources, CW_ERR_MEMORY, "out of memory: %d points", space);
-    mesh->source = sources;
-    mesh->point_space = space;
-  }
-  *point = mesh->point_count++;
-  memcpy(mesh->point[*point].x, x, sizeof mesh->point->x);
-  mesh->point[*point].mark = 0;
-  mesh->source[*point] = source;
-done:
-  return status;
-}
-
-static inline const double *at(const CwDelaunay *mesh, int32_t p) {
+static inline const double *at(const CwTetMesh *mesh, int32_t p) {
   return mesh->point[p].x;
 }
 
-static int in_sphere_exactly(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3]) {
+static int in_sphere_exactly(const CwTetMesh *mesh, const CwTet *t, const double p[3]) {
   const int32_t *c = t->corner;
   return cw_insphere(at(mesh, c[0]), at(mesh, c[1]), at(mesh, c[2]), at(mesh, c[3]), p) > 0;
 }
 
-static inline int in_sphere(const CwDelaunay *mesh, const CwDelaunayTet *t, const double p[3], const float place[3]) {
+static inline int in_sphere(const CwTetMesh *mesh, const CwTet *t, const double p[3], const float place[3]) {
   unsigned known = cw_sphere_compare(t, place);
   return known ? known == CW_WITHIN : in_sphere_exactly(mesh, t, p);
 }
 
 // A tetrahedron whose sphere holds p, from `start`: towards p through any face that has p beyond it. -1: p is
 // a corner of *last.
-static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], const float place[3], int32_t *last) {
+static int32_t walk(const CwTetMesh *mesh, int32_t start, const double p[3], const float place[3], int32_t *last) {
   int32_t t = start, from = -1;
   uint32_t turn = 0;
   int exact = 0;
   for (int64_t step = 0;; step++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
+    const CwTet *tet = &mesh->tet[t];
     if (in_sphere(mesh, tet, p, place)) return t;
     int32_t next = -1;
     exact |= step > 4 * (int64_t)mesh->tet_count; // rounding might lead in circles
@@ -161,8 +67,8 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], co
       for (int k = 0; k < 4 && next < 0; k++) {
         int i = (int)((turn + (uint32_t)k) & 3);
         if (tet->neighbour[i] < 0 || (!again && tet->neighbour[i] >> 2 == from)) continue;
-        const double *a = at(mesh, tet->corner[tet_face[i][0]]), *b = at(mesh, tet->corner[tet_face[i][1]]);
-        const double *c = at(mesh, tet->corner[tet_face[i][2]]);
+        const double *a = at(mesh, tet->corner[cw_tet_face[i][0]]), *b = at(mesh, tet->corner[cw_tet_face[i][1]]);
+        const double *c = at(mesh, tet->corner[cw_tet_face[i][2]]);
         int beyond;
         if (again) {
           beyond = cw_orient3d(a, b, c, p) > 0;
@@ -189,20 +95,20 @@ static int32_t walk(const CwDelaunay *mesh, int32_t start, const double p[3], co
 // Looks beyond the faces of a tetrahedron of the cavity. Whether a face leads to one more, to one outside or to one
 // that was met before is as good as random, and as branches half of them were foretold wrongly, which took a third of
 // the time: instead both lists are written to, and one of them, or none, keeps it. There is room for all.
-CW_INLINE void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, const double p[3], const float place[3]) {
-  const CwDelaunayTet *tet = &mesh->tet[t];
+CW_INLINE void look_beyond(CwTetMesh *mesh, Work *work, int32_t t, const double p[3], const float place[3]) {
+  const CwTet *tet = &mesh->tet[t];
   int32_t *cavity = work->cavity + work->cavity_count, known[4];
   Side *side = work->side + work->side_count;
-  CwDelaunayTet *next[4];
+  CwTet *next[4];
   for (int i = 0; i < 4; i++) next[i] = tet->neighbour[i] < 0 ? &work->none : &mesh->tet[tet->neighbour[i] >> 2];
-  cw_sphere_compare_four((const CwDelaunayTet *const *)next, place, known);
+  cw_sphere_compare_4((const CwTet *const *)next, place, known);
   for (int i = 0; i < 4; i++) {
     if (known[i] == 0) known[i] = in_sphere_exactly(mesh, next[i], p) ? CW_WITHIN : CW_BEYOND;
     __builtin_prefetch(&next[i]->neighbour[3], 1); // used soon, and perhaps not in the line of the sphere
     cw_sphere_take(next[i], (uint32_t)known[i] & CW_WITHIN);
     *cavity = tet->neighbour[i] >> 2;
     cavity += known[i] & CW_WITHIN;
-    for (int m = 0; m < 3; m++) side->corner[m] = tet->corner[tet_face[i][m]];
+    for (int m = 0; m < 3; m++) side->corner[m] = tet->corner[cw_tet_face[i][m]];
     side->outer = tet->neighbour[i];
     side += known[i] == CW_BEYOND;
   }
@@ -211,7 +117,7 @@ CW_INLINE void look_beyond(CwDelaunay *mesh, Work *work, int32_t t, const double
 }
 
 // All tetrahedra whose spheres hold p, from one of them, which are taken then.
-CW_INLINE CwStatus find_cavity(CwDelaunay *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
+CW_INLINE CwStatus find_cavity(CwTetMesh *mesh, Work *work, int32_t start, const double p[3], const float place[3]) {
   CwStatus status = CW_OK;
   work->cavity_count = work->side_count = 0;
   CW_GROW(work->cavity, work->cavity_space, 1);
@@ -226,13 +132,13 @@ done:
   return status;
 }
 
-static inline void join(CwDelaunay *mesh, int32_t one, int32_t other) {
+static inline void join(CwTetMesh *mesh, int32_t one, int32_t other) {
   mesh->tet[one >> 2].neighbour[one & 3] = other;
   mesh->tet[other >> 2].neighbour[other & 3] = one;
 }
 
 // Joins the new tetrahedra at the edges of a cavity with more points than the table holds.
-static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
+static CwStatus join_by_sorting(CwTetMesh *mesh, Work *work) {
   CwStatus status = CW_OK;
   int32_t count = 0;
   CW_GROW(work->edge, work->edge_space, 3 * (int64_t)work->side_count);
@@ -241,7 +147,7 @@ static CwStatus join_by_sorting(CwDelaunay *mesh, Work *work) {
     for (int i = 0; i < 3; i++) {
       int32_t a = side->corner[(i + 1) % 3], b = side->corner[(i + 2) % 3];
       uint64_t low = (uint64_t)(a < b ? a : b), high = (uint64_t)(a < b ? b : a);
-      work->edge[count++] = (CwRadix){low << 32 | high, 4 * side->tet + (i == 0 ? 0 : 3 - i)};
+      work->edge[count++] = (CwRadix){low << 32 | high, 4 * side->tet + (i == 0 ? 0 : 3 - i), 0};
     }
   }
   CW_TRY(cw_radix_sort(count, work->edge));
@@ -252,7 +158,7 @@ done:
 
 // Numbers the points round the cavity, and gives each side a place for its tetrahedron: those of the cavity first, of
 // which what is left over is freed.
-CW_INLINE CwStatus prepare_sides(CwDelaunay *mesh, Work *work, int32_t point, int32_t *round_count) {
+CW_INLINE CwStatus prepare_sides(CwTetMesh *mesh, Work *work, int32_t point, int32_t *round_count) {
   CwStatus status = CW_OK;
   int32_t locals = 0;
   CW_GROW(work->arm, work->arm_space, 3 * (int64_t)work->side_count + 1);
@@ -271,21 +177,21 @@ CW_INLINE CwStatus prepare_sides(CwDelaunay *mesh, Work *work, int32_t point, in
     if (k < work->cavity_count)
       side->tet = work->cavity[k];
     else
-      CW_TRY(cw_delaunay_new_tet(mesh, &side->tet));
+      CW_TRY(cw_tet_mesh_new_tet(mesh, &side->tet));
   }
   for (int32_t k = work->side_count; k < work->cavity_count; k++) {
     mesh->tet[work->cavity[k]].radius_square = 0.0f; // without its sign
-    cw_delaunay_free_tet(mesh, work->cavity[k]);
+    cw_tet_mesh_free_tet(mesh, work->cavity[k]);
   }
   *round_count = locals;
 done:
   return status;
 }
 
-CW_INLINE void set_spheres(CwDelaunay *mesh, const Work *work, const double place[3]) {
+CW_INLINE void set_spheres(CwTetMesh *mesh, const Work *work, const double place[3]) {
   for (int32_t k = 0; k < work->side_count; k += 2) {
     const Side *side[2] = {&work->side[k], &work->side[k + 1 < work->side_count ? k + 1 : k]};
-    CwDelaunayTet *const tet[2] = {&mesh->tet[side[0]->tet], &mesh->tet[side[1]->tet]};
+    CwTet *const tet[2] = {&mesh->tet[side[0]->tet], &mesh->tet[side[1]->tet]};
     const double *arm[3][2];
     for (int i = 0; i < 6; i++) arm[i / 2][i % 2] = work->arm[side[i % 2]->local[i / 2]];
     cw_sphere_set(tet, place, arm[0], arm[1], arm[2]);
@@ -293,7 +199,7 @@ CW_INLINE void set_spheres(CwDelaunay *mesh, const Work *work, const double plac
 }
 
 // Tetrahedra from the new point to all sides of the cavity, which it sees.
-CW_INLINE CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, const double place[3]) {
+CW_INLINE CwStatus fill_cavity(CwTetMesh *mesh, Work *work, int32_t point, const double place[3]) {
   CwStatus status = CW_OK;
   const double *p = mesh->point[point].x;
   int32_t locals = 0, *table = work->table;
@@ -308,7 +214,7 @@ CW_INLINE CwStatus fill_cavity(CwDelaunay *mesh, Work *work, int32_t point, cons
   int tabled = locals <= LOCAL;
   for (int32_t k = 0; k < work->side_count; k++) {
     const Side *side = &work->side[k];
-    CwDelaunayTet *tet = &mesh->tet[side->tet];
+    CwTet *tet = &mesh->tet[side->tet];
     const int32_t *l = side->local;
     tet->corner[0] = side->corner[0];
     tet->corner[1] = side->corner[2];
@@ -337,8 +243,7 @@ done:
   return status;
 }
 
-static CwStatus note_duplicate(CwDelaunay *mesh, int32_t given, int32_t point, const CwDelaunayTet *tet,
-                               int32_t *space) {
+static CwStatus note_duplicate(CwTetMesh *mesh, int32_t given, int32_t point, const CwTet *tet, int32_t *space) {
   CwStatus status = CW_OK;
   CW_GROW(mesh->duplicate, *space, mesh->duplicate_count + 1);
   int32_t *pair = mesh->duplicate[mesh->duplicate_count++];
@@ -354,7 +259,7 @@ done:
 
 // Points of a tetrahedron with corners at (1, 1, 1), (1, -1, -1), ... times `reach` round the others; its
 // inscribed sphere has the radius reach / sqrt(3).
-static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
+static CwStatus enclose(CwTetMesh *mesh, int32_t count, const double (*x)[3]) {
   CwStatus status = CW_OK;
   static const int sign[4][3] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
   double middle[3], reach = 0.0, size = 0.0;
@@ -369,7 +274,7 @@ static CwStatus enclose(CwDelaunay *mesh, int32_t count, const double (*x)[3]) {
   }
   reach = 4.0 * sqrt(reach) + 1e-3 * size;
   if (!(reach > 0.0)) reach = 1.0;
-  for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
+  for (int k = 0; k < CW_ENCLOSING_POINTS; k++) {
     for (int i = 0; i < 3; i++) mesh->point[k].x[i] = middle[i] + reach * sign[k][i];
     mesh->point[k].mark = 0;
     mesh->source[k] = -1;
@@ -378,10 +283,10 @@ done:
   return status;
 }
 
-static void first_tet(CwDelaunay *mesh) {
-  CwDelaunayTet *tet = &mesh->tet[0];
-  *tet = (CwDelaunayTet){.radius_square = NAN};
-  for (int k = 0; k < CW_DELAUNAY_CORNERS; k++) {
+static void first_tet(CwTetMesh *mesh) {
+  CwTet *tet = &mesh->tet[0];
+  *tet = (CwTet){.radius_square = NAN};
+  for (int k = 0; k < CW_ENCLOSING_POINTS; k++) {
     tet->neighbour[k] = -1;
     tet->corner[k] = k;
   }
@@ -392,7 +297,7 @@ static void first_tet(CwDelaunay *mesh) {
   mesh->tet_count = 1;
 }
 
-CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
+CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t *order = NULL;
   memset(mesh, 0, sizeof *mesh);
@@ -400,25 +305,25 @@ CwStatus cw_delaunay_order(int32_t count, const double (*x)[3], CwDelaunay *mesh
              INT32_MAX / 32 - 1);
   CW_NEW_UNSET(order, count);
   CW_TRY(cw_hilbert_order(count, x, order));
-  CW_NEW_UNSET(mesh->point, count + CW_DELAUNAY_CORNERS);
-  CW_NEW_UNSET(mesh->source, count + CW_DELAUNAY_CORNERS);
-  mesh->point_count = mesh->point_space = count + CW_DELAUNAY_CORNERS;
+  CW_NEW_UNSET(mesh->point, count + CW_ENCLOSING_POINTS);
+  CW_NEW_UNSET(mesh->source, count + CW_ENCLOSING_POINTS);
+  mesh->point_count = mesh->point_space = count + CW_ENCLOSING_POINTS;
   CW_TRY(enclose(mesh, count, x));
   for (int32_t k = 0; k < count; k++) {
-    memcpy(mesh->point[CW_DELAUNAY_CORNERS + k].x, x[order[k]], sizeof *x);
-    mesh->point[CW_DELAUNAY_CORNERS + k].mark = 0;
-    mesh->source[CW_DELAUNAY_CORNERS + k] = order[k];
+    memcpy(mesh->point[CW_ENCLOSING_POINTS + k].x, x[order[k]], sizeof *x);
+    mesh->point[CW_ENCLOSING_POINTS + k].mark = 0;
+    mesh->source[CW_ENCLOSING_POINTS + k] = order[k];
   }
 done:
   free(order);
-  if (status != CW_OK) cw_delaunay_free(mesh);
+  if (status != CW_OK) cw_tet_mesh_free(mesh);
   return status;
 }
 
-CW_INLINE CwStatus add_points(CwDelaunay *mesh, Work *work, int32_t end) {
+CW_INLINE CwStatus add_points(CwTetMesh *mesh, Work *work, int32_t end) {
   CwStatus status = CW_OK;
   int32_t last = 0, duplicate_space = 0;
-  for (int32_t k = CW_DELAUNAY_CORNERS; k < end; k++) {
+  for (int32_t k = CW_ENCLOSING_POINTS; k < end; k++) {
     int32_t point = mesh->point_count, found = 0;
     mesh->point[point] = mesh->point[k]; // another place once a duplicate was left out
     mesh->source[point] = mesh->source[k];
@@ -439,22 +344,22 @@ done:
   return status;
 }
 
-CW_WIDE static CwStatus add_points_wide(CwDelaunay *mesh, Work *work, int32_t end) {
+CW_AVX2 static CwStatus add_points_avx2(CwTetMesh *mesh, Work *work, int32_t end) {
   return add_points(mesh, work, end);
 }
 
-CwStatus cw_delaunay_connect(CwDelaunay *mesh) {
+CwStatus cw_delaunay_connect(CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   Work *work = NULL;
   int32_t end = mesh->point_count;
   CW_NEW(work, 1);
   // 6.8 as a rule, and 6 where most points are of the boundary; pages that are not used cost nothing.
-  CW_TRY(make_pool(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
+  CW_TRY(cw_tet_mesh_make_room(mesh, 9 * (int64_t)end + 256, 6 * (int64_t)end));
   work->frame = cw_sphere_frame(at(mesh, 0), at(mesh, 1), at(mesh, 2), at(mesh, 3));
-  work->none = (CwDelaunayTet){.centre = {8.0f}};
+  work->none = (CwTet){.centre = {8.0f}};
   first_tet(mesh);
-  mesh->point_count = CW_DELAUNAY_CORNERS;
-  CW_TRY(CW_HAS_WIDE ? add_points_wide(mesh, work, end) : add_points(mesh, work, end));
+  mesh->point_count = CW_ENCLOSING_POINTS;
+  CW_TRY(CW_HAS_AVX2 ? add_points_avx2(mesh, work, end) : add_points(mesh, work, end));
 done:
   if (work) {
     free(work->cavity);
@@ -464,22 +369,14 @@ done:
     free(work->round);
   }
   free(work);
-  if (status != CW_OK) cw_delaunay_free(mesh);
+  if (status != CW_OK) cw_tet_mesh_free(mesh);
   return status;
 }
 
-CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwDelaunay *mesh) {
+CwStatus cw_delaunay_make(int32_t count, const double (*x)[3], CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   CW_TRY(cw_delaunay_order(count, x, mesh));
   CW_TRY(cw_delaunay_connect(mesh));
 done:
   return status;
-}
-
-void cw_delaunay_free(CwDelaunay *mesh) {
-  free(mesh->point);
-  free(mesh->source);
-  free(mesh->tet);
-  free(mesh->duplicate);
-  memset(mesh, 0, sizeof *mesh);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Fills a closed triangulated boundary with tetrahedra; the boundary is kept as it is. The one bridge to
-// TetGen.
+// A closed triangulated boundary that is to be filled with tetrahedra, and its filling: what fill_with_fallback,
+// kernel and tetgen_fill take and give.
 #ifndef CUTWATER_MESHER_FILL_FILL_H
 #define CUTWATER_MESHER_FILL_FILL_H
 
@@ -30,11 +30,11 @@ typedef struct {
   CwSizeAt size;
   const void *size_context;
   const char *name; // for messages: "rotor region 3"
-  // The last `row_count` triangles have a row of points over them (fill_row.h), of which those over the last
+  // The last `offset_count` triangles have offset points over them (offset_points.h), of which those over the last
   // `interface_count` are chosen first. The last `open_count` keep points of
   // the lattice out by the distance alone, not by their spheres: the caller sees to these. `inner` where given: the
   // inner points, which are else those of cw_fill_points. `inner_site`, where given too: their places in the lattice.
-  int32_t row_count, interface_count, open_count, inner_count;
+  int32_t offset_count, interface_count, open_count, inner_count;
   // From `bare_first` on, so many triangles have no cells behind them either: faces of the whole mesh's boundary.
   int32_t bare_first, bare_count;
   const double (*inner)[3];
@@ -59,10 +59,7 @@ typedef struct {
   CwFillRecovery recovery;
 } CwFill;
 
-// TetGen alone. Fails with CW_ERR_MESH naming the region and a place (mm) where the boundary is open or crosses
-// itself.
-// Deterministic. TetGen runs in a process of its own.
-CwStatus cw_fill(const CwFillInput *input, CwFill *fill);
+// {0} is an empty one.
 void cw_fill_free(CwFill *fill);
 
 #ifdef __cplusplus

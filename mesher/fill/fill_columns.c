@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mesher/common/number.h"
+#include "mesher/common/branchless.h"
+#include "mesher/common/vec.h"
 
 // Of a triangle, seen along z. Rounding keeps the order of numbers, so that a place in the triangle is in its box, too.
 typedef struct {
@@ -110,10 +111,10 @@ void cw_columns_free(CwColumns **columns) {
 // from the left end, so that the two triangles at an edge agree to the bit. Above or below is also what lies so with
 // both ends.
 static inline unsigned edge_above(const double a[3], const double b[3], double px, double py) {
-  unsigned of_a = cw_number(a[0] <= px), of_b = cw_number(b[0] <= px), up_a = cw_number(a[1] > py);
-  unsigned up_b = cw_number(b[1] > py);
+  unsigned of_a = cw_branchless(a[0] <= px), of_b = cw_branchless(b[0] <= px), up_a = cw_branchless(a[1] > py);
+  unsigned up_b = cw_branchless(b[1] > py);
   const double *end[2] = {b, a}, *left = end[of_a], *right = end[1 - of_a];
-  unsigned up = cw_number((right[1] - left[1]) * (px - left[0]) > (py - left[1]) * (right[0] - left[0]));
+  unsigned up = cw_branchless((right[1] - left[1]) * (px - left[0]) > (py - left[1]) * (right[0] - left[0]));
   return (of_a ^ of_b) & ((up_a & up_b) | ((up_a | up_b) & up));
 }
 
@@ -123,18 +124,10 @@ static int32_t choose_members(const CwColumns *columns, int64_t bin, float x, fl
   for (int64_t k = columns->start[bin]; k < columns->start[bin + 1]; k++) {
     const Box *box = &columns->box[columns->member[k]];
     columns->chosen[chosen] = columns->member[k];
-    chosen += (int32_t)(cw_number(box->low[0] <= x) & cw_number(box->high[0] >= x) & cw_number(box->low[1] <= y) &
-                        cw_number(box->high[1] >= y));
+    chosen += (int32_t)(cw_branchless(box->low[0] <= x) & cw_branchless(box->high[0] >= x) &
+                        cw_branchless(box->low[1] <= y) & cw_branchless(box->high[1] >= y));
   }
   return chosen;
-}
-
-static double least(double a, double b) {
-  return a < b ? a : b;
-}
-
-static double most(double a, double b) {
-  return a < b ? b : a;
 }
 
 CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, const double **z) {
@@ -158,7 +151,7 @@ CwStatus cw_columns_cut(CwColumns *columns, double x, double y, int32_t *count, 
     double nz = ux * vy - uy * vx, nx = uy * vz - uz * vy, ny = uz * vx - ux * vz;
     double height = a[2] - (nx * (x - a[0]) + ny * (y - a[1])) / nz;
     // An upright triangle is crossed somewhere on its height.
-    double low = least(least(a[2], b[2]), c[2]), high = most(most(a[2], b[2]), c[2]);
+    double low = cw_lesser(cw_lesser(a[2], b[2]), c[2]), high = cw_greater(cw_greater(a[2], b[2]), c[2]);
     columns->z[k] = height >= low && height <= high ? height : 0.5 * (low + high);
   }
   *z = columns->z;

@@ -6,18 +6,14 @@
 #include <string.h>
 
 #include "mesher/common/box.h"
-#include "mesher/common/number.h"
+#include "mesher/common/branchless.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_columns.h"
 #include "mesher/fill/fill_reach.h"
-#include "mesher/fill/fill_row.h"
+#include "mesher/fill/offset_points.h"
 #include "mesher/fill/lattice_places.h"
+#include "mesher/policy.h"
 
-static const double coarse = 2.2; // cells of lists, over wanted cells
-// Of the square of a sphere's radius, out of which points of the row keep: where edges are of unlike length the spheres
-// of large triangles leave gaps in it, and so slender tetrahedra. What is in the sphere of an open triangle the caller
-// may drop, and then it is kept out of all of it.
-static const double row_sphere = 0.6;
 enum { DEPTH = 19 };
 
 // A box in finest cells of the octree, both ends in it: 20 bits an axis, and a guard over each, so that one subtraction
@@ -46,9 +42,9 @@ typedef struct {
   Box *reach;        // of each item; of the row, once the octree is cut, of those that are chosen
   Box *own;          // of each item, without the distance that it keeps
   CwReachBall *ball; // of each triangle
-  CwRowPlace *row;
-  int32_t *row_cell; // that each place lies in, or -1
-  uint8_t *chosen;   // of each place
+  CwOffsetPoint *offset;
+  int32_t *offset_cell; // that each place lies in, or -1
+  uint8_t *chosen;      // of each place
   CwLatticeFrame frame;
   double per_unit;  // 1 / frame.unit
   double clearance; // factor on the distances to the boundary
@@ -82,9 +78,10 @@ static Box pack_box(const Tree *tree, const CwReachBox *box) {
   return (Box){pack(tree, box->low[0], box->low[1], box->low[2]), pack(tree, box->high[0], box->high[1], box->high[2])};
 }
 
-static Box reach_of_row(const Tree *tree, int32_t p) {
-  const CwRowPlace *place = &tree->row[p];
-  CwReachBox box = cw_reach_box(place->x, fmax(CW_ROW_APART, CW_ROW_CLEAR) * place->spacing);
+static Box reach_of_offset(const Tree *tree, int32_t p) {
+  const CwOffsetPoint *place = &tree->offset[p];
+  CwReachBox box =
+      cw_reach_box(place->x, fmax(cw_fill_policy.offset_apart, cw_fill_policy.offset_clear) * place->spacing);
   return pack_box(tree, &box);
 }
 
@@ -131,28 +128,28 @@ static int32_t find_near(const Tree *tree, const int32_t *list, int32_t count, u
   int32_t near = 0;
   for (int32_t k = 0; k < count; k++) {
     tree->near[near] = list[k];
-    near += (int32_t)cw_number(holds(&tree->reach[list[k]], place));
+    near += (int32_t)cw_branchless(holds(&tree->reach[list[k]], place));
   }
   return near;
 }
 
 // Whether an item of the cell keeps a point of the lattice, or of the row, away from x: the row first, which is soon
 // asked, then spheres, and at last distances.
-static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int of_row) {
+static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int is_offset) {
   const CwFillInput *input = tree->input;
   const int32_t *list = tree->list + reached->list;
   uint64_t place = pack(tree, x[0], x[1], x[2]);
-  double apart = of_row ? CW_ROW_APART : CW_ROW_CLEAR;
+  double apart = is_offset ? cw_fill_policy.offset_apart : cw_fill_policy.offset_clear;
   int32_t near = find_near(tree, list + reached->triangles, reached->count - reached->triangles, place);
   for (int32_t k = 0; k < near; k++) {
-    const CwRowPlace *point = &tree->row[tree->near[k] - input->triangle_count];
+    const CwOffsetPoint *point = &tree->offset[tree->near[k] - input->triangle_count];
     double nearest = apart * point->spacing;
     if (distance_square(x, point->x) < nearest * nearest) return 1;
   }
   near = find_near(tree, list, reached->triangles, place);
   int32_t first_open = input->triangle_count - input->open_count;
-  for (int32_t k = 0; k < near && (of_row || tree->near[k] < first_open); k++) {
-    double share = of_row && tree->near[k] < first_open ? row_sphere : 1.0;
+  for (int32_t k = 0; k < near && (is_offset || tree->near[k] < first_open); k++) {
+    double share = is_offset && tree->near[k] < first_open ? cw_fill_policy.offset_ball : 1.0;
     if (cw_reach_in_ball(&tree->ball[tree->near[k]], share, x)) return 1;
   }
   double h = near ? tree->clearance * size_at(input, x) : 0.0;
@@ -244,7 +241,7 @@ static CwStatus add_cell(Tree *tree, const int32_t at[3], int level, int64_t lis
   const Box box = {pack_cell(at, 0), pack_cell(at, (1 << level) - 1)};
   for (; triangles > 0 && its[triangles - 1] >= first; triangles--) { // the row comes last
     int32_t item = its[triangles - 1];
-    if (holds(&box, tree->own[item].low)) tree->row_cell[item - first] = tree->cell_count;
+    if (holds(&box, tree->own[item].low)) tree->offset_cell[item - first] = tree->cell_count;
   }
   tree->reached[tree->cell_count] = (Reached){triangles, list_count, tree->list_count, list_count == 0, clear};
   tree->cell[tree->cell_count++] = (CwLatticeCell){{at[0], at[1], at[2]}, level, inside};
@@ -262,7 +259,7 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
   int inside;
   centre_of(tree, at, level, centre);
   CW_TRY(cw_lattice_size(tree->input, centre, &size));
-  if (list_count == 0 || level == 0 || edge <= coarse * CW_LATTICE_CONSTANT * size) {
+  if (list_count == 0 || level == 0 || edge <= cw_fill_policy.coarse_cell * CW_LATTICE_CONSTANT * size) {
     CW_TRY(test_inside(tree, centre, &inside));
     if (list_count || inside) CW_TRY(add_cell(tree, at, level, list, list_count, inside));
     goto done;
@@ -293,18 +290,18 @@ static void shorten_lists(Tree *tree) {
 
 // Of the places of the row, one after the other, those that are inside and that neither the boundary nor those chosen
 // before forbid.
-static CwStatus choose_row(Tree *tree, int32_t *chosen) {
+static CwStatus choose_offsets(Tree *tree, int32_t *chosen) {
   CwStatus status = CW_OK;
   Box *reach = tree->reach + tree->input->triangle_count;
   *chosen = 0;
-  for (int32_t p = 0; p < tree->input->row_count; p++) reach[p] = nowhere;
-  for (int32_t p = 0; p < tree->input->row_count; p++) {
-    const double *x = tree->row[p].x;
+  for (int32_t p = 0; p < tree->input->offset_count; p++) reach[p] = nowhere;
+  for (int32_t p = 0; p < tree->input->offset_count; p++) {
+    const double *x = tree->offset[p].x;
     int inside;
-    if (tree->row_cell[p] < 0 || is_forbidden(tree, &tree->reached[tree->row_cell[p]], x, 1)) continue;
+    if (tree->offset_cell[p] < 0 || is_forbidden(tree, &tree->reached[tree->offset_cell[p]], x, 1)) continue;
     CW_TRY(test_inside(tree, x, &inside));
     if (!inside) continue;
-    reach[p] = reach_of_row(tree, p);
+    reach[p] = reach_of_offset(tree, p);
     tree->chosen[p] = 1;
     ++*chosen;
   }
@@ -322,7 +319,7 @@ static int is_asked(const CwFillInput *input, const double x[3]) {
 
 // Of the places of the lattice those that are asked for, inside and not forbidden. A line along z is cut once for all
 // its places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
-static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *places, int32_t *count, double (**x)[3],
+static CwStatus collect(Tree *tree, int64_t place_count, const CwRadix *places, int32_t *count, double (**x)[3],
                         CwLatticeSite **site) {
   CwStatus status = CW_OK;
   double(*points)[3] = NULL;
@@ -330,14 +327,14 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
   const double *z = NULL;
   int32_t kept = 0, crossings = 0, chosen;
   uint64_t cut = ~0ull;
-  CW_TRY(choose_row(tree, &chosen));
+  CW_TRY(choose_offsets(tree, &chosen));
   CW_REQUIRE(place_count < INT32_MAX / 16, CW_ERR_MESH,
              "%s: the size field asks for more than 100 million points in one region", tree->input->name);
   CW_NEW_UNSET(points, place_count + chosen);
   if (site) CW_NEW_UNSET(sites, place_count + chosen);
   for (int64_t k = 0; k < place_count; k++) {
-    const CwLatticePlace *place = &places[k];
-    const Reached *reached = &tree->reached[place->cell];
+    const CwRadix *place = &places[k];
+    const Reached *reached = &tree->reached[place->item];
     double p[3], fixed[3];
     if (!reached->whole) {
       cw_lattice_fixed(&tree->frame, place->key, fixed);
@@ -351,13 +348,13 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwLatticePlace *p
     }
     cw_lattice_point(&tree->frame, place, p);
     if (!is_asked(tree->input, p) || (!reached->whole && is_forbidden(tree, reached, p, 0))) continue;
-    if (site) sites[kept] = (CwLatticeSite){place->key, place->level, reached->clear};
+    if (site) sites[kept] = (CwLatticeSite){place->key, place->tag, reached->clear};
     memcpy(points[kept++], p, sizeof p);
   }
-  for (int32_t p = 0; p < tree->input->row_count; p++) {
-    if (!tree->chosen[p] || !is_asked(tree->input, tree->row[p].x)) continue;
+  for (int32_t p = 0; p < tree->input->offset_count; p++) {
+    if (!tree->chosen[p] || !is_asked(tree->input, tree->offset[p].x)) continue;
     if (site) sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
-    memcpy(points[kept++], tree->row[p].x, sizeof *points);
+    memcpy(points[kept++], tree->offset[p].x, sizeof *points);
   }
   *count = kept;
   *x = points;
@@ -380,10 +377,10 @@ static void name_boxes(Tree *tree, const CwReachBox *reach) {
     tree->reach[t] = pack_box(tree, &reach[t]);
     tree->own[t] = (Box){pack(tree, low[0], low[1], low[2]), pack(tree, high[0], high[1], high[2])};
   }
-  for (int32_t p = 0; p < input->row_count; p++) {
-    const double *x = tree->row[p].x;
+  for (int32_t p = 0; p < input->offset_count; p++) {
+    const double *x = tree->offset[p].x;
     uint64_t own = pack(tree, x[0], x[1], x[2]);
-    tree->reach[input->triangle_count + p] = reach_of_row(tree, p);
+    tree->reach[input->triangle_count + p] = reach_of_offset(tree, p);
     tree->own[input->triangle_count + p] = (Box){own, own};
   }
   name_children(tree->children);
@@ -394,7 +391,7 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CwStatus status = CW_OK;
   Tree whole = {.input = input, .clearance = clearance}, *tree = &whole;
   CwReachBox *box = NULL;
-  CwLatticePlace *place = NULL;
+  CwRadix *place = NULL;
   int64_t places;
   CwBox within = cw_box_empty();
   double area = 0.0, weight = 0.0;
@@ -403,20 +400,20 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   *x = NULL;
   if (site) *site = NULL;
   CW_TRY(cw_columns_make(input, &tree->columns));
-  int32_t items = input->triangle_count + input->row_count;
+  int32_t items = input->triangle_count + input->offset_count;
   CW_NEW_UNSET(box, input->triangle_count);
   CW_NEW_UNSET(tree->reach, items);
   CW_NEW_UNSET(tree->own, items);
   CW_NEW_UNSET(tree->ball, input->triangle_count);
-  CW_NEW_UNSET(tree->row_cell, input->row_count);
-  memset(tree->row_cell, -1, (size_t)input->row_count * sizeof *tree->row_cell);
-  CW_NEW(tree->chosen, input->row_count);
+  CW_NEW_UNSET(tree->offset_cell, input->offset_count);
+  memset(tree->offset_cell, -1, (size_t)input->offset_count * sizeof *tree->offset_cell);
+  CW_NEW(tree->chosen, input->offset_count);
   CW_NEW_UNSET(tree->near, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     CW_TRY(reach_of(tree, t, &box[t], &area, &weight));
     for (int k = 0; k < 3; k++) cw_box_add_point(&within, input->x[input->triangle[t][k]]);
   }
-  CW_TRY(cw_row_places(input, &tree->row));
+  CW_TRY(cw_offset_points(input, &tree->offset));
   double extent = cw_box_longest(&within);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
   double edge = CW_LATTICE_CONSTANT * exp(weight / area);
@@ -442,8 +439,8 @@ done:
   free(tree->reach);
   free(tree->own);
   free(tree->ball);
-  free(tree->row);
-  free(tree->row_cell);
+  free(tree->offset);
+  free(tree->offset_cell);
   free(tree->chosen);
   free(tree->cell);
   free(tree->reached);

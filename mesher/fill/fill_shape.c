@@ -6,9 +6,7 @@
 
 #include "mesher/common/mix.h"
 #include "mesher/common/model_unit.h"
-
-// Corners of the face opposite corner i, outward.
-static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+#include "mesher/common/tet.h"
 
 // An edge of a triangle at its end of the smaller number.
 typedef struct {
@@ -117,7 +115,7 @@ static CwStatus sort_faces(int32_t point_count, int32_t tetrahedron_count, const
     for (int64_t k = 4 * (int64_t)tetrahedron_count - 1; k >= -(int64_t)triangle_count; k--) {
       int32_t p[3];
       Face one;
-      for (int i = 0; i < 3; i++) p[i] = k < 0 ? triangle[-1 - k][i] : tetrahedron[k / 4][tet_face[k % 4][i]];
+      for (int i = 0; i < 3; i++) p[i] = k < 0 ? triangle[-1 - k][i] : tetrahedron[k / 4][cw_tet_face[k % 4][i]];
       int32_t least = face_of(p, (int32_t)k, &one);
       if (pass == 0)
         ++(*start)[least];
@@ -217,7 +215,7 @@ static CwStatus mark_boundary(const CwFillInput *input, const CwFill *fill, int3
       if (status != CW_OK) goto done;
       for (int64_t c = k + 1; c < next; c++) {
         int32_t owner = face[c].owner, q[3];
-        for (int i = 0; i < 3; i++) q[i] = tet[owner / 4][tet_face[owner % 4][i]];
+        for (int i = 0; i < 3; i++) q[i] = tet[owner / 4][cw_tet_face[owner % 4][i]];
         uint8_t here = same_turn(input->triangle[t], q) ? 1 : 2;
         if (side[owner / 4] && side[owner / 4] != here) {
           status = fail_triangle(input, t, "has its normal turned against its neighbours");

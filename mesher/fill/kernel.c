@@ -10,18 +10,19 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/delaunay.h"
+#include "mesher/fill/fill_mesh.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel_core.h"
 #include "mesher/fill/kernel_facets.h"
 #include "mesher/fill/kernel_recover.h"
 #include "mesher/fill/tet_improve.h"
-#include "mesher/fill/tet_mesh.h"
+#include "mesher/fill/fill_mesh.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates, in the mesh but not yet connected; the deep ones of the lattice in the
 // core.
-static CwStatus all_points(const CwFillInput *input, CwKernelCore *core, int32_t *count, CwDelaunay *mesh) {
+static CwStatus all_points(const CwFillInput *input, CwKernelCore *core, int32_t *count, CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   double(*made)[3] = NULL, (*x)[3] = NULL;
   CwLatticeSite *made_site = NULL;
@@ -53,26 +54,26 @@ static void give_back(void) {
 enum { ROUNDS = 4 };               // of recovery: what one facet could not have may be free after others have theirs
 enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
 #define MARKED (UINT32_C(1) << 31) // and any of these
-enum { SOON = 8, LATER = 16 };     // facets ahead of which the memory is asked, for the outer and the inner tetrahedron
+enum { SOON = 8, LATER = 16 };     // facets ahead of which is prefetched, for the outer and the inner tetrahedron
 
 // Stands where the square of the sphere's radius stood, and has its sign set, which no square has: whether a
 // tetrahedron has one is as good as random, and this takes no branch.
-static uint32_t place_of(const CwDelaunayTet *tet) {
+static uint32_t place_of(const CwTet *tet) {
   return tet->mark & -(tet->mark >> 31);
 }
 
-static void add_place(CwDelaunayTet *tet, uint32_t place) {
+static void add_place(CwTet *tet, uint32_t place) {
   tet->mark = place_of(tet) | place | MARKED;
 }
 
 // A point that hangs together with a corner of the tetrahedron that encloses all.
-static const double *find_enclosed(const CwDelaunay *mesh) {
+static const double *find_enclosed(const CwTetMesh *mesh) {
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
     int own = -1, corners = 0;
     for (int i = 0; i < 4; i++) {
-      corners += c[i] < CW_DELAUNAY_CORNERS;
-      own = c[i] < CW_DELAUNAY_CORNERS ? own : i;
+      corners += c[i] < CW_ENCLOSING_POINTS;
+      own = c[i] < CW_ENCLOSING_POINTS ? own : i;
     }
     if (c[0] >= 0 && corners && own >= 0) return mesh->point[c[own]].x;
   }
@@ -81,12 +82,12 @@ static const double *find_enclosed(const CwDelaunay *mesh) {
 
 // Marks a tetrahedron as outside and puts it into the chain of those that wait. 1 where it has a corner of the one that
 // encloses all.
-static int add_outside(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
-  CwDelaunayTet *tet = &mesh->tet[t];
+static int add_outside(CwTetMesh *mesh, int32_t t, int32_t *waiting) {
+  CwTet *tet = &mesh->tet[t];
   int enclosing = 0;
   for (int i = 0; i < 4; i++) {
-    enclosing |= tet->corner[i] < CW_DELAUNAY_CORNERS;
-    cw_delaunay_ask(mesh->tet, tet->neighbour[i] >> 2); // looked at soon
+    enclosing |= tet->corner[i] < CW_ENCLOSING_POINTS;
+    cw_tet_prefetch(mesh->tet, tet->neighbour[i] >> 2); // looked at soon
   }
   add_place(tet, OUTSIDE);
   tet->corner[1] = *waiting;
@@ -98,7 +99,7 @@ static int add_outside(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
 // between inner sides, and is cut off at them. What waits is chained through corner[1], of no use outside. Where
 // much lay outside its memory is given back, since the improvement asks for some; to move the others costs more
 // than it saves where that was little.
-static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwDelaunay *mesh) {
+static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   int enclosing = 0;
   int32_t waiting = -1, freed = 0;
@@ -108,7 +109,7 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
     __builtin_prefetch(&mesh->tet[later / 4]);
     __builtin_prefetch(&mesh->tet[mesh->tet[soon / 4].neighbour[soon % 4] / 4]);
     int32_t inner = facets->inner[f], outer = mesh->tet[inner / 4].neighbour[inner % 4];
-    CwDelaunayTet *inside = &mesh->tet[inner / 4], *outside = &mesh->tet[outer / 4];
+    CwTet *inside = &mesh->tet[inner / 4], *outside = &mesh->tet[outer / 4];
     const double *y = mesh->point[facets->corner[f][0]].x;
     if (!(place_of(outside) & OUTSIDE)) enclosing |= add_outside(mesh, outer / 4, &waiting);
     add_place(inside, INNER | 1u << inner % 4);
@@ -121,18 +122,18 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
   }
   while (waiting >= 0) {
     int32_t t = waiting;
-    const CwDelaunayTet *tet = &mesh->tet[t];
+    const CwTet *tet = &mesh->tet[t];
     waiting = tet->corner[1];
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] < 0 || place_of(tet) & 1u << i) continue;
-      CwDelaunayTet *next = &mesh->tet[tet->neighbour[i] / 4];
+      CwTet *next = &mesh->tet[tet->neighbour[i] / 4];
       const double *y = mesh->point[tet->corner[0]].x;
       CW_REQUIRE((place_of(next) & INNER) == 0, CW_ERR_MESH,
                  "%s: inside and outside of the boundary meet near (%.6g, %.6g, %.6g) mm: normals disagree",
                  input->name, CW_MM(y));
       if (!(place_of(next) & OUTSIDE)) enclosing |= add_outside(mesh, tet->neighbour[i] / 4, &waiting);
     }
-    cw_delaunay_free_tet(mesh, t); // its place stays
+    cw_tet_mesh_free_tet(mesh, t); // its place stays
     freed++;
   }
   if (!enclosing) { // it lies inside, with all that hangs together with it
@@ -143,14 +144,14 @@ static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, Cw
                      input->name, CW_MM(x));
     goto done;
   }
-  if (freed > mesh->tet_count / 4) cw_delaunay_pack(mesh);
+  if (freed > mesh->tet_count / 4) cw_tet_mesh_pack(mesh);
 done:
   return status;
 }
 
-// Brings all boundary triangles into the mesh by flips. CW_RETRY where some are
-// still missing, of a boundary that does not cross itself.
-static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *facets, CwFillRecovery *recovery) {
+// Brings all boundary triangles into the mesh by flips. Where some are still missing the boundary does not cross
+// itself.
+static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *facets, CwFillRecovery *recovery) {
   CwStatus status = CW_OK;
   int64_t flips = 0;
   CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
@@ -161,22 +162,22 @@ static CwStatus recover(const CwFillInput *input, CwDelaunay *mesh, CwFacets *fa
   if (facets->missing_count) {
     CW_TRY(cw_boundary_check_crossing(input));
     cw_log_debug("%s: %d of %d boundary triangles are missing", input->name, facets->missing_count, facets->count);
-    status = CW_RETRY;
   }
 done:
   return status;
 }
 
-CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
+CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome *outcome) {
   CwStatus status = CW_OK;
-  CwDelaunay mesh = {0};
+  CwTetMesh mesh = {0};
   CwKernelCore core = {0};
   CwFacets facets = {0};
-  CwTetImproved improved;
+  CwTetChanges changes;
   CwFillRecovery recovery = {0};
   uint8_t *on_plane = NULL;
   int32_t count = 0;
   memset(fill, 0, sizeof *fill);
+  *outcome = CW_KERNEL_NOT_RECOVERED;
   CW_TRY(cw_boundary_check(input));
   CW_TRY(all_points(input, &core, &count, &mesh));
   give_back();
@@ -184,24 +185,26 @@ CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill) {
   CW_TRY(cw_kernel_core_carve(&core, &mesh));
   CW_TRY(cw_facets_make(input, &mesh, &facets));
   CW_TRY(recover(input, &mesh, &facets, &recovery));
+  if (facets.missing_count) goto done;
   CW_TRY(keep_inside(input, &facets, &mesh));
   cw_facets_free(&facets);
   give_back();
   CW_TRY(cw_fill_on_planes(input, core.fixed_count, &on_plane));
-  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &improved));
-  CW_TRY(cw_tet_mesh_take(&mesh, core.fixed_count, count, fill));
+  CW_TRY(cw_tet_improve_mesh(&mesh, core.fixed_count, on_plane, &count, &changes));
+  CW_TRY(cw_fill_from_mesh(&mesh, core.fixed_count, count, fill));
   CW_TRY(cw_kernel_core_append(&core, fill));
+  *outcome = CW_KERNEL_FILLED;
   cw_log_debug("%s: %d tetrahedra, %d of them by the lattice, %d edges and %d faces removed, %d points moved, %d "
                "removed, %d added, least "
                "sine %.3g to %.3g",
-               input->name, fill->tetrahedron_count, core.tet_count, improved.edges_removed, improved.faces_removed,
-               improved.points_moved, improved.points_removed, improved.points_added, improved.least_before,
-               improved.least_after);
+               input->name, fill->tetrahedron_count, core.tet_count, changes.edges_removed, changes.faces_removed,
+               changes.points_moved, changes.points_removed, changes.points_added, changes.least_before,
+               changes.least_after);
 done:
   free(on_plane);
   cw_facets_free(&facets);
   cw_kernel_core_free(&core);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   if (status != CW_OK) cw_fill_free(fill);
   fill->recovery = recovery;
   return status;

@@ -10,10 +10,14 @@
 extern "C" {
 #endif
 
-// Promises and errors of cw_fill, and CW_RETRY where flips do not recover a triangle of the
-// boundary, or bodies that touch along an edge have it missing: then fill->recovery still tells how far it got.
-// Thread-safe if the size field is.
-CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill);
+typedef enum {
+  CW_KERNEL_FILLED,
+  CW_KERNEL_NOT_RECOVERED // flips do not recover a triangle, or bodies that touch along an edge have it missing
+} CwKernelOutcome;
+
+// Promises and errors of cw_tetgen_fill. Where the boundary is not recovered *fill is empty but for fill->recovery,
+// which tells how far it got. Thread-safe if the size field is. Caller frees *fill.
+CwStatus cw_kernel_fill(const CwFillInput *input, CwFill *fill, CwKernelOutcome *outcome);
 
 #ifdef __cplusplus
 }

@@ -4,10 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/tet.h"
 #include "mesher/fill/lattice_core.h"
-
-// Corners of the face opposite corner i, outward.
-static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // Numbers inner points: the skin after the boundary; deep points after the skin; others, which the core does
 // not name, after the skin in *x.
@@ -72,9 +70,9 @@ done:
 
 // Frees a tetrahedron, once, and puts it into the chain of those whose neighbours are to be looked at: its
 // neighbours and corner[2] stay readable.
-static void take_out(CwDelaunay *mesh, int32_t t, int32_t *waiting) {
+static void take_out(CwTetMesh *mesh, int32_t t, int32_t *waiting) {
   if (mesh->tet[t].corner[0] < 0) return;
-  cw_delaunay_free_tet(mesh, t);
+  cw_tet_mesh_free_tet(mesh, t);
   mesh->tet[t].corner[2] = *waiting;
   *waiting = t;
 }
@@ -91,7 +89,7 @@ static void turned(const int32_t corner[3], int32_t face[3]) {
   for (int i = 0; i < 3; i++) face[i] = corner[(least + i) % 3];
 }
 
-static CwStatus sort_skin(const CwKernelCore *core, const CwDelaunay *mesh, Skin *skin) {
+static CwStatus sort_skin(const CwKernelCore *core, const CwTetMesh *mesh, Skin *skin) {
   CwStatus status = CW_OK;
   int32_t *number = NULL, first = core->fixed_count - core->skin_count, corner[3], face[3];
   CW_NEW(number, core->skin_count);
@@ -126,12 +124,12 @@ static int is_of_skin(const Skin *skin, const int32_t corner[3]) {
 }
 
 // Parts the mesh along the skin, and takes out the tetrahedra inside it, which see its faces as the core does.
-static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh, int32_t *waiting) {
+static int32_t part(const CwKernelCore *core, const Skin *skin, CwTetMesh *mesh, int32_t *waiting) {
   int32_t found = 0, first = core->fixed_count - core->skin_count;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    CwDelaunayTet *tet = &mesh->tet[t];
+    CwTet *tet = &mesh->tet[t];
     int on_skin = 0, count = 0, inside = 0;
-    cw_delaunay_ask_ahead(tet);
+    cw_tet_prefetch_ahead(tet);
     if (tet->corner[0] < 0) continue;
     for (int i = 0; i < 4 && count + 2 > i; i++) {
       int32_t given = mesh->source[tet->corner[i]];
@@ -142,7 +140,7 @@ static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh
     for (int i = 0; i < 4 && count >= 3; i++) {
       int32_t beyond = tet->neighbour[i], corner[3];
       if (beyond < 0 || (on_skin | 1 << i) != 15) continue;
-      for (int k = 0; k < 3; k++) corner[k] = tet->corner[tet_face[i][k]];
+      for (int k = 0; k < 3; k++) corner[k] = tet->corner[cw_tet_face[i][k]];
       if (!is_of_skin(skin, corner)) continue;
       mesh->tet[beyond / 4].neighbour[beyond % 4] = -1;
       tet->neighbour[i] = -1;
@@ -154,18 +152,17 @@ static int32_t part(const CwKernelCore *core, const Skin *skin, CwDelaunay *mesh
   return found;
 }
 
-CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwDelaunay *mesh) {
+CwStatus cw_kernel_core_carve(const CwKernelCore *core, CwTetMesh *mesh) {
   CwStatus status = CW_OK;
   Skin skin = {0};
   int32_t waiting = -1;
   if (!core->face_count) goto done;
   CW_TRY(sort_skin(core, mesh, &skin));
-  if (part(core, &skin, mesh, &waiting) != core->face_count) {
-    status = CW_RETRY;
-    goto done;
-  }
+  int32_t found = part(core, &skin, mesh, &waiting);
+  CW_REQUIRE(found == core->face_count, CW_ERR_MESH, "the Delaunay mesh has %d of the %d faces of the lattice's core",
+             found, core->face_count);
   while (waiting >= 0) {
-    const CwDelaunayTet *tet = &mesh->tet[waiting];
+    const CwTet *tet = &mesh->tet[waiting];
     waiting = tet->corner[2];
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] >= 0) take_out(mesh, tet->neighbour[i] / 4, &waiting);

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "mesher/common/model_unit.h"
-
-static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+#include "mesher/common/tet.h"
 
 enum { EMPTY = -1 };                                             // place of a table
 enum { THREE = 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | 1 << 15 }; // bit k: k has three bits or four
@@ -89,7 +88,7 @@ done:
   return status;
 }
 
-CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFacets *facets) {
+CwStatus cw_facets_make(const CwFillInput *input, const CwTetMesh *mesh, CwFacets *facets) {
   CwStatus status = CW_OK;
   int32_t *number = NULL;
   memset(facets, 0, sizeof *facets);
@@ -122,7 +121,7 @@ void cw_facets_free(CwFacets *facets) {
   memset(facets, 0, sizeof *facets);
 }
 
-CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets) {
+CwStatus cw_facets_locate(const CwTetMesh *mesh, int32_t boundary_points, CwFacets *facets) {
   CwStatus status = CW_OK;
   uint8_t *on_boundary = NULL; // of each point
   CW_NEW(on_boundary, mesh->point_count);
@@ -132,16 +131,16 @@ CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFac
   facets->missing_count = facets->count;
   memset(facets->inner, -1, (size_t)facets->count * sizeof *facets->inner);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
+    const CwTet *tet = &mesh->tet[t];
     const int32_t *c = tet->corner;
-    cw_delaunay_ask_ahead(tet);
+    cw_tet_prefetch_ahead(tet);
     if (c[0] < 0) continue;
     int corners = on_boundary[c[0]] | on_boundary[c[1]] << 1 | on_boundary[c[2]] << 2 | on_boundary[c[3]] << 3;
     if (!(1 << corners & THREE)) continue;
     for (int i = 0; i < 4; i++) {
       int32_t p[3], beyond = tet->neighbour[i];
       if ((corners | 1 << i) != 15 || (beyond >= 0 && beyond < 4 * t)) continue; // each face once
-      for (int k = 0; k < 3; k++) p[k] = c[tet_face[i][k]];
+      for (int k = 0; k < 3; k++) p[k] = c[cw_tet_face[i][k]];
       int32_t f = cw_facets_find(facets, p);
       if (f < 0) continue;
       // Where outward for the tetrahedron is outward for the region, it lies inside, else the one beyond.

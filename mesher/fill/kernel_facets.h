@@ -25,7 +25,7 @@ typedef struct {
 } CwFacets;
 
 // Numbers the facets as the mesh does. Fails with CW_ERR_MESH where one is listed twice.
-CwStatus cw_facets_make(const CwFillInput *input, const CwDelaunay *mesh, CwFacets *facets);
+CwStatus cw_facets_make(const CwFillInput *input, const CwTetMesh *mesh, CwFacets *facets);
 void cw_facets_free(CwFacets *facets);
 
 // The facet with these points in any order, or -1.
@@ -34,7 +34,7 @@ int32_t cw_facets_find(const CwFacets *facets, const int32_t corner[3]);
 int cw_facets_has_edge(const CwFacets *facets, int32_t a, int32_t b);
 
 // Looks all faces of the mesh up: fills inner and missing_count.
-CwStatus cw_facets_locate(const CwDelaunay *mesh, int32_t boundary_points, CwFacets *facets);
+CwStatus cw_facets_locate(const CwTetMesh *mesh, int32_t boundary_points, CwFacets *facets);
 
 #ifdef __cplusplus
 }

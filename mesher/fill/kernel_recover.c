@@ -4,10 +4,9 @@
 #include <string.h>
 
 #include "mesher/common/predicates.h"
+#include "mesher/common/tet.h"
 #include "mesher/fill/kernel_flips.h"
 #include "pipeline/log.h"
-
-static const int8_t tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // Flips that only prepare others, before the other end is tried; tries of an edge.
 enum { HOLD = 16, TRIES = 8 };
@@ -15,8 +14,8 @@ enum { HOLD = 16, TRIES = 8 };
 typedef CwRecoveryGoal Goal;
 typedef CwRecovery Recovery;
 
-static int side(const CwDelaunay *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
-  const CwDelaunayPoint *p = mesh->point;
+static int side(const CwTetMesh *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
+  const CwTetPoint *p = mesh->point;
   return cw_orient3d(p[a].x, p[b].x, p[c].x, p[d].x);
 }
 
@@ -30,7 +29,7 @@ static int shares(const int32_t *p, int m, const int32_t *q, int n) {
 }
 
 // Does the segment a-b meet the triangle (touching counts)? They share no point.
-static int meet(const CwDelaunay *mesh, int32_t a, int32_t b, const int32_t t[3]) {
+static int meet(const CwTetMesh *mesh, int32_t a, int32_t b, const int32_t t[3]) {
   int below = side(mesh, t[0], t[1], t[2], a), above = side(mesh, t[0], t[1], t[2], b), low = 0, high = 0;
   if (below * above > 0 || (below == 0 && above == 0)) return 0;
   for (int k = 0; k < 3; k++) {
@@ -70,11 +69,11 @@ static CwStatus clear_edge(Recovery *r, int32_t t, int32_t p, int32_t q, int dep
   CW_TRY(cw_flips_edge(flips, t, p, q, moved));
   *moved *= 2;
   if (*moved || depth == 0) goto done;
-  int n = cw_flips_ring(flips, t, p, q, CW_RING, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
+  int n = cw_tet_ring(flips->mesh, t, p, q, CW_RING, tet, ring), slack = flips->slack, first = n ? draw(r, n) : 0;
   flips->slack = 1; // no more crossings than before
   for (int step = 0; step < n && !*moved; step++) {
     int k = (first + step) % n;
-    const CwDelaunayTet *now = &flips->mesh->tet[tet[k]];
+    const CwTet *now = &flips->mesh->tet[tet[k]];
     int32_t far = ring[(k + 1) % n];
     const int32_t face[3] = {p, q, ring[k]};
     if (cw_facets_find(r->facets, face) >= 0) continue;
@@ -93,13 +92,13 @@ done:
 static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *found, int *moved) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
-  const CwDelaunay *mesh = flips->mesh;
+  const CwTetMesh *mesh = flips->mesh;
   int32_t t;
   *moved = 0;
   CW_TRY(cw_flips_find_edge(flips, a, b, &t));
   *found = t >= 0;
   for (int32_t k = 0; k < flips->star_count && !*found; k++) {
-    const CwDelaunayTet *tet = &mesh->tet[flips->star[k]];
+    const CwTet *tet = &mesh->tet[flips->star[k]];
     int at = 0, zeros = 0, zero = -1, within = 1;
     while (tet->corner[at] != a) at++;
     for (int i = 0; i < 4 && within; i++) {
@@ -117,7 +116,7 @@ static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *fou
     if (!within) continue;
     t = flips->star[k];
     int32_t f[3];
-    for (int i = 0; i < 3; i++) f[i] = tet->corner[tet_face[at][i]];
+    for (int i = 0; i < 3; i++) f[i] = tet->corner[cw_tet_face[at][i]];
     if (zeros > 1) goto done; // through a point
     if (zeros == 1) {
       int32_t end[2];
@@ -173,7 +172,7 @@ CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
       moved = 0;
       CW_TRY(cw_flips_find_edge(flips, a, b, &t));
-      int n = t < 0 ? 0 : cw_flips_ring(flips, t, a, b, CW_RING, tet, ring);
+      int n = t < 0 ? 0 : cw_tet_ring(flips->mesh, t, a, b, CW_RING, tet, ring);
       for (int k = 0; k < n && !*found; k++) *found = ring[k] == c;
       if (*found) goto done;
       for (int k = 0; k < n && !moved; k++) {
@@ -186,7 +185,7 @@ done:
   return status;
 }
 
-CwStatus cw_recovery_make(CwDelaunay *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery) {
+CwStatus cw_recovery_make(CwTetMesh *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery) {
   CwStatus status = CW_OK;
   *recovery = (CwRecovery){.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + seed};
   CW_TRY(cw_flips_make(mesh, &recovery->flips));
@@ -200,8 +199,8 @@ void cw_recovery_free(CwRecovery *recovery) {
 }
 
 // Whether face i of a tetrahedron is the facet, seen from inside.
-static int is_inner(const CwDelaunayTet *tet, int i, const int32_t facet[3]) {
-  const int8_t *face = tet_face[i];
+static int is_inner(const CwTet *tet, int i, const int32_t facet[3]) {
+  const int8_t *face = cw_tet_face[i];
   if (tet->corner[0] < 0) return 0;
   int k = tet->corner[face[0]] == facet[0] ? 0 : tet->corner[face[1]] == facet[0] ? 1 : 2;
   for (int m = 0; m < 3; m++) {
@@ -213,7 +212,7 @@ static int is_inner(const CwDelaunayTet *tet, int i, const int32_t facet[3]) {
 // Looks for the facets that flips may have moved, round a point of each: few are, beside all faces of the mesh.
 static CwStatus locate_again(CwFlips *flips, CwFacets *facets) {
   CwStatus status = CW_OK;
-  const CwDelaunay *mesh = flips->mesh;
+  const CwTetMesh *mesh = flips->mesh;
   facets->missing_count = 0;
   for (int32_t f = 0; f < facets->count; f++) {
     const int32_t *corner = facets->corner[f];
@@ -231,7 +230,7 @@ done:
   return status;
 }
 
-CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int64_t *flips) {
+CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t *flips) {
   CwStatus status = CW_OK;
   CwRecovery r;
   int lost_edges = 0, lost_faces = 0, found;

@@ -12,7 +12,7 @@ extern "C" {
 
 // What is to be recovered: the edge of the first two points, or the face of all three.
 typedef struct {
-  const CwDelaunay *mesh;
+  const CwTetMesh *mesh;
   int32_t point[3];
 } CwRecoveryGoal;
 
@@ -24,7 +24,7 @@ typedef struct {
 } CwRecovery;
 
 // `recovery` must stay where it is until it is freed.
-CwStatus cw_recovery_make(CwDelaunay *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery);
+CwStatus cw_recovery_make(CwTetMesh *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery);
 void cw_recovery_free(CwRecovery *recovery);
 // By flips alone, with `tries` searches, each deeper than the last but one. *found is 0 where that is not enough.
 CwStatus cw_recovery_edge(CwRecovery *recovery, int32_t a, int32_t b, int tries, int *found);
@@ -34,7 +34,7 @@ CwStatus cw_recovery_face(CwRecovery *recovery, const int32_t corner[3], int tri
 // Takes the missing ones of *facets, edges first; facets that are there stay. Those that cannot be recovered
 // stay missing. `inner` and missing_count of *facets, which cw_facets_locate has found, are kept true. Another `round`
 // tries other flips. Adds what was flipped to *flips. Deterministic.
-CwStatus cw_kernel_recover(CwDelaunay *mesh, CwFacets *facets, int round, int64_t *flips);
+CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t *flips);
 
 #ifdef __cplusplus
 }

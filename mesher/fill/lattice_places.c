@@ -7,9 +7,10 @@
 
 #include "mesher/common/mix.h"
 #include "mesher/common/model_unit.h"
+#include "mesher/common/radix.h"
+#include "mesher/policy.h"
 
-static const double jitter = 1e-3; // of the cell
-enum { DIGIT = 11, ROUNDS = 9, SEEN = 13 };
+enum { ROUNDS = 9, SEEN = 13 };
 
 // What the field asks for in a cell and in its children: asked once, for all rounds of the fit; 0: not yet.
 typedef struct {
@@ -22,7 +23,7 @@ typedef struct {
   Asked *asked;         // of each cell given
   double fit;           // factor on the wanted spacing
   double wanted, found; // cells that the size field asks for, and cells found
-  CwLatticePlace *place;
+  CwRadix *place;
   int64_t place_count, place_space;
   uint64_t *seen; // places stored of late, by hash, so that few corners that cells share are stored again
 } Lattice;
@@ -77,7 +78,7 @@ static CwStatus cut(Lattice *lattice, int32_t cell, const int32_t at[3], int lev
     for (int i = 0; i < 3; i++) there[i] = 2 * at[i] + (k == 8 ? 1 << level : (k >> i & 1) << (level + 1));
     uint64_t key = cw_lattice_key(there), *seen = &lattice->seen[key * 0x9e3779b97f4a7c15ull >> (64 - SEEN)];
     if (*seen != key) // of equal places the first one counts
-      lattice->place[lattice->place_count++] = (CwLatticePlace){key, cell, level};
+      lattice->place[lattice->place_count++] = (CwRadix){key, cell, level};
     *seen = key;
   }
 done:
@@ -135,38 +136,8 @@ done:
   return status;
 }
 
-// By key, stable. Bits that all keys have in common are left out.
-static CwStatus sort_places(Lattice *lattice) {
-  CwStatus status = CW_OK;
-  CwLatticePlace *other = NULL, *swap;
-  uint64_t any = 0, all = ~0ull, mask = (1 << DIGIT) - 1;
-  int64_t count = lattice->place_count;
-  for (int64_t k = 0; k < count; k++) {
-    any |= lattice->place[k].key;
-    all &= lattice->place[k].key;
-  }
-  CW_NEW(other, count);
-  for (int shift = 0; shift < 63;) {
-    if (!((any ^ all) >> shift & 1)) {
-      shift++;
-      continue;
-    }
-    int64_t start[(1 << DIGIT) + 1] = {0};
-    for (int64_t k = 0; k < count; k++) start[(lattice->place[k].key >> shift & mask) + 1]++;
-    for (int d = 0; d < 1 << DIGIT; d++) start[d + 1] += start[d];
-    for (int64_t k = 0; k < count; k++) other[start[lattice->place[k].key >> shift & mask]++] = lattice->place[k];
-    swap = lattice->place;
-    lattice->place = other;
-    other = swap;
-    shift += DIGIT;
-  }
-done:
-  free(other);
-  return status;
-}
-
 CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
-                           const CwLatticeCell *cell, int64_t *count, CwLatticePlace **place) {
+                           const CwLatticeCell *cell, int64_t *count, CwRadix **place) {
   CwStatus status = CW_OK;
   Lattice lattice = {.input = input, .frame = frame, .fit = 1.0};
   *count = 0;
@@ -178,7 +149,7 @@ CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame
   CW_TRY(cut_all(&lattice, cell_count, cell, 1));
   free(lattice.asked);
   lattice.asked = NULL;
-  CW_TRY(sort_places(&lattice));
+  CW_TRY(cw_radix_sort(lattice.place_count, lattice.place));
   for (int64_t k = 0; k < lattice.place_count; k++) {
     if (k == 0 || lattice.place[k].key != lattice.place[*count - 1].key) lattice.place[(*count)++] = lattice.place[k];
   }
@@ -202,7 +173,8 @@ void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]) {
   for (int i = 0; i < 3; i++) x[i] = frame->origin[i] + frame->unit * 0.5 * half[i];
 }
 
-void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double x[3]) {
+void cw_lattice_point(const CwLatticeFrame *frame, const CwRadix *place, double x[3]) {
   cw_lattice_fixed(frame, place->key, x);
-  for (int i = 0; i < 3; i++) x[i] += frame->unit * jitter * (double)(1 << place->level) * shake(place->key, i);
+  for (int i = 0; i < 3; i++)
+    x[i] += frame->unit * cw_fill_policy.lattice_jitter * (double)(1 << place->tag) * shake(place->key, i);
 }

@@ -8,6 +8,7 @@
 
 #include "pipeline/status.h"
 
+#include "mesher/common/radix.h"
 #include "mesher/fill/fill.h"
 
 #ifdef __cplusplus
@@ -28,25 +29,21 @@ typedef struct {
   int counts;           // 1: its leaves count for the fit of the spacing
 } CwLatticeCell;
 
-typedef struct {
-  uint64_t key; // as in CwLatticeSite
-  int32_t cell, level;
-} CwLatticePlace;
-
 // Length that the field of the input wants at x, m. Fails (CW_ERR_MESH) where it gives none.
 CwStatus cw_lattice_size(const CwFillInput *input, const double x[3], double *size);
 
-// Places in all cells that a slab of the input reaches, by ascending keys, each once, as of the first cell that has it.
+// Places in all cells that a slab of the input reaches, by ascending keys (as in CwLatticeSite), each once: `item` is
+// the first cell that has it, `tag` the level there.
 // The spacing is fitted so that the cells that count get as many leaves as the field asks for, whatever powers of two
 // are near it. Caller frees *place.
 CwStatus cw_lattice_places(const CwFillInput *input, const CwLatticeFrame *frame, int32_t cell_count,
-                           const CwLatticeCell *cell, int64_t *count, CwLatticePlace **place);
+                           const CwLatticeCell *cell, int64_t *count, CwRadix **place);
 
 // Where a place is.
 void cw_lattice_fixed(const CwLatticeFrame *frame, uint64_t key, double x[3]);
 // Where its point is: beside it by up to a thousandth of the cell, by its key alone, since points of
 // a lattice lie on common spheres.
-void cw_lattice_point(const CwLatticeFrame *frame, const CwLatticePlace *place, double x[3]);
+void cw_lattice_point(const CwLatticeFrame *frame, const CwRadix *place, double x[3]);
 
 #ifdef __cplusplus
 }

@@ -7,8 +7,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "mesher/common/four.h"
-#include "mesher/common/number.h"
+#include "mesher/common/simd_4f.h"
+#include "mesher/common/branchless.h"
 #include "mesher/fill/delaunay.h"
 
 #ifdef __cplusplus
@@ -51,28 +51,28 @@ static inline void cw_sphere_place(const CwSphereFrame *frame, const double x[3]
 
 // Marks a tetrahedron as taken (1), or leaves it as it is (0): the square of its radius has its sign set then, also
 // where it is not a number.
-static inline void cw_sphere_take(CwDelaunayTet *t, uint32_t taken) {
+static inline void cw_sphere_take(CwTet *t, uint32_t taken) {
   t->mark |= taken << 31;
 }
 
 // CW_WITHIN or CW_BEYOND, or 0 where that is not sure; with CW_TAKEN where it is taken, and then never CW_WITHIN.
-static inline unsigned cw_sphere_compare(const CwDelaunayTet *t, const float place[3]) {
+static inline unsigned cw_sphere_compare(const CwTet *t, const float place[3]) {
   float x = place[0] - t->centre[0], y = place[1] - t->centre[1], z = place[2] - t->centre[2],
         square = t->radius_square;
   float over = x * x + y * y + z * z - square;
-  unsigned sure = cw_number(over * over > square * (CW_SPHERE_UNSURE_FAR * square + CW_SPHERE_UNSURE_NEAR));
-  return sure + (sure & cw_number(over > 0.0f)) + CW_TAKEN * (t->mark >> 31);
+  unsigned sure = cw_branchless(over * over > square * (CW_SPHERE_UNSURE_FAR * square + CW_SPHERE_UNSURE_NEAR));
+  return sure + (sure & cw_branchless(over > 0.0f)) + CW_TAKEN * (t->mark >> 31);
 }
 
 // The same for four at once, whose answers agree with those one by one to the bit.
-static inline void cw_sphere_compare_four(const CwDelaunayTet *const t[4], const float place[3], int32_t known[4]) {
-  CwFour sphere[4];
+static inline void cw_sphere_compare_4(const CwTet *const t[4], const float place[3], int32_t known[4]) {
+  Cw4f sphere[4];
   for (int k = 0; k < 4; k++) memcpy(&sphere[k], t[k]->centre, sizeof *sphere);
-  cw_four_turn(sphere);
-  CwFour x = place[0] - sphere[0], y = place[1] - sphere[1], z = place[2] - sphere[2], square = sphere[3];
-  CwFour over = x * x + y * y + z * z - square;
-  CwFourMask sure = over * over > square * (CW_SPHERE_UNSURE_FAR * square + CW_SPHERE_UNSURE_NEAR);
-  CwFourMask taken = (CwFourMask)square >> 31 & CW_TAKEN, all = taken - sure - (sure & (over > 0.0f));
+  cw_4f_transpose(sphere);
+  Cw4f x = place[0] - sphere[0], y = place[1] - sphere[1], z = place[2] - sphere[2], square = sphere[3];
+  Cw4f over = x * x + y * y + z * z - square;
+  Cw4fMask sure = over * over > square * (CW_SPHERE_UNSURE_FAR * square + CW_SPHERE_UNSURE_NEAR);
+  Cw4fMask taken = (Cw4fMask)square >> 31 & CW_TAKEN, all = taken - sure - (sure & (over > 0.0f));
   memcpy(known, &all, sizeof all);
 }
 
@@ -81,7 +81,7 @@ typedef double CwTwo __attribute__((vector_size(2 * sizeof(double))));
 
 // The spheres of two tetrahedra, which may be one, each through the point at `place` and three points at a, b, c from
 // it, in the unit of the frame; the fourth of each is the square of its distance. They are not taken at first.
-static inline void cw_sphere_set(CwDelaunayTet *const tet[2], const double place[3], const double *const a[2],
+static inline void cw_sphere_set(CwTet *const tet[2], const double place[3], const double *const a[2],
                                  const double *const b[2], const double *const c[2]) {
   CwTwo p[4], q[4], r[4];
   for (int i = 0; i < 4; i++) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/tet_collapse.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static const double loss = 1.0; // at most, in the sum
-enum { CROWDED = 7 };           // slender tetrahedra at their shortest edges with a point that is tried
+#include "mesher/fill/tet_aspect.h"
+#include "mesher/policy.h"
 
 // The shortest edges of slender tetrahedra at a point.
 typedef struct {
@@ -20,23 +20,23 @@ static inline void note(Crowd *crowd, int32_t t, int32_t to, double square) {
 
 // Whether earlier changes have left the edge.
 static int has_edge(const CwTetWork *w, int32_t t, int32_t p, int32_t q) {
-  const CwDelaunayTet *tet = &w->mesh->tet[t];
-  return tet->corner[0] >= 0 && cw_delaunay_corner_of(tet, p) >= 0 && cw_delaunay_corner_of(tet, q) >= 0;
+  const CwTet *tet = &w->mesh->tet[t];
+  return tet->corner[0] >= 0 && cw_tet_corner_of(tet, p) >= 0 && cw_tet_corner_of(tet, q) >= 0;
 }
 
 // The corners with q in the place of p; 0 where q is one of them, and the tetrahedron vanishes.
-static int find_made(const CwDelaunayTet *tet, int32_t p, int32_t q, int32_t made[4]) {
+static int find_made(const CwTet *tet, int32_t p, int32_t q, int32_t made[4]) {
   memcpy(made, tet->corner, sizeof tet->corner);
-  made[cw_delaunay_corner_of(tet, p)] = q;
-  return cw_delaunay_corner_of(tet, q) < 0;
+  made[cw_tet_corner_of(tet, p)] = q;
+  return cw_tet_corner_of(tet, q) < 0;
 }
 
 // Takes the tetrahedra of the inner point p that have q out: the neighbours at the two faces of each that become one
 // are joined. All others have q in the place of p then.
-static void merge(CwDelaunay *mesh, const int32_t *star, int count, int32_t p, int32_t q) {
+static void merge(CwTetMesh *mesh, const int32_t *star, int count, int32_t p, int32_t q) {
   for (int k = 0; k < count; k++) {
-    CwDelaunayTet *tet = &mesh->tet[star[k]];
-    int i = cw_delaunay_corner_of(tet, p), j = cw_delaunay_corner_of(tet, q);
+    CwTet *tet = &mesh->tet[star[k]];
+    int i = cw_tet_corner_of(tet, p), j = cw_tet_corner_of(tet, q);
     if (j < 0) {
       tet->corner[i] = q;
       continue;
@@ -44,24 +44,24 @@ static void merge(CwDelaunay *mesh, const int32_t *star, int count, int32_t p, i
     int32_t beyond = tet->neighbour[i], within = tet->neighbour[j];
     mesh->tet[within >> 2].neighbour[within & 3] = beyond;
     if (beyond >= 0) mesh->tet[beyond >> 2].neighbour[beyond & 3] = within;
-    cw_delaunay_free_tet(mesh, star[k]);
+    cw_tet_mesh_free_tet(mesh, star[k]);
   }
 }
 
 // The inner point p of t goes into q.
-static CwStatus collapse(CwTetWork *w, int32_t t, int32_t p, int32_t q) {
+static CwStatus collapse(CwTetWork *w, double floor, int32_t t, int32_t p, int32_t q) {
   CwStatus status = CW_OK;
-  int32_t star[CW_TET_STAR], made[4];
-  double quality[CW_TET_STAR], sum = 0.0, least = w->floor;
-  int n = cw_tet_star(w, t, p, star);
+  int32_t star[CW_STAR], made[4];
+  double quality[CW_STAR], sum = 0.0, least = floor;
+  int n = cw_tet_star(w->mesh, t, p, CW_STAR, star);
   if (n == 0) goto done;
   for (int k = 0; k < n; k++) {
-    const CwDelaunayTet *tet = &w->mesh->tet[star[k]];
+    const CwTet *tet = &w->mesh->tet[star[k]];
     sum -= cw_tet_excess(w, tet->corner);
-    least = cw_tet_less(least, tet->quality);
+    least = cw_lesser(least, tet->quality);
     if (find_made(tet, p, q, made)) sum += cw_tet_excess(w, made);
   }
-  if (!(sum < loss)) goto done;
+  if (!(sum < cw_fill_policy.collapse_loss)) goto done;
   for (int k = 0; k < n; k++) {
     if (!find_made(&w->mesh->tet[star[k]], p, q, made)) continue;
     quality[k] = cw_tet_quality_of(w, made[0], made[1], made[2], made[3]);
@@ -76,22 +76,23 @@ done:
   return status;
 }
 
-CwStatus cw_tet_collapse(CwTetWork *w) {
+CwStatus cw_tet_collapse(CwTetWork *w, const CwTetShapes *shapes) {
   CwStatus status = CW_OK;
+  const double slender_square = cw_tet_slender_square(shapes);
   Crowd *crowd = NULL;
   CW_NEW(crowd, w->mesh->point_count);
-  for (int32_t k = 0; k < w->slender.count; k++) {
-    int32_t t = w->slender.tet[k];
+  for (int32_t k = 0; k < shapes->slender.count; k++) {
+    int32_t t = shapes->slender.tet[k];
     const int32_t *c = w->mesh->tet[t].corner;
-    cw_tet_ask_ahead(w, w->slender.tet, w->slender.count, k);
+    cw_tet_prefetch_list(w, shapes->slender.tet, shapes->slender.count, k);
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
-    if (!cw_tet_is_slender(w, &ends)) continue;
+    if (!(ends.longest > slender_square * ends.shortest)) continue;
     for (int i = 0; i < 2; i++) note(&crowd[ends.near[i]], t, ends.near[1 - i], ends.shortest);
   }
   for (int32_t p = 0; p < w->mesh->point_count; p++) {
-    if (crowd[p].count < CROWDED || w->mesh->source[p] < w->fixed_count) continue;
-    if (has_edge(w, crowd[p].tet, p, crowd[p].to)) CW_TRY(collapse(w, crowd[p].tet, p, crowd[p].to));
+    if (crowd[p].count < cw_fill_policy.collapse_slender || w->mesh->source[p] < w->fixed_count) continue;
+    if (has_edge(w, crowd[p].tet, p, crowd[p].to)) CW_TRY(collapse(w, shapes->floor, crowd[p].tet, p, crowd[p].to));
   }
 done:
   free(crowd);

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/tet_insert.h"
 
 #include <math.h>
 #include <string.h>
 
-static const double worth = 0.02;  // least gain: a point more must pay
-static const double SPACING = 0.2; // of these, over the mean edge
-enum { CAVITY = 64, SIDES = CW_FLIP, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
+#include "mesher/fill/tet_cavity.h"
+#include "mesher/policy.h"
+
+enum { MOST_CLEARED = 64, SIDES = CW_CAVITY, AGAIN = 3, SHELLS = 5, PLACES = 4 * 3 + 1 + 6 + 14 * SHELLS };
 
 // Tetrahedra to be taken away, and the faces of their hull, as 4 * tetrahedron + face.
 typedef struct {
   int count, side_count;
-  int32_t tet[CAVITY], side[SIDES];
-} Cavity;
+  int32_t tet[MOST_CLEARED], side[SIDES];
+} Cleared;
 
 // Of the faces that a cavity was grown over the best quality, and of those that it was not the least: for all
 // thresholds from the first up to below the second it grows the same way.
@@ -21,28 +22,27 @@ typedef struct {
 } Grown;
 
 static double side_quality(const CwTetWork *w, int32_t side, const double p[3]) {
-  const int32_t *corner = w->mesh->tet[side / 4].corner;
-  const int8_t *face = cw_tet_face[side % 4];
-  return cw_tet_quality(cw_tet_at(w, corner[face[0]]), cw_tet_at(w, corner[face[2]]), cw_tet_at(w, corner[face[1]]), p);
+  int32_t c[3];
+  cw_cavity_face(&w->mesh->tet[side / 4], side % 4, c);
+  return cw_tet_quality(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), p);
 }
 
 // Grows the cavity from t over every face that would make a tetrahedron with p no better than `enough`
-// (B. Klingner and J. Shewchuk, Aggressive tetrahedral mesh improvement, 2007). 0 where it meets the boundary
-// or becomes too large.
-static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavity *cavity, Grown *grown) {
-  CwDelaunay *mesh = w->mesh;
-  int32_t open[4 * CAVITY];
+// 0 where it meets the boundary or becomes too large.
+static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cleared *cleared, Grown *grown) {
+  CwTetMesh *mesh = w->mesh;
+  int32_t open[4 * MOST_CLEARED];
   int opened = 0, kept = 0;
-  w->stamp++;
-  mesh->tet[t].star = w->stamp;
-  cavity->tet[0] = t;
-  cavity->count = 1;
-  cavity->side_count = 0;
+  mesh->stars++;
+  mesh->tet[t].star = mesh->stars;
+  cleared->tet[0] = t;
+  cleared->count = 1;
+  cleared->side_count = 0;
   *grown = (Grown){-INFINITY, INFINITY};
   for (int i = 0; i < 4; i++) open[opened++] = 4 * t + i;
   for (int head = 0; head < opened; head++) {
     int32_t side = open[head], other = mesh->tet[side / 4].neighbour[side % 4];
-    if (other >= 0 && mesh->tet[other / 4].star == w->stamp) continue;
+    if (other >= 0 && mesh->tet[other / 4].star == mesh->stars) continue;
     double quality = side_quality(w, side, p);
     if (quality > enough) {
       open[kept++] = side; // never ahead of head
@@ -50,33 +50,33 @@ static int grow(CwTetWork *w, int32_t t, const double p[3], double enough, Cavit
       continue;
     }
     grown->crossed = fmax(grown->crossed, quality);
-    if (other < 0 || cavity->count == CAVITY) return 0;
-    mesh->tet[other / 4].star = w->stamp;
-    cavity->tet[cavity->count++] = other / 4;
+    if (other < 0 || cleared->count == MOST_CLEARED) return 0;
+    mesh->tet[other / 4].star = mesh->stars;
+    cleared->tet[cleared->count++] = other / 4;
     for (int i = 0; i < 4; i++) {
       if (i != other % 4) open[opened++] = other / 4 * 4 + i;
     }
   }
   for (int k = 0; k < kept; k++) {
     int32_t other = mesh->tet[open[k] / 4].neighbour[open[k] % 4];
-    if (other >= 0 && mesh->tet[other / 4].star == w->stamp) continue; // what lies behind was taken later
-    if (cavity->side_count == SIDES) return 0;
-    cavity->side[cavity->side_count++] = open[k];
+    if (other >= 0 && mesh->tet[other / 4].star == mesh->stars) continue; // what lies behind was taken later
+    if (cleared->side_count == SIDES) return 0;
+    cleared->side[cleared->side_count++] = open[k];
   }
   return 1;
 }
 
 // Whether the tetrahedra from p to the hull fill the cavity, once.
-static int is_filled(const CwTetWork *w, const Cavity *cavity, const double p[3]) {
+static int is_filled(const CwTetWork *w, const Cleared *cleared, const double p[3]) {
   double old = 0.0, made = 0.0;
-  for (int k = 0; k < cavity->count; k++) {
-    const int32_t *c = w->mesh->tet[cavity->tet[k]].corner;
-    old += cw_tet_six(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+  for (int k = 0; k < cleared->count; k++) {
+    const int32_t *c = w->mesh->tet[cleared->tet[k]].corner;
+    old += cw_tet_volume6(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
   }
-  for (int k = 0; k < cavity->side_count; k++) {
-    const int32_t *c = w->mesh->tet[cavity->side[k] / 4].corner;
-    const int8_t *face = cw_tet_face[cavity->side[k] % 4];
-    made += cw_tet_six(cw_tet_at(w, c[face[0]]), cw_tet_at(w, c[face[2]]), cw_tet_at(w, c[face[1]]), p);
+  for (int k = 0; k < cleared->side_count; k++) {
+    int32_t c[3];
+    cw_cavity_face(&w->mesh->tet[cleared->side[k] / 4], cleared->side[k] % 4, c);
+    made += cw_tet_volume6(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), p);
   }
   return fabs(made - old) <= 1e-9 * old;
 }
@@ -84,7 +84,7 @@ static int is_filled(const CwTetWork *w, const Cavity *cavity, const double p[3]
 // Places to try: over each boundary face, the middles of the tetrahedron, of its faces and of its edges. Round a bad
 // one those in 14 directions too, on shells to the length of its mean edge.
 static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
-  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  const CwTet *tet = &w->mesh->tet[t];
   const double *x[4];
   int count = 0;
   for (int i = 0; i < 4; i++) x[i] = cw_tet_at(w, tet->corner[i]);
@@ -111,67 +111,64 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   CwTetMeasures m = cw_tet_measures(x[0], x[1], x[2], x[3]);
   double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
   for (int k = 0; k < 14 * SHELLS; k++, count++) {
-    const double *way = cw_tet_way[k % 14];
-    double radius = SPACING * edge * (double)(k / 14 + 1);
-    for (int i = 0; i < 3; i++) place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * way[i];
+    const double *direction = cw_tet_direction[k % 14];
+    double radius = cw_fill_policy.insert_shell * edge * (double)(k / 14 + 1);
+    for (int i = 0; i < 3; i++)
+      place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * direction[i];
   }
   return count;
 }
 
 // The star from p to the hull of a cavity.
-static void make_hollow(const CwTetWork *w, const Cavity *cavity, CwHollow *hollow) {
-  hollow->count = cavity->side_count;
-  for (int s = 0; s < cavity->side_count; s++) {
-    const int32_t *c = w->mesh->tet[cavity->side[s] / 4].corner;
-    const int8_t *face = cw_tet_face[cavity->side[s] % 4];
-    hollow->face[s][0] = cw_tet_at(w, c[face[0]]);
-    hollow->face[s][1] = cw_tet_at(w, c[face[2]]);
-    hollow->face[s][2] = cw_tet_at(w, c[face[1]]);
+static void make_cavity(const CwTetWork *w, const Cleared *cleared, CwCavity *cavity) {
+  cavity->count = cleared->side_count;
+  for (int s = 0; s < cleared->side_count; s++) {
+    int32_t corner[3];
+    cw_cavity_face(&w->mesh->tet[cleared->side[s] / 4], cleared->side[s] % 4, corner);
+    for (int k = 0; k < 3; k++) cavity->face[s][k] = cw_tet_at(w, corner[k]);
   }
 }
 
 // Grows the cavity for a point at p and moves the point to its best place there, in turn, while this gains. Returns the
 // best quality, of the cavity and place in *chosen and p; `best`, and leaves these alone, where there is no better one.
 // *first tells of the cavity of the place itself.
-static double best_from(CwTetWork *w, int32_t t, const double place[3], double aim, double best, Cavity *chosen,
+static double best_from(CwTetWork *w, int32_t t, const double place[3], double aim, double best, Cleared *chosen,
                         double p[3], Grown *first) {
-  Cavity cavity;
+  Cleared cleared;
   Grown later;
-  CwHollow hollow;
+  CwCavity cavity;
   double there[3];
   memcpy(there, place, sizeof there);
   for (int again = 0; again < AGAIN; again++) {
-    if (!grow(w, t, there, fmax(aim, best), &cavity, again ? &later : first) || !is_filled(w, &cavity, there)) break;
-    make_hollow(w, &cavity, &hollow);
-    double got = cw_hollow_best(&hollow, there, cw_hollow_quality(&hollow, there, -2.0));
+    if (!grow(w, t, there, fmax(aim, best), &cleared, again ? &later : first) || !is_filled(w, &cleared, there)) break;
+    make_cavity(w, &cleared, &cavity);
+    double got = cw_cavity_best(&cavity, there, cw_cavity_quality(&cavity, there, -2.0));
     if (got <= best) break;
     best = got;
-    *chosen = cavity;
+    *chosen = cleared;
     memcpy(p, there, sizeof there);
   }
   return best;
 }
 
 // Puts the star from a new point at p into the cavity.
-static CwStatus fill_cavity(CwTetWork *w, const Cavity *cavity, const double p[3]) {
+static CwStatus fill_cavity(CwTetWork *w, const Cleared *cleared, const double p[3]) {
   CwStatus status = CW_OK;
   double quality[SIDES];
   int32_t corner[SIDES][4], point;
-  CW_TRY(cw_delaunay_add_point(w->mesh, p, w->source_count++, &point));
-  for (int s = 0; s < cavity->side_count; s++) {
-    const int32_t *c = w->mesh->tet[cavity->side[s] / 4].corner;
-    const int8_t *face = cw_tet_face[cavity->side[s] % 4];
-    const int32_t one[4] = {c[face[0]], c[face[2]], c[face[1]], point};
-    memcpy(corner[s], one, sizeof one);
-    quality[s] = cw_tet_quality_of(w, one[0], one[1], one[2], point);
+  CW_TRY(cw_tet_mesh_add_point(w->mesh, p, w->source_count++, &point));
+  for (int s = 0; s < cleared->side_count; s++) {
+    cw_cavity_face(&w->mesh->tet[cleared->side[s] / 4], cleared->side[s] % 4, corner[s]);
+    corner[s][3] = point;
+    quality[s] = cw_tet_quality_of(w, corner[s][0], corner[s][1], corner[s][2], point);
   }
-  CW_TRY(cw_tet_replace(w, cavity->count, cavity->tet, cavity->side_count, (const int32_t(*)[4])corner, quality));
+  CW_TRY(cw_tet_replace(w, cleared->count, cleared->tet, cleared->side_count, (const int32_t(*)[4])corner, quality));
 done:
   return status;
 }
 
 CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double aim, double least) {
-  Cavity chosen = {0};
+  Cleared chosen = {0};
   Grown grown;
   double p[3];
   return best_from(w, t, place, aim, least, &chosen, p, &grown) > least ? fill_cavity(w, &chosen, p) : CW_OK;
@@ -180,9 +177,9 @@ CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
   static const double aim[4] = {0.4, 0.32, 0.25, 0.0};
-  double place[PLACES][3], least = w->mesh->tet[t].quality + worth, best = least, p[3];
+  double place[PLACES][3], least = w->mesh->tet[t].quality + cw_fill_policy.insert_gain, best = least, p[3];
   int tries = candidates(w, t, place);
-  Cavity chosen = {0};
+  Cleared chosen = {0};
   Grown grown[PLACES];
   *done_it = 0;
   for (int a = 0; a < 4; a++) {

@@ -3,74 +3,102 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-#include "mesher/fill/fill_shape.h"
+enum { LARGE_PAGE = 1 << 21, CACHE_LINE = 64 }; // bytes
 
-CwStatus cw_tet_mesh_make(const CwFill *fill, CwDelaunay *mesh) {
+// Aligned to large pages, which realloc is not. Pages not yet touched cost nothing.
+CwStatus cw_tet_mesh_make_room(CwTetMesh *mesh, int64_t space, int64_t sure) {
   CwStatus status = CW_OK;
-  int32_t(*neighbour)[4] = NULL, count = fill->tetrahedron_count;
-  memset(mesh, 0, sizeof *mesh);
-  CW_NEW(neighbour, count);
-  CW_TRY(cw_tet_neighbours(fill->point_count, count, (const int32_t(*)[4])fill->tetrahedron, neighbour));
-  mesh->point_count = mesh->point_space = fill->point_count + CW_DELAUNAY_CORNERS;
-  mesh->tet_count = mesh->tet_space = count;
-  CW_NEW(mesh->point, mesh->point_count);
-  CW_NEW(mesh->source, mesh->point_count);
-  CW_NEW(mesh->tet, count);
-  for (int32_t p = 0; p < CW_DELAUNAY_CORNERS; p++) mesh->source[p] = -1;
-  for (int32_t p = 0; p < fill->point_count; p++) {
-    memcpy(mesh->point[CW_DELAUNAY_CORNERS + p].x, fill->x[p], sizeof *fill->x);
-    mesh->source[CW_DELAUNAY_CORNERS + p] = p;
-  }
-  for (int32_t t = 0; t < count; t++) {
-    memcpy(mesh->tet[t].neighbour, neighbour[t], sizeof *neighbour);
-    for (int i = 0; i < 4; i++) mesh->tet[t].corner[i] = CW_DELAUNAY_CORNERS + fill->tetrahedron[t][i];
-  }
+  CW_REQUIRE(space < INT32_MAX / 4, CW_ERR_MESH, "more than %d tetrahedra in one region", INT32_MAX / 4);
+  size_t large = sure * (int64_t)sizeof *mesh->tet >= LARGE_PAGE ? LARGE_PAGE : CACHE_LINE;
+  size_t size = ((size_t)space * sizeof *mesh->tet + large - 1) / large * large;
+  CwTet *pool = aligned_alloc(large, size);
+  CW_REQUIRE(pool, CW_ERR_MEMORY, "out of memory: %lld tetrahedra", (long long)space);
+#ifdef MADV_HUGEPAGE
+  if (large == LARGE_PAGE)
+    (void)madvise(pool, (size_t)sure * sizeof *pool / large * large, MADV_HUGEPAGE); // else small
+#endif
+  if (mesh->tet_count) memcpy(pool, mesh->tet, (size_t)mesh->tet_count * sizeof *pool);
+  free(mesh->tet);
+  mesh->tet = pool;
+  mesh->tet_space = (int32_t)space;
 done:
-  free(neighbour);
-  if (status != CW_OK) cw_delaunay_free(mesh);
   return status;
 }
 
-// The corners are moved together in the mesh's own memory, which goes over to the fill: no second copy at the
-// peak.
-CwStatus cw_tet_mesh_take(CwDelaunay *mesh, int32_t fixed_count, int32_t source_count, CwFill *fill) {
+CwStatus cw_tet_mesh_new_tet(CwTetMesh *mesh, int32_t *tet) {
   CwStatus status = CW_OK;
-  int32_t *number = NULL, kept = 0, points = fixed_count;
-  int32_t(*made)[4] = (int32_t(*)[4])(void *)mesh->tet;
-  CW_NEW(number, source_count);
-  for (int32_t t = 0; t < mesh->tet_count; t++) {
-    int32_t corner[4];
-    cw_delaunay_ask_ahead(&mesh->tet[t]);
-    memcpy(corner, mesh->tet[t].corner, sizeof corner);
-    if (corner[0] < 0) continue;
-    for (int i = 0; i < 4; i++) {
-      corner[i] = mesh->source[corner[i]];
-      number[corner[i]] = 1;
-    }
-    memcpy(made[kept++], corner, sizeof corner);
+  if (mesh->spare) {
+    *tet = mesh->spare - 1;
+    mesh->spare = mesh->tet[*tet].corner[1];
+    goto done;
   }
-  mesh->tet = NULL;
-  fill->tetrahedron = realloc(made, (size_t)kept * sizeof *made);
-  if (!fill->tetrahedron) fill->tetrahedron = made;
-  fill->tetrahedron_count = kept;
-  for (int32_t p = 0; p < source_count; p++) {
-    if (p < fixed_count)
-      number[p] = p;
-    else
-      number[p] = number[p] ? points++ : -1;
-  }
-  for (int32_t t = 0; t < kept; t++) {
-    for (int i = 0; i < 4; i++) fill->tetrahedron[t][i] = number[fill->tetrahedron[t][i]];
-  }
-  fill->x = malloc((size_t)points * sizeof *fill->x);
-  CW_REQUIRE(fill->x, CW_ERR_MEMORY, "out of memory: %d points", points);
-  for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh->point_count; p++) {
-    int32_t to = number[mesh->source[p]];
-    if (to >= 0) memcpy(fill->x[to], mesh->point[p].x, sizeof *fill->x);
-  }
-  fill->point_count = points;
+  if (mesh->tet_count == mesh->tet_space)
+    CW_TRY(cw_tet_mesh_make_room(mesh, (int64_t)mesh->tet_space + mesh->tet_space / 4 + 64, 0));
+  *tet = mesh->tet_count++;
+  mesh->tet[*tet] = (CwTet){.quality = 0.0};
 done:
-  free(number);
   return status;
+}
+
+void cw_tet_mesh_free_tet(CwTetMesh *mesh, int32_t tet) {
+  mesh->tet[tet].corner[0] = -1;
+  mesh->tet[tet].corner[1] = mesh->spare;
+  mesh->spare = tet + 1;
+}
+
+void cw_tet_mesh_pack(CwTetMesh *mesh) {
+  int32_t kept = 0;
+  for (int32_t t = 0; t < mesh->tet_count; t++) {
+    cw_tet_prefetch_ahead(&mesh->tet[t]);
+    if (mesh->tet[t].corner[0] < 0) continue;
+    const CwTet *from = &mesh->tet[t];
+    CwTet *to = &mesh->tet[kept];
+    if (kept != t) {
+      memcpy(to->corner, from->corner, sizeof to->corner);
+      for (int i = 0; i < 4; i++) {
+        int32_t next = to->neighbour[i] = from->neighbour[i];
+        if (next >= 0) mesh->tet[next >> 2].neighbour[next & 3] = 4 * kept + i;
+      }
+    }
+    kept++;
+  }
+  mesh->tet_count = kept;
+  mesh->spare = 0;
+  // Some room is left for those to come, since a larger pool stands beside this one for a moment.
+  int32_t space = kept + kept / 32 + 64;
+  CwTet *pool = space < mesh->tet_space ? realloc(mesh->tet, (size_t)space * sizeof *pool) : NULL;
+  if (pool) { // as a rule in its place, and so aligned as before
+    mesh->tet = pool;
+    mesh->tet_space = space;
+  }
+}
+
+CwStatus cw_tet_mesh_add_point(CwTetMesh *mesh, const double x[3], int32_t source, int32_t *point) {
+  CwStatus status = CW_OK;
+  if (mesh->point_count == mesh->point_space) {
+    int32_t space = mesh->point_space + mesh->point_space / 8 + 64;
+    CwTetPoint *points = realloc(mesh->point, (size_t)space * sizeof *points);
+    CW_REQUIRE(points, CW_ERR_MEMORY, "out of memory: %d points", space);
+    mesh->point = points;
+    int32_t *sources = realloc(mesh->source, (size_t)space * sizeof *sources);
+    CW_REQUIRE(sources, CW_ERR_MEMORY, "out of memory: %d points", space);
+    mesh->source = sources;
+    mesh->point_space = space;
+  }
+  *point = mesh->point_count++;
+  memcpy(mesh->point[*point].x, x, sizeof mesh->point->x);
+  mesh->point[*point].mark = 0;
+  mesh->source[*point] = source;
+done:
+  return status;
+}
+
+void cw_tet_mesh_free(CwTetMesh *mesh) {
+  free(mesh->point);
+  free(mesh->source);
+  free(mesh->tet);
+  free(mesh->duplicate);
+  memset(mesh, 0, sizeof *mesh);
 }

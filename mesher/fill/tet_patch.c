@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/fill/tet_work.h"
+#include "mesher/common/tet.h"
 
 typedef struct {
   int32_t key, value;
@@ -23,7 +23,7 @@ static int32_t find(const Pair *list, int32_t count, int32_t key) {
 }
 
 // The tetrahedra, and their places in the patch by number.
-static CwStatus gather(const CwDelaunay *whole, int32_t t, int32_t count, CwTetPatch *patch, Pair **number) {
+static CwStatus gather(const CwTetMesh *whole, int32_t t, int32_t count, CwTetPatch *patch, Pair **number) {
   CwStatus status = CW_OK;
   Pair *list = NULL;
   CW_NEW(list, count);
@@ -47,7 +47,7 @@ done:
 }
 
 // The points in ascending order, each once.
-static CwStatus gather_points(const CwDelaunay *whole, CwTetPatch *patch, Pair **number) {
+static CwStatus gather_points(const CwTetMesh *whole, CwTetPatch *patch, Pair **number) {
   CwStatus status = CW_OK;
   Pair *list = NULL;
   CW_NEW(list, 4 * patch->tet_count);
@@ -67,10 +67,10 @@ done:
   return status;
 }
 
-CwStatus cw_tet_patch_take(const CwDelaunay *whole, int32_t t, int32_t count, int32_t fixed_count, CwTetPatch *patch) {
+CwStatus cw_tet_patch_take(const CwTetMesh *whole, int32_t t, int32_t count, int32_t fixed_count, CwTetPatch *patch) {
   CwStatus status = CW_OK;
   Pair *tet_number = NULL, *point_number = NULL;
-  CwDelaunay *mesh = &patch->mesh;
+  CwTetMesh *mesh = &patch->mesh;
   memset(patch, 0, sizeof *patch);
   CW_TRY(gather(whole, t, count, patch, &tet_number));
   CW_TRY(gather_points(whole, patch, &point_number));
@@ -84,7 +84,7 @@ CwStatus cw_tet_patch_take(const CwDelaunay *whole, int32_t t, int32_t count, in
     mesh->source[p] = whole->source[patch->point[p]] >= fixed_count;
   }
   for (int32_t k = 0; k < patch->tet_count; k++) {
-    const CwDelaunayTet *old = &whole->tet[patch->tet[k]];
+    const CwTet *old = &whole->tet[patch->tet[k]];
     for (int i = 0; i < 4; i++) {
       int32_t beside = old->neighbour[i], next = beside < 0 ? -1 : find(tet_number, patch->tet_count, beside / 4);
       mesh->tet[k].corner[i] = find(point_number, patch->point_count, old->corner[i]);
@@ -121,7 +121,7 @@ static int compare_sides(const void *left, const void *right) {
   return memcmp(((const Side *)left)->corner, ((const Side *)right)->corner, sizeof(int32_t[3]));
 }
 
-static CwStatus find_hull(const CwTetPatch *patch, const CwDelaunay *whole, int32_t *count, Side **hull) {
+static CwStatus find_hull(const CwTetPatch *patch, const CwTetMesh *whole, int32_t *count, Side **hull) {
   CwStatus status = CW_OK;
   Pair *list = NULL;
   *count = 0;
@@ -131,7 +131,7 @@ static CwStatus find_hull(const CwTetPatch *patch, const CwDelaunay *whole, int3
   for (int32_t k = 0; k < patch->tet_count; k++) list[k] = (Pair){patch->tet[k], k};
   qsort(list, (size_t)patch->tet_count, sizeof *list, compare_pairs);
   for (int32_t k = 0; k < 4 * patch->tet_count; k++) {
-    const CwDelaunayTet *tet = &whole->tet[patch->tet[k / 4]];
+    const CwTet *tet = &whole->tet[patch->tet[k / 4]];
     int32_t next = tet->neighbour[k % 4];
     if (next < 0 || find(list, patch->tet_count, next / 4) < 0) (*hull)[(*count)++] = side_of(tet->corner, k % 4, next);
   }
@@ -141,16 +141,16 @@ done:
   return status;
 }
 
-CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwDelaunay *whole, int32_t *source_count, int32_t **place) {
+CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwTetMesh *whole, int32_t *source_count, int32_t **place) {
   CwStatus status = CW_OK;
-  const CwDelaunay *mesh = &patch->mesh;
+  const CwTetMesh *mesh = &patch->mesh;
   Side *hull = NULL;
   int32_t *point = NULL, sides;
   *place = NULL;
   CW_TRY(find_hull(patch, whole, &sides, &hull));
   CW_NEW(*place, mesh->tet_count);
   CW_NEW(point, mesh->point_count);
-  for (int32_t k = 0; k < patch->tet_count; k++) cw_delaunay_free_tet(whole, patch->tet[k]);
+  for (int32_t k = 0; k < patch->tet_count; k++) cw_tet_mesh_free_tet(whole, patch->tet[k]);
   for (int32_t p = 0; p < mesh->point_count; p++) {
     point[p] = p < patch->point_count ? patch->point[p] : -1; // new ones where a tetrahedron has them
     if (point[p] >= 0) memcpy(whole->point[point[p]].x, mesh->point[p].x, sizeof mesh->point->x);
@@ -159,16 +159,16 @@ CwStatus cw_tet_patch_put(const CwTetPatch *patch, CwDelaunay *whole, int32_t *s
     const int32_t *corner = mesh->tet[k].corner;
     (*place)[k] = -1;
     if (corner[0] < 0) continue;
-    CW_TRY(cw_delaunay_new_tet(whole, &(*place)[k]));
+    CW_TRY(cw_tet_mesh_new_tet(whole, &(*place)[k]));
     for (int i = 0; i < 4; i++) {
       if (point[corner[i]] < 0)
-        CW_TRY(cw_delaunay_add_point(whole, mesh->point[corner[i]].x, (*source_count)++, &point[corner[i]]));
+        CW_TRY(cw_tet_mesh_add_point(whole, mesh->point[corner[i]].x, (*source_count)++, &point[corner[i]]));
       whole->tet[(*place)[k]].corner[i] = point[corner[i]];
     }
   }
   for (int32_t k = 0; k < mesh->tet_count; k++) {
     if ((*place)[k] < 0) continue;
-    CwDelaunayTet *tet = &whole->tet[(*place)[k]];
+    CwTet *tet = &whole->tet[(*place)[k]];
     for (int i = 0; i < 4; i++) {
       int32_t next = mesh->tet[k].neighbour[i];
       if (next >= 0) {
@@ -189,16 +189,16 @@ done:
 }
 
 void cw_tet_patch_free(CwTetPatch *patch) {
-  cw_delaunay_free(&patch->mesh);
+  cw_tet_mesh_free(&patch->mesh);
   free(patch->tet);
   free(patch->point);
   memset(patch, 0, sizeof *patch);
 }
 
-CwStatus cw_tet_patch_copy_mesh(const CwDelaunay *from, CwDelaunay *to) {
+CwStatus cw_tet_patch_copy_mesh(const CwTetMesh *from, CwTetMesh *to) {
   CwStatus status = CW_OK;
   if (to->point_space < from->point_count || to->tet_space < from->tet_count) {
-    cw_delaunay_free(to);
+    cw_tet_mesh_free(to);
     CW_NEW(to->point, 2 * from->point_count);
     CW_NEW(to->source, 2 * from->point_count);
     CW_NEW(to->tet, 2 * from->tet_count);
@@ -211,6 +211,7 @@ CwStatus cw_tet_patch_copy_mesh(const CwDelaunay *from, CwDelaunay *to) {
   to->point_count = from->point_count;
   to->tet_count = from->tet_count;
   to->spare = from->spare;
+  to->stars = from->stars;
 done:
   return status;
 }

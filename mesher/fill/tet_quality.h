@@ -6,6 +6,9 @@
 
 #include <math.h>
 
+#include "mesher/common/quality.h"
+#include "mesher/common/vec.h"
+
 typedef struct {
   double six;     // times the volume
   double edge[6]; // squares: ab, ac, ad, bc, bd, cd
@@ -38,27 +41,10 @@ static inline __attribute__((always_inline)) CwTetMeasures cw_tet_measures(const
   return s;
 }
 
-// Six times the volume, as among the measures.
-static inline __attribute__((always_inline)) double cw_tet_six(const double a[3], const double b[3], const double c[3],
-                                                               const double d[3]) {
-  double px = b[0] - a[0], py = b[1] - a[1], pz = b[2] - a[2];
-  double qx = c[0] - a[0], qy = c[1] - a[1], qz = c[2] - a[2];
-  double rx = d[0] - a[0], ry = d[1] - a[1], rz = d[2] - a[2];
-  return (py * qz - pz * qy) * rx + (pz * qx - px * qz) * ry + (px * qy - py * qx) * rz;
-}
-
-static inline double cw_tet_less(double a, double b) {
-  return a < b ? a : b;
-}
-
-static inline double cw_tet_more(double a, double b) {
-  return a > b ? a : b;
-}
-
 static inline void cw_tet_edges(const CwTetMeasures *s, double *shortest, double *longest) {
   const double *l = s->edge;
-  *shortest = cw_tet_less(cw_tet_less(cw_tet_less(l[0], l[1]), cw_tet_less(l[2], l[3])), cw_tet_less(l[4], l[5]));
-  *longest = cw_tet_more(cw_tet_more(cw_tet_more(l[0], l[1]), cw_tet_more(l[2], l[3])), cw_tet_more(l[4], l[5]));
+  *shortest = cw_lesser(cw_lesser(cw_lesser(l[0], l[1]), cw_lesser(l[2], l[3])), cw_lesser(l[4], l[5]));
+  *longest = cw_greater(cw_greater(cw_greater(l[0], l[1]), cw_greater(l[2], l[3])), cw_greater(l[4], l[5]));
 }
 
 // checkMesh's determinant: that of the sum of S S^T / a^2 over the inner faces, S being their area vectors and a the
@@ -94,17 +80,17 @@ static inline __attribute__((always_inline)) double cw_tet_quality_by(const CwTe
   double shortest, longest;
   cw_tet_edges(s, &shortest, &longest);
   const double *l = s->edge, *n = s->area;
-  double least = cw_tet_less(cw_tet_less(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
-                             cw_tet_less(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
-  least = s->six * s->six * cw_tet_less(least, cw_tet_less(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
+  double least = cw_lesser(cw_lesser(l[0] * (n[0] * n[1]), l[1] * (n[0] * n[2])),
+                           cw_lesser(l[2] * (n[0] * n[3]), l[3] * (n[1] * n[2])));
+  least = s->six * s->six * cw_lesser(least, cw_lesser(l[4] * (n[1] * n[3]), l[5] * (n[2] * n[3])));
   double aspect = CW_TET_ASPECT * shortest / longest;
   double counted = aspect < CW_TET_SLENDER ? sqrt(CW_TET_SLENDER * aspect) : aspect;
-  double quality = sqrt(cw_tet_less(least / (n[0] * n[1] * n[2] * n[3]), counted));
+  double quality = sqrt(cw_lesser(least / (n[0] * n[1] * n[2] * n[3]), counted));
   return (s->six > 0.0) & (s->six * s->six > CW_TET_FLAT * longest * longest * longest) ? quality : -1.0;
 }
 
 static inline double cw_tet_quality(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  if (!(cw_tet_six(a, b, c, d) > 0.0)) return -1.0; // many are, and need nothing else
+  if (!(cw_tet_volume6(a, b, c, d) > 0.0)) return -1.0; // many are, and need nothing else
   CwTetMeasures s = cw_tet_measures(a, b, c, d);
   return cw_tet_quality_by(&s);
 }

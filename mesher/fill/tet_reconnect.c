@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/tet_reconnect.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "mesher/common/ring.h"
+#include "mesher/common/tet.h"
 
+// Least improvement, so that rounding undoes no change for ever.
+static const double least_gain = 1e-6;
 enum { RING = 8 };
 
 // Triangulations of the ring by dynamic programming (Klincsek): best[i][j] is the best least quality over the
@@ -18,18 +21,18 @@ typedef struct {
 // Removes the edge a-b of t where that raises the least quality round it.
 CwStatus cw_tet_remove_edge(CwTetWork *w, int32_t t, int32_t a, int32_t b, int *done_it) {
   CwStatus status = CW_OK;
-  int32_t old[CW_RING], ring[CW_RING], tet[2 * RING][4];
+  int32_t old[RING], ring[RING], tet[2 * RING][4];
   double quality[2 * RING], least = INFINITY;
   RingTable table;
   *done_it = 0;
-  int n = cw_flips_ring(&w->flips, t, a, b, RING, old, ring);
-  if (n < 3 || n > RING) goto done;
+  int n = cw_tet_ring(w->mesh, t, a, b, RING, old, ring);
+  if (n < 3) goto done;
   for (int k = 0; k < n; k++) {
     double q = w->mesh->tet[old[k]].quality;
     if (q < least) least = q;
     if (k + 1 < n) table.best[k][k + 1] = INFINITY;
   }
-  least += CW_TET_GAIN;
+  least += least_gain;
   for (int span = 2; span < n; span++) {
     for (int from = 0; from + span < n; from++) {
       int to = from + span;
@@ -63,7 +66,7 @@ done:
 // Two tetrahedra at a face become three round a new edge, where that is better.
 CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
   CwStatus status = CW_OK;
-  const CwDelaunayTet *tet = &w->mesh->tet[t];
+  const CwTet *tet = &w->mesh->tet[t];
   int32_t made[3][4], other = tet->neighbour[i];
   double quality[3];
   *done_it = 0;
@@ -74,7 +77,7 @@ CwStatus cw_tet_remove_face(CwTetWork *w, int32_t t, int i, int *done_it) {
   for (int k = 0; k < 3; k++) {
     const int32_t one[4] = {tet->corner[cw_tet_face[i][k]], tet->corner[cw_tet_face[i][(k + 1) % 3]], below, above};
     quality[k] = cw_tet_quality_of(w, one[0], one[1], one[2], one[3]);
-    if (quality[k] <= least + CW_TET_GAIN) goto done;
+    if (quality[k] <= least + least_gain) goto done;
     memcpy(made[k], one, sizeof one);
   }
   CW_TRY(cw_tet_replace(w, 2, old, 3, (const int32_t(*)[4])made, quality));

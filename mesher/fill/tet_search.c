@@ -1,41 +1,23 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/fill/tet_search.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "mesher/common/mix.h"
 #include "mesher/common/quality.h"
+#include "mesher/common/tet.h"
 #include "mesher/fill/tet_bound.h"
+#include "mesher/fill/tet_insert.h"
+#include "mesher/fill/tet_judge.h"
+#include "mesher/fill/tet_loop.h"
 #include "mesher/fill/tet_patch.h"
-#include "mesher/fill/tet_work.h"
+#include "mesher/policy.h"
 
+static const CwFillPolicy *const policy = &cw_fill_policy;
 static const double small_determinant = 1e-3; // checkMesh calls it so below
-// Sines of dihedral angles.
-static const double bad = 0.2250;      // 13 degrees: a search begins where there is less,
-static const double wanted = 0.3090;   // and below 18 degrees where that is
-static const double worthwhile = 0.85; // less than so much of the angle that the boundary allows
-static const double beyond = 0.0170;   // a degree: a search ends so much above where it begins
-static const double pressing = 0.2079; // 12 degrees: below it a search begins again and again, where it is worthwhile
-static const double counted = 0.3746;  // 22 degrees: what is less counts in a patch
-static const double given = 0.95;      // of the least sine: what a search for determinants leaves of it
-static const double sound = 0.02;      // what a disturbance leaves, at least; flatter ones are no matter of this search
-static const double alike = 0.05;      // above the worst: those that are disturbed, too
-static const double shaken = 0.3;      // of an edge: the farthest that points are moved by a disturbance
-static const int32_t patch_size[2] = {300, 100}; // tetrahedra, in turn: few are searched more thoroughly
-enum {
-  PLACES = 6,     // of a mesh
-  TRIES = 400,    // of a beginning
-  IDLE = 250,     // of these, without a gain
-  SHARE = 500,    // one try for as many tetrahedra of the mesh: half as long as their fill takes,
-  FEWEST = 600,   // or so many,
-  MILD = 200,     // or so many, where none is below 13 degrees
-  BEGINNINGS = 8, // of a place where one is
-  MIXED = 3,      // in one beginning of as many points do not only go in
-  FEW = 250,      // one bad tetrahedron in as many: where there are more, it is the boundary that asks for them
-  CHANGES = 3,    // of one disturbance, at most
-  AWAY = 4,       // faces to step over from a bad tetrahedron, at most
-  PASSES = 4,
-};
+enum { PLACES = 6 };                          // of a mesh that are searched
 
 typedef struct {
   double least, sine, deficit; // least judged, and least sine; what all lack, the worst by far the most
@@ -50,14 +32,15 @@ typedef struct {
 
 typedef struct {
   CwTetWork *whole, work; // of the mesh; of a trial
+  CwTetShapes shapes;     // of a trial
   Found now, best;        // of this beginning; of all of a place
-  CwDelaunay trial;
+  CwTetMesh trial;
   uint64_t random;
   int32_t tries;    // left
   double begin;     // least sine below which a search begins
   double again;     // and begins again
   int determinants; // count too
-  int mixed;        // all kinds of disturbances, though an angle is pressing
+  int mixed;        // all kinds of disturbances, though an angle is below search_again
 } Search;
 
 // In [0, 1).
@@ -70,7 +53,7 @@ static int32_t choose(Search *s, int32_t count) {
   return (int32_t)(next_random(s) * count);
 }
 
-static CwTetMeasures measures_of(const CwDelaunay *mesh, int32_t t) {
+static CwTetMeasures measures_of(const CwTetMesh *mesh, int32_t t) {
   const int32_t *c = mesh->tet[t].corner;
   return cw_tet_measures(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x);
 }
@@ -84,26 +67,26 @@ static double least_sine(const CwTetMeasures *m) {
 
 // The least sine or, where the search is for determinants, less where checkMesh calls that small: `bad` at its limit.
 // Of flat tetrahedra it goes with the fourth power of their angles, and those of 13 to 17 degrees may be called so.
-static double judge(const Search *s, const CwDelaunay *mesh, int32_t t, double *sine) {
+static double judge(const Search *s, const CwTetMesh *mesh, int32_t t, double *sine) {
   CwTetMeasures m = measures_of(mesh, t);
   int open = 0;
   *sine = least_sine(&m);
   if (!s->determinants || *sine < 0.0) return *sine;
   for (int i = 0; i < 4; i++) open |= (mesh->tet[t].neighbour[i] == CW_BESIDE_NOTHING) << i;
   double determinant = cw_tet_determinant(&m, open);
-  return determinant > 0.0 ? fmin(*sine, bad * sqrt(sqrt(determinant / small_determinant))) : *sine;
+  return determinant > 0.0 ? fmin(*sine, policy->search_bad * sqrt(sqrt(determinant / small_determinant))) : *sine;
 }
 
-static double mean_edge(const CwDelaunay *mesh, int32_t t) {
+static double mean_edge(const CwTetMesh *mesh, int32_t t) {
   CwTetMeasures m = measures_of(mesh, t);
   return sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
 }
 
-static Rated rate(const Search *s, const CwDelaunay *mesh) {
+static Rated rate(const Search *s, const CwTetMesh *mesh) {
   Rated rated = {INFINITY, INFINITY, 0.0};
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     if (mesh->tet[t].corner[0] < 0) continue;
-    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / counted);
+    double sine, judged = judge(s, mesh, t, &sine), lack = fmax(0.0, 1.0 - judged / policy->search_counted);
     rated.least = fmin(rated.least, judged);
     rated.sine = fmin(rated.sine, sine);
     rated.deficit += lack * lack * lack * lack * lack * lack;
@@ -116,11 +99,12 @@ static int32_t choose_tet(Search *s, double least) {
   int32_t count = 0, chosen = 0;
   for (int32_t t = 0; t < s->trial.tet_count; t++) {
     double sine;
-    if (s->trial.tet[t].corner[0] >= 0 && judge(s, &s->trial, t, &sine) < fmin(counted, least + alike) &&
+    if (s->trial.tet[t].corner[0] >= 0 &&
+        judge(s, &s->trial, t, &sine) < fmin(policy->search_counted, least + policy->search_alike) &&
         choose(s, ++count) == 0)
       chosen = t;
   }
-  for (int steps = choose(s, AWAY + 1); steps > 0; steps--) {
+  for (int steps = choose(s, policy->search_away + 1); steps > 0; steps--) {
     int32_t next = s->trial.tet[chosen].neighbour[choose(s, 4)];
     chosen = next < 0 ? chosen : next / 4;
   }
@@ -131,8 +115,8 @@ static int32_t choose_tet(Search *s, double least) {
 // one goes that leaves the best worst tetrahedron.
 static CwStatus contract(Search *s, int32_t t) {
   CwStatus status = CW_OK;
-  int32_t star[CW_TET_STAR], made[CW_TET_STAR][4], point = -1, to = -1;
-  double quality[CW_TET_STAR], best = sound;
+  int32_t star[CW_STAR], made[CW_STAR][4], point = -1, to = -1;
+  double quality[CW_STAR], best = policy->search_sound;
   int count = 0, first = choose(s, 4);
   for (int k = 0; k < 20 && point < 0; k++) { // t, then its neighbours
     int32_t near = k < 4 ? 4 * t : s->trial.tet[t].neighbour[k / 4 - 1];
@@ -141,8 +125,8 @@ static CwStatus contract(Search *s, int32_t t) {
     if (s->trial.source[p] > 0) point = p, t = near / 4;
   }
   if (point < 0) goto done;
-  int n = cw_tet_star(&s->work, t, point, star);
-  if (n > CW_FLIP) goto done;
+  int n = cw_tet_star(&s->trial, t, point, CW_STAR, star);
+  if (n > CW_CAVITY) goto done;
   for (int k = 0; k < 4 * n; k++) {
     int32_t other = s->trial.tet[star[k / 4]].corner[k % 4];
     double least = other == point ? -1.0 : INFINITY;
@@ -175,25 +159,25 @@ static CwStatus insert(Search *s, int32_t t) {
     place[i] = edge * (2.0 * next_random(s) - 1.0);
     for (int k = 0; k < 4; k++) place[i] += 0.25 * s->trial.point[s->trial.tet[t].corner[k]].x[i];
   }
-  return cw_tet_insert_at(&s->work, t, place, 0.3 * next_random(s), sound);
+  return cw_tet_insert_at(&s->work, t, place, 0.3 * next_random(s), policy->search_sound);
 }
 
 // Moves about half of the free points, where no tetrahedron turns over.
 static void shake(Search *s) {
-  CwDelaunay *mesh = &s->trial;
-  double reach = shaken * next_random(s), old[3];
+  CwTetMesh *mesh = &s->trial;
+  double reach = policy->search_shaken * next_random(s), old[3];
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    int32_t star[CW_TET_STAR];
+    int32_t star[CW_STAR];
     if (mesh->tet[t].corner[0] < 0 || choose(s, 2)) continue;
     int32_t p = mesh->tet[t].corner[choose(s, 4)];
-    int n = mesh->source[p] > 0 ? cw_tet_star(&s->work, t, p, star) : 0, good = 1;
+    int n = mesh->source[p] > 0 ? cw_tet_star(mesh, t, p, CW_STAR, star) : 0, good = 1;
     if (n == 0) continue;
     memcpy(old, mesh->point[p].x, sizeof old);
     double edge = mean_edge(mesh, t);
     for (int i = 0; i < 3; i++) mesh->point[p].x[i] += reach * edge * (2.0 * next_random(s) - 1.0);
     for (int k = 0; k < n && good; k++) {
       const int32_t *c = mesh->tet[star[k]].corner;
-      good = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]) > sound;
+      good = cw_tet_quality_of(&s->work, c[0], c[1], c[2], c[3]) > policy->search_sound;
     }
     if (!good) memcpy(mesh->point[p].x, old, sizeof old);
   }
@@ -202,18 +186,18 @@ static void shake(Search *s) {
 static CwStatus try_disturbed(Search *s, double least, Rated *result) {
   CwStatus status = CW_OK;
   CW_TRY(cw_tet_patch_copy_mesh(&s->now.patch.mesh, &s->trial));
-  for (int changes = 1 + choose(s, CHANGES); changes > 0; changes--) {
+  for (int changes = 1 + choose(s, policy->search_changes); changes > 0; changes--) {
     int32_t t = choose_tet(s, least), kind = choose(s, 3);
-    if (kind == 0 || (least < pressing && !s->mixed)) // in the worst corners a point more is what helps
+    if (kind == 0 || (least < policy->search_again && !s->mixed)) // in the worst corners a point more is what helps
       CW_TRY(insert(s, t));
     else if (kind == 1)
       CW_TRY(contract(s, t));
     else
       shake(s);
   }
-  s->work.next_count = 0;
-  CW_TRY(cw_tet_scan(&s->work));
-  CW_TRY(cw_tet_improve_list(&s->work, PASSES, 1));
+  s->work.next.count = 0;
+  CW_TRY(cw_tet_judge_all(&s->work, &s->shapes));
+  CW_TRY(cw_tet_improve_list(&s->work, policy->search_passes, 1));
   *result = rate(s, &s->trial);
 done:
   return status;
@@ -248,14 +232,16 @@ static CwStatus search_patch(Search *s, int32_t t, int32_t size) {
   CW_TRY(cw_tet_patch_take(s->whole->mesh, t, size, s->whole->fixed_count, &s->now.patch));
   *best = rate(s, &s->now.patch.mesh);
   s->now.gain = best->deficit;
-  double allowed = fmin(given * best->sine, wanted);
-  for (int k = 0, idle = 0; best->least < s->begin + beyond && k < TRIES && idle < IDLE && s->tries > 0; k++, idle++) {
+  double allowed = fmin(policy->search_kept * best->sine, policy->search_wanted);
+  for (int k = 0, idle = 0; best->least < s->begin + policy->search_beyond && k < policy->search_tries &&
+                            idle < policy->search_idle && s->tries > 0;
+       k++, idle++) {
     s->tries--;
     s->whole->count.search_tries++;
     CW_TRY(try_disturbed(s, best->least, &trial));
     if (trial.least < best->least || trial.deficit > 0.999 * best->deficit) continue;
     if (trial.sine < allowed) continue;
-    CwDelaunay swap = s->now.patch.mesh;
+    CwTetMesh swap = s->now.patch.mesh;
     s->now.patch.mesh = s->trial;
     s->trial = swap;
     *best = trial;
@@ -269,9 +255,9 @@ done:
 // What leads nowhere from one beginning may do from another.
 static CwStatus search_place(Search *s, int32_t t) {
   CwStatus status = CW_OK;
-  for (int k = 0; k < BEGINNINGS && (k == 0 || s->best.rated.least < s->again); k++) {
-    s->mixed = k % MIXED == MIXED - 1;
-    CW_TRY(search_patch(s, t, patch_size[k % 2]));
+  for (int k = 0; k < policy->search_beginnings && (k == 0 || s->best.rated.least < s->again); k++) {
+    s->mixed = k % policy->search_mixed == policy->search_mixed - 1;
+    CW_TRY(search_patch(s, t, k % 2 ? policy->search_patch_small : policy->search_patch));
     double more = s->now.rated.least - s->best.rated.least;
     if (k == 0 || more > 0.0 || (more == 0.0 && s->now.gain > s->best.gain)) {
       Found swap = s->best;
@@ -299,23 +285,23 @@ static int is_near(const CwTetWork *w, int32_t t, int count, const double (*plac
 
 static int32_t count_bad(const CwTetWork *w) {
   int32_t count = 0;
-  for (int32_t k = 0; k < w->next_count; k++) {
-    int32_t t = w->next[k];
-    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= bad) continue;
+  for (int32_t k = 0; k < w->next.count; k++) {
+    int32_t t = w->next.tet[k];
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= policy->search_bad) continue;
     CwTetMeasures m = measures_of(w->mesh, t);
-    count += least_sine(&m) < bad;
+    count += least_sine(&m) < policy->search_bad;
   }
   return count;
 }
 
 // The sine of the least angle of a place of this mesh for which more than one search is worthwhile.
-static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
+static CwStatus least_worthwhile(const CwTetMesh *mesh, double *sine) {
   CwStatus status = CW_OK;
   double(*x)[3] = NULL, allowed;
   int32_t(*triangle)[3] = NULL, count = 0, worst;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
-    cw_delaunay_ask_ahead(tet);
+    const CwTet *tet = &mesh->tet[t];
+    cw_tet_prefetch_ahead(tet);
     for (int i = 0; i < 4; i++) count += tet->corner[0] >= 0 && tet->neighbour[i] < 0;
   }
   CW_NEW(x, mesh->point_count);
@@ -323,8 +309,8 @@ static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
   for (int32_t p = 0; p < mesh->point_count; p++) memcpy(x[p], mesh->point[p].x, sizeof x[p]);
   count = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
-    cw_delaunay_ask_ahead(tet);
+    const CwTet *tet = &mesh->tet[t];
+    cw_tet_prefetch_ahead(tet);
     for (int i = 0; i < 4 && tet->corner[0] >= 0; i++) {
       if (tet->neighbour[i] >= 0) continue;
       for (int k = 0; k < 3; k++) triangle[count][k] = tet->corner[cw_tet_face[i][k]];
@@ -336,7 +322,7 @@ static CwStatus least_worthwhile(const CwDelaunay *mesh, double *sine) {
                           .triangle_count = count,
                           .triangle = (const int32_t(*)[3])triangle};
   CW_TRY(cw_tet_bound(&boundary, &allowed, &worst));
-  *sine = sin(worthwhile * allowed * CW_DEGREE);
+  *sine = sin(policy->search_worthwhile * allowed * CW_DEGREE);
 done:
   free(triangle);
   free(x);
@@ -348,11 +334,13 @@ static int32_t find_worst(const Search *s, int count, const double (*place)[3], 
   const CwTetWork *w = s->whole;
   int32_t worst = -1;
   *least = s->begin;
-  for (int32_t k = 0; k < w->next_count; k++) {
-    int32_t t = w->next[k];
-    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= (s->determinants ? wanted : *least)) continue;
+  for (int32_t k = 0; k < w->next.count; k++) {
+    int32_t t = w->next.tet[k];
+    if (w->mesh->tet[t].corner[0] < 0 || w->mesh->tet[t].quality >= (s->determinants ? policy->search_wanted : *least))
+      continue;
     double sine, judged = judge(s, w->mesh, t, &sine);
-    if (judged < *least && judged > sound && !is_near(w, t, count, place, reach)) *least = judged, worst = t;
+    if (judged < *least && judged > policy->search_sound && !is_near(w, t, count, place, reach))
+      *least = judged, worst = t;
   }
   return worst;
 }
@@ -373,28 +361,31 @@ done:
 
 CwStatus cw_tet_search(CwTetWork *w) {
   CwStatus status = CW_OK;
-  Search s = {.whole = w, .begin = wanted, .work = {.limit = counted, .fixed_count = 1}};
+  Search s = {.whole = w, .begin = policy->search_wanted, .work = {.limit = policy->search_counted, .fixed_count = 1}};
   double least, worth = 0.0;
-  s.work.mesh = s.work.flips.mesh = &s.trial;
+  s.work.mesh = &s.trial;
   s.work.source_count = 1;
-  if (count_bad(w) > w->mesh->tet_count / FEW) goto done;
-  s.tries = w->mesh->tet_count > SHARE * FEWEST ? w->mesh->tet_count / SHARE : FEWEST;
+  if (count_bad(w) > w->mesh->tet_count / policy->search_few) goto done;
+  s.tries = w->mesh->tet_count > policy->search_share * policy->search_fewest
+                ? w->mesh->tet_count / policy->search_share
+                : policy->search_fewest;
   if (find_worst(&s, 0, NULL, NULL, &least) >= 0) {
     CW_TRY(least_worthwhile(w->mesh, &worth));
-    s.again = fmin(pressing, worth);
-    s.begin = fmin(wanted, fmax(bad, worth));
+    s.again = fmin(policy->search_again, worth);
+    s.begin = fmin(policy->search_wanted, fmax(policy->search_bad, worth));
     s.work.insert = s.work.insert_round = s.begin;
-    if (least >= bad) s.tries = MILD;
+    if (least >= policy->search_bad) s.tries = policy->search_mild;
     CW_TRY(search_places(&s));
   }
   // After the angles, with tries of its own.
   s.determinants = 1;
-  s.begin = s.work.insert = s.work.insert_round = bad;
-  s.again = bad;
-  s.tries = 2 * FEWEST;
+  s.begin = s.work.insert = s.work.insert_round = policy->search_bad;
+  s.again = policy->search_bad;
+  s.tries = 2 * policy->search_fewest;
   CW_TRY(search_places(&s));
 done:
-  cw_delaunay_free(&s.trial);
+  cw_tet_mesh_free(&s.trial);
+  cw_tet_shapes_free(&s.shapes);
   cw_tet_work_free(&s.work);
   return status;
 }

@@ -83,7 +83,7 @@ CwFillInput cw_region_fill_input(const CwSkeleton *skeleton, const CwRegionBound
                        .size = skeleton->size_at,
                        .size_context = skeleton->size,
                        .name = name,
-                       .row_count = boundary->wall_count + boundary->cap_count + boundary->interface_count,
+                       .offset_count = boundary->wall_count + boundary->cap_count + boundary->interface_count,
                        .interface_count = boundary->interface_count,
                        .bare_first = boundary->wall_count,
                        .bare_count = boundary->cap_count};

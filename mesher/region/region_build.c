@@ -8,10 +8,11 @@
 #include "mesher/common/hash.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
-#include "mesher/fill/fill_sure.h"
+#include "mesher/fill/fill_with_fallback.h"
 #include "mesher/heights/layer_heights.h"
 #include "mesher/region/interface_rule.h"
 #include "mesher/region/region_boundary.h"
+#include "mesher/policy.h"
 #include "mesher/source_hash.h"
 #include "pipeline/mesh/interface_tolerance.h"
 
@@ -91,6 +92,9 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
+#ifdef CUTWATER_EXPERIMENT
+  cw_hash_bytes(&hash, &cw_fill_policy, sizeof cw_fill_policy);
+#endif
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
   for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
@@ -344,7 +348,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
     input.inner = (const double(*)[3])inner;
     input.inner_site = site;
   }
-  CW_TRY(cw_fill_sure(&input, context->fill, &build.fill));
+  CW_TRY(cw_fill_with_fallback(&input, context->fill, &build.fill));
   mesh->recovery = build.fill.recovery;
   CW_TRY(place_points(&build, mesh));
   mesh->tetrahedron_count = build.fill.tetrahedron_count;

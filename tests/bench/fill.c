@@ -19,9 +19,9 @@
 
 #include "mesher/common/box.h"
 #include "mesher/common/quality.h"
-#include "mesher/fill/fill.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel.h"
+#include "mesher/fill/tetgen_fill.h"
 #include "mesher/region/region_file.h"
 #include "mesher/size/size_grid.h"
 #include "pipeline/log.h"
@@ -44,8 +44,16 @@ static void *take(size_t count, size_t size) {
 
 static void check(CwStatus status) {
   if (status == CW_OK) return;
-  fprintf(stderr, "%s\n", status == CW_RETRY ? "the boundary was not recovered" : cw_fail_message());
-  exit(status == CW_RETRY ? 1 : (int)status);
+  fprintf(stderr, "%s\n", cw_fail_message());
+  exit((int)status);
+}
+
+static void check_kernel(const CwFillInput *input, CwFill *fill) {
+  CwKernelOutcome outcome;
+  check(cw_kernel_fill(input, fill, &outcome));
+  if (outcome == CW_KERNEL_FILLED) return;
+  fprintf(stderr, "the boundary was not recovered\n");
+  exit(1);
 }
 
 enum { BLADES = 6 };
@@ -238,10 +246,10 @@ static void fill_box(void) {
                        .x = (const double(*)[3])box.x,
                        .triangle_count = box.triangle_count,
                        .triangle = (const int32_t(*)[3])box.triangle,
-                       .row_count = box.triangle_count,
+                       .offset_count = box.triangle_count,
                        .size = third,
                        .name = "box"};
-  check(cw_kernel_fill(&input, &fill));
+  check_kernel(&input, &fill);
   cw_fill_free(&fill);
   surface_free(&box);
 }
@@ -425,12 +433,15 @@ int main(int argc, char **argv) {
                          .x = (const double(*)[3])mesh.x,
                          .triangle_count = mesh.triangle_count,
                          .triangle = (const int32_t(*)[3])mesh.triangle,
-                         .row_count = mesh.triangle_count,
+                         .offset_count = mesh.triangle_count,
                          .size = size_at,
                          .size_context = &grid,
                          .name = "surface"};
     double before = resident(), start = seconds();
-    check(argv[1][0] == 'k' ? cw_kernel_fill(&input, &fill) : cw_fill(&input, &fill));
+    if (argv[1][0] == 'k')
+      check_kernel(&input, &fill);
+    else
+      check(cw_tetgen_fill(&input, &fill));
     double used = seconds() - start, bytes = peak() - before;
     printf("%d %d %.3f %.0f %.0f ", mesh.triangle_count, fill.tetrahedron_count, used, fill.tetrahedron_count / used,
            bytes / fill.tetrahedron_count);

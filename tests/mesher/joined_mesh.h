@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What must hold for every mesh of the Delaunay kernel between two operations.
+// What must hold for every mesh of tetrahedra between two operations.
 #ifndef CUTWATER_TESTS_MESHER_JOINED_MESH_H
 #define CUTWATER_TESTS_MESHER_JOINED_MESH_H
 
@@ -12,16 +12,14 @@
 
 #include "mesher/common/predicates.h"
 #include "mesher/common/quality.h"
-#include "mesher/fill/delaunay.h"
-
-// Corners of the face opposite to each corner.
-static const int tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+#include "mesher/common/tet.h"
+#include "mesher/fill/tet_mesh.h"
 
 // All tetrahedra are positive and neighbours know and share the same face; returns six times the volume.
-static inline double joined_volume6(const CwDelaunay *mesh) {
+static inline double joined_volume6(const CwTetMesh *mesh) {
   double six = 0.0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
+    const CwTet *tet = &mesh->tet[t];
     if (tet->corner[0] < 0) continue;
     const double *x[4];
     for (int i = 0; i < 4; i++) x[i] = mesh->point[tet->corner[i]].x;
@@ -29,13 +27,13 @@ static inline double joined_volume6(const CwDelaunay *mesh) {
     six += cw_tet_volume6(x[0], x[1], x[2], x[3]);
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] < 0) continue;
-      const CwDelaunayTet *other = &mesh->tet[tet->neighbour[i] / 4];
+      const CwTet *other = &mesh->tet[tet->neighbour[i] / 4];
       assert_true(other->corner[0] >= 0);
       assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
       for (int k = 0; k < 3; k++) {
         int shared = 0;
         for (int m = 0; m < 4; m++)
-          shared += m != tet->neighbour[i] % 4 && other->corner[m] == tet->corner[tet_face[i][k]];
+          shared += m != tet->neighbour[i] % 4 && other->corner[m] == tet->corner[cw_tet_face[i][k]];
         assert_int_equal(shared, 1);
       }
     }

@@ -24,7 +24,7 @@ static void sorts_and_is_stable(void **unused) {
   CwRadix record[COUNT];
   uint64_t sum = 0;
   for (size_t m = 0; m < sizeof masks / sizeof *masks; m++) {
-    for (int k = 0; k < COUNT; k++) record[k] = (CwRadix){cw_mix((uint64_t)k) & masks[m], k};
+    for (int k = 0; k < COUNT; k++) record[k] = (CwRadix){cw_mix((uint64_t)k) & masks[m], k, 0};
     assert_int_equal(cw_radix_sort(COUNT, record), CW_OK);
     assert_sorted(record, COUNT);
     for (int k = 0; k < COUNT; k++) {

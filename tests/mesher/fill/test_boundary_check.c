@@ -13,8 +13,9 @@
 #include "fill_fault.h"
 #include "hard_boundaries.h"
 #include "mesher/fill/boundary_check.h"
-#include "mesher/fill/fill_sure.h"
+#include "mesher/fill/fill_with_fallback.h"
 #include "mesher/fill/kernel.h"
+#include "mesher/fill/tetgen_fill.h"
 
 static const double origin[3] = {0, 0, 0};
 
@@ -24,9 +25,10 @@ static void refused(const Surface *s, double size, const char *part, const doubl
   for (int way = 0; way < 3; way++) {
     CwFill fill;
     cw_fail_clear();
-    CwStatus status = way == 0   ? cw_kernel_fill(&input, &fill)
-                      : way == 1 ? cw_fill(&input, &fill)
-                                 : cw_fill_sure(&input, CW_FILL_KERNEL, &fill);
+    CwKernelOutcome outcome;
+    CwStatus status = way == 0   ? cw_kernel_fill(&input, &fill, &outcome)
+                      : way == 1 ? cw_tetgen_fill(&input, &fill)
+                                 : cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill);
     const char *message = cw_fail_message(), *place = strchr(message, '(');
     if (status != CW_ERR_MESH) fail_msg("way %d gives %d, not an error that says \"%s\"", way, status, part);
     assert_null(fill.tetrahedron);

@@ -10,6 +10,7 @@
 
 #include "draw.h"
 #include "joined_mesh.h"
+#include "mesher/fill/delaunay.h"
 
 static uint64_t state;
 
@@ -21,13 +22,13 @@ static int holds(const int32_t *list, int count, int32_t item) {
 }
 
 // Sound, filling the enclosing tetrahedron, each point in use, and every sphere empty of all points.
-static void check(const CwDelaunay *mesh, int32_t count) {
+static void check(const CwTetMesh *mesh, int32_t count) {
   double six = joined_volume6(mesh), whole = 0.0;
   uint8_t *used = calloc((size_t)mesh->point_count, 1);
   int open = 0;
-  assert_int_equal(mesh->point_count, count + CW_DELAUNAY_CORNERS - mesh->duplicate_count);
+  assert_int_equal(mesh->point_count, count + CW_ENCLOSING_POINTS - mesh->duplicate_count);
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
+    const CwTet *tet = &mesh->tet[t];
     if (tet->corner[0] < 0) continue;
     const double *x[4];
     for (int i = 0; i < 4; i++) {
@@ -35,7 +36,7 @@ static void check(const CwDelaunay *mesh, int32_t count) {
       used[tet->corner[i]] = 1;
       if (tet->neighbour[i] >= 0) continue;
       open++;
-      for (int k = 0; k < 3; k++) assert_true(tet->corner[tet_face[i][k]] < CW_DELAUNAY_CORNERS);
+      for (int k = 0; k < 3; k++) assert_true(tet->corner[cw_tet_face[i][k]] < CW_ENCLOSING_POINTS);
     }
     for (int32_t p = 0; p < mesh->point_count; p++) {
       if (holds(tet->corner, 4, p)) continue;
@@ -52,14 +53,14 @@ static void check(const CwDelaunay *mesh, int32_t count) {
 }
 
 static void connect_and_check(int32_t count, double (*x)[3], int32_t duplicates) {
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   if (cw_delaunay_make(count, (const double(*)[3])x, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
   assert_int_equal(mesh.duplicate_count, duplicates);
-  for (int32_t p = CW_DELAUNAY_CORNERS; p < mesh.point_count; p++) {
+  for (int32_t p = CW_ENCLOSING_POINTS; p < mesh.point_count; p++) {
     assert_memory_equal(mesh.point[p].x, x[mesh.source[p]], sizeof *x);
   }
   check(&mesh, count);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
 }
 
 static void few_points(void **unused) {
@@ -80,7 +81,7 @@ static void random_points(void **unused) {
 // Every other tetrahedron is freed: the rest keeps its order and its neighbours, with nothing between.
 static void packed(void **unused) {
   double(*x)[3] = malloc(300 * sizeof *x);
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   state = 5;
   for (int i = 0; i < 900; i++) x[i / 3][i % 3] = draw(&state);
   assert_int_equal(cw_delaunay_make(300, (const double(*)[3])x, &mesh), CW_OK);
@@ -95,28 +96,28 @@ static void packed(void **unused) {
       int32_t beyond = mesh.tet[t].neighbour[i];
       if (beyond >= 0) mesh.tet[beyond / 4].neighbour[beyond % 4] = -1;
     }
-    cw_delaunay_free_tet(&mesh, t);
+    cw_tet_mesh_free_tet(&mesh, t);
   }
-  cw_delaunay_pack(&mesh);
+  cw_tet_mesh_pack(&mesh);
   assert_int_equal(mesh.tet_count, kept);
   int joined = 0;
   for (int32_t t = 0; t < kept; t++) {
-    const CwDelaunayTet *tet = &mesh.tet[t];
+    const CwTet *tet = &mesh.tet[t];
     assert_memory_equal(tet->corner, corner[t], sizeof *corner);
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] < 0) continue;
       assert_true(tet->neighbour[i] / 4 < kept);
-      const CwDelaunayTet *other = &mesh.tet[tet->neighbour[i] / 4];
+      const CwTet *other = &mesh.tet[tet->neighbour[i] / 4];
       assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
-      for (int k = 0; k < 3; k++) assert_true(holds(other->corner, 4, tet->corner[tet_face[i][k]]));
+      for (int k = 0; k < 3; k++) assert_true(holds(other->corner, 4, tet->corner[cw_tet_face[i][k]]));
       joined++;
     }
   }
   assert_true(joined > kept);
   int32_t next = -1;
-  assert_int_equal(cw_delaunay_new_tet(&mesh, &next), CW_OK);
+  assert_int_equal(cw_tet_mesh_new_tet(&mesh, &next), CW_OK);
   assert_int_equal(next, kept);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   free(corner);
   free(x);
 }
@@ -226,7 +227,7 @@ static void great_cavity(void **unused) {
 
 static void duplicates_are_named(void **unused) {
   double x[64][3];
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   state = 5;
   for (int i = 0; i < 180; i++) x[i / 3][i % 3] = draw(&state);
   for (int k = 60; k < 64; k++) memcpy(x[k], x[7 * (k - 60)], sizeof *x);
@@ -237,12 +238,12 @@ static void duplicates_are_named(void **unused) {
     assert_true(low != high && low >= 0 && high >= 0);
     assert_memory_equal(x[low], x[high], sizeof *x);
   }
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
 }
 
 static void equal_bits_twice(void **unused) {
   double(*x)[3] = malloc(5000 * sizeof *x);
-  CwDelaunay one, two;
+  CwTetMesh one, two;
   state = 17;
   for (int i = 0; i < 15000; i++) x[i / 3][i % 3] = draw(&state);
   assert_int_equal(cw_delaunay_make(5000, (const double(*)[3])x, &one), CW_OK);
@@ -251,14 +252,14 @@ static void equal_bits_twice(void **unused) {
   for (int32_t t = 0; t < one.tet_count; t++) {
     assert_memory_equal(one.tet[t].corner, two.tet[t].corner, sizeof one.tet[t].corner);
   }
-  cw_delaunay_free(&one);
-  cw_delaunay_free(&two);
+  cw_tet_mesh_free(&one);
+  cw_tet_mesh_free(&two);
   free(x);
 }
 
 static void wrong_points_are_an_error(void **unused) {
   double x[2][3] = {{0, 0, 0}, {0, NAN, 0}};
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   assert_int_equal(cw_delaunay_make(2, (const double(*)[3])x, &mesh), CW_ERR_MESH);
   assert_int_equal(cw_delaunay_make(0, (const double(*)[3])x, &mesh), CW_ERR_MESH);
 }

@@ -9,7 +9,8 @@
 #include <cmocka.h>
 
 #include "mesher/fill/fill_points.h"
-#include "mesher/fill/fill_row.h"
+#include "mesher/fill/offset_points.h"
+#include "mesher/policy.h"
 #include "mesher/common/vec.h"
 #include "closed_surfaces.h"
 
@@ -168,18 +169,19 @@ static void row_stands_over_the_last_triangles(void **unused) {
   surface_add_box(&s, origin, (double[3]){N * edge, N * edge, N * edge}, (int[3]){N, N, N}, 1);
   Field field = {h, 0, 0};
   CwFillInput input = input_of(&s, &field);
-  input.row_count = 2 * N * N;
+  input.offset_count = 2 * N * N;
   double spacing = cbrt(h * h * sqrt(4.0 / 3.0) * edge); // the root of the mean square of 1, 1 and sqrt(2)
   assert_int_equal(cw_fill_points(&input, 1.0, &count, &x, &site), CW_OK);
   for (int32_t p = 0; p < count; p++) {
     assert_true(p == 0 || site[p].key > site[p - 1].key);
     row += site[p].key >= CW_LATTICE_NO_PLACE;
   }
-  assert_true(row > 0.35 * input.row_count && row < 0.6 * input.row_count);
+  assert_true(row > 0.35 * input.offset_count && row < 0.6 * input.offset_count);
   for (int32_t p = count - row; p < count; p++) {
     NEAR(x[p][2], N * edge - 0.75 * spacing, 1e-12);
     for (int32_t q = 0; q < p; q++) {
-      double apart = q < count - row ? CW_ROW_CLEAR : CW_ROW_APART, distance = cw_distance(x[p], x[q]);
+      double apart = q < count - row ? cw_fill_policy.offset_clear : cw_fill_policy.offset_apart,
+             distance = cw_distance(x[p], x[q]);
       assert_true(distance > apart * spacing * (1 - 1e-12));
       nearest = fmin(nearest, q < count - row ? distance : INFINITY);
       if (q < count - row && site[q].clear && (site[q].key >> site[q].level & 1)) { // a centre
@@ -204,7 +206,7 @@ static void slabs_hold_their_points_alone(void **unused) {
   surface_add_sphere(&s, origin, 0.05, 4, 1);
   Field field = {0.002, 0.05, 0};
   CwFillInput input = input_of(&s, &field);
-  input.row_count = s.triangle_count / 2;
+  input.offset_count = s.triangle_count / 2;
   assert_int_equal(cw_fill_points(&input, 1.0, &count, &all, NULL), CW_OK);
   input.slab_count = 2;
   input.slab = slab;

@@ -17,7 +17,7 @@
 #include "hard_boundaries.h"
 #include "random_boundary.h"
 #include "mesher/fill/boundary_check.h"
-#include "mesher/fill/fill_sure.h"
+#include "mesher/fill/fill_with_fallback.h"
 #include "mesher/fill/kernel.h"
 #include "pipeline/log.h"
 
@@ -61,7 +61,7 @@ static const char *fill_one(const Surface *s, const char *name, double size, Cou
   CwFill fill;
   struct timespec from, to;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &from);
-  if (cw_fill_sure(&input, CW_FILL_KERNEL, &fill) != CW_OK) return cw_fail_message();
+  if (cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill) != CW_OK) return cw_fail_message();
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
   const char *fault = fill_fault(s, &fill);
   if (getenv("CUTWATER_VERBOSE"))
@@ -111,7 +111,7 @@ static void random_ones(void **unused) {
     if (cw_boundary_check(&input) != CW_OK || cw_boundary_check_crossing(&input) != CW_OK) {
       CwFill fill;
       crossing++;
-      CwStatus status = cw_fill_sure(&input, CW_FILL_KERNEL, &fill);
+      CwStatus status = cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill);
       if (status != CW_ERR_MESH || !strstr(cw_fail_message(), " mm"))
         fault = "a boundary that crosses itself was not refused with its place";
       cw_fill_free(&fill);
@@ -134,9 +134,9 @@ static void equal_bits_twice(void **unused) {
     CwFill fill[2];
     hard_boundary(k, &s, &size);
     CwFillInput input = fill_input(&s, &size);
-    assert_int_equal(cw_fill_sure(&input, CW_FILL_KERNEL, &fill[0]), CW_OK);
+    assert_int_equal(cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill[0]), CW_OK);
     void *shift = malloc(4321); // other addresses the second time
-    assert_int_equal(cw_fill_sure(&input, CW_FILL_KERNEL, &fill[1]), CW_OK);
+    assert_int_equal(cw_fill_with_fallback(&input, CW_FILL_KERNEL, &fill[1]), CW_OK);
     assert_int_equal(fill[0].point_count, fill[1].point_count);
     assert_int_equal(fill[0].tetrahedron_count, fill[1].tetrahedron_count);
     assert_memory_equal(fill[0].x, fill[1].x, (size_t)fill[0].point_count * sizeof *fill[0].x);

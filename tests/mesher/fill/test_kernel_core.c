@@ -29,7 +29,7 @@ static void make_ball(Ball *ball, int row) {
   ball->size = 0.0035;
   surface_add_sphere(&ball->surface, (double[3]){0, 0, 0}, 0.05, 4, 1);
   ball->input = fill_input(&ball->surface, &ball->size);
-  ball->input.row_count = row ? ball->surface.triangle_count : 0;
+  ball->input.offset_count = row ? ball->surface.triangle_count : 0;
   assert_int_equal(cw_fill_points(&ball->input, 1.0, &ball->count, &ball->x, &ball->site), CW_OK);
   ball->input.inner = (const double(*)[3])ball->x;
   ball->input.inner_count = ball->count;
@@ -41,7 +41,7 @@ static void free_ball(Ball *ball) {
   free(ball->site);
 }
 
-static double volume6(const CwDelaunay *mesh, const int32_t c[4]) {
+static double volume6(const CwTetMesh *mesh, const int32_t c[4]) {
   return cw_tet_volume6(mesh->point[c[0]].x, mesh->point[c[1]].x, mesh->point[c[2]].x, mesh->point[c[3]].x);
 }
 
@@ -49,7 +49,7 @@ static double volume6(const CwDelaunay *mesh, const int32_t c[4]) {
 static void carved_mesh_and_core_fit(void **unused) {
   Ball ball;
   CwKernelCore core;
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   int32_t count, open = 0;
   double(*x)[3], whole = 0.0, left = 0.0, of_core = 0.0;
   make_ball(&ball, 0);
@@ -62,7 +62,7 @@ static void carved_mesh_and_core_fit(void **unused) {
     whole += mesh.tet[t].corner[0] < 0 ? 0.0 : volume6(&mesh, mesh.tet[t].corner);
   assert_int_equal(cw_kernel_core_carve(&core, &mesh), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh.tet[t];
+    const CwTet *tet = &mesh.tet[t];
     if (tet->corner[0] < 0) continue;
     left += volume6(&mesh, tet->corner);
     for (int i = 0; i < 4; i++) {
@@ -80,7 +80,7 @@ static void carved_mesh_and_core_fit(void **unused) {
   }
   assert_int_equal(open, core.face_count + 4);
   assert_true(fabs((left + of_core) / whole - 1.0) < 1e-13);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   cw_kernel_core_free(&core);
   free(x);
   free_ball(&ball);
@@ -94,7 +94,9 @@ static void fill_with_and_without(int row) {
   make_ball(&ball, row);
   for (int k = 0; k < 2; k++) {
     ball.input.inner_site = k ? ball.site : NULL;
-    assert_int_equal(cw_kernel_fill(&ball.input, &fill[k]), CW_OK);
+    CwKernelOutcome outcome;
+    assert_int_equal(cw_kernel_fill(&ball.input, &fill[k], &outcome), CW_OK);
+    assert_int_equal(outcome, CW_KERNEL_FILLED);
     const char *fault = fill_fault(&ball.surface, &fill[k]);
     if (fault) fail_msg("%s", fault);
     for (int32_t t = 0; t < fill[k].tetrahedron_count; t++) {

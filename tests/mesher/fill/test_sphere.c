@@ -21,7 +21,7 @@ static CwSphereFrame frame_of(const double middle[3], double size) {
   return cw_sphere_frame(x[0], x[1], x[2], x[3]);
 }
 
-static void set(const CwSphereFrame *frame, const double x[4][3], CwDelaunayTet *tet) {
+static void set(const CwSphereFrame *frame, const double x[4][3], CwTet *tet) {
   double place[3], arm[3][4];
   cw_sphere_place(frame, x[3], place);
   for (int k = 0; k < 3; k++) {
@@ -34,26 +34,26 @@ static void set(const CwSphereFrame *frame, const double x[4][3], CwDelaunayTet 
   // Beside the same with its corners turned, and the two exchanged: neither knows of the other.
   const double *a[2] = {arm[0], arm[1]}, *b[2] = {arm[1], arm[2]}, *c[2] = {arm[2], arm[0]};
   const double *d[2] = {a[1], a[0]}, *e[2] = {b[1], b[0]}, *f[2] = {c[1], c[0]};
-  CwDelaunayTet turned = {.stamp = 0}, again[2] = {{.stamp = 0}, {.stamp = 0}};
-  cw_sphere_set((CwDelaunayTet *const[2]){tet, &turned}, place, a, b, c);
-  cw_sphere_set((CwDelaunayTet *const[2]){&again[0], &again[1]}, place, d, e, f);
+  CwTet turned = {.quality = 0.0}, again[2] = {{.quality = 0.0}, {.quality = 0.0}};
+  cw_sphere_set((CwTet *const[2]){tet, &turned}, place, a, b, c);
+  cw_sphere_set((CwTet *const[2]){&again[0], &again[1]}, place, d, e, f);
   assert_memory_equal(tet->centre, again[1].centre, 4 * sizeof(float));
   assert_memory_equal(turned.centre, again[0].centre, 4 * sizeof(float));
 }
 
 // Beside three others, at each place of four in turn: the answers are those one by one.
-static unsigned look(const CwSphereFrame *frame, const CwDelaunayTet *tet, const double p[3]) {
-  static const CwDelaunayTet none = {.centre = {8}}, small = {.centre = {0.1f, 0.1f, 0.1f}, .radius_square = 0.25f};
-  static const CwDelaunayTet taken = {.centre = {0.1f}, .radius_square = -0.25f};
+static unsigned look(const CwSphereFrame *frame, const CwTet *tet, const double p[3]) {
+  static const CwTet none = {.centre = {8}}, small = {.centre = {0.1f, 0.1f, 0.1f}, .radius_square = 0.25f};
+  static const CwTet taken = {.centre = {0.1f}, .radius_square = -0.25f};
   double place[3];
   cw_sphere_place(frame, p, place);
   const float seen[3] = {(float)place[0], (float)place[1], (float)place[2]};
   unsigned alone = cw_sphere_compare(tet, seen);
   for (int k = 0; k < 4; k++) {
-    const CwDelaunayTet *four[4] = {&none, &small, &taken, &none};
+    const CwTet *four[4] = {&none, &small, &taken, &none};
     int32_t known[4];
     four[k] = tet;
-    cw_sphere_compare_four(four, seen, known);
+    cw_sphere_compare_4(four, seen, known);
     for (int i = 0; i < 4; i++) assert_int_equal(known[i], i == k ? alone : cw_sphere_compare(four[i], seen));
   }
   return alone;
@@ -63,7 +63,7 @@ static unsigned look(const CwSphereFrame *frame, const CwDelaunayTet *tet, const
 static void framed(void **unused) {
   const double middle[3] = {7, -3, 0.5}, x[4][3] = {{8, -3, 0.5}, {7, -2, 0.5}, {7, -3, 1.5}, {7, -3, 0.5}};
   CwSphereFrame frame = frame_of(middle, 2);
-  CwDelaunayTet tet = {.stamp = 0};
+  CwTet tet = {.quality = 0.0};
   double place[3];
   cw_sphere_place(&frame, (double[3]){9, -3, -0.5}, place);
   assert_true(place[0] == 1 && place[1] == 0 && place[2] == -0.5);
@@ -86,7 +86,7 @@ static void as_exact(void **unused) {
     double flat = trial % 2 ? 1 : pow(0.1, 12 * draw(&state)),
            part = trial % 2 ? most * pow(0.1, 6 * draw(&state)) : most;
     double off = (draw(&state) - 0.5) * most * pow(0.1, 9 * draw(&state));
-    CwDelaunayTet tet;
+    CwTet tet;
     for (int k = 0; k < 5; k++) {
       for (int i = 0; i < 3; i++) way[k][i] = draw(&state) - 0.5;
       for (int i = 0; i < 3 && k; i++) way[k][i] = way[0][i] + (k == 4 ? most : part) * way[k][i];
@@ -111,7 +111,7 @@ static void as_exact(void **unused) {
 static void flat(void **unused) {
   const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.4, 0}}, middle[3] = {0, 0, 0};
   CwSphereFrame frame = frame_of(middle, 1);
-  CwDelaunayTet tet;
+  CwTet tet;
   set(&frame, x, &tet);
   assert_int_equal(look(&frame, &tet, (double[3]){0.1, 0.1, 0.5}), 0);
   cw_sphere_take(&tet, 1);
@@ -122,7 +122,7 @@ static void flat(void **unused) {
 static void taken(void **unused) {
   const double x[4][3] = {{0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0, 0, 0}}, middle[3] = {0, 0, 0};
   CwSphereFrame frame = frame_of(middle, 1);
-  CwDelaunayTet tet;
+  CwTet tet;
   set(&frame, x, &tet);
   const double p[3][3] = {{0.2, 0.2, 0.2}, {-0.9, 0, 0}, {0.5, 0, 0}};
   cw_sphere_take(&tet, 0);

@@ -8,7 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/tet_aspect.h"
+#include "mesher/fill/tet_collapse.h"
+#include "mesher/policy.h"
 #include "shaken_lattice.h"
 
 typedef struct {
@@ -24,7 +27,7 @@ static Shape shape_of(const CwTetWork *w) {
     const int32_t *c = w->mesh->tet[t].corner;
     if (c[0] < 0) continue;
     double quality = cw_tet_quality_of(w, c[0], c[1], c[2], c[3]);
-    shape.six += cw_tet_six(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
+    shape.six += cw_tet_volume6(cw_tet_at(w, c[0]), cw_tet_at(w, c[1]), cw_tet_at(w, c[2]), cw_tet_at(w, c[3]));
     shape.excess += cw_tet_excess(w, c);
     shape.least = fmin(shape.least, quality);
     shape.count++;
@@ -44,30 +47,30 @@ static Shape shape_of(const CwTetWork *w) {
 static int collapse_in_lattice(int every, double shift, int all_fixed, Shape *before, Shape *after, int *removed) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(8, 0.05, &outside, &x), total = count;
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   x = realloc(x, (size_t)(2 * count) * sizeof *x);
   assert_non_null(x);
   for (int32_t inner = outside + every / 2; inner < count; inner += every, total++) {
     for (int i = 0; i < 3; i++) x[total][i] = x[inner][i] + shift * (i + 1);
   }
   assert_int_equal(cw_delaunay_make(total, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .floor = 0.3,
+  CwTetWork w = {.mesh = &mesh,
+                 .limit = cw_fill_policy.improve_below,
                  .fixed_count = all_fixed ? total : outside,
                  .source_count = total};
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  CwTetShapes shapes = {.floor = 0.3};
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
   *before = shape_of(&w);
-  assert_int_equal(w.tet_count, before->count);
-  assert_int_equal(cw_tet_collapse(&w), CW_OK);
+  assert_int_equal(shapes.tet_count, before->count);
+  assert_int_equal(cw_tet_collapse(&w, &shapes), CW_OK);
   *after = shape_of(&w);
   *removed = w.count.points_removed;
   assert_int_equal(after->used, before->used - *removed);
   assert_true(fabs(after->six / before->six - 1.0) < 1e-12);
   assert_true(after->least >= fmin(before->least, 0.3));
+  cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   free(x);
   return total - count;
 }

@@ -19,8 +19,8 @@ static const int edge_of[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}
 // edge is the longest, or the shortest, and for one where the last group would be full; every third has twice the
 // weight.
 typedef struct {
-  CwDelaunay mesh;
-  CwFour *place, *sum, *other;
+  CwTetMesh mesh;
+  Cw4f *place, *sum, *other;
   int32_t *list, count;
 } Shaken;
 
@@ -33,7 +33,7 @@ static int compare(const void *left, const void *right) {
   return *a < *b ? -1 : *a > *b;
 }
 
-static int is_sure(const CwDelaunay *mesh, const int32_t corner[4]) {
+static int is_sure(const CwTetMesh *mesh, const int32_t corner[4]) {
   double square[6];
   for (int e = 0; e < 6; e++)
     square[e] = square_of(mesh->point[corner[edge_of[e][0]]].x, mesh->point[corner[edge_of[e][1]]].x);
@@ -52,11 +52,11 @@ static void make(Shaken *s, double shake) {
   s->list = malloc((size_t)(s->mesh.tet_count + GROUP) * sizeof *s->list);
   assert_true(s->place && s->sum && s->other && s->list);
   for (int32_t p = 0; p < s->mesh.point_count; p++)
-    s->place[p] = cw_four_way((double[3]){2.5, 2.5, 2.5}, s->mesh.point[p].x);
+    s->place[p] = cw_4f_difference((double[3]){2.5, 2.5, 2.5}, s->mesh.point[p].x);
   for (int32_t t = 0; t < s->mesh.tet_count; t++) {
     const int32_t *c = s->mesh.tet[t].corner;
-    int enclosing = c[0] < CW_DELAUNAY_CORNERS;
-    for (int i = 1; i < 4; i++) enclosing |= c[i] < CW_DELAUNAY_CORNERS;
+    int enclosing = c[0] < CW_ENCLOSING_POINTS;
+    for (int i = 1; i < 4; i++) enclosing |= c[i] < CW_ENCLOSING_POINTS;
     if (enclosing || !is_sure(&s->mesh, c)) continue;
     s->mesh.tet[t].weight = 1 + (t % 3 == 0);
     s->list[s->count++] = t;
@@ -67,17 +67,17 @@ static void make(Shaken *s, double shake) {
 }
 
 static void release(Shaken *s) {
-  cw_delaunay_free(&s->mesh);
+  cw_tet_mesh_free(&s->mesh);
   free(s->place);
   free(s->sum);
   free(s->other);
   free(s->list);
 }
 
-typedef void Want(const CwDelaunayTet *tet, const double x[4][3], double way[4][3], double *weight);
+typedef void Want(const CwTet *tet, const double x[4][3], double way[4][3], double *weight);
 
 // A point with the same distance from all corners, by Cramer's rule.
-static void want_centre(const CwDelaunayTet *tet, const double x[4][3], double way[4][3], double *weight) {
+static void want_centre(const CwTet *tet, const double x[4][3], double way[4][3], double *weight) {
   double a[3][3], b[3], squares = 0.0;
   (void)tet;
   for (int m = 0; m < 3; m++) {
@@ -105,7 +105,7 @@ static void want_centre(const CwDelaunayTet *tet, const double x[4][3], double w
 }
 
 // Half the gradient of the ratio of the longest to the shortest edge, turned round.
-static void want_even(const CwDelaunayTet *tet, const double x[4][3], double way[4][3], double *weight) {
+static void want_even(const CwTet *tet, const double x[4][3], double way[4][3], double *weight) {
   double square[6];
   int near = 0, far = 0;
   memset(way, 0, 4 * sizeof *way);
@@ -131,7 +131,7 @@ static void check_sums(const Shaken *s, Want *want) {
   double(*sum)[4] = calloc((size_t)s->mesh.point_count, sizeof *sum), most = 0.0;
   assert_non_null(sum);
   for (int32_t k = 0; k < s->count; k++) {
-    const CwDelaunayTet *tet = &s->mesh.tet[s->list[k]];
+    const CwTet *tet = &s->mesh.tet[s->list[k]];
     double x[4][3], way[4][3], weight;
     for (int c = 0; c < 4; c++) memcpy(x[c], s->mesh.point[tet->corner[c]].x, sizeof x[c]);
     want(tet, (const double(*)[3])x, way, &weight);
@@ -193,21 +193,21 @@ static void qualities_are_those_of_double_precision(void **state) {
 
 static void any_processor_gives_the_same(void **state) {
   Shaken s;
-  if (!CW_HAS_WIDE) skip();
+  if (!CW_HAS_AVX2) skip();
   make(&s, 0.2);
   size_t size = (size_t)s.mesh.point_count * sizeof *s.sum;
   memset(s.sum, 0, size);
   memset(s.other, 0, size);
   for (int pulls = 0; pulls < 2; pulls++) {
     add_any(&s.mesh, s.list, s.count, s.place, pulls, s.sum);
-    add_wide(&s.mesh, s.list, s.count, s.place, pulls, s.other);
+    add_avx2(&s.mesh, s.list, s.count, s.place, pulls, s.other);
     assert_memory_equal(s.sum, s.other, size);
   }
   for (int32_t from = 0; from < s.count; from += GROUP) {
     float quality[2][GROUP];
     int32_t slender[2][GROUP];
     find_qualities(&s.mesh, s.list + from, s.place, 0.1f, 2.5f, quality[0], slender[0]);
-    find_qualities_wide(&s.mesh, s.list + from, s.place, 0.1f, 2.5f, quality[1], slender[1]);
+    find_qualities_avx2(&s.mesh, s.list + from, s.place, 0.1f, 2.5f, quality[1], slender[1]);
     assert_memory_equal(quality[0], quality[1], sizeof quality[0]);
     assert_memory_equal(slender[0], slender[1], sizeof slender[0]);
   }

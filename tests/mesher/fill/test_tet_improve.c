@@ -75,14 +75,14 @@ static void octahedron_gets_its_best_diagonal(void **state) {
   double best = fmax(fmax(least[0], least[1]), least[2]), got_volume;
   assert_true(least[worst] < 0.4 && best > least[worst] + 0.1);
   CwFill fill = fill_of(6, x, 4, (const int32_t(*)[4])tets[worst]);
-  CwTetImproved improved;
-  assert_int_equal(cw_tet_improve(6, NULL, &fill, &improved), CW_OK);
-  assert_int_equal(improved.edges_removed, 1);
+  CwTetChanges changes;
+  assert_int_equal(cw_tet_improve(6, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(changes.edges_removed, 1);
   assert_int_equal(fill.tetrahedron_count, 4);
   NEAR(least_of(&fill, &got_volume), best, 1e-14);
   NEAR(got_volume, volume[worst], 1e-14);
-  NEAR(improved.least_before, least[worst], 1e-14);
-  assert_true(best > 0.4226 && improved.least_after == 0.4226);
+  NEAR(changes.least_before, least[worst], 1e-14);
+  assert_true(best > 0.4226 && changes.least_after == 0.4226);
   free_fill(&fill);
 }
 
@@ -100,17 +100,17 @@ static void two_become_three_and_three_two(void **state) {
   double other_volume;
   least_three = least_of(&other, &other_volume);
   NEAR(volume, other_volume, 1e-15);
-  CwTetImproved improved;
+  CwTetChanges changes;
   // Apexes close to one another: compare the two cuts and expect the better of them, from either side.
   double best = fmax(least_two, least_three);
-  assert_int_equal(cw_tet_improve(5, NULL, &fill, &improved), CW_OK);
+  assert_int_equal(cw_tet_improve(5, NULL, &fill, &changes), CW_OK);
   assert_true(least_of(&fill, &volume) >= best - 1e-14); // a new point may go further
   NEAR(volume, other_volume, 1e-15);
-  assert_int_equal(improved.faces_removed + improved.edges_removed, least_three > least_two);
-  assert_int_equal(cw_tet_improve(5, NULL, &other, &improved), CW_OK);
+  assert_int_equal(changes.faces_removed + changes.edges_removed, least_three > least_two);
+  assert_int_equal(cw_tet_improve(5, NULL, &other, &changes), CW_OK);
   assert_true(least_of(&other, &volume) >= best - 1e-14);
   NEAR(volume, other_volume, 1e-15);
-  assert_int_equal(improved.edges_removed + improved.faces_removed, least_two > least_three);
+  assert_int_equal(changes.edges_removed + changes.faces_removed, least_two > least_three);
   free_fill(&fill);
   free_fill(&other);
   // Apexes far away: the face between them goes where its tetrahedra are the worse ones.
@@ -120,8 +120,8 @@ static void two_become_three_and_three_two(void **state) {
   least_two = least_of(&fill, &volume);
   least_three = least_of(&other, &volume);
   assert_true(least_three > least_two);
-  assert_int_equal(cw_tet_improve(5, NULL, &fill, &improved), CW_OK);
-  assert_int_equal(improved.faces_removed, 1);
+  assert_int_equal(cw_tet_improve(5, NULL, &fill, &changes), CW_OK);
+  assert_int_equal(changes.faces_removed, 1);
   assert_true(least_of(&fill, &volume) >= least_three - 1e-14);
   free_fill(&fill);
   free_fill(&other);
@@ -145,9 +145,9 @@ static void inner_point_is_smoothed(void **state) {
   double before = least_of(&fill, &volume), whole = volume, enclosed = surface_volume(&s);
   assert_true(before > 0.0 && before < 0.2);
   NEAR(whole, enclosed, 1e-14);
-  CwTetImproved improved;
-  assert_int_equal(cw_tet_improve(12, NULL, &fill, &improved), CW_OK);
-  assert_true(improved.points_moved + improved.edges_removed + improved.faces_removed > 0);
+  CwTetChanges changes;
+  assert_int_equal(cw_tet_improve(12, NULL, &fill, &changes), CW_OK);
+  assert_true(changes.points_moved + changes.edges_removed + changes.faces_removed > 0);
   assert_true(least_of(&fill, &volume) > 0.454);
   NEAR(volume, enclosed, 1e-14);
   assert_memory_equal(fill.x, x, 12 * sizeof *x);
@@ -168,11 +168,11 @@ static void points_go_into_a_ball(void **state) {
   }
   assert_int_equal(count, 75);
   CwFill fill = fill_of(42, (const double(*)[3])s.x, 75, (const int32_t(*)[4])tet);
-  CwTetImproved improved;
+  CwTetChanges changes;
   assert_true(least_of(&fill, &volume) < 0.4);
   NEAR(volume, surface_volume(&s), 1e-14);
-  assert_int_equal(cw_tet_improve(42, NULL, &fill, &improved), CW_OK);
-  assert_true(improved.points_added > 0 && fill.point_count > 42);
+  assert_int_equal(cw_tet_improve(42, NULL, &fill, &changes), CW_OK);
+  assert_true(changes.points_added > 0 && fill.point_count > 42);
   assert_true(least_of(&fill, &volume) > 0.4226);
   NEAR(volume, surface_volume(&s), 1e-13);
   assert_memory_equal(fill.x, s.x, 42 * sizeof *fill.x);

@@ -15,10 +15,10 @@
 static const int face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // Six times the volume; all are positive, and each knows its neighbours.
-static double sound_volume(const CwDelaunay *mesh) {
+static double sound_volume(const CwTetMesh *mesh) {
   double six = 0.0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
-    const CwDelaunayTet *tet = &mesh->tet[t];
+    const CwTet *tet = &mesh->tet[t];
     const int32_t *c = tet->corner;
     if (c[0] < 0) continue;
     double here =
@@ -27,7 +27,7 @@ static double sound_volume(const CwDelaunay *mesh) {
     six += here;
     for (int i = 0; i < 4; i++) {
       if (tet->neighbour[i] < 0) continue;
-      const CwDelaunayTet *other = &mesh->tet[tet->neighbour[i] / 4];
+      const CwTet *other = &mesh->tet[tet->neighbour[i] / 4];
       assert_int_equal(other->neighbour[tet->neighbour[i] % 4], 4 * t + i);
       for (int k = 0; k < 3; k++) { // the same three points
         int found = 0;
@@ -39,7 +39,7 @@ static double sound_volume(const CwDelaunay *mesh) {
   return six;
 }
 
-static int32_t used_count(const CwDelaunay *mesh) {
+static int32_t used_count(const CwTetMesh *mesh) {
   int32_t count = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) count += mesh->tet[t].corner[0] >= 0;
   return count;
@@ -51,7 +51,7 @@ static int32_t used_count(const CwDelaunay *mesh) {
 static void patch_goes_out_and_back(void **state) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(8, 0.1, &outside, &x), middle = -1, *place = NULL;
-  CwDelaunay whole;
+  CwTetMesh whole;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
   for (int32_t t = 0; t < whole.tet_count && middle < 0; t++) {
     int inner = whole.tet[t].corner[0] >= 0;
@@ -86,12 +86,12 @@ static void patch_goes_out_and_back(void **state) {
   int32_t four[4], point;
   double centre[3] = {0, 0, 0};
   for (int i = 0; i < 12; i++) centre[i % 3] += 0.25 * patch.mesh.point[patch.mesh.tet[0].corner[i / 3]].x[i % 3];
-  assert_int_equal(cw_delaunay_add_point(&patch.mesh, centre, 1, &point), CW_OK);
+  assert_int_equal(cw_tet_mesh_add_point(&patch.mesh, centre, 1, &point), CW_OK);
   four[0] = 0;
-  for (int i = 1; i < 4; i++) assert_int_equal(cw_delaunay_new_tet(&patch.mesh, &four[i]), CW_OK);
-  const CwDelaunayTet old = patch.mesh.tet[0];
+  for (int i = 1; i < 4; i++) assert_int_equal(cw_tet_mesh_new_tet(&patch.mesh, &four[i]), CW_OK);
+  const CwTet old = patch.mesh.tet[0];
   for (int i = 0; i < 4; i++) {
-    CwDelaunayTet *tet = &patch.mesh.tet[four[i]];
+    CwTet *tet = &patch.mesh.tet[four[i]];
     *tet = old;
     tet->corner[i] = point;
     for (int k = 0; k < 4; k++) tet->neighbour[k] = k == i ? old.neighbour[i] : 4 * four[k] + i;
@@ -112,7 +112,7 @@ static void patch_goes_out_and_back(void **state) {
   for (int i = 0; i < 4; i++) assert_int_equal(whole.tet[place[four[i]]].corner[i], points);
   free(place);
   cw_tet_patch_free(&patch);
-  cw_delaunay_free(&whole);
+  cw_tet_mesh_free(&whole);
   free(x);
 }
 
@@ -120,7 +120,7 @@ static void patch_goes_out_and_back(void **state) {
 static void other_hull_is_refused(void **state) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(4, 0.1, &outside, &x), *place = NULL, sources = count;
-  CwDelaunay whole;
+  CwTetMesh whole;
   CwTetPatch patch;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
   assert_int_equal(cw_tet_patch_take(&whole, whole.tet_count / 2, 20, outside, &patch), CW_OK);
@@ -130,11 +130,11 @@ static void other_hull_is_refused(void **state) {
   assert_int_equal(cw_tet_patch_put(&patch, &whole, &sources, &place), CW_ERR_MESH);
   free(place);
   cw_tet_patch_free(&patch);
-  cw_delaunay_free(&whole);
+  cw_tet_mesh_free(&whole);
   free(x);
 }
 
-static int32_t beside_count(const CwDelaunay *mesh, int32_t beside) {
+static int32_t beside_count(const CwTetMesh *mesh, int32_t beside) {
   int32_t count = 0;
   for (int32_t k = 0; k < 4 * mesh->tet_count; k++)
     count += mesh->tet[k / 4].corner[0] >= 0 && mesh->tet[k / 4].neighbour[k % 4] == beside;
@@ -146,7 +146,7 @@ static int32_t beside_count(const CwDelaunay *mesh, int32_t beside) {
 static void nothing_beside_stays_nothing(void **state) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(4, 0.1, &outside, &x), sources = count, *place = NULL;
-  CwDelaunay whole;
+  CwTetMesh whole;
   CwTetPatch patch;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
   for (int32_t k = 0; k < 4 * whole.tet_count; k++) {
@@ -168,7 +168,7 @@ static void nothing_beside_stays_nothing(void **state) {
   assert_int_equal(cw_tet_patch_take(&whole, first, used / 2, outside, &patch), CW_OK);
   assert_true(beside_count(&patch.mesh, CW_BESIDE_OTHERS) > 0);
   cw_tet_patch_free(&patch);
-  cw_delaunay_free(&whole);
+  cw_tet_mesh_free(&whole);
   free(x);
 }
 

@@ -8,7 +8,10 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/tet_aspect.h"
+#include "mesher/fill/tet_relax.h"
+#include "mesher/policy.h"
 #include "shaken_lattice.h"
 
 // Sum of the volumes, mean quality and mean ratio of the longest to the shortest edge of the tetrahedra that have an
@@ -38,15 +41,14 @@ static double shape_of(const CwTetWork *w, double *mean, double *aspect) {
 }
 
 // Relaxing is to follow: nothing is left worse below 0.3.
-static CwTetWork work_on(CwDelaunay *mesh, int32_t outside, int32_t count) {
-  CwTetWork w = {.flips = {.mesh = mesh},
-                 .mesh = mesh,
-                 .limit = CW_TET_IMPROVE,
-                 .floor = 0.3,
+static CwTetWork work_on(CwTetMesh *mesh, int32_t outside, int32_t count, CwTetShapes *shapes) {
+  CwTetWork w = {.mesh = mesh,
+                 .limit = cw_fill_policy.improve_below,
                  .fixed_count = outside,
-                 .source_count = count};
-  w.irregular = calloc((size_t)mesh->point_count, 1);
-  assert_non_null(w.irregular);
+                 .source_count = count,
+                 .changed = &shapes->slender};
+  *shapes = (CwTetShapes){.floor = 0.3, .irregular = calloc((size_t)mesh->point_count, 1)};
+  assert_non_null(shapes->irregular);
   return w;
 }
 
@@ -55,12 +57,13 @@ static const CwTetMoves moves = {.centres = 1, .evenings = 2, .pull = 0.2, .besi
 static void shaken_points_become_even(void **state) {
   double(*x)[3], before, after, uneven, even;
   int32_t outside, count = shaken_lattice(8, 0.2, &outside, &x), moved = 0;
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = work_on(&mesh, outside, count);
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  CwTetShapes shapes;
+  CwTetWork w = work_on(&mesh, outside, count, &shapes);
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
   double six = shape_of(&w, &before, &uneven);
-  assert_int_equal(cw_tet_relax(&w, moves), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, &shapes, moves), CW_OK);
   assert_true(fabs(shape_of(&w, &after, &even) / six - 1.0) < 1e-12);
   assert_true(after > before + 0.03);
   assert_true(uneven > 1.49 && even < 1.335); // 1.348 by the centres alone
@@ -77,12 +80,13 @@ static void shaken_points_become_even(void **state) {
     if (c[0] < 0 || mesh.tet[t].quality == 1.0) continue;
     double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
     assert_true(fabs(mesh.tet[t].quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
-    int listed = mesh.tet[t].quality >= CW_TET_IMPROVE;
-    for (int32_t k = 0; k < w.next_count && !listed; k++) listed = w.next[k] == t;
+    int listed = mesh.tet[t].quality >= cw_fill_policy.improve_below;
+    for (int32_t k = 0; k < w.next.count && !listed; k++) listed = w.next.tet[k] == t;
     assert_true(listed);
   }
+  cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   free(x);
 }
 
@@ -90,11 +94,12 @@ static void shaken_points_become_even(void **state) {
 static void lattice_stays(void **state) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(8, 1e-3, &outside, &x), deep = 0;
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = work_on(&mesh, outside, count);
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
-  assert_int_equal(cw_tet_relax(&w, moves), CW_OK);
+  CwTetShapes shapes;
+  CwTetWork w = work_on(&mesh, outside, count, &shapes);
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, &shapes, moves), CW_OK);
   for (int32_t p = 0; p < mesh.point_count; p++) {
     if (mesh.source[p] < 0) continue;
     const double *old = x[mesh.source[p]];
@@ -103,8 +108,9 @@ static void lattice_stays(void **state) {
     deep++;
   }
   assert_int_equal(deep, 5 * 5 * 5 + 4 * 4 * 4);
+  cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   free(x);
 }
 
@@ -114,14 +120,15 @@ static void aspects_beside(int told, double *beside, double *apart) {
   double(*x)[3], sum[2] = {0, 0};
   int32_t outside, count = shaken_lattice(8, 0.25, &outside, &x), found[2] = {0, 0};
   uint8_t *on_plane = calloc((size_t)outside, 1);
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   assert_non_null(on_plane);
   for (int32_t p = 0; p < outside; p++) on_plane[p] = x[p][0] < 0.6;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = work_on(&mesh, outside, count);
-  w.on_plane = told ? on_plane : NULL;
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
-  assert_int_equal(cw_tet_relax(&w, moves), CW_OK);
+  CwTetShapes shapes;
+  CwTetWork w = work_on(&mesh, outside, count, &shapes);
+  shapes.on_plane = told ? on_plane : NULL;
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, &shapes, moves), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     const int32_t *c = mesh.tet[t].corner;
     int is_beside = 0, is_free = 0;
@@ -132,15 +139,16 @@ static void aspects_beside(int told, double *beside, double *apart) {
       is_beside |= source >= 0 && source < outside && on_plane[source]; // -1: a corner round all
     }
     if (!is_free) continue;
-    sum[is_beside] += cw_tet_excess(&w, c) + CW_TET_USUAL;
+    sum[is_beside] += cw_tet_excess(&w, c) + cw_fill_policy.usual_aspect;
     found[is_beside]++;
   }
   assert_true(found[0] > 2000 && found[1] > 200);
   *beside = sum[1] / found[1];
   *apart = sum[0] / found[0];
   free(on_plane);
+  cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   free(x);
 }
 
@@ -157,21 +165,23 @@ static int spoilt_below(double floor) {
   double(*x)[3], *before;
   int32_t outside, count = shaken_lattice(8, 0.25, &outside, &x);
   int spoilt = 0;
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = work_on(&mesh, outside, count);
-  w.floor = floor;
+  CwTetShapes shapes;
+  CwTetWork w = work_on(&mesh, outside, count, &shapes);
+  shapes.floor = floor;
   before = calloc((size_t)mesh.tet_count, sizeof *before);
   assert_non_null(before);
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) before[t] = mesh.tet[t].quality;
-  assert_int_equal(cw_tet_relax(&w, (CwTetMoves){.evenings = 5, .pull = 0.4}), CW_OK);
+  assert_int_equal(cw_tet_relax(&w, &shapes, (CwTetMoves){.evenings = 5, .pull = 0.4}), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     if (mesh.tet[t].corner[0] < 0) continue;
-    spoilt += mesh.tet[t].quality < CW_TET_IMPROVE && mesh.tet[t].quality < before[t] - 1e-12;
+    spoilt += mesh.tet[t].quality < cw_fill_policy.improve_below && mesh.tet[t].quality < before[t] - 1e-12;
   }
+  cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
-  cw_delaunay_free(&mesh);
+  cw_tet_mesh_free(&mesh);
   free(before);
   free(x);
   return spoilt;
@@ -179,7 +189,7 @@ static int spoilt_below(double floor) {
 
 static void nothing_is_spoilt_below_the_floor(void **state) {
   assert_true(spoilt_below(0.0) > 10);
-  assert_int_equal(spoilt_below(CW_TET_IMPROVE), 0);
+  assert_int_equal(spoilt_below(cw_fill_policy.improve_below), 0);
 }
 
 int main(void) {

@@ -9,15 +9,20 @@
 #include <cmocka.h>
 
 #include "mesher/common/quality.h"
+#include "mesher/common/tet.h"
 #include "mesher/common/vec.h"
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/tet_judge.h"
+#include "mesher/fill/tet_loop.h"
 #include "mesher/fill/tet_patch.h"
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/tet_search.h"
+#include "mesher/policy.h"
 #include "shaken_lattice.h"
 
 enum { SIZE = 6000 };
 
 // Least dihedral angle, degrees, and the volume; all are positive.
-static double least_angle(const CwDelaunay *mesh, double *volume) {
+static double least_angle(const CwTetMesh *mesh, double *volume) {
   double least = 180.0;
   *volume = 0.0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
@@ -33,28 +38,34 @@ static double least_angle(const CwDelaunay *mesh, double *volume) {
   return least;
 }
 
+static void judge_all(CwTetWork *w) {
+  CwTetShapes shapes = {0};
+  w->next.count = 0;
+  assert_int_equal(cw_tet_judge_all(w, &shapes), CW_OK);
+  cw_tet_shapes_free(&shapes);
+}
+
 // A lump out of a shaken lattice, its hull fixed, in which `spoilt` points then go nearly as far as a face opposite.
 static CwTetWork lump(int spoilt, CwTetPatch *patch) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(14, 0.1, &outside, &x), middle = -1;
-  CwDelaunay whole;
+  CwTetMesh whole;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &whole), CW_OK);
   for (int32_t t = 0; t < whole.tet_count && middle < 0; t++) {
     const double *p = whole.tet[t].corner[0] < 0 ? NULL : whole.point[whole.tet[t].corner[0]].x;
     if (p && fmax(fabs(p[0] - 7.0), fmax(fabs(p[1] - 7.0), fabs(p[2] - 7.0))) < 0.7) middle = t;
   }
   assert_int_equal(cw_tet_patch_take(&whole, middle, SIZE, outside, patch), CW_OK);
-  cw_delaunay_free(&whole);
+  cw_tet_mesh_free(&whole);
   free(x);
-  CwDelaunay *mesh = &patch->mesh;
-  CwTetWork w = {.flips = {.mesh = mesh},
-                 .mesh = mesh,
-                 .limit = CW_TET_IMPROVE,
+  CwTetMesh *mesh = &patch->mesh;
+  CwTetWork w = {.mesh = mesh,
+                 .limit = cw_fill_policy.improve_below,
                  .insert = 0.4226,
                  .insert_round = 0.38,
                  .fixed_count = 1,
                  .source_count = 2};
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  judge_all(&w);
   assert_int_equal(cw_tet_improve_list(&w, 5, 1), CW_OK);
   for (int32_t t = 40; spoilt > 0; t += 1500, spoilt--) {
     while (mesh->tet[t].corner[0] < 0 || mesh->source[mesh->tet[t].corner[0]] == 0) t++;
@@ -65,8 +76,7 @@ static CwTetWork lump(int spoilt, CwTetPatch *patch) {
       p[i] += 0.9 * (opposite - p[i]);
     }
   }
-  w.next_count = 0;
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  judge_all(&w);
   return w;
 }
 
@@ -115,7 +125,7 @@ static void good_ones_are_left_alone(void **state) {
 }
 
 // Least sine of the tetrahedra at a point.
-static double least_round(const CwDelaunay *mesh, int32_t point) {
+static double least_round(const CwTetMesh *mesh, int32_t point) {
   double least = 1.0;
   for (int32_t t = 0; t < mesh->tet_count; t++) {
     const int32_t *c = mesh->tet[t].corner;
@@ -126,7 +136,7 @@ static double least_round(const CwDelaunay *mesh, int32_t point) {
   return least;
 }
 
-static void normal_of(const CwDelaunay *mesh, const CwDelaunayTet *tet, int face, double normal[3]) {
+static void normal_of(const CwTetMesh *mesh, const CwTet *tet, int face, double normal[3]) {
   const double *x[3];
   double u[3], v[3];
   for (int i = 0; i < 3; i++) x[i] = mesh->point[tet->corner[cw_tet_face[face][i]]].x;
@@ -138,9 +148,9 @@ static void normal_of(const CwDelaunay *mesh, const CwDelaunayTet *tet, int face
 
 // Moves a corner of the hull nearly upon a triangle of it, where the tetrahedra round the corner allow it: across an
 // edge that both share (2 open faces of their tetrahedron, a wedge) or from the far side (1).
-static int pinch_hull(CwDelaunay *mesh, int open_faces, double left) {
+static int pinch_hull(CwTetMesh *mesh, int open_faces, double left) {
   for (int32_t k = 0; k < 4 * mesh->tet_count; k++) {
-    const CwDelaunayTet *tet = &mesh->tet[k / 4];
+    const CwTet *tet = &mesh->tet[k / 4];
     int open = 0, other = -1;
     if (tet->corner[0] < 0 || tet->neighbour[k % 4] >= 0 || mesh->source[tet->corner[k % 4]] != 0) continue;
     for (int i = 0; i < 4; i++) {
@@ -168,8 +178,7 @@ static void what_the_boundary_forces_is_not_pressed(void **state) {
   CwTetWork w = lump(0, &patch);
   double volume;
   assert_true(pinch_hull(w.mesh, 2, 0.1));
-  w.next_count = 0;
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  judge_all(&w);
   assert_true(least_angle(w.mesh, &volume) < 10.0);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 10.0);
@@ -183,8 +192,7 @@ static void tries_are_bounded(void **state) {
   CwTetWork w = lump(0, &patch);
   double volume;
   assert_true(pinch_hull(w.mesh, 1, 0.02));
-  w.next_count = 0;
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  judge_all(&w);
   assert_int_equal(cw_tet_search(&w), CW_OK);
   assert_true(least_angle(w.mesh, &volume) < 12.0);
   assert_int_equal(w.count.search_tries, 1800); // 1200 of them for determinants

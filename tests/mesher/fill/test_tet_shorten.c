@@ -8,8 +8,11 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "mesher/fill/tet_mesh.h"
-#include "mesher/fill/tet_work.h"
+#include "mesher/fill/delaunay.h"
+#include "mesher/fill/fill_mesh.h"
+#include "mesher/fill/tet_aspect.h"
+#include "mesher/fill/tet_shorten.h"
+#include "mesher/policy.h"
 #include "shaken_lattice.h"
 
 typedef struct {
@@ -34,44 +37,41 @@ static Shape shape_of(const CwTetWork *w) {
   return shape;
 }
 
-static void release(CwTetWork *w) {
+static void release(CwTetWork *w, CwTetShapes *shapes) {
+  cw_tet_shapes_free(shapes);
   cw_tet_work_free(w);
-  cw_delaunay_free(w->mesh);
+  cw_tet_mesh_free(w->mesh);
 }
 
 static void tetrahedra_become_less_slender(void **state) {
   double(*x)[3];
   int32_t outside, count = shaken_lattice(8, 0.15, &outside, &x);
-  CwDelaunay mesh;
+  CwTetMesh mesh;
   assert_int_equal(cw_delaunay_make(count, (const double(*)[3])x, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh},
-                 .mesh = &mesh,
-                 .limit = 0.48,
-                 .floor = 0.3,
-                 .fixed_count = outside,
-                 .source_count = count};
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  CwTetWork w = {.mesh = &mesh, .limit = 0.48, .fixed_count = outside, .source_count = count};
+  CwTetShapes shapes = {.floor = 0.3};
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
   Shape before = shape_of(&w);
-  assert_int_equal(cw_tet_shorten(&w), CW_OK);
+  assert_int_equal(cw_tet_shorten(&w, &shapes), CW_OK);
   Shape after = shape_of(&w);
   assert_true(fabs(after.six / before.six - 1.0) < 1e-12);
   assert_true(after.least >= fmin(before.least, 0.3));
   assert_true(w.count.edges_removed > before.count / 50);
   assert_true(after.aspect / after.count < before.aspect / before.count - 0.005);
   for (int32_t t = 0; t < mesh.tet_count; t++) { // qualities are kept, those below the limit listed
-    const CwDelaunayTet *tet = &mesh.tet[t];
+    const CwTet *tet = &mesh.tet[t];
     const int32_t *c = tet->corner;
     if (c[0] < 0) continue;
     double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
     assert_true(tet->quality == 1.0 || fabs(tet->quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
     int listed = tet->quality >= w.limit;
-    for (int32_t k = 0; k < w.next_count && !listed; k++) listed = w.next[k] == t;
+    for (int32_t k = 0; k < w.next.count && !listed; k++) listed = w.next.tet[k] == t;
     assert_true(listed);
     for (int i = 0; i < 4; i++) // neighbours know one another
       assert_true(tet->neighbour[i] < 0 ||
                   mesh.tet[tet->neighbour[i] / 4].neighbour[tet->neighbour[i] % 4] == 4 * t + i);
   }
-  release(&w);
+  release(&w, &shapes);
   free(x);
 }
 
@@ -81,17 +81,18 @@ static void shorten_round(int n, const double (*round)[2], int *count, int *with
   double x[6][3] = {{0, 0, 0.5}, {0, 0, -0.5}};
   int32_t tet[4][4];
   CwFill fill = {.point_count = 2 + n, .x = x, .tetrahedron_count = n, .tetrahedron = tet};
-  CwDelaunay mesh = {0};
+  CwTetMesh mesh = {0};
   for (int k = 0; k < n; k++) {
     memcpy(x[2 + k], round[k], sizeof *round);
     x[2 + k][2] = 0.0;
     memcpy(tet[k], (int32_t[4]){1, 0, 2 + k, 2 + (k + 1) % n}, sizeof *tet);
   }
-  assert_int_equal(cw_tet_mesh_make(&fill, &mesh), CW_OK);
-  CwTetWork w = {.flips = {.mesh = &mesh}, .mesh = &mesh, .floor = 0.3, .fixed_count = 2 + n, .source_count = 2 + n};
-  assert_int_equal(cw_tet_scan(&w), CW_OK);
+  assert_int_equal(cw_fill_to_mesh(&fill, &mesh), CW_OK);
+  CwTetWork w = {.mesh = &mesh, .fixed_count = 2 + n, .source_count = 2 + n};
+  CwTetShapes shapes = {.floor = 0.3};
+  assert_int_equal(cw_tet_judge_all(&w, &shapes), CW_OK);
   double six = shape_of(&w).six;
-  assert_int_equal(cw_tet_shorten(&w), CW_OK);
+  assert_int_equal(cw_tet_shorten(&w, &shapes), CW_OK);
   Shape shape = shape_of(&w);
   assert_true(fabs(shape.six / six - 1.0) < 1e-12);
   *count = shape.count;
@@ -104,7 +105,7 @@ static void shorten_round(int n, const double (*round)[2], int *count, int *with
     }
     *with += ends == 2;
   }
-  release(&w);
+  release(&w, &shapes);
 }
 
 static void an_edge_goes_where_shorter_ones_come(void **state) {

@@ -3,8 +3,8 @@
 // Lattice points that are merely kept at a distance stand at any height between half a length and more than one over
 // them; a row stands where well shaped tetrahedra on the triangles have their fourth corners, one for about two
 // triangles, as each plane of a close packing does over the one below.
-#ifndef CUTWATER_MESHER_FILL_FILL_ROW_H
-#define CUTWATER_MESHER_FILL_FILL_ROW_H
+#ifndef CUTWATER_MESHER_FILL_OFFSET_POINTS_H
+#define CUTWATER_MESHER_FILL_OFFSET_POINTS_H
 
 #include <stdint.h>
 
@@ -14,28 +14,24 @@
 extern "C" {
 #endif
 
-// Least distance between points of a row, and of others from them, over the spacing.
-#define CW_ROW_APART 0.7
-#define CW_ROW_CLEAR 0.65
-
 typedef struct {
   double x[3], spacing; // m
-  double along;         // the line of cw_row_key
+  double along;         // the line of cw_offset_point_key
   int32_t triangle;
   int on_interface;
-} CwRowPlace;
+} CwOffsetPoint;
 
 // The place over the middle of triangle t, inward, whatever is there. The spacing is the mean of what is wanted there
 // and of the triangle's edges, which it exceeds by little; where less is wanted than the edges are long, that counts
 // twice.
-CwRowPlace cw_row_place(const CwFillInput *input, int32_t t);
+CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t);
 // Ascends in the order in which places are best taken: those over interfaces first, since they are continued on the
 // other side, and along a line. What is taken so is as regular as the triangles
 // are; in any other order, gaps are left between beginnings.
-uint64_t cw_row_key(const CwRowPlace *place);
-// The places of the last `row_count` triangles of the input in that order, equal ones as their triangles. Caller frees
-// *places.
-CwStatus cw_row_places(const CwFillInput *input, CwRowPlace **places);
+uint64_t cw_offset_point_key(const CwOffsetPoint *place);
+// The places of the last `offset_count` triangles of the input in that order, equal ones as their triangles. Caller
+// frees *places.
+CwStatus cw_offset_points(const CwFillInput *input, CwOffsetPoint **places);
 
 #ifdef __cplusplus
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // For inner loops over conditions that are as good as random: as branches they would be foretold wrongly.
-#ifndef CUTWATER_MESHER_COMMON_NUMBER_H
-#define CUTWATER_MESHER_COMMON_NUMBER_H
+#ifndef CUTWATER_MESHER_COMMON_BRANCHLESS_H
+#define CUTWATER_MESHER_COMMON_BRANCHLESS_H
 
 // 1 where the condition holds, else 0: a number of which the compiler makes no branch.
-static inline unsigned cw_number(int condition) {
+static inline unsigned cw_branchless(int condition) {
   unsigned n = (unsigned)condition;
   __asm__("" : "+r"(n));
   return n;

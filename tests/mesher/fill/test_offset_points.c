@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/fill/fill_row.h"
+#include "mesher/fill/offset_points.h"
 
 #define NEAR(value, wanted) assert_true(fabs((value) - (wanted)) <= 1e-12)
 
@@ -19,7 +19,7 @@ static double size_at(const void *context, const double x[3]) {
 }
 
 // Over an equilateral triangle in the plane z = 0 whose normal, out of the region, is +z.
-static CwRowPlace place_for(double size, double edge) {
+static CwOffsetPoint place_for(double size, double edge) {
   const double x[3][3] = {{0, 0, 0}, {edge, 0, 0}, {0.5 * edge, edge * sqrt(0.75), 0}};
   const int32_t triangle[1][3] = {{0, 1, 2}};
   CwFillInput input = {.point_count = 3,
@@ -28,12 +28,12 @@ static CwRowPlace place_for(double size, double edge) {
                        .triangle = triangle,
                        .size = size_at,
                        .size_context = &size,
-                       .row_count = 1};
-  return cw_row_place(&input, 0);
+                       .offset_count = 1};
+  return cw_offset_point(&input, 0);
 }
 
 static void stands_inside_over_the_middle(void **unused) {
-  CwRowPlace place = place_for(2, 2);
+  CwOffsetPoint place = place_for(2, 2);
   NEAR(place.spacing, 2);
   NEAR(place.x[0], 1);
   NEAR(place.x[1], sqrt(1.0 / 3.0));
@@ -53,8 +53,8 @@ static void line_runs_along_no_axis(void **unused) {
                          .triangle = triangle,
                          .size = size_at,
                          .size_context = &size,
-                         .row_count = 1};
-    along[k] = cw_row_place(&input, 0).along;
+                         .offset_count = 1};
+    along[k] = cw_offset_point(&input, 0).along;
   }
   for (int k = 0; k < 3; k++) grown[k] = along[k + 1] - along[0];
   for (int k = 0; k < 3; k++) assert_true(grown[k] > 0.1 && fabs(grown[k] - grown[(k + 1) % 3]) > 0.1);
@@ -62,7 +62,7 @@ static void line_runs_along_no_axis(void **unused) {
 
 // At equal lengths its tetrahedron has edges within a twentieth of one another.
 static void makes_a_good_tetrahedron(void **unused) {
-  CwRowPlace place = place_for(1, 1);
+  CwOffsetPoint place = place_for(1, 1);
   double side = cw_norm(place.x);
   assert_true(side > 0.94 && side < 1.0);
 }
@@ -82,9 +82,9 @@ static void last_triangles_are_on_the_interface(void **unused) {
                        .triangle = triangle,
                        .size = size_at,
                        .size_context = &size,
-                       .row_count = 3,
+                       .offset_count = 3,
                        .interface_count = 2};
-  for (int t = 0; t < 3; t++) assert_int_equal(cw_row_place(&input, t).on_interface, t >= 1);
+  for (int t = 0; t < 3; t++) assert_int_equal(cw_offset_point(&input, t).on_interface, t >= 1);
 }
 
 static void order_is_interfaces_first_then_along_a_line_then_by_triangle(void **unused) {
@@ -97,10 +97,10 @@ static void order_is_interfaces_first_then_along_a_line_then_by_triangle(void **
                        .triangle = triangle,
                        .size = size_at,
                        .size_context = &size,
-                       .row_count = COUNT,
+                       .offset_count = COUNT,
                        .interface_count = 2};
-  CwRowPlace *place = NULL;
-  assert_int_equal(cw_row_places(&input, &place), CW_OK);
+  CwOffsetPoint *place = NULL;
+  assert_int_equal(cw_offset_points(&input, &place), CW_OK);
   for (int k = 0; k < COUNT; k++) assert_int_equal(place[k].on_interface, k < 2);
   for (int k = 1; k < COUNT; k++) {
     if (place[k].on_interface != place[k - 1].on_interface) continue;

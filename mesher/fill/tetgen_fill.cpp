@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/fill/fill.h"
+#include "mesher/fill/tetgen_fill.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -21,6 +21,7 @@
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/tet_improve.h"
+#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 namespace {
@@ -84,20 +85,22 @@ int run_and_send(tetgenio &in, int file) {
   return sent ? 0 : 2;
 }
 
-// What the child made; CW_RETRY where it did not come to that.
-CwStatus receive(const CwFillInput *input, int file, CwFill *fill) {
+// What the child made; *whole is false where it did not come to that.
+CwStatus receive(const CwFillInput *input, int file, CwFill *fill, bool *whole) {
   int32_t count[2] = {0, 0};
-  if (!pass(file, count, sizeof count, false) || count[0] < input->point_count || count[1] <= 0) return CW_RETRY;
+  *whole = false;
+  if (!pass(file, count, sizeof count, false) || count[0] < input->point_count || count[1] <= 0) return CW_OK;
   fill->x = static_cast<double(*)[3]>(malloc((size_t)count[0] * sizeof *fill->x));
   fill->tetrahedron = static_cast<int32_t(*)[4]>(malloc((size_t)count[1] * sizeof *fill->tetrahedron));
   if (!fill->x || !fill->tetrahedron)
     return CW_FAIL(CW_ERR_MEMORY, "%s: out of memory: %d tetrahedra", input->name, count[1]);
   if (!pass(file, fill->x, (size_t)count[0] * sizeof *fill->x, false) ||
       !pass(file, fill->tetrahedron, (size_t)count[1] * sizeof *fill->tetrahedron, false))
-    return CW_RETRY;
+    return CW_OK;
   fill->point_count = count[0];
   fill->tetrahedron_count = count[1];
   memcpy(fill->x, input->x, (size_t)input->point_count * sizeof *fill->x);
+  *whole = true;
   return CW_OK;
 }
 
@@ -106,6 +109,7 @@ CwStatus receive(const CwFillInput *input, int file, CwFill *fill) {
 CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const double (*inner)[3], CwFill *fill) {
   CwStatus status = CW_OK;
   int ends[2] = {-1, -1}, how = 0;
+  bool whole = false;
   pid_t child = -1;
   CW_REQUIRE(pipe(ends) == 0, CW_ERR_LIBRARY, "%s: no pipe for TetGen: %s", input->name, strerror(errno));
   fflush(NULL); // or the child might print it again
@@ -122,15 +126,15 @@ CwStatus tetrahedralise(const CwFillInput *input, int32_t inner_count, const dou
   }
   close(ends[1]);
   ends[1] = -1;
-  status = receive(input, ends[0], fill);
+  status = receive(input, ends[0], fill, &whole);
   close(ends[0]); // a child that still writes ends then
   ends[0] = -1;
   while (waitpid(child, &how, 0) < 0 && errno == EINTR) continue;
-  if (status == CW_ERR_MEMORY) goto done;
+  if (status != CW_OK) goto done;
   CW_REQUIRE(!WIFEXITED(how) || WEXITSTATUS(how) != 1, CW_ERR_MEMORY, "%s: out of memory in TetGen", input->name);
   CW_REQUIRE(WIFEXITED(how), CW_ERR_MESH, "%s: TetGen cannot fill the boundary (signal %d)", input->name,
              WTERMSIG(how));
-  CW_REQUIRE(WEXITSTATUS(how) == 0 && status == CW_OK, CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)",
+  CW_REQUIRE(WEXITSTATUS(how) == 0 && whole, CW_ERR_MESH, "%s: TetGen cannot fill the boundary (its code %d)",
              input->name, WEXITSTATUS(how));
 done:
   for (int end : ends) {
@@ -187,13 +191,13 @@ done:
 
 } // namespace
 
-CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
+CwStatus cw_tetgen_fill(const CwFillInput *input, CwFill *fill) {
   CwStatus status = CW_OK;
-  CwTetImproved improved;
+  CwTetChanges changes;
   uint8_t *on_plane = nullptr;
   CwFillInput away = *input;
   away.inner = nullptr;
-  away.open_count = away.row_count = 0;
+  away.open_count = away.offset_count = 0;
   memset(fill, 0, sizeof *fill);
   CW_TRY(cw_boundary_check(input));
   CW_TRY(cw_boundary_check_crossing(input)); // TetGen loses memory over such boundaries, or aborts
@@ -202,26 +206,19 @@ CwStatus cw_fill(const CwFillInput *input, CwFill *fill) {
     char first[600];
     snprintf(first, sizeof first, "%s", cw_fail_message());
     // Points further away are less in the way of recovery.
-    status = try_fill(&away, 2.0, fill);
+    status = try_fill(&away, cw_fill_policy.tetgen_clearance, fill);
     if (status == CW_ERR_MESH) status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }
   if (status != CW_OK) goto done;
   CW_TRY(cw_fill_on_planes(input, input->point_count, &on_plane));
-  CW_TRY(cw_tet_improve(input->point_count, on_plane, fill, &improved));
+  CW_TRY(cw_tet_improve(input->point_count, on_plane, fill, &changes));
   fill->recovery.tetgen = 1;
   cw_log_debug("%s: %d tetrahedra, %d edges and %d faces removed, %d points moved, %d removed, %d added, least sine "
                "%.3g to %.3g",
-               input->name, fill->tetrahedron_count, improved.edges_removed, improved.faces_removed,
-               improved.points_moved, improved.points_removed, improved.points_added, improved.least_before,
-               improved.least_after);
+               input->name, fill->tetrahedron_count, changes.edges_removed, changes.faces_removed, changes.points_moved,
+               changes.points_removed, changes.points_added, changes.least_before, changes.least_after);
 done:
   free(on_plane);
   if (status != CW_OK) cw_fill_free(fill);
   return status;
-}
-
-void cw_fill_free(CwFill *fill) {
-  free(fill->x);
-  free(fill->tetrahedron);
-  memset(fill, 0, sizeof *fill);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The one call that fills a boundary: by the kernel, and by TetGen where the kernel's flips do not recover all
 // triangles or leave a cell that is flat.
-#ifndef CUTWATER_MESHER_FILL_FILL_SURE_H
-#define CUTWATER_MESHER_FILL_FILL_SURE_H
+#ifndef CUTWATER_MESHER_FILL_FILL_WITH_FALLBACK_H
+#define CUTWATER_MESHER_FILL_FILL_WITH_FALLBACK_H
 
 #include "mesher/fill/fill.h"
 #include "pipeline/case.h"
@@ -11,8 +11,9 @@
 extern "C" {
 #endif
 
-// Promises and errors of cw_fill; fill->recovery says how it was done. With CW_FILL_TETGEN the kernel is not tried.
-CwStatus cw_fill_sure(const CwFillInput *input, CwFillMethod method, CwFill *fill);
+// Promises and errors of cw_tetgen_fill; fill->recovery says how it was done. With CW_FILL_TETGEN the kernel is not
+// tried.
+CwStatus cw_fill_with_fallback(const CwFillInput *input, CwFillMethod method, CwFill *fill);
 
 // Least over the tetrahedra of six times the volume over the cube of the longest edge.
 double cw_fill_flatness(const CwFill *fill);

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "mesher/region/audit.h"
-#include "mesher/fill/fill.h"
+#include "mesher/fill/tetgen_fill.h"
 #include "mesher/fill/fill_shape.h"
 #include "closed_surfaces.h"
 
@@ -95,7 +95,7 @@ static CwQuality check_fill(const Surface *s, const CwFill *fill) {
 static CwQuality fill_and_check(const Surface *s, const Field *field) {
   CwFillInput input = input_of(s, field);
   CwFill fill;
-  if (cw_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_tetgen_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
   CwQuality quality = check_fill(s, &fill);
   cw_fill_free(&fill);
   return quality;
@@ -128,7 +128,7 @@ static void coarse_shapes_without_inner_points(void **state) {
   Field field = {.size = 0.05};
   CwFillInput input = input_of(&s, &field);
   CwFill fill;
-  assert_int_equal(cw_fill(&input, &fill), CW_OK);
+  assert_int_equal(cw_tetgen_fill(&input, &fill), CW_OK);
   assert_true(fill.tetrahedron_count >= 15);
   cw_fill_free(&fill);
   surface_free(&s);
@@ -169,7 +169,7 @@ static void slab_thinner_than_the_size(void **state) {
   Field field = {.size = 0.002};
   CwFillInput input = input_of(&s, &field);
   CwFill fill;
-  if (cw_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_tetgen_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
   double volume = 0.0;
   for (int32_t t = 0; t < fill.tetrahedron_count; t++) {
     const double *x[4];
@@ -193,7 +193,7 @@ static void graded_size(void **state) {
   Field field = {.size = 0.0015, .growth = 0.045};
   CwFillInput input = input_of(&s, &field);
   CwFill fill;
-  if (cw_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
+  if (cw_tetgen_fill(&input, &fill) != CW_OK) fail_msg("%s", cw_fail_message());
   CwQuality q = check_fill(&s, &fill);
   double wanted = 0.0, near_volume = 0.0;
   int32_t near_count = 0;
@@ -223,9 +223,9 @@ static void equal_bits_twice(void **state) {
   Field field = {.size = 0.006};
   CwFillInput input = input_of(&s, &field);
   CwFill a, b;
-  assert_int_equal(cw_fill(&input, &a), CW_OK);
+  assert_int_equal(cw_tetgen_fill(&input, &a), CW_OK);
   void *shift = malloc(12345); // other addresses the second time
-  assert_int_equal(cw_fill(&input, &b), CW_OK);
+  assert_int_equal(cw_tetgen_fill(&input, &b), CW_OK);
   assert_int_equal(a.point_count, b.point_count);
   assert_int_equal(a.tetrahedron_count, b.tetrahedron_count);
   assert_memory_equal(a.x, b.x, (size_t)a.point_count * sizeof *a.x);
@@ -240,7 +240,7 @@ static void fails_with(const Surface *s, const Field *field, const char *part) {
   CwFillInput input = input_of(s, field);
   CwFill fill;
   cw_fail_clear();
-  assert_int_equal(cw_fill(&input, &fill), CW_ERR_MESH);
+  assert_int_equal(cw_tetgen_fill(&input, &fill), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "rotor region 3"));
   if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
 }
@@ -309,7 +309,7 @@ static void size_field_with_a_hole_is_an_error(void **state) {
   CwFill fill;
   input.size = size_with_a_hole;
   input.size_context = &size;
-  assert_int_equal(cw_fill(&input, &fill), CW_ERR_MESH);
+  assert_int_equal(cw_tetgen_fill(&input, &fill), CW_ERR_MESH);
   assert_non_null(strstr(cw_fail_message(), "rotor region 3: the size field gives nan m at ("));
   surface_free(&s);
 }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/policy.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char VARIABLE[] = "CUTWATER_POLICY";
+
+#ifdef CUTWATER_EXPERIMENT
+CwFillPolicy cw_fill_policy = {CW_FILL_POLICY(CW_POLICY_VALUE)};
+#endif
+
+typedef struct {
+  const char *name, *unit, *meaning;
+  size_t offset;
+  int is_double; // else int32_t
+} Number;
+
+#define IS_DOUBLE(type) _Generic((type)0, double : 1, int32_t : 0)
+#define NUMBER(type, name, value, unit, meaning) {#name, unit, meaning, offsetof(CwFillPolicy, name), IS_DOUBLE(type)},
+static const Number number[] = {CW_FILL_POLICY(NUMBER)};
+enum { NUMBERS = sizeof number / sizeof *number };
+
+static const Number *find(const char *name) {
+  for (int k = 0; k < NUMBERS; k++) {
+    if (!strcmp(number[k].name, name)) return &number[k];
+  }
+  return NULL;
+}
+
+CwStatus cw_policy_read(FILE *file, const char *path, CwFillPolicy *policy) {
+  CwStatus status = CW_OK;
+  char line[512], name[64], value[64], more[2], *end;
+  for (int at = 1; fgets(line, sizeof line, file); at++) {
+    line[strcspn(line, "#\n")] = 0;
+    int words = sscanf(line, "%63s %63s %1s", name, value, more);
+    if (words <= 0) continue;
+    CW_REQUIRE(words == 2, CW_ERR_INPUT, "%s:%d: a line is `name value`, as `improve_passes 5`", path, at);
+    const Number *one = find(name);
+    CW_REQUIRE(one, CW_ERR_INPUT, "%s:%d: there is no number `%s`; the first one is `%s`", path, at, name,
+               number[0].name);
+    double read = strtod(value, &end);
+    CW_REQUIRE(!*end && read == read && (one->is_double || read == (double)(int32_t)read), CW_ERR_INPUT,
+               "%s:%d: `%s` is not a %s for `%s`", path, at, value, one->is_double ? "number" : "whole number", name);
+    char *field = (char *)policy + one->offset;
+    if (one->is_double)
+      memcpy(field, &read, sizeof read);
+    else
+      memcpy(field, &(int32_t){(int32_t)read}, sizeof(int32_t));
+  }
+done:
+  return status;
+}
+
+void cw_policy_print(FILE *file, const CwFillPolicy *policy) {
+  for (int k = 0; k < NUMBERS; k++) {
+    double value;
+    int32_t whole;
+    const char *field = (const char *)policy + number[k].offset;
+    memcpy(&whole, field, sizeof whole);
+    if (number[k].is_double)
+      memcpy(&value, field, sizeof value);
+    else
+      value = whole;
+    fprintf(file, "%s\t%.17g\t%s\t%s\n", number[k].name, value, number[k].unit, number[k].meaning);
+  }
+}
+
+CwStatus cw_policy_start(void) {
+  CwStatus status = CW_OK;
+  const char *path = getenv(VARIABLE);
+  FILE *file = NULL;
+  if (!path) goto done;
+#ifdef CUTWATER_EXPERIMENT
+  file = fopen(path, "r");
+  CW_REQUIRE(file, CW_ERR_IO, "%s (of $%s): cannot be read: %s", path, VARIABLE, strerror(errno));
+  CW_TRY(cw_policy_read(file, path, &cw_fill_policy));
+#else
+  status =
+      CW_FAIL(CW_ERR_USAGE, "$%s is set (%s), but the numbers of this build are fixed: cmake -DCUTWATER_EXPERIMENT=ON",
+              VARIABLE, path);
+#endif
+done:
+  if (file) fclose(file);
+  return status;
+}
