@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "mesher/common/box.h"
-#include "mesher/common/simd_8f.h"
-#include "mesher/common/hilbert.h"
 #include "mesher/common/branchless.h"
+#include "mesher/common/hilbert.h"
 #include "mesher/common/predicates.h"
 #include "mesher/common/radix.h"
+#include "mesher/common/simd_8f.h"
 #include "mesher/common/tet.h"
 #include "mesher/fill/sphere.h"
 

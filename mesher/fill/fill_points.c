@@ -10,8 +10,8 @@
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_columns.h"
 #include "mesher/fill/fill_reach.h"
-#include "mesher/fill/offset_points.h"
 #include "mesher/fill/lattice_places.h"
+#include "mesher/fill/offset_points.h"
 #include "mesher/policy.h"
 
 enum { DEPTH = 19 };
@@ -29,17 +29,17 @@ static const Box nowhere = {GUARDS - UNITS, 0};
 
 // What reaches a cell of the octree that is not cut for the sake of the boundary any more.
 typedef struct {
-  int32_t triangles, count; // items, from list: so many triangles, and with the places of the row
+  int32_t triangles, count; // items, from list: so many triangles, and with offset points
   int64_t list;
   int whole; // none reaches it: all of it is inside
   int clear; // none is in it
 } Reached;
 
-// Items: the triangles of the boundary, then the places of the row.
+// Items: the triangles of the boundary, then the candidates of offset points.
 typedef struct {
   const CwFillInput *input;
   CwColumns *columns;
-  Box *reach;        // of each item; of the row, once the octree is cut, of those that are chosen
+  Box *reach;        // of each item; of offset points, once the octree is cut, of those that are chosen
   Box *own;          // of each item, without the distance that it keeps
   CwReachBall *ball; // of each triangle
   CwOffsetPoint *offset;
@@ -133,8 +133,8 @@ static int32_t find_near(const Tree *tree, const int32_t *list, int32_t count, u
   return near;
 }
 
-// Whether an item of the cell keeps a point of the lattice, or of the row, away from x: the row first, which is soon
-// asked, then spheres, and at last distances.
+// Whether an item of the cell keeps a lattice point, or an offset point, away from x: offset points first, which take
+// little time, then spheres, and at last distances.
 static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int is_offset) {
   const CwFillInput *input = tree->input;
   const int32_t *list = tree->list + reached->list;
@@ -239,7 +239,7 @@ static CwStatus add_cell(Tree *tree, const int32_t at[3], int level, int64_t lis
   int32_t *its = tree->list + tree->list_count, triangles = list_count, first = tree->input->triangle_count;
   if (list_count) memcpy(its, tree->open + list, (size_t)list_count * sizeof *its);
   const Box box = {pack_cell(at, 0), pack_cell(at, (1 << level) - 1)};
-  for (; triangles > 0 && its[triangles - 1] >= first; triangles--) { // the row comes last
+  for (; triangles > 0 && its[triangles - 1] >= first; triangles--) { // offset points come last
     int32_t item = its[triangles - 1];
     if (holds(&box, tree->own[item].low)) tree->offset_cell[item - first] = tree->cell_count;
   }
@@ -288,7 +288,7 @@ static void shorten_lists(Tree *tree) {
   }
 }
 
-// Of the places of the row, one after the other, those that are inside and that neither the boundary nor those chosen
+// Of the candidates of offset points, one after the other, those that are inside and that neither the boundary nor those chosen
 // before forbid.
 static CwStatus choose_offsets(Tree *tree, int32_t *chosen) {
   CwStatus status = CW_OK;
@@ -318,7 +318,7 @@ static int is_asked(const CwFillInput *input, const double x[3]) {
 }
 
 // Of the places of the lattice those that are asked for, inside and not forbidden. A line along z is cut once for all
-// its places: near the boundary, where the jitter would make a difference, they are forbidden. The row comes last.
+// its places: near the boundary, where the jitter would make a difference, they are forbidden. Offset points come last.
 static CwStatus collect(Tree *tree, int64_t place_count, const CwRadix *places, int32_t *count, double (**x)[3],
                         CwLatticeSite **site) {
   CwStatus status = CW_OK;

@@ -11,13 +11,13 @@
 #include "mesher/fill/boundary_check.h"
 #include "mesher/fill/delaunay.h"
 #include "mesher/fill/fill_mesh.h"
+#include "mesher/fill/fill_mesh.h"
 #include "mesher/fill/fill_points.h"
 #include "mesher/fill/fill_shape.h"
 #include "mesher/fill/kernel_core.h"
 #include "mesher/fill/kernel_facets.h"
 #include "mesher/fill/kernel_recover.h"
 #include "mesher/fill/tet_improve.h"
-#include "mesher/fill/fill_mesh.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates, in the mesh but not yet connected; the deep ones of the lattice in the
@@ -97,7 +97,7 @@ static int add_outside(CwTetMesh *mesh, int32_t t, int32_t *waiting) {
 
 // Floods from the outer sides of all facets and frees what it reaches. All that it does not reach lies
 // between inner sides, and is cut off at them. What waits is chained through corner[1], of no use outside. Where
-// much lay outside its memory is given back, since the improvement asks for some; to move the others costs more
+// much lay outside its memory is given back, since the improvement needs some; to move the others costs more
 // than it saves where that was little.
 static CwStatus keep_inside(const CwFillInput *input, const CwFacets *facets, CwTetMesh *mesh) {
   CwStatus status = CW_OK;

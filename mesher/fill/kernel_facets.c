@@ -70,7 +70,7 @@ static void note_facet(CwFacets *facets, int32_t f) {
   while (facets->table[place] >= 0) place = after(place, facets->table_space);
   facets->table[place] = f;
   for (int k = 0; k < 3; k++) {
-    if (p[k] > p[(k + 1) % 3]) continue; // the boundary is closed: another facet has the edge the other way round
+    if (p[k] > p[(k + 1) % 3]) continue; // the boundary is closed: another facet has the edge in the opposite direction
     facets->edge[edge_place(facets, p[k], p[(k + 1) % 3])] = 3 * f + k;
   }
 }

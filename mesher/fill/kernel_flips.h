@@ -16,7 +16,7 @@ extern "C" {
 
 enum { CW_RING = CW_CAVITY / 2 }; // tetrahedra round an edge that is removed, at most
 
-// How much the edge (count = 2) or face (count = 3) with these points is in the way; 0: not at all.
+// How many crossings the edge (count = 2) or face (count = 3) with these points has with what is to be recovered.
 typedef int (*CwCrossing)(const void *context, int count, const int32_t *point);
 
 typedef struct {

@@ -88,8 +88,8 @@ done:
   return status;
 }
 
-// The first face or edge on the way from a to b, and a flip that takes it away. *found: the edge is there.
-static CwStatus clear_way(Recovery *r, int32_t a, int32_t b, int depth, int *found, int *moved) {
+// The first face or edge between a and b, and a flip that takes it away. *found: the edge is there.
+static CwStatus clear_towards(Recovery *r, int32_t a, int32_t b, int depth, int *found, int *moved) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
   const CwTetMesh *mesh = flips->mesh;
@@ -150,7 +150,7 @@ CwStatus cw_recovery_edge(CwRecovery *r, int32_t a, int32_t b, int tries, int *f
   r->flips.slack = 0;
   for (int stuck = 0; stuck < tries; stuck++) {
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
-      CW_TRY(clear_way(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
+      CW_TRY(clear_towards(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
       if (*found) goto done;
     }
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The first row of inner points over triangles of a region's boundary: fronts, caps and both sides of interfaces.
+// Offset points: the first layer of inner points over triangles of a region's boundary (layer top, non-wall patches, both
+// sides of interfaces).
 // Lattice points that are merely kept at a distance stand at any height between half a length and more than one over
-// them; a row stands where well shaped tetrahedra on the triangles have their fourth corners, one for about two
+// them; offset points stand where well shaped tetrahedra on the triangles have their fourth corners, one for about two
 // triangles, as each plane of a close packing does over the one below.
 #ifndef CUTWATER_MESHER_FILL_OFFSET_POINTS_H
 #define CUTWATER_MESHER_FILL_OFFSET_POINTS_H

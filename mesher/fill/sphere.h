@@ -7,9 +7,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "mesher/common/simd_4f.h"
 #include "mesher/common/branchless.h"
-#include "mesher/fill/delaunay.h"
+#include "mesher/common/simd_4f.h"
+#include "mesher/fill/tet_mesh.h"
 
 #ifdef __cplusplus
 extern "C" {

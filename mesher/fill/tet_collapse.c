@@ -11,11 +11,11 @@
 typedef struct {
   int32_t count, tet, to; // how many tetrahedra; one with the shortest of them, and its other end
   double square;
-} Crowd;
+} Shortest;
 
-static inline void note(Crowd *crowd, int32_t t, int32_t to, double square) {
-  if (crowd->count++ && crowd->square <= square) return;
-  crowd->tet = t, crowd->to = to, crowd->square = square;
+static inline void note(Shortest *shortest, int32_t t, int32_t to, double square) {
+  if (shortest->count++ && shortest->square <= square) return;
+  shortest->tet = t, shortest->to = to, shortest->square = square;
 }
 
 // Whether earlier changes have left the edge.
@@ -79,8 +79,8 @@ done:
 CwStatus cw_tet_collapse(CwTetWork *w, const CwTetShapes *shapes) {
   CwStatus status = CW_OK;
   const double slender_square = cw_tet_slender_square(shapes);
-  Crowd *crowd = NULL;
-  CW_NEW(crowd, w->mesh->point_count);
+  Shortest *shortest = NULL;
+  CW_NEW(shortest, w->mesh->point_count);
   for (int32_t k = 0; k < shapes->slender.count; k++) {
     int32_t t = shapes->slender.tet[k];
     const int32_t *c = w->mesh->tet[t].corner;
@@ -88,13 +88,13 @@ CwStatus cw_tet_collapse(CwTetWork *w, const CwTetShapes *shapes) {
     if (c[0] < 0) continue;
     CwTetEnds ends = cw_tet_ends(w, c);
     if (!(ends.longest > slender_square * ends.shortest)) continue;
-    for (int i = 0; i < 2; i++) note(&crowd[ends.near[i]], t, ends.near[1 - i], ends.shortest);
+    for (int i = 0; i < 2; i++) note(&shortest[ends.near[i]], t, ends.near[1 - i], ends.shortest);
   }
   for (int32_t p = 0; p < w->mesh->point_count; p++) {
-    if (crowd[p].count < cw_fill_policy.collapse_slender || w->mesh->source[p] < w->fixed_count) continue;
-    if (has_edge(w, crowd[p].tet, p, crowd[p].to)) CW_TRY(collapse(w, shapes->floor, crowd[p].tet, p, crowd[p].to));
+    if (shortest[p].count < cw_fill_policy.collapse_slender || w->mesh->source[p] < w->fixed_count) continue;
+    if (has_edge(w, shortest[p].tet, p, shortest[p].to)) CW_TRY(collapse(w, shapes->floor, shortest[p].tet, p, shortest[p].to));
   }
 done:
-  free(crowd);
+  free(shortest);
   return status;
 }

@@ -7,9 +7,9 @@
 #include "mesher/fill/tet_quality.h"
 
 enum { GROUP = CW_TET_GROUP, HALF = GROUP / 2 };
-enum { AHEAD = 128 }; // places ahead of which the memory is asked
+enum { AHEAD = 128 }; // places ahead that are prefetched
 
-// The ways from the first corners of eight tetrahedra to the others, by corner and coordinate.
+// The vectors from the first corners of eight tetrahedra to the others, by corner and coordinate.
 typedef struct {
   Cw8f arm[3][4];
 } Group;
@@ -44,7 +44,7 @@ CW_INLINE void find_extremes(const Cw8f square[6], Cw8f *least, Cw8f *most) {
   }
 }
 
-// What each corner is to have, by corner and coordinate: the weighted way and the weight.
+// What each corner is to have, by corner and coordinate: the weighted displacement and the weight.
 CW_INLINE void find_centres(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
   Cw8f edge[6][3], l[6], bc[3], ca[3], ab[3];
   (void)own;
@@ -55,15 +55,15 @@ CW_INLINE void find_centres(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
   Cw8f squares = l[0] + l[1] + l[2] + l[3] + l[4] + l[5];
   Cw8f scale = 1.0f / (squares * cw_8f_sqrt(squares)), weight = scale * cw_8f_dot(g->arm[0], bc);
   for (int i = 0; i < 3; i++) {
-    Cw8f way = 0.5f * scale * (l[0] * bc[i] + l[1] * ca[i] + l[2] * ab[i]);
-    part[0][i] = way;
-    for (int m = 0; m < 3; m++) part[m + 1][i] = way - weight * g->arm[m][i];
+    Cw8f centre = 0.5f * scale * (l[0] * bc[i] + l[1] * ca[i] + l[2] * ab[i]);
+    part[0][i] = centre;
+    for (int m = 0; m < 3; m++) part[m + 1][i] = centre - weight * g->arm[m][i];
   }
   for (int m = 0; m < 4; m++) part[m][3] = weight;
 }
 
 CW_INLINE void find_pulls(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
-  Cw8f edge[6][3], square[6], step[6], way[6], least, most;
+  Cw8f edge[6][3], square[6], step[6], pull[6], least, most;
   find_edges(g, edge, square);
   find_extremes(square, &least, &most);
   Cw8fMask sound = least > (float)CW_TET_FLAT * most;
@@ -71,11 +71,11 @@ CW_INLINE void find_pulls(const Group *g, const Cw8f *own, Cw8f part[4][4]) {
   Cw8f out = cw_8f_if(sound, in * most / least);
   for (int e = 0; e < 6; e++) step[e] = cw_8f_if(square[e] == most, in) - cw_8f_if(square[e] == least, out);
   for (int i = 0; i < 3; i++) {
-    for (int e = 0; e < 6; e++) way[e] = step[e] * edge[e][i];
-    part[0][i] = way[0] + way[1] + way[2];
-    part[1][i] = way[3] + way[4] - way[0];
-    part[2][i] = way[5] - way[1] - way[3];
-    part[3][i] = -way[2] - way[4] - way[5];
+    for (int e = 0; e < 6; e++) pull[e] = step[e] * edge[e][i];
+    part[0][i] = pull[0] + pull[1] + pull[2];
+    part[1][i] = pull[3] + pull[4] - pull[0];
+    part[2][i] = pull[5] - pull[1] - pull[3];
+    part[3][i] = -pull[2] - pull[4] - pull[5];
   }
   part[0][3] = part[1][3] = part[2][3] = part[3][3] = 0.5f * (in + out);
 }

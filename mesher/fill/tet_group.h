@@ -15,11 +15,11 @@ extern "C" {
 
 enum { CW_TET_GROUP = 8 };
 
-// A list of tetrahedra of the mesh ends with a group's worth of room, filled with any of them; of those ahead of the
-// ones that are reckoned with the memory is asked. `place` and `sum` are by point, with 0 as the fourth coordinate of a
+// A list of tetrahedra of the mesh ends with a group's worth of room, filled with any of them; those that come later are
+// prefetched. `place` and `sum` are by point, with 0 as the fourth coordinate of a
 // place. Sums are in the order of the list and the same to the bit on any processor.
 
-// Adds to the sums of each corner the weighted way, in x, y, z, to where its tetrahedra want it, and the weight.
+// Adds to the sums of each corner the weighted displacement, in x, y, z, to where its tetrahedra want it, and the weight.
 // A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the cube of
 // its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing
 // for flat ones, whose spheres are anywhere.

@@ -16,7 +16,7 @@ typedef struct {
 } Cleared;
 
 // Of the faces that a cavity was grown over the best quality, and of those that it was not the least: for all
-// thresholds from the first up to below the second it grows the same way.
+// thresholds from the first up to below the second it grows alike.
 typedef struct {
   double crossed, kept;
 } Grown;

@@ -37,7 +37,7 @@ static void find_moving(CwTetMesh *mesh, const uint8_t *moved, uint8_t which, Mo
 typedef void Add(const CwTetMesh *mesh, const int32_t *list, int32_t count, const Cw4f *place, Cw4f *sum);
 
 // Moves such points at once towards the weighted mean of the places that their tetrahedra want them at, by `share` of
-// the way.
+// the distance.
 static void move_all(CwTetWork *w, CwTetShapes *shapes, const Moving *moving, Add *add, float share,
                      const uint8_t *moved, uint8_t which, Cw4f *sum) {
   memset(sum, 0, (size_t)w->mesh->point_count * sizeof *sum);
@@ -89,7 +89,7 @@ done:
 }
 
 // Moves such points down the gradient of their aspects by ever shorter steps, of which the first goes `share` of the
-// way; returns the share that comes next.
+// distance; returns the share that comes next.
 static float even_edges(CwTetWork *w, CwTetShapes *shapes, const Moving *moving, int steps, float share,
                         const uint8_t *moved, uint8_t which, Cw4f *sum) {
   for (int k = 0; k < steps; k++, share *= (float)cw_fill_policy.pull_decay)
