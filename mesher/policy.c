@@ -13,13 +13,13 @@ CwFillPolicy cw_fill_policy = {CW_FILL_POLICY(CW_POLICY_VALUE)};
 #endif
 
 typedef struct {
-  const char *name, *unit, *meaning;
+  const char *name;
   size_t offset;
   int is_double; // else int32_t
 } Number;
 
 #define IS_DOUBLE(type) _Generic((type)0, double : 1, int32_t : 0)
-#define NUMBER(type, name, value, unit, meaning) {#name, unit, meaning, offsetof(CwFillPolicy, name), IS_DOUBLE(type)},
+#define NUMBER(type, name, value, unit, meaning) {#name, offsetof(CwFillPolicy, name), IS_DOUBLE(type)},
 static const Number number[] = {CW_FILL_POLICY(NUMBER)};
 enum { NUMBERS = sizeof number / sizeof *number };
 
@@ -52,20 +52,6 @@ CwStatus cw_policy_read(FILE *file, const char *path, CwFillPolicy *policy) {
   }
 done:
   return status;
-}
-
-void cw_policy_print(FILE *file, const CwFillPolicy *policy) {
-  for (int k = 0; k < NUMBERS; k++) {
-    double value;
-    int32_t whole;
-    const char *field = (const char *)policy + number[k].offset;
-    memcpy(&whole, field, sizeof whole);
-    if (number[k].is_double)
-      memcpy(&value, field, sizeof value);
-    else
-      value = whole;
-    fprintf(file, "%s\t%.17g\t%s\t%s\n", number[k].name, value, number[k].unit, number[k].meaning);
-  }
 }
 
 CwStatus cw_policy_start(void) {

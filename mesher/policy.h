@@ -38,9 +38,6 @@ CwStatus cw_policy_start(void);
 // Changes numbers by the lines of an open file; `path` is for messages.
 CwStatus cw_policy_read(FILE *file, const char *path, CwFillPolicy *policy);
 
-// All numbers as a table: name, value, unit, meaning, apart by tabs.
-void cw_policy_print(FILE *file, const CwFillPolicy *policy);
-
 #ifdef __cplusplus
 }
 #endif

@@ -51,12 +51,12 @@
   X(double, pull_decay, 0.7, "1", "of each step over the one before")                                                  \
   X(int32_t, interface_weight, 2, "1", "of tetrahedra beside partition planes, whose triangles both sides share")      \
   X(double, pull_needed, 0.5, "edge", "where a second time pays")                                                      \
-  X(int32_t, steps_needed, 1, "1", "")                                                                                 \
+  X(int32_t, steps_needed, 1, "1", "towards even edges there")                                                         \
   X(int32_t, steps_crowded, 3, "1", "in crowded regions")                                                              \
   X(double, pull_only, 0.14, "edge", "where it does not pay")                                                          \
   X(int32_t, steps_beside, 3, "1", "and further ones beside partition planes")                                         \
   X(double, pull_last, 0.22, "edge", "the second time")                                                                \
-  X(int32_t, steps_last, 5, "1", "")                                                                                   \
+  X(int32_t, steps_last, 5, "1", "towards even edges then")                                                            \
   X(int32_t, steps_last_crowded, 4, "1", "in crowded regions")                                                         \
   X(int32_t, steps_last_beside, 2, "1", "and further ones beside partition planes")
 

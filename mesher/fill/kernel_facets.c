@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesher/common/mix.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/tet.h"
 
@@ -11,15 +12,13 @@ enum { EMPTY = -1 };                                             // place of a t
 enum { THREE = 1 << 7 | 1 << 11 | 1 << 13 | 1 << 14 | 1 << 15 }; // bit k: k has three bits or four
 
 static uint32_t scatter(uint64_t z) {
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebull;
-  return (uint32_t)(z >> 32);
+  return (uint32_t)(cw_mix(z) >> 32);
 }
 
 // Sum and product are the same in any order.
 static uint32_t scatter_three(const int32_t p[3]) {
   uint64_t a = (uint64_t)p[0], b = (uint64_t)p[1], c = (uint64_t)p[2];
-  return scatter((a + b + c) * 0x9e3779b97f4a7c15ull + (a + 1) * (b + 1) * (c + 1));
+  return scatter((a + b + c) * CW_MIX_STEP + (a + 1) * (b + 1) * (c + 1));
 }
 
 static int same_points(const int32_t p[3], const int32_t q[3]) {
