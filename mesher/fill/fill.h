@@ -22,6 +22,7 @@ typedef struct {
   double reach;
 } CwFillSlab;
 
+// All that the steps of a fill read, given once; 17 fields, of which those from offset_count on may be left 0.
 typedef struct {
   int32_t point_count;
   const double (*x)[3];

@@ -35,27 +35,34 @@ typedef struct {
   int clear; // none is in it
 } Reached;
 
-// Items: the triangles of the boundary, then the candidates of offset points.
+// The triangles of the boundary, then the candidates of offset points.
+typedef struct {
+  Box *reach;        // of each; of offset points, once the octree is cut, of those that are chosen
+  Box *own;          // of each, without the distance that it keeps
+  CwReachBall *ball; // of each triangle
+  CwOffsetPoint *offset;
+  int32_t *offset_cell; // that each candidate lies in, or -1
+  uint8_t *chosen;      // of each candidate
+  int32_t *near;        // items whose boxes hold a point
+} Items;
+
+typedef struct {
+  int32_t *item;
+  int64_t count, space;
+} List;
+
 typedef struct {
   const CwFillInput *input;
   CwColumns *columns;
-  Box *reach;        // of each item; of offset points, once the octree is cut, of those that are chosen
-  Box *own;          // of each item, without the distance that it keeps
-  CwReachBall *ball; // of each triangle
-  CwOffsetPoint *offset;
-  int32_t *offset_cell; // that each place lies in, or -1
-  uint8_t *chosen;      // of each place
+  Items items;
   CwLatticeFrame frame;
   double per_unit;  // 1 / frame.unit
   double clearance; // factor on the distances to the boundary
   CwLatticeCell *cell;
   Reached *reached; // of each cell
   int32_t cell_count, cell_space, reached_space;
-  int32_t *list; // of cells
-  int64_t list_count, list_space;
-  int32_t *open; // lists of cells that are still being cut, each after that of the cell that it came from
-  int64_t open_count, open_space;
-  int32_t *near; // items whose boxes hold a point
+  List list; // of cells
+  List open; // of cells that are still being cut, each after that of the cell that it came from
   uint8_t children[64];
 } Tree;
 
@@ -79,7 +86,7 @@ static Box pack_box(const Tree *tree, const CwReachBox *box) {
 }
 
 static Box reach_of_offset(const Tree *tree, int32_t p) {
-  const CwOffsetPoint *place = &tree->offset[p];
+  const CwOffsetPoint *place = &tree->items.offset[p];
   CwReachBox box =
       cw_reach_box(place->x, fmax(cw_fill_policy.offset_apart, cw_fill_policy.offset_clear) * place->spacing);
   return pack_box(tree, &box);
@@ -106,7 +113,7 @@ static CwStatus reach_of(Tree *tree, int32_t t, CwReachBox *box, double *area, d
   double u[3], v[3], normal[3], mean[3], h;
   for (int i = 0; i < 3; i++) mean[i] = (a[i] + b[i] + c[i]) / 3.0;
   CW_TRY(cw_lattice_size(input, mean, &h));
-  cw_reach_of_triangle(a, b, c, 1.5 * h, tree->clearance, box, &tree->ball[t]);
+  cw_reach_of_triangle(a, b, c, 1.5 * h, tree->clearance, box, &tree->items.ball[t]);
   cw_sub(b, a, u);
   cw_sub(c, a, v);
   cw_cross(u, v, normal);
@@ -123,12 +130,12 @@ static double distance_square(const double a[3], const double b[3]) {
   return cw_dot(d, d);
 }
 
-// Of these items those whose boxes hold a place, into tree->near.
+// Of these items those whose boxes hold a place, into tree->items.near.
 static int32_t find_near(const Tree *tree, const int32_t *list, int32_t count, uint64_t place) {
   int32_t near = 0;
   for (int32_t k = 0; k < count; k++) {
-    tree->near[near] = list[k];
-    near += (int32_t)cw_branchless(holds(&tree->reach[list[k]], place));
+    tree->items.near[near] = list[k];
+    near += (int32_t)cw_branchless(holds(&tree->items.reach[list[k]], place));
   }
   return near;
 }
@@ -137,25 +144,25 @@ static int32_t find_near(const Tree *tree, const int32_t *list, int32_t count, u
 // little time, then spheres, and at last distances.
 static int is_forbidden(const Tree *tree, const Reached *reached, const double x[3], int is_offset) {
   const CwFillInput *input = tree->input;
-  const int32_t *list = tree->list + reached->list;
+  const int32_t *list = tree->list.item + reached->list;
   uint64_t place = pack(tree, x[0], x[1], x[2]);
   double apart = is_offset ? cw_fill_policy.offset_apart : cw_fill_policy.offset_clear;
   int32_t near = find_near(tree, list + reached->triangles, reached->count - reached->triangles, place);
   for (int32_t k = 0; k < near; k++) {
-    const CwOffsetPoint *point = &tree->offset[tree->near[k] - input->triangle_count];
+    const CwOffsetPoint *point = &tree->items.offset[tree->items.near[k] - input->triangle_count];
     double nearest = apart * point->spacing;
     if (distance_square(x, point->x) < nearest * nearest) return 1;
   }
   near = find_near(tree, list, reached->triangles, place);
   int32_t first_open = input->triangle_count - input->open_count;
-  for (int32_t k = 0; k < near && (is_offset || tree->near[k] < first_open); k++) {
-    double share = is_offset && tree->near[k] < first_open ? cw_fill_policy.offset_ball : 1.0;
-    if (cw_reach_in_ball(&tree->ball[tree->near[k]], share, x)) return 1;
+  for (int32_t k = 0; k < near && (is_offset || tree->items.near[k] < first_open); k++) {
+    double share = is_offset && tree->items.near[k] < first_open ? cw_fill_policy.offset_ball : 1.0;
+    if (cw_reach_in_ball(&tree->items.ball[tree->items.near[k]], share, x)) return 1;
   }
   double h = near ? tree->clearance * size_at(input, x) : 0.0;
   for (int32_t k = 0; k < near; k++) {
-    const int32_t *q = input->triangle[tree->near[k]];
-    const CwReachBall *ball = &tree->ball[tree->near[k]];
+    const int32_t *q = input->triangle[tree->items.near[k]];
+    const CwReachBall *ball = &tree->items.ball[tree->items.near[k]];
     if (cw_reach_is_near(input->x[q[0]], input->x[q[1]], input->x[q[2]], ball, h, tree->clearance, x)) return 1;
   }
   return 0;
@@ -185,7 +192,7 @@ static void child_of(const int32_t at[3], int level, int child, int32_t corner[3
 static int is_clear(const Tree *tree, const int32_t at[3], int level, const int32_t *list, int32_t list_count) {
   uint64_t low = pack_cell(at, 0), high = pack_cell(at, 1 << level);
   for (int32_t k = 0; k < list_count; k++) {
-    const Box *own = &tree->own[list[k]];
+    const Box *own = &tree->items.own[list[k]];
     if ((at_most(own->low, high) & at_most(low, own->high)) == GUARDS) return 0;
   }
   return 1;
@@ -210,13 +217,13 @@ static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t 
   CwStatus status = CW_OK;
   uint64_t middle = pack_cell(at, 1 << (level - 1)), before = middle - UNITS;
   int32_t *to[8];
-  *first = tree->open_count;
-  CW_GROW(tree->open, tree->open_space, tree->open_count + 8 * (int64_t)list_count + 1);
-  tree->open_count += 8 * (int64_t)list_count;
-  for (int c = 0; c < 8; c++) to[c] = tree->open + *first + (int64_t)c * list_count;
+  *first = tree->open.count;
+  CW_GROW(tree->open.item, tree->open.space, tree->open.count + 8 * (int64_t)list_count + 1);
+  tree->open.count += 8 * (int64_t)list_count;
+  for (int c = 0; c < 8; c++) to[c] = tree->open.item + *first + (int64_t)c * list_count;
   for (int32_t k = 0; k < list_count; k++) {
-    int32_t item = tree->open[list + k];
-    const Box *reach = &tree->reach[item];
+    int32_t item = tree->open.item[list + k];
+    const Box *reach = &tree->items.reach[item];
     uint64_t sides = at_most(reach->low, middle) >> 20 | at_most(before, reach->high) >> 17;
     unsigned children = tree->children[(sides | sides >> 20 | sides >> 40) & 63];
     for (int c = 0; c < 8; c++) {
@@ -224,7 +231,7 @@ static CwStatus divide_list(Tree *tree, const int32_t at[3], int level, int64_t 
       to[c] += children >> c & 1;
     }
   }
-  for (int c = 0; c < 8; c++) child_count[c] = (int32_t)(to[c] - (tree->open + *first + (int64_t)c * list_count));
+  for (int c = 0; c < 8; c++) child_count[c] = (int32_t)(to[c] - (tree->open.item + *first + (int64_t)c * list_count));
 done:
   return status;
 }
@@ -232,20 +239,20 @@ done:
 // A cell that is not cut by the boundary any more.
 static CwStatus add_cell(Tree *tree, const int32_t at[3], int level, int64_t list, int32_t list_count, int inside) {
   CwStatus status = CW_OK;
-  int clear = is_clear(tree, at, level, tree->open + list, list_count);
+  int clear = is_clear(tree, at, level, tree->open.item + list, list_count);
   CW_GROW(tree->cell, tree->cell_space, tree->cell_count + 1);
   CW_GROW(tree->reached, tree->reached_space, tree->cell_count + 1);
-  CW_GROW(tree->list, tree->list_space, tree->list_count + list_count);
-  int32_t *its = tree->list + tree->list_count, triangles = list_count, first = tree->input->triangle_count;
-  if (list_count) memcpy(its, tree->open + list, (size_t)list_count * sizeof *its);
+  CW_GROW(tree->list.item, tree->list.space, tree->list.count + list_count);
+  int32_t *its = tree->list.item + tree->list.count, triangles = list_count, first = tree->input->triangle_count;
+  if (list_count) memcpy(its, tree->open.item + list, (size_t)list_count * sizeof *its);
   const Box box = {pack_cell(at, 0), pack_cell(at, (1 << level) - 1)};
   for (; triangles > 0 && its[triangles - 1] >= first; triangles--) { // offset points come last
     int32_t item = its[triangles - 1];
-    if (holds(&box, tree->own[item].low)) tree->offset_cell[item - first] = tree->cell_count;
+    if (holds(&box, tree->items.own[item].low)) tree->items.offset_cell[item - first] = tree->cell_count;
   }
-  tree->reached[tree->cell_count] = (Reached){triangles, list_count, tree->list_count, list_count == 0, clear};
+  tree->reached[tree->cell_count] = (Reached){triangles, list_count, tree->list.count, list_count == 0, clear};
   tree->cell[tree->cell_count++] = (CwLatticeCell){{at[0], at[1], at[2]}, level, inside};
-  tree->list_count += list_count;
+  tree->list.count += list_count;
 done:
   return status;
 }
@@ -270,7 +277,7 @@ static CwStatus cut_coarse(Tree *tree, const int32_t at[3], int level, int64_t l
     child_of(at, level, child, corner);
     CW_TRY(cut_coarse(tree, corner, level - 1, first + (int64_t)child * list_count, child_count[child]));
   }
-  tree->open_count = first;
+  tree->open.count = first;
 done:
   return status;
 }
@@ -279,30 +286,31 @@ done:
 static void shorten_lists(Tree *tree) {
   for (int32_t c = 0; c < tree->cell_count; c++) {
     Reached *reached = &tree->reached[c];
-    int32_t *list = tree->list + reached->list, count = reached->triangles;
+    int32_t *list = tree->list.item + reached->list, count = reached->triangles;
     for (int32_t k = count; k < reached->count; k++) {
       list[count] = list[k];
-      count += tree->chosen[list[k] - tree->input->triangle_count];
+      count += tree->items.chosen[list[k] - tree->input->triangle_count];
     }
     reached->count = count;
   }
 }
 
-// Of the candidates of offset points, one after the other, those that are inside and that neither the boundary nor those chosen
-// before forbid.
+// Of the candidates of offset points, one after the other, those that are inside and that neither the boundary nor
+// those chosen before forbid.
 static CwStatus choose_offsets(Tree *tree, int32_t *chosen) {
   CwStatus status = CW_OK;
-  Box *reach = tree->reach + tree->input->triangle_count;
+  Box *reach = tree->items.reach + tree->input->triangle_count;
   *chosen = 0;
   for (int32_t p = 0; p < tree->input->offset_count; p++) reach[p] = nowhere;
   for (int32_t p = 0; p < tree->input->offset_count; p++) {
-    const double *x = tree->offset[p].x;
+    const double *x = tree->items.offset[p].x;
     int inside;
-    if (tree->offset_cell[p] < 0 || is_forbidden(tree, &tree->reached[tree->offset_cell[p]], x, 1)) continue;
+    if (tree->items.offset_cell[p] < 0 || is_forbidden(tree, &tree->reached[tree->items.offset_cell[p]], x, 1))
+      continue;
     CW_TRY(test_inside(tree, x, &inside));
     if (!inside) continue;
     reach[p] = reach_of_offset(tree, p);
-    tree->chosen[p] = 1;
+    tree->items.chosen[p] = 1;
     ++*chosen;
   }
   shorten_lists(tree);
@@ -352,9 +360,9 @@ static CwStatus collect(Tree *tree, int64_t place_count, const CwRadix *places, 
     memcpy(points[kept++], p, sizeof p);
   }
   for (int32_t p = 0; p < tree->input->offset_count; p++) {
-    if (!tree->chosen[p] || !is_asked(tree->input, tree->offset[p].x)) continue;
+    if (!tree->items.chosen[p] || !is_asked(tree->input, tree->items.offset[p].x)) continue;
     if (site) sites[kept] = (CwLatticeSite){CW_LATTICE_NO_PLACE + (uint64_t)p, 0, 0};
-    memcpy(points[kept++], tree->offset[p].x, sizeof *points);
+    memcpy(points[kept++], tree->items.offset[p].x, sizeof *points);
   }
   *count = kept;
   *x = points;
@@ -374,14 +382,14 @@ static void name_boxes(Tree *tree, const CwReachBox *reach) {
     const int32_t *q = input->triangle[t];
     CwBox own = cw_box_of_triangle(input->x[q[0]], input->x[q[1]], input->x[q[2]]);
     const double *low = own.low, *high = own.high;
-    tree->reach[t] = pack_box(tree, &reach[t]);
-    tree->own[t] = (Box){pack(tree, low[0], low[1], low[2]), pack(tree, high[0], high[1], high[2])};
+    tree->items.reach[t] = pack_box(tree, &reach[t]);
+    tree->items.own[t] = (Box){pack(tree, low[0], low[1], low[2]), pack(tree, high[0], high[1], high[2])};
   }
   for (int32_t p = 0; p < input->offset_count; p++) {
-    const double *x = tree->offset[p].x;
+    const double *x = tree->items.offset[p].x;
     uint64_t own = pack(tree, x[0], x[1], x[2]);
-    tree->reach[input->triangle_count + p] = reach_of_offset(tree, p);
-    tree->own[input->triangle_count + p] = (Box){own, own};
+    tree->items.reach[input->triangle_count + p] = reach_of_offset(tree, p);
+    tree->items.own[input->triangle_count + p] = (Box){own, own};
   }
   name_children(tree->children);
 }
@@ -402,18 +410,18 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   CW_TRY(cw_columns_make(input, &tree->columns));
   int32_t items = input->triangle_count + input->offset_count;
   CW_NEW_UNSET(box, input->triangle_count);
-  CW_NEW_UNSET(tree->reach, items);
-  CW_NEW_UNSET(tree->own, items);
-  CW_NEW_UNSET(tree->ball, input->triangle_count);
-  CW_NEW_UNSET(tree->offset_cell, input->offset_count);
-  memset(tree->offset_cell, -1, (size_t)input->offset_count * sizeof *tree->offset_cell);
-  CW_NEW(tree->chosen, input->offset_count);
-  CW_NEW_UNSET(tree->near, items);
+  CW_NEW_UNSET(tree->items.reach, items);
+  CW_NEW_UNSET(tree->items.own, items);
+  CW_NEW_UNSET(tree->items.ball, input->triangle_count);
+  CW_NEW_UNSET(tree->items.offset_cell, input->offset_count);
+  memset(tree->items.offset_cell, -1, (size_t)input->offset_count * sizeof *tree->items.offset_cell);
+  CW_NEW(tree->items.chosen, input->offset_count);
+  CW_NEW_UNSET(tree->items.near, items);
   for (int32_t t = 0; t < input->triangle_count; t++) {
     CW_TRY(reach_of(tree, t, &box[t], &area, &weight));
     for (int k = 0; k < 3; k++) cw_box_add_point(&within, input->x[input->triangle[t][k]]);
   }
-  CW_TRY(cw_offset_points(input, &tree->offset));
+  CW_TRY(cw_offset_points(input, &tree->items.offset));
   double extent = cw_box_longest(&within);
   // The mean size of the boundary is a cell size exactly, so that a uniform field is met exactly.
   double edge = CW_LATTICE_CONSTANT * exp(weight / area);
@@ -429,24 +437,24 @@ CwStatus cw_fill_points(const CwFillInput *input, double clearance, int32_t *cou
   }
   tree->per_unit = 1.0 / tree->frame.unit;
   name_boxes(tree, box);
-  CW_GROW(tree->open, tree->open_space, items);
-  for (; tree->open_count < items; tree->open_count++) tree->open[tree->open_count] = (int32_t)tree->open_count;
+  CW_GROW(tree->open.item, tree->open.space, items);
+  for (; tree->open.count < items; tree->open.count++) tree->open.item[tree->open.count] = (int32_t)tree->open.count;
   CW_TRY(cut_coarse(tree, (int32_t[3]){0, 0, 0}, above + below, 0, items));
   CW_TRY(cw_lattice_places(input, &tree->frame, tree->cell_count, tree->cell, &places, &place));
   CW_TRY(collect(tree, places, place, count, x, site));
 done:
   free(box);
-  free(tree->reach);
-  free(tree->own);
-  free(tree->ball);
-  free(tree->offset);
-  free(tree->offset_cell);
-  free(tree->chosen);
+  free(tree->items.reach);
+  free(tree->items.own);
+  free(tree->items.ball);
+  free(tree->items.offset);
+  free(tree->items.offset_cell);
+  free(tree->items.chosen);
   free(tree->cell);
   free(tree->reached);
-  free(tree->list);
-  free(tree->near);
-  free(tree->open);
+  free(tree->list.item);
+  free(tree->items.near);
+  free(tree->open.item);
   free(place);
   cw_columns_free(&tree->columns);
   return status;
