@@ -310,7 +310,7 @@ static void size_field_with_a_hole_is_an_error(void **state) {
   input.size = size_with_a_hole;
   input.size_context = &size;
   assert_int_equal(cw_tetgen_fill(&input, &fill), CW_ERR_MESH);
-  assert_non_null(strstr(cw_fail_message(), "rotor region 3: the size field gives nan m at ("));
+  assert_non_null(strstr(cw_fail_message(), "rotor region 3: the size field gives nan mm at ("));
   surface_free(&s);
 }
 
