@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Interface polygons (paper, section 2.2): from the marked edges on a dividing plane to all simple loops, the minimal
+// Interface polygons (paper, section 2.2): from the marked edges on a partition plane to all simple loops, the minimal
 // polygon set, and the holes of each polygon.
 #ifndef CUTWATER_MESHER_COMMON_POLYGONS_H
 #define CUTWATER_MESHER_COMMON_POLYGONS_H
@@ -23,7 +23,7 @@ typedef struct {
 } CwPolygons;
 
 // The bounded faces of the graph whose inner points count as inside: a point is inside when a ray from it crosses an
-// odd number of edges with `boundary` set (walls and caps); the other edges (lines of other dividing planes) only
+// odd number of edges with `boundary` set (walls and caps); the other edges (lines of other partition planes) only
 // divide. Edges cross nowhere but at their ends. Fails with CW_ERR_MESH and the place (coordinates of the open end)
 // where a boundary edge chain does not close.
 CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t edge_count, const int32_t (*edge)[2],

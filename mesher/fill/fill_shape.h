@@ -19,7 +19,7 @@ CwStatus cw_fill_check_closed(const CwFillInput *input);
 // face.
 CwStatus cw_fill_keep_inside(const CwFillInput *input, CwFill *fill);
 
-// Of the first `count` points of a mesh, those of the boundary before others: 1 where it lies on a dividing plane.
+// Of the first `count` points of a mesh, those of the boundary before others: 1 where it lies on a partition plane.
 // Caller frees *on_plane.
 CwStatus cw_fill_on_planes(const CwFillInput *input, int32_t count, uint8_t **on_plane);
 

@@ -11,8 +11,18 @@
 // Flips that only prepare others, before the other end is tried; tries of an edge.
 enum { HOLD = 16, TRIES = 8 };
 
-typedef CwRecoveryGoal Goal;
-typedef CwRecovery Recovery;
+// What is to be recovered: the edge of the first two points, or the face of all three.
+typedef struct {
+  const CwTetMesh *mesh;
+  int32_t point[3];
+} Goal;
+
+typedef struct {
+  CwFlips flips;
+  const CwFacets *facets;
+  Goal goal;
+  uint32_t random;
+} Recovery;
 
 static int side(const CwTetMesh *mesh, int32_t a, int32_t b, int32_t c, int32_t d) {
   const CwTetPoint *p = mesh->point;
@@ -142,13 +152,13 @@ done:
 }
 
 // From both ends in turn; deeper searches only where simple flips are stuck.
-CwStatus cw_recovery_edge(CwRecovery *r, int32_t a, int32_t b, int tries, int *found) {
+static CwStatus recover_edge(Recovery *r, int32_t a, int32_t b, int *found) {
   CwStatus status = CW_OK;
   r->goal.point[0] = a;
   r->goal.point[1] = b;
   r->flips.crossing = face_crosses_edge;
   r->flips.slack = 0;
-  for (int stuck = 0; stuck < tries; stuck++) {
+  for (int stuck = 0; stuck < TRIES; stuck++) {
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
       CW_TRY(clear_towards(r, stuck % 2 ? b : a, stuck % 2 ? a : b, stuck / 2, found, &moved));
       if (*found) goto done;
@@ -159,14 +169,14 @@ done:
 }
 
 // The face, once its edges are there: takes away the edges through it, seen from each of its own edges.
-CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int *found) {
+static CwStatus recover_face(Recovery *r, const int32_t corner[3], int *found) {
   CwStatus status = CW_OK;
   CwFlips *flips = &r->flips;
   memcpy(r->goal.point, corner, sizeof r->goal.point);
   flips->crossing = edge_crosses_face;
   flips->slack = 0;
   *found = 0;
-  for (int stuck = 0; stuck < tries; stuck++) {
+  for (int stuck = 0; stuck < TRIES; stuck++) {
     int32_t a = corner[stuck % 3], b = corner[(stuck + 1) % 3], c = corner[(stuck + 2) % 3], t;
     int32_t tet[CW_RING], ring[CW_RING];
     for (int held = 0, moved = 1; held < HOLD && moved; held += moved == 1) {
@@ -183,19 +193,6 @@ CwStatus cw_recovery_face(CwRecovery *r, const int32_t corner[3], int tries, int
   }
 done:
   return status;
-}
-
-CwStatus cw_recovery_make(CwTetMesh *mesh, const CwFacets *facets, uint32_t seed, CwRecovery *recovery) {
-  CwStatus status = CW_OK;
-  *recovery = (CwRecovery){.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + seed};
-  CW_TRY(cw_flips_make(mesh, &recovery->flips));
-  recovery->flips.context = &recovery->goal;
-done:
-  return status;
-}
-
-void cw_recovery_free(CwRecovery *recovery) {
-  cw_flips_free(&recovery->flips);
 }
 
 // Whether face i of a tetrahedron is the facet, seen from inside.
@@ -232,19 +229,20 @@ done:
 
 CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t *flips) {
   CwStatus status = CW_OK;
-  CwRecovery r;
+  Recovery r = {.facets = facets, .goal = {.mesh = mesh}, .random = 20240611u + (uint32_t)round};
   int lost_edges = 0, lost_faces = 0, found;
-  CW_TRY(cw_recovery_make(mesh, facets, (uint32_t)round, &r));
+  CW_TRY(cw_flips_make(mesh, &r.flips));
+  r.flips.context = &r.goal;
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0) continue;
     for (int k = 0; k < 3; k++) {
-      CW_TRY(cw_recovery_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], TRIES, &found));
+      CW_TRY(recover_edge(&r, facets->corner[f][k], facets->corner[f][(k + 1) % 3], &found));
       lost_edges += !found;
     }
   }
   for (int32_t f = 0; f < facets->count; f++) {
     if (facets->inner[f] >= 0) continue;
-    CW_TRY(cw_recovery_face(&r, facets->corner[f], TRIES, &found));
+    CW_TRY(recover_face(&r, facets->corner[f], &found));
     lost_faces += !found;
   }
   *flips += r.flips.done;
@@ -252,6 +250,6 @@ CwStatus cw_kernel_recover(CwTetMesh *mesh, CwFacets *facets, int round, int64_t
                (long long)r.flips.done, lost_edges, lost_faces);
   CW_TRY(locate_again(&r.flips, facets));
 done:
-  cw_recovery_free(&r);
+  cw_flips_free(&r.flips);
   return status;
 }

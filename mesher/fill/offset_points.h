@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Offset points: the first layer of inner points over triangles of a region's boundary (layer top, non-wall patches, both
-// sides of interfaces).
+// Offset points: the first layer of inner points over triangles of a region's boundary (layer top, non-wall patches,
+// both sides of interfaces).
 // Lattice points that are merely kept at a distance stand at any height between half a length and more than one over
 // them; offset points stand where well shaped tetrahedra on the triangles have their fourth corners, one for about two
 // triangles, as each plane of a close packing does over the one below.

@@ -92,7 +92,8 @@ CwStatus cw_tet_collapse(CwTetWork *w, const CwTetShapes *shapes) {
   }
   for (int32_t p = 0; p < w->mesh->point_count; p++) {
     if (shortest[p].count < cw_fill_policy.collapse_slender || w->mesh->source[p] < w->fixed_count) continue;
-    if (has_edge(w, shortest[p].tet, p, shortest[p].to)) CW_TRY(collapse(w, shapes->floor, shortest[p].tet, p, shortest[p].to));
+    if (has_edge(w, shortest[p].tet, p, shortest[p].to))
+      CW_TRY(collapse(w, shapes->floor, shortest[p].tet, p, shortest[p].to));
   }
 done:
   free(shortest);

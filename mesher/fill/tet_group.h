@@ -15,14 +15,14 @@ extern "C" {
 
 enum { CW_TET_GROUP = 8 };
 
-// A list of tetrahedra of the mesh ends with a group's worth of room, filled with any of them; those that come later are
-// prefetched. `place` and `sum` are by point, with 0 as the fourth coordinate of a
-// place. Sums are in the order of the list and the same to the bit on any processor.
+// A list of tetrahedra of the mesh ends with a group's worth of room, filled with any of them; those that come later
+// are prefetched. `place` and `sum` are by point, with 0 as the fourth coordinate of a place. Sums are in the order of
+// the list and the same to the bit on any processor.
 
-// Adds to the sums of each corner the weighted displacement, in x, y, z, to where its tetrahedra want it, and the weight.
-// A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the cube of
-// its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient; nothing
-// for flat ones, whose spheres are anywhere.
+// Adds to the sums of each corner the weighted displacement, in x, y, z, to where its tetrahedra want it, and the
+// weight. A tetrahedron wants its points at the centre of its circumscribed sphere. Its weight is its volume over the
+// cube of its mean edge: equal for all that are well shaped, large or small, so that the spacing keeps its gradient;
+// nothing for flat ones, whose spheres are anywhere.
 void cw_tet_add_centres(const CwTetMesh *mesh, const int32_t *list, int32_t count, const Cw4f *place, Cw4f *sum);
 // A tetrahedron wants the ends of its longest edge nearer to one another, and those of its shortest edge farther apart:
 // down the gradient of their ratio, so that slender ones count for more. Its own weight counts, too.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A new point in the place of a tetrahedron and of its neighbours that are no better (B. Klingner and J. Shewchuk, Aggressive
-// tetrahedral mesh improvement, 2007).
+// A new point in the place of a tetrahedron and of its neighbours that are no better (B. Klingner and J. Shewchuk,
+// Aggressive tetrahedral mesh improvement, 2007).
 #ifndef CUTWATER_MESHER_FILL_TET_INSERT_H
 #define CUTWATER_MESHER_FILL_TET_INSERT_H
 

@@ -97,7 +97,7 @@ static float even_edges(CwTetWork *w, CwTetShapes *shapes, const Moving *moving,
   return share;
 }
 
-// Further steps of the points beside dividing planes alone: there triangles that both sides share hold tetrahedra more
+// Further steps of the points beside partition planes alone: there triangles that both sides share hold tetrahedra more
 // than elsewhere.
 static void even_beside_planes(CwTetWork *w, CwTetShapes *shapes, Moving *moving, int steps, float share,
                                uint8_t *moved, Cw4f *sum) {

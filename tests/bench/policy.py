@@ -39,6 +39,11 @@ def mesh(options, folder, change=None):
     return aspect, min(domain["least_dihedral_deg"] for domain in domains), tets, run.processor
 
 
+def difference(usual, got):
+    return (f"aspect {got[0] - usual[0]:+.4f}, {got[1] - usual[1]:+.2f} degrees, "
+            f"{100 * (got[2] / usual[2] - 1):+.2f} % tetrahedra, {100 * (got[3] / usual[3] - 1):+.1f} % time")
+
+
 def main():
     parser = programs.options_of(__doc__, "300k")
     parser.add_argument("--by", type=float, default=1.25)
@@ -58,12 +63,10 @@ def main():
             print(f"{name} = {value:g} ({unit}): {meaning}")
             for other in (value / options.by, value * options.by):
                 if kind == "int32_t":
-                    other = max(1, round(other) if round(other) != value else value + (1 if other > value else -1))
+                    step = 1 if other > value else -1
+                    other = max(1, round(other) if round(other) != value else value + step)
                 got = mesh(options, folder, (name, other))
-                print(f"  {other:10.5g}  " + ("fails" if not got else
-                      f"aspect {got[0] - usual[0]:+.4f}, {got[1] - usual[1]:+.2f} degrees, "
-                      f"{100 * (got[2] / usual[2] - 1):+.2f} % tetrahedra, {100 * (got[3] / usual[3] - 1):+.1f} % time"),
-                      flush=True)
+                print(f"  {other:10.5g}  {difference(usual, got) if got else 'fails'}", flush=True)
 
 
 if __name__ == "__main__":
