@@ -234,7 +234,7 @@ CwStatus cw_polygons_find(int32_t point_count, const double (*point)[2], int32_t
   CwStatus status = CW_OK;
   Graph graph = {point_count, edge_count, point, edge, NULL, NULL, NULL};
   Loops loops = {0};
-  int32_t count;
+  int32_t count = 0;
   memset(polygons, 0, sizeof *polygons);
   CW_TRY(check_closed(&graph, boundary));
   CW_TRY(find_loops(&graph, &loops));
