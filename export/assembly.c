@@ -8,7 +8,7 @@
 #include "pipeline/log.h"
 #include "pipeline/mesh/cell.h"
 
-static const double ROUNDING = 1e-12; // m
+static const double ROUNDING = 1e-11; // of the greatest coordinate
 
 // A face on a dividing plane. `loop` are the shared numbers of its nodes in the order of cw_face_loop(), -1 at the end
 // of a triangle; `reversed` if the outward normal runs the other way.
@@ -225,12 +225,14 @@ static CwStatus settle_points(const CwRanks *ranks, CwAssembly *a, Collected *c)
     int count = (int)(3 * domain->shared_points);
     MPI_Allreduce(MPI_IN_PLACE, c->least[d], count, MPI_DOUBLE, MPI_MIN, ranks->comm);
     MPI_Allreduce(MPI_IN_PLACE, c->most[d], count, MPI_DOUBLE, MPI_MAX, ranks->comm);
+    double greatest = 0;
+    for (int i = 0; i < count; ++i) greatest = fmax(greatest, fmax(fabs(c->least[d][i]), fabs(c->most[d][i])));
     for (int64_t i = 0; i < count; ++i) {
       const double *x = c->least[d] + i / 3 * 3;
       CW_REQUIRE(isfinite(x[0]), CW_ERR_INPUT, "domain %s: shared point %lld is in no region", domain->name,
                  (long long)(i / 3));
       // Regions that are copies of one another, turned, differ by rounding: the least coordinates are taken.
-      CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING, CW_ERR_INPUT,
+      CW_REQUIRE(c->most[d][i] - c->least[d][i] <= ROUNDING * greatest, CW_ERR_INPUT,
                  "domain %s: shared point %lld near (%.6g, %.6g, %.6g) mm differs between regions by %.3g mm",
                  domain->name, (long long)(i / 3), 1e3 * x[0], 1e3 * x[1], 1e3 * x[2],
                  1e3 * (c->most[d][i] - c->least[d][i]));
