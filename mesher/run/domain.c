@@ -318,7 +318,8 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
     thickness[p] = domain->patch_layers[p].thickness;
     least[p] = cw_column_height_least(domain->patch_layers[p].first_height, table->walls.layer_count);
   }
-  CwPlanOptions options = {.region_count = (int32_t)regions + domain->more_regions,
+  CwPlanOptions options = {.region_count =
+                               domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + domain->more_regions,
                            .thickness = thickness,
                            .least_thickness = least,
                            .tallest = CW_TALLEST_COLUMN,

@@ -40,7 +40,7 @@ typedef struct {
   CwLayerSample *layer_sample; // what the layers take of it
   int32_t layer_sample_count;
   double layer_share;   // of that, what graded columns take; known with the walls
-  int32_t more_regions; // than the number of cells asks for: plans given up
+  int32_t more_regions; // than the number of cells asks for: plans given up; CW_UNDIVIDED: one region
   CwPlan plan;
   CwSkeleton skeleton;
   CwColumnHeights heights;
@@ -49,6 +49,8 @@ typedef struct {
   int32_t pair_count, (*pair)[2]; // adjacent regions
   CwInterfaceRuleCounts rule;
 } CwDomain;
+
+enum { CW_UNDIVIDED = -1 };
 
 // Opens the exact geometry; then, once it has the unit of the model, notes what the case asks of its patches.
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir);

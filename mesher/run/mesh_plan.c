@@ -9,6 +9,7 @@
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/sides.h"
 #include "mesher/run/run_step.h"
+#include "pipeline/case_schema.h"
 #include "pipeline/log.h"
 
 enum { PLANS_MORE = 3 }; // of a domain that its plan does not fit
@@ -294,16 +295,28 @@ static void log_plan(const CwMeshRun *run, int d) {
          domain->plan.region_count, cw_predicted_cells(run, d), asin(worst) * 180 / M_PI);
 }
 
+// Whether a domain is small enough to be one region: as large as a case file may ask regions to be.
+static int fits_one_region(const CwMeshRun *run, int d) {
+  return cw_predicted_cells(run, d) <= cw_case_keys[cw_case_key_find("mesh", "cells_per_region")].most;
+}
+
 CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
   CwStatus status = CW_OK;
   CwDomain *domain = &run->domain[why->domain];
   char text[CW_OUTCOME_TEXT_SIZE];
   const char *reason = cw_outcome_text(why, text);
   if (domain->symmetry) return plan_whole(run, why->domain, reason);
-  CW_REQUIRE(domain->more_regions < PLANS_MORE, CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
-             PLANS_MORE);
-  cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
-  domain->more_regions++;
+  CW_REQUIRE(domain->more_regions != CW_UNDIVIDED, CW_ERR_MESH, "%s: %s; after %d other plans, undivided too",
+             domain->name, reason, PLANS_MORE);
+  if (domain->more_regions < PLANS_MORE) {
+    cw_log_warn("%s: %s; planned again with one region more", domain->name, reason);
+    domain->more_regions++;
+  } else {
+    CW_REQUIRE(fits_one_region(run, why->domain), CW_ERR_MESH, "%s: %s; after %d other plans", domain->name, reason,
+               PLANS_MORE);
+    cw_log_warn("%s: %s; meshed undivided after %d other plans", domain->name, reason, PLANS_MORE);
+    domain->more_regions = CW_UNDIVIDED;
+  }
   run->retries++;
   CW_TRY(plan_anew(run, why->domain));
   log_plan(run, why->domain);

@@ -18,7 +18,8 @@ CwStatus cw_mesh_plan_whole(CwMeshRun *run, const char *reason);
 
 // Another plan for the domain of an outcome. A domain with a symmetry gives it up. Any other, whose plan does not fit
 // (a plane grazes a wall, or leaves no room to layers), gets one region more, so that all planes lie elsewhere;
-// CW_ERR_MESH with the reason after three such plans.
+// after three such plans, where it is small enough to be one region, it is not divided at all; else, or where that was
+// so, CW_ERR_MESH with the reason.
 CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why);
 
 #endif

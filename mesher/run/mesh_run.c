@@ -352,7 +352,7 @@ done:
 
 // One pass at the present scale. Where equal passages do not come out equal, the impeller is meshed whole; a domain
 // with a plane that grazes a wall, or on which no column leaves one, gets other planes; surfaces and regions that fail
-// are tried again with thinner layers.
+// are tried again with thinner layers, and with other planes where these do not do.
 static CwStatus mesh_pass(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwThinPlaces places = {0};
@@ -362,11 +362,13 @@ static CwStatus mesh_pass(CwMeshRun *run) {
     CW_TRY(mesh_attempt(run, &places, &outcome));
     if (outcome.kind == CW_OUTCOME_DONE) break;
     if (outcome.kind == CW_OUTCOME_THIN) {
-      CW_TRY(cw_thin(run, &places, attempt++));
-    } else {
-      cw_end_thinning(run); // the walls will be others
-      CW_TRY(cw_mesh_plan_again(run, &outcome));
+      outcome = (CwOutcome){0};
+      CW_TRY(cw_thin(run, &places, attempt++, &outcome));
+      if (outcome.kind == CW_OUTCOME_DONE) continue;
     }
+    attempt = 0;
+    cw_end_thinning(run); // the walls will be others
+    CW_TRY(cw_mesh_plan_again(run, &outcome));
   }
 done:
   cw_thin_places_free(&places);

@@ -9,7 +9,7 @@
 #include "mesher/common/model_unit.h"
 #include "pipeline/log.h"
 
-enum { ATTEMPTS = 3 };
+enum { ATTEMPTS = 3 };               // on one plan
 static const double FIRST_REACH = 4; // wanted lengths about a failure in which layers are thinned; doubled each time
 
 // Gives all turned copies of a column the least height of them.
@@ -54,7 +54,7 @@ done:
 CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = &run->domain[why->domain].skeleton;
-  CwRegionFailure failure = {.failed = 1, .patch = "dividing plane"};
+  CwRegionFailure failure = {.failed = 1, .patch = "inner surface"};
   snprintf(failure.message, sizeof failure.message, "%s", why->reason);
   for (int32_t i = 0; i < skeleton->tight_count; i++) {
     memcpy(failure.at, skeleton->tight[i], sizeof failure.at);
@@ -101,7 +101,7 @@ static int is_told(const CwThinPlaces *places, int32_t i) {
   return i == 0 || place->region >= 0 || place[-1].region >= 0 || place[-1].domain != place->domain;
 }
 
-CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt) {
+CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   char text[800], file[4200];
   for (int32_t i = 0; i < places->count; i++) {
@@ -109,7 +109,9 @@ CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt) {
     int d = place->domain;
     describe(run, place, sizeof text, text);
     describe_file(run, place, sizeof file, file);
-    CW_REQUIRE(attempt < ATTEMPTS, CW_ERR_MESH, "%s; after %d attempts with thinner layers%s", text, ATTEMPTS, file);
+    outcome->domain = d;
+    CW_END_UNLESS(attempt < ATTEMPTS, outcome, CW_OUTCOME_REPLAN, NULL, "%s; after %d attempts with thinner layers%s",
+                  text, ATTEMPTS, file);
     if (run->rank == 0 && is_told(places, i)) cw_log_warn("%s; tried again with thinner layers there", text);
     CW_TRY(start_thinning(run, d));
     cw_region_failure_thin(&run->domain[d].skeleton, place->region, &place->failure,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Thinner layers about the places where a pass has failed, for the next attempt. Each of three attempts reaches twice
-// as far as the one before; out of attempts the run fails with the first place.
+// Thinner layers about the places where a pass has failed, for the next attempt. Each of three attempts on a plan
+// reaches twice as far as the one before.
 #ifndef CUTWATER_MESHER_RUN_RUN_THINNING_H
 #define CUTWATER_MESHER_RUN_RUN_THINNING_H
 
@@ -23,8 +23,9 @@ void cw_thin_places_free(CwThinPlaces *places);
 CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, CwThinPlaces *places);
 CwStatus cw_thin_places_in_regions(const CwMeshRun *run, CwThinPlaces *places);
 
-// Lowers the columns about these places; attempt: from 0. CW_ERR_MESH where there were three.
-CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt);
+// Lowers the columns about these places; attempt: from 0. Outcome: CW_OUTCOME_REPLAN of the domain of the first place
+// where there were three.
+CwStatus cw_thin(CwMeshRun *run, const CwThinPlaces *places, int attempt, CwOutcome *outcome);
 
 // Forgets what columns were thinned to.
 void cw_end_thinning(CwMeshRun *run);

@@ -17,6 +17,9 @@ CwStatus cw_curve_divide(const CwSkeleton *skeleton, const CwCurve *curve, doubl
 CwStatus cw_skeleton_interface_outline(const CwSkeleton *skeleton, const CwInterfaceOutline *interface,
                                        const CwPlaneMap *map, CwPatchOutline *outline);
 
+// The outline of a cap in its (u,v): the marched rim, and free curves on it.
+CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline);
+
 CwStatus cw_skeleton_add_node(CwSkeleton *skeleton, const double x[3], int on_plane, int32_t *node);
 
 #endif

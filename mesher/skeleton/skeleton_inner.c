@@ -135,7 +135,7 @@ done:
   return status;
 }
 
-// The places where edges on a plane cross: layers of neighbouring walls reach over a line of two planes.
+// The places where edges on a plane or a cap cross: layers reach over a line of two planes, or over a cut.
 static CwStatus find_crossings(CwSkeleton *skeleton, const CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   int32_t count, (*crossing)[4] = NULL;
@@ -178,6 +178,21 @@ done:
   return status;
 }
 
+static CwStatus find_crossings_on_caps(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  CwPatchOutline outline = {0};
+  const CwSymmetry *symmetry = skeleton->orbits.symmetry;
+  for (int32_t face = 0; face < cw_cad_face_count(skeleton->cad); face++) {
+    if (cw_face_is_wall(skeleton->cad, face) || (symmetry && symmetry->face.first[face] != face)) continue;
+    CW_TRY(cw_skeleton_cap_outline(skeleton, face, &outline));
+    CW_TRY(find_crossings(skeleton, &outline));
+    cw_outline_free(&outline);
+  }
+done:
+  cw_outline_free(&outline);
+  return status;
+}
+
 CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
@@ -192,11 +207,12 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton, CwOutcome *outcome) {
   if (skeleton->tight_count > 0) goto done; // not all curves are divided
   CW_TRY(cw_outline_start(&outline, skeleton->node_count));
   for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node, &outline));
+  if (skeleton->tight_count == 0) CW_TRY(find_crossings_on_caps(skeleton));
   if (skeleton->tight_count == 0 && skeleton->orbits.symmetry) CW_TRY(cw_orbit_outlines(skeleton, outcome));
 done:
   if (status == CW_OK && skeleton->tight_count > 0) {
     cw_outcome_set(outcome, CW_OUTCOME_THIN, skeleton->tight[0],
-                   "the layers fill a line of two dividing planes or cross it");
+                   "the layers fill a line of two dividing planes, or cross it or a cut on a cap");
   }
   cw_outline_free(&outline);
   return status;

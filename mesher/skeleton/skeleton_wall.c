@@ -445,8 +445,7 @@ static CwStatus add_cap_point(const CwSkeleton *skeleton, const CwCurve *curve, 
   return cw_outline_point(outline, curve->node[k], uv, x, local);
 }
 
-// The outline of a cap: the marched rim, and free curves on it.
-static CwStatus cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
+CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
   CW_TRY(cw_outline_start(outline, skeleton->node_count));
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
@@ -464,5 +463,5 @@ done:
 }
 
 CwStatus cw_skeleton_mesh_cap(const CwSkeleton *skeleton, int32_t face, void **bytes, int64_t *size) {
-  return mesh_face(skeleton, face, cap_outline, bytes, size);
+  return mesh_face(skeleton, face, cw_skeleton_cap_outline, bytes, size);
 }

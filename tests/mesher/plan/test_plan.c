@@ -247,7 +247,8 @@ static void packed_plans_come_back_whole(void **state) {
   cw_plan_free(&copy);
 }
 
-// Planned anew, a domain has one region more, other planes and the scale of before; three times, then the run ends.
+// Planned anew, a domain has one region more, other planes and the scale of before; three times. Then it is
+// not divided, unless it is too large for a region, and then the run ends.
 static void plans_that_do_not_fit_give_way(void **state) {
   CwMeshRun run = {.table = &table,
                    .domains = domains,
@@ -272,8 +273,15 @@ static void plans_that_do_not_fit_give_way(void **state) {
   assert_int_equal(run.domain[1].plan.region_count, 9);
   assert_true(run.scale == 1.7 && run.prism_factor == 2 * prism_factor && run.tet_factor == 2 * TET_FACTOR);
   assert_true(cw_size_at(domain[1].size, x) == wanted);
+  run.tet_factor *= 1e6;
   assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
   assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans");
+  cw_fail_clear();
+  run.tet_factor /= 1e6;
+  check(cw_mesh_plan_again(&run, &why));
+  assert_int_equal(run.domain[1].plan.region_count, 1);
+  assert_int_equal(cw_mesh_plan_again(&run, &why), CW_ERR_MESH);
+  assert_string_equal(cw_fail_message(), "stator: dividing plane 3 grazes a face; after 3 other plans, undivided too");
   cw_fail_clear();
   cw_plan_free(&run.domain[1].plan);
 }

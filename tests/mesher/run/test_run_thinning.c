@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "mesher/run/run_thinning.h"
+
+// After three attempts with thinner layers the domain of the first place gets another plan.
+static void a_plan_is_given_up_after_three_attempts(void **state) {
+  static CwMeshRun run = {.run_path = "runs/some"};
+  CwThinPlace place = {.domain = 1, .region = 2, .failure = {.failed = 1, .everywhere = 1}};
+  CwThinPlaces places = {.count = 1, .place = &place};
+  CwOutcome outcome = {0};
+  run.domain[1].name = "stator";
+  snprintf(place.failure.message, sizeof place.failure.message, "the boundary crosses itself");
+  assert_int_equal(cw_thin(&run, &places, 3, &outcome), CW_OK);
+  assert_int_equal(outcome.kind, CW_OUTCOME_REPLAN);
+  assert_int_equal(outcome.domain, 1);
+  assert_string_equal(outcome.reason,
+                      "stator region 3, no place is known: the boundary crosses itself; after 3 attempts with thinner "
+                      "layers; its boundary is in runs/some/mesh/failed-stator-0003.vtk");
+  assert_int_equal(run.retries, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_plan_is_given_up_after_three_attempts)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
