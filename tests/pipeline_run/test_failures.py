@@ -119,8 +119,8 @@ class BadInput(unittest.TestCase):
         run = fresh("other-mesh-keys")
         case = run / "case.yaml"
         text = PAPER.read_text()
-        for old, new in (("layer_count: 5", "layer_count: 3"), ("viscosity_m2_per_s: 1.004e-6", "viscosity_m2_per_s: 2e-6"),
-                         ("cells: 1000000", "cells: 100000"), ("time_step_deg: 1", "time_step_deg: 2")):
+        for old, new in (("layer_count: 5", "layer_count: 3"), ("cells: 1000000", "cells: 100000"),
+                         ("time_step_deg: 1", "time_step_deg: 2")):
             self.assertIn(old, text)
             text = text.replace(old, new, 1)
         case.write_text(text)
