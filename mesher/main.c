@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "mesher/parallel/ledger.h"
-#include "mesher/parallel/schedule.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/policy.h"
 #include "mesher/run/mesh_run.h"
 #include "pipeline/log.h"

@@ -11,6 +11,7 @@
 #ifndef CUTWATER_MESHER_NETWORK_NETWORK_H
 #define CUTWATER_MESHER_NETWORK_NETWORK_H
 
+#include "mesher/cad/background.h"
 #include "mesher/cad/inside.h"
 #include "mesher/parallel/outcome.h"
 #include "mesher/plan/plan.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/plan/fan.h"
+#include "mesher/plan/plan.h"
 
 static const double SAME_CORNER = 1e-7; // m
 static const double SAME_CURVE = 0.1;   // of its length: how far the middle of a turned curve may be off its image

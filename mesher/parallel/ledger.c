@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/parallel/schedule.h"
+#include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 

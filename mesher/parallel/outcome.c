@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "mesher/common/model_unit.h"
-#include "mesher/parallel/schedule.h"
+#include "mesher/parallel/ranks.h"
 
 void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3], const char *format, ...) {
   va_list arguments;
@@ -19,11 +18,12 @@ void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3
   va_end(arguments);
 }
 
-const char *cw_outcome_text(const CwOutcome *outcome, char text[CW_OUTCOME_TEXT_SIZE]) {
+const char *cw_outcome_text(const CwOutcome *outcome, double millimetres, char text[CW_OUTCOME_TEXT_SIZE]) {
   const double *x = outcome->place;
   int used = snprintf(text, CW_OUTCOME_TEXT_SIZE, "%s", outcome->reason);
   if (outcome->has_place) {
-    snprintf(text + used, (size_t)(CW_OUTCOME_TEXT_SIZE - used), " at (%.3f, %.3f, %.3f) mm", CW_MM(x));
+    snprintf(text + used, (size_t)(CW_OUTCOME_TEXT_SIZE - used), " at (%.3f, %.3f, %.3f) mm", millimetres * x[0],
+             millimetres * x[1], millimetres * x[2]);
   }
   return text;
 }

@@ -27,7 +27,7 @@ typedef struct {
   CwOutcomeKind kind;
   int32_t domain;  // that it is about, set by who knows the domains
   int has_place;   // 1: the reason holds at `place`
-  double place[3]; // m
+  double place[3]; // in the unit of lengths
   char reason[CW_REASON_SIZE];
 } CwOutcome;
 
@@ -35,9 +35,9 @@ typedef struct {
 void cw_outcome_set(CwOutcome *outcome, CwOutcomeKind kind, const double place[3], const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-// "REASON at (x, y, z) mm", for a person.
+// "REASON at (x, y, z) mm", for a person. millimetres: of the unit of lengths.
 enum { CW_OUTCOME_TEXT_SIZE = CW_REASON_SIZE + 80 };
-const char *cw_outcome_text(const CwOutcome *outcome, char text[CW_OUTCOME_TEXT_SIZE]);
+const char *cw_outcome_text(const CwOutcome *outcome, double millimetres, char text[CW_OUTCOME_TEXT_SIZE]);
 
 // The ranks agree on `count` outcomes, each known to the rank `owner[i]`. Collective over all ranks.
 void cw_outcomes_agree(int32_t count, CwOutcome *outcome, const int *owner);

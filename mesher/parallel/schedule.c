@@ -1,156 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "mesher/parallel/schedule.h"
 
-#include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "mesher/parallel/ledger.h"
+#include "mesher/parallel/ranks.h"
+#include "mesher/parallel/team.h"
 #include "pipeline/log.h"
-#include "pipeline/mpi_settings.h"
-#include "pipeline/stop_line.h"
-
-enum { SLOT_NEXT, SLOT_DONE, SLOT_FAILED, SLOT_COUNT };
-enum { CHUNK = 1 << 26 }; // bytes of one broadcast: counts of MPI are int
-
-// As MPI itself, once per process. The counters of a team stand on its first rank; all its ranks add to them without
-// help of that one.
-static struct {
-  int rank, ranks;
-  MPI_Win window;
-  int64_t *slot;
-} world = {.rank = 0, .ranks = 1};
-
-// The ranks that work together now.
-static struct {
-  int rank, ranks, first; // first: its first rank's number among all
-  MPI_Comm comm;
-} team = {.rank = 0, .ranks = 1};
-
-static int64_t add_on(int rank, int slot, int64_t amount) {
-  int64_t before = 0;
-  MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, rank, slot, MPI_SUM, world.window);
-  MPI_Win_flush(rank, world.window);
-  return before;
-}
-
-static int64_t counter_add(int slot, int64_t amount) {
-  return add_on(team.first, slot, amount);
-}
-
-static void join_all(void) {
-  team.rank = world.rank;
-  team.ranks = world.ranks;
-  team.first = 0;
-  team.comm = MPI_COMM_WORLD;
-}
-
-static void sleep_seconds(double seconds) {
-  struct timespec pause = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};
-  nanosleep(&pause, NULL);
-}
-
-// A barrier that sleeps: the blocking one keeps its core busy, which another rank may need.
-static void quiet_barrier(int progress) {
-  MPI_Request request;
-  int done = 0;
-  double pause = 2e-5;
-  MPI_Ibarrier(team.comm, &request);
-  for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); !done; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
-    sleep_seconds(pause);
-    if (pause < 2e-3) pause *= 1.5;
-    if (progress) cw_progress(counter_add(SLOT_DONE, 0));
-  }
-}
-
-CwStatus cw_mpi_start(int *argc, char ***argv, int *rank, int *ranks) {
-  CwStatus status = CW_OK;
-  int given;
-  cw_mpi_settings();
-  CW_REQUIRE(MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &given) == MPI_SUCCESS, CW_ERR_LIBRARY,
-             "MPI cannot be started");
-  MPI_Comm_rank(MPI_COMM_WORLD, &world.rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &world.ranks);
-  join_all();
-  if (world.ranks > 1) {
-    MPI_Aint bytes = SLOT_COUNT * (MPI_Aint)sizeof(int64_t);
-    CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &world.slot, &world.window) ==
-                   MPI_SUCCESS,
-               CW_ERR_LIBRARY, "MPI gives no shared counter");
-    memset(world.slot, 0, (size_t)bytes);
-    MPI_Barrier(MPI_COMM_WORLD);
-    MPI_Win_lock_all(MPI_MODE_NOCHECK, world.window);
-  }
-done:
-  *rank = world.rank;
-  *ranks = world.ranks;
-  return status;
-}
-
-void cw_mpi_end(void) {
-  int started = 0;
-  MPI_Initialized(&started);
-  if (!started) return;
-  if (world.ranks > 1) {
-    quiet_barrier(0);
-    MPI_Win_unlock_all(world.window);
-    MPI_Win_free(&world.window);
-  }
-  MPI_Finalize();
-  world.rank = 0;
-  world.ranks = 1;
-  join_all();
-}
-
-int cw_mpi_fail(CwStatus status) {
-  cw_stop_claim(); // the others, stopped for this, are to say nothing
-  if (world.ranks == 1) return cw_log_error(status);
-  // The second to fail leaves the line to the first, and time to print it.
-  if (add_on(0, SLOT_FAILED, 1) > 0) sleep_seconds(5.0);
-  int code = cw_log_error(status);
-  MPI_Abort(MPI_COMM_WORLD, code);
-  _exit(code);
-}
-
-void cw_mpi_most(int32_t count, double *value) {
-  if (world.ranks > 1) MPI_Allreduce(MPI_IN_PLACE, value, count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-}
-
-static void broadcast(void *bytes, int64_t size, int owner) {
-  for (int64_t at = 0; at < size; at += CHUNK) {
-    int64_t left = size - at;
-    MPI_Bcast((char *)bytes + at, (int)(left < CHUNK ? left : CHUNK), MPI_BYTE, owner, team.comm);
-  }
-}
-
-void cw_mpi_split(int number) {
-  quiet_barrier(0);
-  MPI_Comm_split(MPI_COMM_WORLD, number, world.rank, &team.comm);
-  MPI_Comm_rank(team.comm, &team.rank);
-  MPI_Comm_size(team.comm, &team.ranks);
-  team.first = world.rank;
-  MPI_Bcast(&team.first, 1, MPI_INT, 0, team.comm);
-}
-
-void cw_mpi_join(void) {
-  MPI_Comm_free(&team.comm);
-  join_all();
-  quiet_barrier(0);
-}
-
-int cw_mpi_rank(void) {
-  return world.rank;
-}
-
-int cw_mpi_ranks(void) {
-  return world.ranks;
-}
-
-void cw_mpi_broadcast(void *bytes, int64_t size, int from) {
-  if (world.ranks > 1) broadcast(bytes, size, from);
-}
 
 typedef struct {
   double cost;
@@ -168,8 +25,8 @@ static int compare_cost(const void *left, const void *right) {
 static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   char *pack = NULL;
-  MPI_Allreduce(MPI_IN_PLACE, size, count, MPI_INT64_T, MPI_MAX, team.comm);
-  for (int rank = 0; rank < team.ranks; rank++) {
+  MPI_Allreduce(MPI_IN_PLACE, size, count, MPI_INT64_T, MPI_MAX, cw_team()->comm);
+  for (int rank = 0; rank < cw_team()->ranks; rank++) {
     int64_t total = 0, at = 0;
     for (int32_t task = 0; task < count; task++) {
       if (owner[task] == rank) total += size[task];
@@ -177,14 +34,14 @@ static CwStatus gather_results(int32_t count, const int32_t *owner, void **bytes
     if (total == 0) continue;
     pack = malloc((size_t)total);
     CW_REQUIRE(pack, CW_ERR_MEMORY, "out of memory: %lld bytes of results", (long long)total);
-    for (int32_t task = 0; rank == team.rank && task < count; task++) {
+    for (int32_t task = 0; rank == cw_team()->rank && task < count; task++) {
       if (owner[task] != rank || size[task] == 0) continue;
       memcpy(pack + at, bytes[task], (size_t)size[task]);
       at += size[task];
     }
-    broadcast(pack, total, rank);
+    cw_team_broadcast(pack, total, rank);
     at = 0;
-    for (int32_t task = 0; rank != team.rank && task < count; task++) {
+    for (int32_t task = 0; rank != cw_team()->rank && task < count; task++) {
       if (owner[task] != rank || size[task] == 0) continue;
       bytes[task] = malloc((size_t)size[task]);
       CW_REQUIRE(bytes[task], CW_ERR_MEMORY, "out of memory: result of %lld bytes", (long long)size[task]);
@@ -208,8 +65,8 @@ typedef struct {
 static CwStatus make_marks(const CwSchedule *schedule, Marks *marks) {
   CwStatus status = CW_OK;
   if (!schedule->after) goto done;
-  MPI_Aint bytes = team.rank == 0 ? schedule->count * (MPI_Aint)sizeof(int64_t) : 0;
-  CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, team.comm, &marks->ended, &marks->window) ==
+  MPI_Aint bytes = cw_team()->rank == 0 ? schedule->count * (MPI_Aint)sizeof(int64_t) : 0;
+  CW_REQUIRE(MPI_Win_allocate(bytes, sizeof(int64_t), MPI_INFO_NULL, cw_team()->comm, &marks->ended, &marks->window) ==
                  MPI_SUCCESS,
              CW_ERR_LIBRARY, "MPI gives no shared marks");
   if (bytes) memset(marks->ended, 0, (size_t)bytes);
@@ -228,7 +85,7 @@ static int64_t mark_add(const Marks *marks, int32_t task, int64_t amount) {
 // Another rank has taken the task before, or this one has ended it: so the wait ends.
 static void wait_for(const Marks *marks, int32_t task) {
   for (double pause = 2e-5; mark_add(marks, task, 0) == 0; pause = pause < 2e-3 ? 1.5 * pause : pause) {
-    sleep_seconds(pause);
+    cw_team_sleep(pause);
   }
 }
 
@@ -256,13 +113,13 @@ done:
 static CwStatus start_counters(const CwSchedule *schedule, Marks *marks) {
   CwStatus status = CW_OK;
   // All have left the last run before the counters start again, and none starts before they have.
-  quiet_barrier(0);
+  cw_team_barrier(NULL);
   CW_TRY(make_marks(schedule, marks));
-  if (team.rank == 0) {
-    counter_add(SLOT_NEXT, -counter_add(SLOT_NEXT, 0));
-    counter_add(SLOT_DONE, -counter_add(SLOT_DONE, 0));
+  if (cw_team()->rank == 0) {
+    cw_team_add(CW_TEAM_NEXT, -cw_team_add(CW_TEAM_NEXT, 0));
+    cw_team_add(CW_TEAM_DONE, -cw_team_add(CW_TEAM_DONE, 0));
   }
-  quiet_barrier(0);
+  cw_team_barrier(NULL);
 done:
   return status;
 }
@@ -274,7 +131,7 @@ static CwStatus take_tasks(const CwSchedule *schedule, const Ordered *order, con
   CwStatus status = CW_OK;
   int64_t finished = 0;
   for (;;) {
-    int64_t place = team.ranks > 1 ? counter_add(SLOT_NEXT, 1) : finished;
+    int64_t place = cw_team()->ranks > 1 ? cw_team_add(CW_TEAM_NEXT, 1) : finished;
     if (place >= schedule->count) break;
     int32_t task = order[place].task;
     void *result = NULL;
@@ -284,18 +141,22 @@ static CwStatus take_tasks(const CwSchedule *schedule, const Ordered *order, con
     CW_TRY(schedule->run(schedule->context, task, &result, &result_size));
     time[task] = cw_processor_seconds() - start;
     *own += time[task];
-    owner[task] = team.rank;
+    owner[task] = cw_team()->rank;
     if (bytes)
       bytes[task] = result;
     else
       free(result);
     if (size) size[task] = result_size;
     if (marks->window != MPI_WIN_NULL) mark_add(marks, task, 1);
-    finished = team.ranks > 1 ? counter_add(SLOT_DONE, 1) + 1 : finished + 1;
+    finished = cw_team()->ranks > 1 ? cw_team_add(CW_TEAM_DONE, 1) + 1 : finished + 1;
     if (schedule->unit) cw_progress(finished);
   }
 done:
   return status;
+}
+
+static void show_progress(void) {
+  cw_progress(cw_team_add(CW_TEAM_DONE, 0));
 }
 
 CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size, double *seconds) {
@@ -311,14 +172,14 @@ CwStatus cw_schedule_run(const CwSchedule *schedule, void **bytes, int64_t *size
   CW_NEW(time, schedule->count);
   for (int32_t task = 0; task < schedule->count; task++) owner[task] = -1;
   CW_TRY(put_in_order(schedule, order));
-  if (team.ranks > 1) CW_TRY(start_counters(schedule, &marks));
+  if (cw_team()->ranks > 1) CW_TRY(start_counters(schedule, &marks));
   if (schedule->unit) cw_progress_start(schedule->step, schedule->count, schedule->unit);
   CW_TRY(take_tasks(schedule, order, &marks, bytes, size, owner, time, &own));
-  if (team.ranks > 1) {
-    quiet_barrier(team.rank == 0 && schedule->unit);
+  if (cw_team()->ranks > 1) {
+    cw_team_barrier(cw_team()->rank == 0 && schedule->unit ? show_progress : NULL);
     free_marks(&marks);
-    MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, team.comm);
-    MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, team.comm);
+    MPI_Allreduce(MPI_IN_PLACE, owner, schedule->count, MPI_INT32_T, MPI_MAX, cw_team()->comm);
+    MPI_Allreduce(MPI_IN_PLACE, time, schedule->count, MPI_DOUBLE, MPI_MAX, cw_team()->comm);
     if (schedule->gather) CW_TRY(gather_results(schedule->count, owner, bytes, size));
   }
   for (int32_t task = 0; schedule->gather && task < schedule->count; task++) gathered += size[task];
@@ -330,6 +191,6 @@ done:
   free(time);
   free(owner);
   free(order);
-  if (status != CW_OK && world.ranks > 1) cw_mpi_fail(status);
+  if (status != CW_OK && cw_mpi_ranks() > 1) cw_mpi_fail(status);
   return status;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "mesher/parallel/ledger.h"
-#include "mesher/parallel/schedule.h"
+#include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
 
 enum { LEAST_RANKS = 2 };

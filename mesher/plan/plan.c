@@ -5,29 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/plan/fan.h"
-#include "mesher/plan/plan_score.h"
-
-CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                      const CwPlanOptions *options, CwPlan *plan) {
-  CwStatus status = CW_OK;
-  CwPlanModel model = {0};
-  CwPlanPart whole = {0};
-  memset(plan, 0, sizeof *plan);
-  CW_NEW(plan->node, options->region_count);
-  CW_NEW(plan->worst_angle, options->region_count);
-  CW_NEW(plan->predicted_cells, options->region_count);
-  CW_TRY(cw_plan_model_make(cad, background, inside, size, options, &model));
-  CW_TRY(cw_plan_part_whole(&model, &whole));
-  model.mean_work = whole.work / options->region_count;
-  plan->region_count = 0;
-  CW_TRY(cw_plan_divide(&model, plan, &whole, options->region_count, -1, 0));
-done:
-  cw_plan_part_free(&whole);
-  cw_plan_model_free(&model);
-  if (status != CW_OK) cw_plan_free(plan);
-  return status;
-}
+#include "mesher/common/vec.h"
 
 CwStatus cw_plan_pack(const CwPlan *plan, void **bytes, int64_t *byte_count) {
   CwStatus status = CW_OK;
@@ -75,6 +53,52 @@ void cw_plan_free(CwPlan *plan) {
   free(plan->predicted_cells);
   free(plan->worst_angle);
   memset(plan, 0, sizeof *plan);
+}
+
+int cw_fan_holds(const CwPlan *plan, int32_t node) {
+  return node >= plan->fan_first && node < plan->fan_first + plan->fan_count;
+}
+
+CwPlane cw_fan_end(const CwPlan *plan, int32_t node) {
+  const double *n = plan->node[node].plane.normal;
+  return (CwPlane){{n[1], -n[0], 0}, 0}; // normal x z
+}
+
+double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]) {
+  CwPlane end = cw_fan_end(plan, node);
+  return cw_plane_distance(&end, x);
+}
+
+int32_t cw_fan_wedge(const CwPlan *plan, const double x[3]) {
+  const CwPlanNode *node = &plan->node[plan->fan_first];
+  int after = cw_plane_distance(&node[plan->fan_count - 1].plane, x) > 0;
+  for (int32_t j = plan->fan_count - 1; j >= 0; j--) { // the last wedge ends at half-plane 0
+    int before_next = cw_plane_distance(&node[(j + 1) % plan->fan_count].plane, x) <= 0;
+    if (after && before_next) return plan->fan_first + j;
+    if (j > 0) after = cw_plane_distance(&node[j - 1].plane, x) > 0;
+  }
+  return plan->fan_first; // only on the axis
+}
+
+// Where turns take item `index` of those from..end: as many in every pitch, pitch by pitch.
+static int32_t turned(int32_t count, int32_t turns, int32_t from, int32_t end, int32_t index) {
+  if (index < from || index >= end) return index;
+  return from + (index - from + turns * ((end - from) / count)) % (end - from);
+}
+
+int32_t cw_fan_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node) {
+  int32_t end = plan->fan_first + plan->fan_count;
+  return node < end ? turned(count, turns, plan->fan_first, end, node)
+                    : turned(count, turns, end, plan->node_count, node);
+}
+
+int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region) {
+  return turned(count, turns, plan->fan_region, plan->region_count, region);
+}
+
+int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region) {
+  int32_t within = region - plan->fan_region;
+  return within < 0 ? region : plan->fan_region + within % ((plan->region_count - plan->fan_region) / count);
 }
 
 int32_t cw_plan_locate(const CwPlan *plan, const double x[3]) {

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The planner: recursive bisection of a domain by planes, on its background triangulation (paper, section 2.1).
-// A binary tree; inner nodes hold planes, leaves are the regions. Balances predicted cells, keeps interfaces small,
-// keeps plane-to-wall angles away from sharp, keeps planes away from edges of the model and from one another's
-// crossings with them.
+// The decomposition of a domain by partition planes (paper, section 2.1): a binary tree; inner nodes hold planes,
+// leaves are the regions. Immutable once made (plan_make.h, sector_plan.h).
+//
+// With rotational symmetry half-planes that hold the z axis divide the flow around it into wedges, a fan:
+//
+//   node 0                the plane across the axis; its negative side is that of the pipe
+//   1 .. fan_first - 1    planes between slices
+//   fan_first ...         fan_count half-planes by ascending angle; wedge j lies between half-plane j and the next:
+//                         child[1] of half-plane j (child[0] is that of the one before)
+//   the rest              planes within wedges, pitch by pitch
+//   regions               slices, then from fan_region those of the wedges, pitch by pitch
 #ifndef CUTWATER_MESHER_PLAN_PLAN_H
 #define CUTWATER_MESHER_PLAN_PLAN_H
 
@@ -10,10 +17,7 @@
 
 #include "pipeline/status.h"
 
-#include "mesher/cad/background.h"
-#include "mesher/cad/inside.h"
 #include "mesher/common/clip.h"
-#include "mesher/size/size.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -31,7 +35,7 @@ typedef struct {
   CwPlanNode *node;        // node 0 is the root; parents before children
   double *predicted_cells; // of each region
   double *worst_angle;     // of each node: least sqrt(1 - (n.m)^2) over walls crossed, they or their layers; 1: normal
-  int32_t fan_first, fan_count, fan_region; // half-planes and the first region of a wedge (fan.h); fan_count 0: none
+  int32_t fan_first, fan_count, fan_region; // half-planes and the first region of a wedge; fan_count 0: none
   int32_t fan_turns;                        // that bring the plan's wedges to themselves
 } CwPlan;
 
@@ -46,15 +50,6 @@ typedef struct {
 CwPlanBound cw_plan_bound(const CwPlan *plan, int32_t node);
 CwPlanBound cw_plan_next_bound(const CwPlan *plan, CwPlanBound bound);
 
-typedef struct {
-  int32_t region_count;    // at least 1; the plan has fewer where no plane divides a part of the domain any more
-  const double *thickness; // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
-  const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
-  double tallest;
-  double base_size;    // at which the model is looked at: a wanted edge length of a mesh of about a million cells
-  double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
-} CwPlanOptions;
-
 // True where x lies in the closed cell of `region`, within `tolerance` (m).
 int cw_plan_in_region(const CwPlan *plan, int32_t region, const double x[3], double tolerance);
 
@@ -64,8 +59,6 @@ int cw_plan_is_ancestor(const CwPlan *plan, int32_t ancestor, int32_t node);
 // The part of the line plane(a) . x, plane(b) . x as point and unit direction; 0 where the planes are nearly parallel.
 int cw_plane_line(const CwPlane *a, const CwPlane *b, double point[3], double direction[3]);
 
-CwStatus cw_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                      const CwPlanOptions *options, CwPlan *plan);
 void cw_plan_free(CwPlan *plan);
 
 // The plan in one block of bytes (malloc'd), to travel between ranks, and back.
@@ -79,6 +72,22 @@ int32_t cw_plan_locate(const CwPlan *plan, const double x[3]);
 // those in `skip[0..skip_count)` (nodes).
 int cw_plan_in_cell(const CwPlan *plan, int32_t node, const double x[3], double tolerance, const int32_t *skip,
                     int skip_count);
+
+// True where `node` is a half-plane. Its plane acts only where cw_fan_reach is not negative.
+int cw_fan_holds(const CwPlan *plan, int32_t node);
+// Where it ends: the plane that holds the axis and stands across it; the distance to it is the way from the axis along
+// the half-plane.
+CwPlane cw_fan_end(const CwPlan *plan, int32_t node);
+double cw_fan_reach(const CwPlan *plan, int32_t node, const double x[3]);
+// The half-plane that opens the wedge of a point on the fan's side of node 0 (a point on a half-plane belongs to the
+// wedge before it).
+int32_t cw_fan_wedge(const CwPlan *plan, const double x[3]);
+
+// Where `turns` turns of a symmetry of `count` turns take a node or region of the plan.
+int32_t cw_fan_turned_node(const CwPlan *plan, int32_t count, int32_t turns, int32_t node);
+int32_t cw_fan_turned_region(const CwPlan *plan, int32_t count, int32_t turns, int32_t region);
+// The region that this one is a turned copy of, or itself.
+int32_t cw_fan_first_region(const CwPlan *plan, int32_t count, int32_t region);
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,8 @@
 #include <math.h>
 
 #include "mesher/common/vec.h"
-#include "mesher/plan/plan_score.h"
+#include "mesher/plan/plan_cost.h"
+#include "mesher/plan/plan_lines.h"
 
 enum {
   REGIONS_MOST = 12, // of a subtree whose plane is moved: all below it is weighed for each move

@@ -6,7 +6,6 @@
 
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
-#include "mesher/plan/fan.h"
 
 enum { LINE_SAMPLES_LEAST = 8, LINE_SAMPLES_MOST = 400, HITS_MOST = 64 };
 static const double LINE_STEP = 0.5; // base sizes between samples of a line

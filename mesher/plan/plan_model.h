@@ -4,12 +4,25 @@
 #ifndef CUTWATER_MESHER_PLAN_PLAN_MODEL_H
 #define CUTWATER_MESHER_PLAN_PLAN_MODEL_H
 
+#include "mesher/cad/background.h"
+#include "mesher/cad/inside.h"
 #include "mesher/common/box_tree.h"
 #include "mesher/common/cubes.h"
 #include "mesher/plan/plan.h"
+#include "mesher/size/size.h"
 
 // Layers as the planner sees them reach so much farther than they will: what stands close behind them is pinched.
 #define CW_LAYER_ROOM 1.2
+
+// What a plan is asked to be.
+typedef struct {
+  int32_t region_count;    // at least 1; the plan has fewer where no plane divides a part of the domain any more
+  const double *thickness; // of the layers on each patch of the CAD, m (0 on caps): planes and lines keep room for it
+  const double *least_thickness; // may be NULL; else the layers are at most max(least_thickness[patch], tallest * h)
+  double tallest;
+  double base_size;    // at which the model is looked at: a wanted edge length of a mesh of about a million cells
+  double prism_factor; // predicted prisms = prism_factor * sum over wall triangles(area / h^2)
+} CwPlanOptions;
 
 typedef struct {
   const CwInside *inside;

@@ -11,7 +11,8 @@
 #include "mesher/heights/layer_heights.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/share.h"
-#include "mesher/plan/fan.h"
+#include "mesher/plan/plan_make.h"
+#include "mesher/plan/sector_plan.h"
 #include "mesher/region/region_number.h"
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
@@ -326,8 +327,8 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
                            .base_size = domain->base_size,
                            .prism_factor = prism_factor};
   status = domain->symmetry
-               ? cw_fan_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
-                                  domain->symmetry->count, &plan, outcome)
+               ? cw_sector_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options,
+                                     domain->symmetry->count, &plan, outcome)
                : cw_plan_make(domain->cad, &domain->background, domain->inside, domain->size, &options, &plan);
   CW_TRY_STAGE(status, outcome);
   CW_END_UNLESS(!domain->symmetry || fixed_faces_fit(domain, &plan), outcome, CW_OUTCOME_ASYMMETRIC, NULL,

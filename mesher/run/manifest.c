@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What the mesher tells of its work: the manifest for the exporter, the record for the report.
+#include "mesher/run/manifest.h"
+
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +13,7 @@
 #include "mesher/heights/layer_heights.h"
 #include "mesher/layers/layers.h"
 #include "mesher/run/layer_record.h"
-#include "mesher/run/mesh_run.h"
+#include "mesher/run/mesh_steps.h"
 #include "pipeline/log.h"
 
 static const char *const KIND_NAMES[] = {"wall", "inlet", "outlet", "interface"};

@@ -8,6 +8,8 @@
 #include "mesher/common/model_unit.h"
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/sides.h"
+#include "mesher/run/cell_count.h"
+#include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/log.h"
@@ -304,7 +306,7 @@ CwStatus cw_mesh_plan_again(CwMeshRun *run, const CwOutcome *why) {
   CwStatus status = CW_OK;
   CwDomain *domain = &run->domain[why->domain];
   char text[CW_OUTCOME_TEXT_SIZE];
-  const char *reason = cw_outcome_text(why, text);
+  const char *reason = cw_outcome_text(why, cw_mm(1), text);
   if (domain->symmetry) return plan_whole(run, why->domain, reason);
   CW_REQUIRE(domain->more_regions != CW_UNDIVIDED, CW_ERR_MESH, "%s: %s; after %d other plans, undivided too",
              domain->name, reason, PLANS_MORE);
@@ -376,7 +378,7 @@ CwStatus cw_mesh_plan(CwMeshRun *run) {
   cw_progress(run->domains.count);
   cw_progress_end();
   for (int d = 0; d < run->domains.count; d++) {
-    if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], text)));
+    if (outcome[d].kind != CW_OUTCOME_DONE) CW_TRY(plan_whole(run, d, cw_outcome_text(&outcome[d], cw_mm(1), text)));
     warn_of_few_cells(run, d);
     log_plan(run, d);
   }

@@ -9,7 +9,7 @@
 #include "mesher/fill/tet_bound.h"
 #include "mesher/region/region_boundary.h"
 #include "mesher/region/region_copy.h"
-#include "mesher/run/mesh_run.h"
+#include "mesher/run/mesh_steps.h"
 #include "pipeline/log.h"
 
 CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size) {

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_MESHER_RUN_RUN_LAYERS_H
 #define CUTWATER_MESHER_RUN_RUN_LAYERS_H
 
-#include "mesher/run/mesh_run.h"
+#include "mesher/run/run_state.h"
 
 // All are collective.
 

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_MESHER_RUN_RUN_STEP_H
 #define CUTWATER_MESHER_RUN_RUN_STEP_H
 
-#include "mesher/run/mesh_run.h"
+#include "mesher/run/mesh_steps.h"
 
 // Arrays of results of all domains, freed with their contents.
 typedef struct {
@@ -21,5 +21,9 @@ CwStatus cw_run_step(CwMeshRun *run, const char *name, const char *unit, CwMeshS
 
 // CAD faces of each domain.
 void cw_face_counts(const CwMeshRun *run, int32_t count[CW_DOMAINS_MOST]);
+
+// One task for each wall face of all domains, or for each of the others; of periodic images the first alone. Their
+// costs: predicted triangles. Caller frees.
+CwStatus cw_face_tasks(const CwMeshRun *run, int walls, int32_t *count, CwMeshTask **tasks);
 
 #endif

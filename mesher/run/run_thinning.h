@@ -4,7 +4,7 @@
 #ifndef CUTWATER_MESHER_RUN_RUN_THINNING_H
 #define CUTWATER_MESHER_RUN_RUN_THINNING_H
 
-#include "mesher/run/mesh_run.h"
+#include "mesher/run/run_state.h"
 
 // A place where the layers have to be thinner, and why.
 typedef struct {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/plan/fan.h"
+#include "mesher/plan/plan.h"
 
 static int by_number(const void *p, const void *q) {
   int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;

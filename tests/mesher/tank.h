@@ -20,7 +20,7 @@
 
 extern "C" {
 #include "mesher/cad/symmetry.h"
-#include "mesher/plan/fan.h"
+#include "mesher/plan/sector_plan.h"
 #include "mesher/skeleton/skeleton.h"
 }
 

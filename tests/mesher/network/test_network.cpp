@@ -66,7 +66,7 @@ static void a_plane_that_grazes_is_refused(void **) {
   assert_non_null(strstr(half.outcome.reason, "dividing plane 0 grazes"));
   assert_near(std::hypot(half.outcome.place[0], half.outcome.place[1]), 0.02, 1e-3);
   char text[CW_OUTCOME_TEXT_SIZE];
-  print_message("  %s\n", cw_outcome_text(&half.outcome, text));
+  print_message("  %s\n", cw_outcome_text(&half.outcome, 1e3, text));
 }
 
 int main() {

@@ -8,7 +8,7 @@
 
 #include "launch.h"
 #include "mesher/parallel/outcome.h"
-#include "mesher/parallel/schedule.h"
+#include "mesher/parallel/ranks.h"
 #include "pipeline/log.h"
 
 enum { COUNT = 7 };
@@ -60,14 +60,14 @@ static void text_ends_with_the_place(void **state) {
   CwOutcome outcome = {0};
   (void)state;
   cw_outcome_set(&outcome, CW_OUTCOME_REPLAN, place, "plane %d grazes %s", 3, "shroud");
-  assert_string_equal(cw_outcome_text(&outcome, text), "plane 3 grazes shroud at (1.200, -100.000, 0.000) mm");
+  assert_string_equal(cw_outcome_text(&outcome, 1e3, text), "plane 3 grazes shroud at (1.200, -100.000, 0.000) mm");
   cw_outcome_set(&outcome, CW_OUTCOME_ASYMMETRIC, NULL, "no half-planes fit"); // the place is forgotten
-  assert_string_equal(cw_outcome_text(&outcome, text), "no half-planes fit");
+  assert_string_equal(cw_outcome_text(&outcome, 1e3, text), "no half-planes fit");
   memset(many, 'x', sizeof many);
   many[sizeof many - 1] = '\0';
   cw_outcome_set(&outcome, CW_OUTCOME_THIN, place, "%s", many); // as long as it may be
   assert_int_equal(strlen(outcome.reason), CW_REASON_SIZE - 1);
-  assert_string_equal(cw_outcome_text(&outcome, text) + CW_REASON_SIZE - 1, " at (1.200, -100.000, 0.000) mm");
+  assert_string_equal(cw_outcome_text(&outcome, 1e3, text) + CW_REASON_SIZE - 1, " at (1.200, -100.000, 0.000) mm");
 }
 
 static void first_that_is_not_done_counts(void **state) {

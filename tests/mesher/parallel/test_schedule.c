@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "launch.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
 #include "pipeline/log.h"
 

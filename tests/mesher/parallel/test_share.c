@@ -5,6 +5,7 @@
 #include <cmocka.h>
 
 #include "launch.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/parallel/share.h"
 #include "pipeline/log.h"

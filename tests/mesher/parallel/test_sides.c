@@ -8,7 +8,7 @@
 
 #include "launch.h"
 #include "mesher/parallel/ledger.h"
-#include "mesher/parallel/schedule.h"
+#include "mesher/parallel/ranks.h"
 #include "mesher/parallel/share.h"
 #include "mesher/parallel/sides.h"
 #include "pipeline/log.h"

@@ -17,6 +17,7 @@
 #include "mesher/plan/plan_model.h"
 #include "mesher/run/domain.h"
 #include "mesher/run/domain_table.h"
+#include "mesher/run/cell_count.h"
 #include "mesher/run/mesh_plan.h"
 
 enum { CELLS_PER_REGION = 20000 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "mesher/plan/plan_score.h"
+#include "mesher/plan/plan_divide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +7,10 @@
 
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
+#include "mesher/plan/plan_cost.h"
 #include "mesher/plan/plan_directions.h"
 #include "mesher/plan/plan_improve.h"
+#include "mesher/plan/plan_lines.h"
 
 enum {
   COARSE = 3, // of so many upright directions one is looked along at first
@@ -29,10 +31,6 @@ enum {
 static const double SHIFT[3] = {0.015, 0.006, 0.003}; // of the smaller side's work: two or three regions, few, many
 static const double WIDER = 6;                        // shifts until they are twice as wide
 static const double WELL = 3;                         // score of a plane that will do
-static const double OFF_MOST = 0.1;                   // share of a region's work past which a plane is hardly wanted
-static const double OFF_LIMIT = 0.14;                 // and past which it is not
-static const double CUT_LAYERS = 4;                   // what a plane through the layers along an edge costs
-static const double TOUCH = 4;                        // what a cut costs that leaves flat triangles beside an edge
 static const double BAD = 5;                          // score of a plane for which others are tried
 static const double WHOLE = 20;                       // what a part costs that has to stay whole
 static const double LIKE = 0.97;                      // cosine between planes that are tried in vain alike
@@ -50,19 +48,6 @@ static int by_score(const void *a, const void *b) {
   if (p->direction != q->direction) return p->direction < q->direction ? -1 : 1;
   if (p->offset != q->offset) return p->offset < q->offset ? -1 : 1;
   return (p->below > q->below) - (p->below < q->below);
-}
-
-double cw_plan_place_cost(CwPlanPlace place) {
-  return cw_plan_sharpness(place.worst) + fmin(0.17 * place.grazed, 3) + 0.007 * place.grazed + CUT_LAYERS * place.cut;
-}
-
-double cw_plan_touch_cost(double touch) {
-  return TOUCH * touch;
-}
-
-double cw_plan_unevenness(double work, double wanted, int32_t regions) {
-  double off = fabs(work / wanted - 1);
-  return 6 * off + 60 * fmax(0, off - OFF_MOST / sqrt(sqrt(regions))) + 60 * fmax(0, off - OFF_LIMIT);
 }
 
 // All but the lines and the edges that it touches, for which a bin of the profile is too wide.

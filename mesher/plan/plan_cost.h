@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // How the planner weighs one dividing plane against another.
-#ifndef CUTWATER_MESHER_PLAN_PLAN_SCORE_H
-#define CUTWATER_MESHER_PLAN_PLAN_SCORE_H
+#ifndef CUTWATER_MESHER_PLAN_PLAN_COST_H
+#define CUTWATER_MESHER_PLAN_PLAN_COST_H
 
-#include "mesher/plan/plan_lines.h"
 #include "mesher/plan/plan_profile.h"
 
 // What a plane costs by the sharpest wall that it meets and the edges there.
@@ -15,10 +14,5 @@ double cw_plan_touch_cost(double touch);
 // What work that is off the wanted one costs in a part that is to become so many regions: the more of them, the less it
 // may be off, for the planes that divide it will not be even either.
 double cw_plan_unevenness(double work, double wanted, int32_t regions);
-
-// Divides `part` into at most `regions` leaves on side `side` of node `parent` (-1: the whole domain);
-// what no plane will do for stays whole. Nodes and regions are appended to the plan, which has room for them.
-CwStatus cw_plan_divide(const CwPlanModel *model, CwPlan *plan, const CwPlanPart *part, int32_t regions, int32_t parent,
-                        int side);
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where the planes of a fan stand.
+#include "mesher/plan/sector_plan.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +9,10 @@
 #include "mesher/cad/symmetry.h"
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
-#include "mesher/plan/fan.h"
-#include "mesher/plan/plan_score.h"
+#include "mesher/plan/plan_cost.h"
+#include "mesher/plan/plan_divide.h"
+#include "mesher/plan/plan_lines.h"
+#include "mesher/plan/plan_profile.h"
 
 enum {
   AXIS_SAMPLES = 400,
@@ -421,8 +425,9 @@ done:
   return status;
 }
 
-CwStatus cw_fan_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside, const CwSize *size,
-                          const CwPlanOptions *options, int32_t count, CwPlan *plan, CwOutcome *outcome) {
+CwStatus cw_sector_plan_make(const CwCad *cad, const CwBackground *background, const CwInside *inside,
+                             const CwSize *size, const CwPlanOptions *options, int32_t count, CwPlan *plan,
+                             CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CwPlanModel model = {0};
   CwPlanPart whole = {0};

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// How many cells a scale of the size fields gives, as integrals of the fields and factors learned predict it.
+#ifndef CUTWATER_MESHER_RUN_CELL_COUNT_H
+#define CUTWATER_MESHER_RUN_CELL_COUNT_H
+
+#include "mesher/run/run_state.h"
+
+// Sets the factors with which the first pass starts.
+void cw_start_factors(CwMeshRun *run);
+
+// Cells of one domain as its integrals and the factors predict them at the present scale.
+double cw_predicted_cells(const CwMeshRun *run, int domain);
+
+// Sets the scale of the size fields of all domains; or that with which the predicted count is the asked one.
+void cw_mesh_set_scale(CwMeshRun *run, double scale);
+void cw_mesh_solve_scale(CwMeshRun *run);
+
+// Cells of all domains at the present scale, over the asked number, less one.
+double cw_predicted_off(const CwMeshRun *run);
+
+// Set a factor to what was made: `triangles` on the walls, or the tetrahedra of the last pass.
+void cw_learn_prisms(CwMeshRun *run, int64_t triangles);
+void cw_learn_tets(CwMeshRun *run);
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The steps that run as tasks, each of one domain.
+#ifndef CUTWATER_MESHER_RUN_MESH_STEPS_H
+#define CUTWATER_MESHER_RUN_MESH_STEPS_H
+
+#include "mesher/run/run_state.h"
+
+// A task of one domain.
+typedef struct {
+  int32_t domain, index;
+  double cost;
+} CwMeshTask;
+
+// The steps that run as tasks; each a CwTask body over run->domain[task.domain].
+typedef CwStatus (*CwMeshStep)(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_background(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_seed(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_size(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_wall(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+// A cap, or after all faces an interface polygon.
+CwStatus cw_step_inner(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_rule(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *size);
+
+// How many regions a region stands for: itself and its turned copies.
+int32_t cw_region_copies(const CwSkeleton *skeleton, int32_t region);
+
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/run_interfaces.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/parallel/ledger.h"
+#include "mesher/run/mesh_steps.h"
+#include "mesher/run/run_step.h"
+#include "pipeline/log.h"
+
+CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  CwResults results = {0}; // of each domain first those of its faces
+  CwMeshTask *cap = NULL, *task = NULL;
+  int32_t caps, count, faces[CW_DOMAINS_MOST], parts[CW_DOMAINS_MOST];
+  cw_ledger_part("free curves");
+  for (int d = 0; d < run->domains.count; d++) {
+    CwOutcome of_domain = {.domain = d};
+    CW_TRY(cw_skeleton_free_curves(&run->domain[d].skeleton, &of_domain));
+    if (of_domain.kind == CW_OUTCOME_THIN) CW_TRY(cw_thin_places_on_planes(run, &of_domain, places));
+    if (of_domain.kind == CW_OUTCOME_DONE) continue;
+    *outcome = of_domain;
+    if (outcome->kind == CW_OUTCOME_ASYMMETRIC) goto done;
+  }
+  if (outcome->kind != CW_OUTCOME_DONE) goto done;
+  cw_face_counts(run, faces);
+  CW_TRY(cw_face_tasks(run, 0, &caps, &cap));
+  count = caps;
+  for (int d = 0; d < run->domains.count; d++) {
+    parts[d] = faces[d] + run->domain[d].skeleton.outline_count;
+    count += run->domain[d].skeleton.outline_count;
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, parts));
+  CW_NEW(task, count);
+  memcpy(task, cap, (size_t)caps * sizeof *task);
+  count = caps;
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwSkeleton *skeleton = &run->domain[d].skeleton;
+    for (int32_t i = 0; i < skeleton->outline_count; i++) {
+      if (cw_orbit_turns(&skeleton->orbits, &skeleton->orbits.outline, i) > 0) continue;
+      // Takes about as long as a cap of as many triangles.
+      task[count++] = (CwMeshTask){d, faces[d] + i, skeleton->outline[i].corner_count};
+    }
+  }
+  CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
+  cw_ledger_part("inner surfaces merged");
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, results.bytes[d], results.bytes[d] + faces[d]));
+    CW_TRY(cw_domain_number(&run->domain[d]));
+  }
+done:
+  cw_results_free(&results);
+  free(cap);
+  free(task);
+  return status;
+}
+
+CwStatus cw_run_region_rule(CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  int32_t regions[CW_DOMAINS_MOST], all = 0, count = 0;
+  for (int d = 0; d < run->domains.count; d++) {
+    regions[d] = run->domain[d].plan.region_count;
+    all += regions[d];
+  }
+  CW_NEW(task, all);
+  for (int d = 0; d < run->domains.count; d++) {
+    const CwDomain *domain = &run->domain[d];
+    for (int32_t r = 0; r < regions[d]; r++) {
+      int owns = 0;
+      for (int32_t i = 0; i < domain->skeleton.outline_count && !domain->symmetry; i++) {
+        owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
+      }
+      if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
+    }
+  }
+  CW_TRY(cw_results_make(&results, run->domains.count, regions));
+  CW_TRY(cw_run_step(run, "region rule", "regions", cw_step_rule, count, task, NULL, results.bytes, NULL));
+  cw_ledger_part("interfaces merged");
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    if (domain->symmetry) continue;
+    CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    if (domain->rule.planned == 0) continue;
+    cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
+           "centres inserted %lld, triangles left to both sides %lld",
+           domain->name, domain->colours, (long long)domain->rule.planned, (long long)domain->rule.encroached,
+           (long long)domain->rule.inserted, (long long)domain->rule.left);
+  }
+done:
+  cw_results_free(&results);
+  free(task);
+  return status;
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The stages of the surfaces that bear no layers: interfaces and caps, and the rule of region numbers.
+#ifndef CUTWATER_MESHER_RUN_RUN_INTERFACES_H
+#define CUTWATER_MESHER_RUN_RUN_INTERFACES_H
+
+#include "mesher/run/run_thinning.h"
+
+// Collective.
+
+// Free curves, caps and interfaces. Outcome: CW_OUTCOME_THIN where layers leave no room on the planes, with the places
+// of all domains; CW_OUTCOME_ASYMMETRIC.
+CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome);
+
+// The owners of interfaces refine them where new points of theirs come too near (paper, section 2.3). Not where
+// passages are copies of one another: there neither neighbour goes before the other, and both drop their candidates.
+CwStatus cw_run_region_rule(CwMeshRun *run);
+
+#endif

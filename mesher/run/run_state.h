@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the stages of the mesher hand on: the domains, the factors that predict cells, and what was made of each region.
+#ifndef CUTWATER_MESHER_RUN_RUN_STATE_H
+#define CUTWATER_MESHER_RUN_RUN_STATE_H
+
+#include <jansson.h>
+
+#include "mesher/region/audit.h"
+#include "mesher/region/layer_ratio.h"
+#include "mesher/region/region_failure.h"
+#include "mesher/run/domain.h"
+#include "mesher/run/domain_table.h"
+#include "pipeline/record.h"
+
+enum { CW_PATCH_LIMIT = 32 };
+
+// What is known of a finished region; travels between ranks as bytes.
+typedef struct {
+  int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
+  double patch_area[CW_PATCH_LIMIT];  // m2, of the region's boundary faces
+  CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
+  CwLayerCoverage coverage[CW_PATCH_LIMIT];
+  CwFillRecovery recovery;
+  CwQuality quality;
+  double dihedral_allowed; // degrees: no filling of the region's boundary has a least angle above, see cw_tet_bound
+  CwRegionFailure failure; // else nothing of the above holds
+} CwRegionSummary;
+
+typedef struct {
+  const CwCase *table;
+  const char *run_path;
+  int rank, ranks;
+  CwRecord *record;
+  CwDomainTable domains;
+  CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
+  CwRegionSummary *summary[CW_DOMAINS_MOST];
+  double *region_seconds[CW_DOMAINS_MOST];
+  void **seeds[CW_DOMAINS_MOST];        // of the size field, by part, while it is made
+  double prism_factor, tet_factor;      // cells per unit of the integrals
+  double scale;                         // of the size field
+  double gradation;                     // of the size field at scale 1
+  double wall_scale;                    // at which walls limit its edges; 0: they do not
+  double *most_height[CW_DOMAINS_MOST]; // of each wall vertex, m, once a region has failed; else NULL
+  // With which the domains were planned.
+  double planned_prism_factor, planned_tet_factor, planned_scale;
+  int whole;           // 1: a symmetry was given up
+  int passes, retries; // retries: of all passes
+  int64_t cells;       // made
+} CwMeshRun;
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/run_walls.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "mesher/heights/coupled_rim.h"
+#include "mesher/parallel/ledger.h"
+#include "mesher/run/cell_count.h"
+#include "mesher/run/mesh_steps.h"
+#include "mesher/run/run_layers.h"
+#include "mesher/run/run_step.h"
+#include "pipeline/log.h"
+
+enum { WALL_PASSES = 3 };
+static const double WALL_TOLERANCE = 0.01; // of the asked number of cells, before the volume is filled
+
+// Skeletons with all wall curves, those along interfaces divided alike on both sides. Outcome: that of cw_domain_start.
+static CwStatus start_walls(CwMeshRun *run, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  for (int d = 0; d < run->domains.count; d++) {
+    outcome->domain = d;
+    CW_TRY_STAGE(cw_domain_start(&run->domain[d], outcome), outcome);
+  }
+  for (int i = 0; i < run->domains.interface_count; i++) {
+    const CwDomainInterface *between = &run->domains.interface[i];
+    CW_TRY(cw_couple_rims(&run->domain[between->domain[0]].skeleton, between->patch[0],
+                          &run->domain[between->domain[1]].skeleton, between->patch[1]));
+  }
+  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_skeleton_wall_curves(&run->domain[d].skeleton));
+done:
+  return status;
+}
+
+CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
+  CwStatus status = CW_OK;
+  int again = 0; // the same walls, for thinner layers
+  CwResults results = {0};
+  CwMeshTask *task = NULL;
+  int32_t count, faces[CW_DOMAINS_MOST];
+  for (int d = 0; d < run->domains.count; d++) again |= run->most_height[d] != NULL;
+  CW_TRY(cw_face_tasks(run, 1, &count, &task));
+  cw_face_counts(run, faces);
+  for (int pass = 0;; pass++) {
+    int64_t triangles = 0;
+    cw_ledger_part("curves of the walls");
+    CW_TRY_STAGE(start_walls(run, outcome), outcome);
+    CW_TRY(cw_results_make(&results, run->domains.count, faces));
+    CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
+    cw_ledger_part("walls merged");
+    for (int d = 0; d < run->domains.count; d++)
+      CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+    CW_TRY(cw_run_heights(run));
+    for (int d = 0; d < run->domains.count; d++) {
+      cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
+                   run->domain[d].layer_share);
+      triangles += run->domain[d].skeleton.wall_triangle_count;
+    }
+    cw_results_free(&results);
+    cw_learn_prisms(run, triangles);
+    double off = cw_predicted_off(run);
+    cw_log("surface: %lld wall triangles at scale %.4f; %.2f %% off the asked count as predicted", (long long)triangles,
+           run->scale, 100 * off);
+    if (again || fabs(off) <= WALL_TOLERANCE || pass + 1 == WALL_PASSES) break;
+    cw_mesh_solve_scale(run);
+  }
+  for (int d = 0; d < run->domains.count; d++) {
+    CwDomain *domain = &run->domain[d];
+    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
+      domain->heights.target[v] = fmin(domain->heights.target[v], run->most_height[d][v]);
+    }
+  }
+done:
+  cw_results_free(&results);
+  free(task);
+  return status;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The stage of the walls: the curves on them, and their triangles.
+#ifndef CUTWATER_MESHER_RUN_RUN_WALLS_H
+#define CUTWATER_MESHER_RUN_RUN_WALLS_H
+
+#include "mesher/run/run_state.h"
+
+// Walls of all domains; repeated with a corrected scale until the prisms and the predicted tetrahedra add up to what
+// is asked.
+// Outcome: that of cw_domain_start. Collective.
+CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome);
+
+#endif
