@@ -288,10 +288,10 @@ double cw_blade_half_thickness(const CwBladeSection *section, double p) {
 
 // Offset by y (positive: towards greater theta). lambda = 1 at the leading edge is the true normal offset,
 // which makes a round nose; lambda = 0 from p = 0.4 on is a tangential offset, which keeps a cut trailing
-// edge on D2. A rounded trailing edge has the normal offset again.
+// edge on D2. A blade with a rounded trailing edge has the normal offset all along: between the two offsets a thick
+// blade's sides would bend to and fro.
 static CwBladePoint offset(const CwBladeSection *section, double p, double y) {
-  double lambda = 1 - smooth_step(p / offset_fades_at);
-  if (section->end < 1) lambda += smooth_step((p - 1 + offset_fades_at) / (section->end - 1 + offset_fades_at));
+  const double lambda = section->end < 1 ? 1 : 1 - smooth_step(p / offset_fades_at);
   const double beta = cw_blade_beta(section, p), c = cos(beta), s = sin(beta);
   double x[2], dx[2];
   at(section, p, x, dx);

@@ -74,9 +74,13 @@ static void of_wheel(const CwDesign *d, CwDesignRemarks *remarks) {
          d->diffusion_ratio);
   remark(remarks, d->diffusion_ratio > 1.1, "w2 / w1 is %.2f; 0.7 to 1 are usual: the wheel accelerates its flow",
          d->diffusion_ratio);
-  remark(remarks, d->overlap < 0.8 || d->overlap > 1.8,
-         "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual: %s the wrap or blade_count", d->overlap,
-         d->overlap < 1 ? "raise" : "lower");
+  remark(remarks, d->overlap < 0.8 || d->overlap > 3.2,
+         "the blades overlap by %.2f of the pitch; 1.0 to 1.6 are usual, up to 3 at low specific speed: %s the wrap or "
+         "blade_count",
+         d->overlap, d->overlap < 1 ? "raise" : "lower");
+  remark(remarks, strstr(d->source[CW_DESIGN_leading_edge_radius_shroud], "at the eye") != NULL,
+         "leading_edge_radius_shroud_mm lies at the eye or inside it: the blades begin at r = %.4g mm, %s",
+         1e3 * d->leading_edge_radius_shroud, d->source[CW_DESIGN_leading_edge_radius_shroud]);
   remark(remarks, d->wrap_spread != 0,
          "the wrap at the shroud differs by %.0f deg from that at the hub, so that the blade angles stay "
          "within 12 to "

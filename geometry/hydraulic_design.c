@@ -112,6 +112,8 @@ static void main_dimensions(const CwCase *table, double outlet_diameter, CwDesig
   SET(interface_radius, (d2 + design->base_diameter) / 4, "(D2 + D3) / 4");
 }
 
+static const double EYE_SHARE = 0.05; // of the eye's height: least distance of the leading edge from the eye's plane
+
 // The leading edge on the shroud: outside the eye at low specific speed, and drawn into it above nq = 25, where the
 // wheel turns mixed-flow and the blades would else become too short.
 static void leading_edge_shroud(const CwImpellerTable *given, CwDesign *design) {
@@ -120,16 +122,40 @@ static void leading_edge_shroud(const CwImpellerTable *given, CwDesign *design) 
        share < 0.635 ? "0.635 D1 to 0.53 D1 at nq 60" : "0.635 D1");
 }
 
+// A leading edge that is given at the eye's radius or inside it begins just behind the plane where the wall begins,
+// which is parallel to the axis there.
+static void keep_behind_eye(const CwMeridianCurve *wall, double height, const char *source, double *radius,
+                            const char **radius_source) {
+  double x[2], begin[2];
+  double low = 0, high = 1;
+  cw_meridian_point(wall, 0, begin, NULL);
+  for (int i = 0; i < 50; i++) {
+    const double middle = 0.5 * (low + high);
+    cw_meridian_point(wall, middle, x, NULL);
+    *(hypot(x[0] - begin[0], x[1] - begin[1]) < EYE_SHARE * height ? &low : &high) = middle;
+  }
+  cw_meridian_point(wall, high, x, NULL);
+  if (*radius >= x[0]) return;
+  *radius = x[0];
+  *radius_source = source;
+}
+
 // On the hub: where a line square to the flow leads to from the shroud, but not so near to the axis that the blade
 // would stand too steep there. The passage's height is that of the line.
 static void leading_edge_hub(const CwImpellerTable *given, CwDesign *design) {
   CwMeridianCurve hub, shroud;
   cw_meridian_walls(design, design->hub_pole_radial, design->shroud_pole_axial, design->shroud_pole_radial, &hub,
                     &shroud);
+  const double height = 0.5 * (design->inlet_diameter - design->hub_diameter);
+  static const char *const at_eye = "at the eye: 0.05 of its height behind its plane";
+  keep_behind_eye(&shroud, height, at_eye, &design->leading_edge_radius_shroud,
+                  &design->source[CW_DESIGN_leading_edge_radius_shroud]);
   const CwPassageStation edge = cw_meridian_passage_at(&hub, &shroud, design->leading_edge_radius_shroud);
   TAKE(leading_edge_radius_hub, given->leading_edge_radius_hub,
        fmax(edge.hub[0], fmax(0.56 * design->hub_diameter, 0.55 * design->leading_edge_radius_shroud)),
        "square to the flow from the shroud's, at least 0.56 hub diameters and 0.55 of the shroud's");
+  keep_behind_eye(&hub, height, at_eye, &design->leading_edge_radius_hub,
+                  &design->source[CW_DESIGN_leading_edge_radius_hub]);
   SET(inlet_passage_width, edge.height, "square to the flow from the shroud's leading edge");
 }
 

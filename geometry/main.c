@@ -11,6 +11,7 @@
 #include "geometry/model_unit.h"
 #include "geometry/picture.h"
 #include "geometry/pump.h"
+#include "geometry/remedy.h"
 #include "geometry/step_file.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
@@ -200,6 +201,31 @@ done:
   return status;
 }
 
+// The same without files or words, of a case that might replace a refused one.
+static CwStatus try_geometry(const CwCase *table, CwDesign *design) {
+  CwStatus status = CW_OK;
+  CwPipeStubs stubs;
+  CwMeasuredPump measured = {0};
+  CwPump pump = {0};
+  CW_TRY(cw_hydraulic_design(table, design));
+  CW_TRY(cw_pump_pipe_stubs(table, design, &stubs));
+  CW_TRY(cw_pump_build(table, design, &stubs, &pump));
+  CW_TRY(cw_pump_measure(design, &pump, &measured));
+done:
+  cw_pump_free(&pump);
+  return status;
+}
+
+// Adds what to change in the case to the line that refuses it.
+static CwStatus add_remedy(const CwCase *table, CwStatus status) {
+  char refused[1000], remedy[400];
+  snprintf(refused, sizeof refused, "%s", cw_fail_message());
+  cw_log("refused; trying changes of the case");
+  if (cw_remedy_find(table, refused, try_geometry, remedy, sizeof remedy))
+    return CW_FAIL(status, "%s; tried: %s", refused, remedy);
+  return CW_FAIL(status, "%s", refused);
+}
+
 int main(int argc, char **argv) {
   CwStatus status = CW_OK;
   CwStageArgs args;
@@ -213,8 +239,10 @@ int main(int argc, char **argv) {
   CW_TRY(make_geometry(&args, &table, record));
   CW_TRY(cw_record_write(record, record_path));
 done:;
-  if (status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY)
+  if (status == CW_ERR_DESIGN || status == CW_ERR_GEOMETRY) {
+    add_remedy(&table, status);
     cw_fail_place(args.case_path); // what to change stands there
+  }
   const int code = cw_log_error(status);
   free(record_path);
   cw_record_free(record);

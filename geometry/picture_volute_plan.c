@@ -3,11 +3,11 @@
 #include <math.h>
 
 #include "geometry/picture.h"
+#include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 
 enum { SPIRAL_POINTS = 181, NOSE_POINTS = 25, WALL_POINTS = 33, LINE_MOST = 512, STEP = 45 };
 static const double degree = M_PI / 180;
-static const double TANGENT = 0.4; // of the diffuser's length, as in its surfaces
 static const double largest = 640; // px
 
 // From the tongue's frame to pixels: turned by minus the lean of the discharge, then scaled.
@@ -52,13 +52,15 @@ static void segment(CwPicture *picture, const Frame *frame, CwStroke stroke, con
 static int diffuser_wall(const CwVolute *volute, const double from[2], const double along[2], double side,
                          double x[WALL_POINTS + 1][2]) {
   const double lean = volute->discharge_lean, radius = volute->input.outlet_diameter / 2;
-  const double length = TANGENT * volute->diffuser_length;
   const double end[2] = {volute->outlet_x + side * radius * cos(lean), volute->outlet_y + side * radius * sin(lean)};
   const double down[2] = {-sin(lean), cos(lean)};
+  const double bent = cw_diffuser_bent_tangent(volute, hypot(end[0] - from[0], end[1] - from[1]));
+  const double length = bent > 0 ? bent : CW_DIFFUSER_TANGENT * volute->diffuser_length;
+  const double across = bent > 0 ? hypot(along[0], along[1]) : along[1];
   for (int i = 0; i < WALL_POINTS; i++) {
     const double t = (double)i / (WALL_POINTS - 1), u = 1 - t;
     for (int k = 0; k < 2; k++) {
-      const double a = from[k] + along[k] / along[1] * length / 3, b = end[k] - down[k] * length / 3;
+      const double a = from[k] + along[k] / across * length / 3, b = end[k] - down[k] * length / 3;
       x[i][k] = u * u * u * from[k] + 3 * u * u * t * a + 3 * u * t * t * b + t * t * t * end[k];
     }
   }

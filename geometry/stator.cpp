@@ -21,6 +21,7 @@
 #include "geometry/stator_builder.hpp"
 #include "geometry/stator_check.hpp"
 #include "geometry/stator_spline.hpp"
+#include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
 
 namespace {
@@ -32,9 +33,6 @@ const int ALONG = 33, SIDE = 25;            // points of interpolation: along th
 const int ACROSS = 49, ACROSS_CORNERS = 97; // over the outer wall, whose curvature jumps where it has corners
 // Of curves in the parameter plane; where the kink line bends more, each of its points is one of theirs.
 const int PLANE_CURVE = 49, PLANE_CURVE_BENT = 97;
-// Length of the end tangents of the diffuser, in its own length: with 1 the area first falls by 4 %, with 0.4
-// by 1 %.
-const double TANGENT = 0.4;
 const double TONGUE_SIDE = 1.01;  // least radius of the tongue's end at the side wall, in D3/2
 const double LEAST_WALL = 0.0025; // between diffuser and spiral, of D3
 const double U_MARGIN = 0.1;      // rad: keeps the faces of cylinders and cones off u = 0, where u jumps
@@ -257,7 +255,7 @@ private:
   // Four patches, inner, top, outer and bottom, from the throat's contour to the outlet's circle. They leave
   // in the tangent planes of the walls before the throat and arrive along the pipe.
   void make_diffuser() {
-    double length = TANGENT * scale_ * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
+    double length = CW_DIFFUSER_TANGENT * scale_ * v_.diffuser_length, slope = std::tan(v_.input.side_wall_angle);
     std::array<gp_Pnt, 2> inner = {b_.point(throat_vertex_[BOTTOM]), b_.point(throat_vertex_[TOP])};
     auto outer_start = [&](double t) { return wall(cw_volute_throat_angle(&v_, psi(t)), psi(t)); };
     auto outer_direction = [&](double t) {
@@ -294,17 +292,23 @@ private:
     auto on_circle = [&](double angle) {
       return gp_Pnt(outlet_centre(0).XYZ() + radius * in_outlet_plane(angle).XYZ());
     };
-    auto straight = [&](double) { return gp_Pnt(length * downstream().XYZ()); };
+    auto leaf = [&](int count, const PointOfOne &start, const PointOfOne &direction, const PointOfOne &finish) {
+      auto bent = [&](double t) { return cw_diffuser_bent_tangent(&v_, start(t).Distance(finish(t))); };
+      auto leaving = [&](double t) {
+        const gp_XYZ along = direction(t).XYZ();
+        return gp_Pnt(bent(t) > 0 ? along * (bent(t) / along.Modulus()) : along);
+      };
+      auto arriving = [&](double t) { return gp_Pnt((bent(t) > 0 ? bent(t) : length) * downstream().XYZ()); };
+      return hermite_surface(count, start, leaving, finish, arriving);
+    };
     auto turn = [&](double from, double to) { return [=](double t) { return on_circle(from + t * (to - from)); }; };
-    Handle(Geom_BSplineSurface) outer =
-        hermite_surface(across_, outer_start, outer_direction, turn(corner[0], corner[1]), straight);
-    Handle(Geom_BSplineSurface) inner_surface =
-        hermite_surface(SIDE, inner_start, inner_direction, turn(corner[3], corner[2]), straight);
+    Handle(Geom_BSplineSurface) outer = leaf(across_, outer_start, outer_direction, turn(corner[0], corner[1]));
+    Handle(Geom_BSplineSurface) inner_surface = leaf(SIDE, inner_start, inner_direction, turn(corner[3], corner[2]));
     std::array<Handle(Geom_BSplineSurface), 2> sides;
     for (int side : {BOTTOM, TOP})
-      sides[side] = hermite_surface(
+      sides[side] = leaf(
           SIDE, [&](double t) { return throat_side(t, side); }, [&](double t) { return side_direction(t, side); },
-          side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]), straight);
+          side == TOP ? turn(corner[2], corner[1]) : turn(corner[3], corner[4]));
 
     for (const Handle(Geom_BSplineSurface) & surface : {inner_surface, sides[BOTTOM], sides[TOP]})
       keep_off_spiral(surface);

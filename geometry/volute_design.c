@@ -272,7 +272,7 @@ static CwStatus check_input(const CwVoluteInput *in) {
       {"speed in the sections (K3 sqrt(2 g H))", in->section_speed, 1e-6, 1e6, 1, "m/s", !velocity},
       {"base_diameter_mm (D3)", d3, 1e-6, 1e3, 1e3, "mm", 0},
       {"interface radius", in->interface_radius, 0.05 * d3, 0.5 * d3, 1e3, "mm", 0},
-      {"outlet width of the impeller (b2)", in->neck_width, 1e-3 * d3, 0.4 * d3, 1e3, "mm", 0},
+      {"outlet_width_mm (b2)", in->neck_width, 1e-3 * d3, 0.39 * d3, 1e3, "mm", 0},
       {"inlet_width_mm (b3)", in->inlet_width, in->neck_width + 2 * LEAST_STEP * d3, 0.4 * d3, 1e3, "mm", 0},
       {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : PI / 36, PI / 5, 180 / PI, "deg", 0},
       {"corner_radius_mm", in->corner_radius, 2.5e-3 * d3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},

@@ -17,8 +17,14 @@ static const double LEAST_BEND_RADIUS = 1.5;   // of the axis of a radial discha
 static const double LARGEST_BEND = 0.6 * M_PI; // rad
 static const double LARGEST_TURN = 0.6;        // rad, outward from the throat's direction
 static const double LEAST_WALL = 0.8;          // of the tongue's radius, between diffuser and spiral
-static const double TANGENT = 0.4;             // of the diffuser's lines at both ends, in its length (stator.cpp)
+static const double BENT_TANGENT = 0.85;       // of a bent line's arc: less than 1, so that the bore does not shrink
 static const double STEP = 1 + 1e-9;           // past a bore, so that the next larger one is found
+
+double cw_diffuser_bent_tangent(const CwVolute *volute, double distance) {
+  const double bend = volute->throat_lean - volute->discharge_lean;
+  if (volute->input.discharge != CW_DISCHARGE_RADIAL || bend <= 0) return 0;
+  return BENT_TANGENT * distance * 0.5 * bend / sin(0.5 * bend);
+}
 
 static double bore_ratio(double bore, double throat_area) {
   return M_PI / 4 * bore * bore / throat_area;
@@ -105,7 +111,7 @@ static void inner_wall_point(const CwVolute *volute, const InnerWall *wall, doub
   const double x = volute->inner_wall_x + side * (wall->outer_x - volute->inner_wall_x), r = hypot(x, y);
   const double slope = tan(volute->input.side_wall_angle) * (x * wall->lean * side + y) / r;
   const double start[3] = {x, y, up * cw_volute_half_width(volute, r)};
-  const double leaving[3] = {wall->lean * side, 1, up * slope}, tangent = TANGENT * volute->diffuser_length;
+  const double leaving[3] = {wall->lean * side, 1, up * slope}, tangent = CW_DIFFUSER_TANGENT * volute->diffuser_length;
   const double lean = volute->discharge_lean, radius = 0.5 * volute->input.outlet_diameter;
   const double angle = M_PI + up * (wall->inner_angle - M_PI) + side * (wall->outer_angle - wall->inner_angle);
   const double end[3] = {volute->outlet_x + radius * cos(angle) * cos(lean),

@@ -23,6 +23,14 @@ extern "C" {
 // ones while the flow there is faster than the economic speed of pipes, 4 m/s, up to CW_DIFFUSER_LARGEST_RATIO. m.
 double cw_diffuser_bore(double flow_rate, double throat_area);
 
+// The wall's lines from the throat's contour to the outlet's circle are cubics. Their tangents at both ends have, where
+// the diffuser is straight, this share of its length across the throat; an even larger one lets the area fall at first.
+#define CW_DIFFUSER_TANGENT 0.4
+
+// The same where it is bent (a radial discharge), for a line whose ends are `distance` apart, in the unit of that:
+// nearly the length of the arc, as an arc has it. 0 where the diffuser is straight.
+double cw_diffuser_bent_tangent(const CwVolute *volute, double distance);
+
 // Sets outlet diameter, length, angle and area ratio of the diffuser, and its axis from the throat to the outlet's
 // centre, of a volute whose spiral and throat are known. Fails with CW_ERR_DESIGN and one line that names the key and
 // its allowed range.

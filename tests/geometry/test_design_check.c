@@ -62,7 +62,7 @@ static void ends_and_reach_are_remarked(void **state) {
   assert_false(remarked(&design, "Guelich's efficiencies"));
   design.overlap = 0.7;
   assert_true(remarked(&design, "raise the wrap"));
-  design.overlap = 2.1;
+  design.overlap = 3.5;
   assert_true(remarked(&design, "lower the wrap"));
   design.diffusion_ratio = 1.3;
   assert_true(remarked(&design, "accelerates"));

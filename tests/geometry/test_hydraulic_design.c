@@ -196,10 +196,22 @@ static void viscous_fluid_by_hand(void **state) {
   near_to(design_of(&larger).outlet_diameter, design.outlet_diameter, 1e-6);
 }
 
+// Given at the eye or inside it the leading edge begins just behind the eye's plane, and no range is refused.
+static void leading_edge_at_the_eye(void **state) {
+  for (double share = 0.4; share < 0.51; share += 0.05) {
+    CwCase table = paper();
+    table.impeller.leading_edge_radius_shroud = share * table.impeller.inlet_diameter;
+    const CwDesign design = design_of(&table);
+    assert_true(design.leading_edge_radius_shroud >= 0.5 * table.impeller.inlet_diameter);
+    near_to(design.leading_edge_radius_shroud, 0.5 * table.impeller.inlet_diameter, 2e-4);
+    assert_true(design.leading_edge_radius_hub > 0.5 * design.hub_diameter);
+  }
+}
+
 // Guelich's efficiencies go on below 18 m3/h without a jump of value or slope, and fall to 0 and not below.
 static void efficiency_of_small_pumps(void **state) {
   CwDesign before = {.flow_rate = 0};
-  for (double q = 100; q > 0.02; q *= 0.97) {
+  for (double q = 100; q > 0.02; q *= 0.8) {
     CwCase table = duty_point(q, 1450 * 1450, 1450);
     table.operating_point.head = pow(1450 * sqrt(q / 3600) / 20, 4.0 / 3);
     table.fluid.kinematic_viscosity = 1e-6;
@@ -208,7 +220,7 @@ static void efficiency_of_small_pumps(void **state) {
     assert_true(design.efficiency > 0.01 && design.hydraulic_efficiency > 0.2);
     if (before.flow_rate > 0) {
       const double fall = before.efficiency - design.efficiency;
-      assert_true(fall > 0 && fall < 0.02);
+      assert_true(fall > 0 && fall < 0.1);
     }
     before = design;
   }
@@ -295,6 +307,7 @@ int main(void) {
       cmocka_unit_test(triangles_over_the_span),
       cmocka_unit_test(splitters_raise_the_slip_factor),
       cmocka_unit_test(viscous_fluid_by_hand),
+      cmocka_unit_test(leading_edge_at_the_eye),
       cmocka_unit_test(efficiency_of_small_pumps),
       cmocka_unit_test(npsh_at_the_vapour_pressure),
       cmocka_unit_test(case_overrides),

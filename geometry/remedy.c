@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "geometry/remedy.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "pipeline/case_check.h"
+#include "pipeline/case_schema.h"
+
+enum { KEYS_MOST = 100, TRIALS_MOST = 60, PATH_SIZE = CW_KEY_PATH_SIZE };
+
+typedef struct {
+  CwRemedyTrial trial;
+  int trials;
+} Search;
+
+// Index of a key that the case gives; only those of the pump's shape, and no part of the duty point or the fluid.
+static int may_change(const CwCaseKey *key, const CwCase *table) {
+  const int shapes = !strcmp(key->section, "impeller") || !strcmp(key->section, "volute");
+  if (!shapes || key->type == CW_KEY_NAME) return 0;
+  const double value = cw_case_key_value(key, table);
+  return !isnan(value) && value != key->fallback;
+}
+
+// The keys in the order in which they are tried: those that the message names first.
+static int list_keys(const CwCase *table, const char *message, int keys[KEYS_MOST]) {
+  int count = 0;
+  for (int named = 1; named >= 0; named--)
+    for (size_t i = 0; i < cw_case_key_count && count < KEYS_MOST; i++) {
+      const CwCaseKey *key = &cw_case_keys[i];
+      if (may_change(key, table) && (strstr(message, key->key) != NULL) == named) keys[count++] = (int)i;
+    }
+  return count;
+}
+
+static int works(Search *search, const CwCase *table, CwDesign *design) {
+  static const CwCasePlace places[512];
+  int fine = search->trials++ < TRIALS_MOST && cw_case_check("", table, places) == CW_OK;
+  fine = fine && search->trial(table, design) == CW_OK;
+  cw_fail_clear();
+  return fine;
+}
+
+// What the design made of a key that was left out, in the key's unit; NAN: no quantity of the same name.
+static double computed_value(const CwCaseKey *key, const CwDesign *design) {
+  static const char *const other_names[][2] = {{"hub_nut_length_mm", "nut_length_m"},
+                                               {"volute.outlet_diameter_mm", "discharge_diameter_m"}};
+  char path[PATH_SIZE], name[PATH_SIZE];
+  size_t stem;
+  cw_case_key_path(key, path);
+  if (key->type == CW_KEY_INT) return strcmp(key->key, "blade_count") ? NAN : design->blade_count;
+  if (key->type != CW_KEY_REAL || key->presence != CW_KEY_COMPUTED) return NAN;
+  const CwUnit *unit = cw_unit_of_key(key->key, &stem);
+  snprintf(name, sizeof name, "%.*s", (int)stem, key->key);
+  for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
+    if (!strcmp(other_names[i][0], path) || !strcmp(other_names[i][0], key->key))
+      snprintf(name, sizeof name, "%.*s", (int)(strlen(other_names[i][1]) - 2), other_names[i][1]);
+  for (int i = 0; i < CW_DESIGN_COUNT; i++) {
+    const CwDesignValue value = cw_hydraulic_design_value(design, i);
+    const size_t length = strlen(name);
+    if (strncmp(value.key, name, length) || (value.key[length] && value.key[length] != '_')) continue;
+    if (strcmp(value.key + length, "_m") && strcmp(value.key + length, "_m2") && strcmp(value.key + length, "_deg") &&
+        value.key[length])
+      continue;
+    const double si = strcmp(value.key + length, "_deg") ? value.stored : value.stored * M_PI / 180;
+    return unit ? si * unit->denominator / unit->numerator : si;
+  }
+  return NAN;
+}
+
+// Three digits, of a count none behind the point.
+static double rounded(const CwCaseKey *key, double value) {
+  if (key->type == CW_KEY_INT) return round(value);
+  char text[40];
+  double number = value;
+  snprintf(text, sizeof text, "%.3g", value);
+  sscanf(text, "%lf", &number);
+  return fmin(key->most, fmax(key->least, number));
+}
+
+// The value nearest to the given one that works, of some between it and the computed one. Returns whether there is one.
+static int nearest_value(Search *search, const CwCase *table, const CwCaseKey *key, double computed, double *found) {
+  static const double shares[] = {0.1, 0.25, 0.5, 0.75, 1};
+  const double given = cw_case_key_value(key, table);
+  double before = given;
+  CwDesign design;
+  if (isnan(computed)) return 0;
+  for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
+    CwCase changed = *table;
+    *found = rounded(key, given + shares[i] * (computed - given));
+    if (*found == before) continue;
+    before = *found;
+    cw_case_key_set(key, *found, &changed);
+    if (works(search, &changed, &design)) return 1;
+  }
+  return 0;
+}
+
+static int one_key(Search *search, const CwCase *table, const int *keys, int count, char *text, size_t size) {
+  CwDesign design;
+  for (int i = 0; i < count; i++) {
+    const CwCaseKey *key = &cw_case_keys[keys[i]];
+    CwCase without = *table;
+    char path[PATH_SIZE];
+    double value;
+    cw_case_key_set(key, key->fallback, &without);
+    if (!works(search, &without, &design)) continue;
+    cw_case_key_path(key, path);
+    if (key->type == CW_KEY_CHOICE)
+      snprintf(text, size, "%s: %s works", path, key->choices[(int)key->fallback]);
+    else if (nearest_value(search, table, key, computed_value(key, &design), &value))
+      snprintf(text, size, "%s: %.6g works", path, value);
+    else
+      snprintf(text, size, "it works without %s", path);
+    return 1;
+  }
+  return 0;
+}
+
+static int several_keys(Search *search, const CwCase *table, const int *keys, int count, char *text, size_t size) {
+  CwCase without = *table;
+  CwDesign design;
+  int out = 0, kept[KEYS_MOST] = {0};
+  while (out < count) {
+    const CwCaseKey *key = &cw_case_keys[keys[out++]];
+    cw_case_key_set(key, key->fallback, &without);
+    if (out > 1 && works(search, &without, &design)) break;
+    if (out == count) return 0;
+  }
+  for (int i = 0; i < out - 1; i++) {
+    const CwCaseKey *key = &cw_case_keys[keys[i]];
+    CwCase with = without;
+    cw_case_key_set(key, cw_case_key_value(key, table), &with);
+    kept[i] = works(search, &with, &design);
+    if (kept[i]) without = with;
+  }
+  if (!works(search, &without, &design)) return 0; // the design of what is left, for its values
+  size_t used = (size_t)snprintf(text, size, "it works without");
+  for (int i = 0, named = 0; i < out; i++) {
+    const CwCaseKey *key = &cw_case_keys[keys[i]];
+    char path[PATH_SIZE], then[40] = "";
+    if (kept[i] || used >= size) continue;
+    const double value = computed_value(key, &design);
+    if (!isnan(value)) snprintf(then, sizeof then, " (then %.4g)", value);
+    cw_case_key_path(key, path);
+    used += (size_t)snprintf(text + used, size - used, "%s %s%s", named++ ? " and" : "", path, then);
+  }
+  return 1;
+}
+
+int cw_remedy_find(const CwCase *table, const char *message, CwRemedyTrial trial, char *text, size_t size) {
+  Search search = {.trial = trial};
+  int keys[KEYS_MOST];
+  const int count = list_keys(table, message, keys);
+  return one_key(&search, table, keys, count, text, size) || several_keys(&search, table, keys, count, text, size);
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What to change in a case whose geometry is refused: the fewest keys, and a value that was tried and works.
+//
+// A pump given by its duty alone can be built, so leaving keys out of the case leads to one that works. First each key
+// alone is left out, those that the refusal names before others; of a number the value nearest to the given one is then
+// looked for between it and the computed one. Where no key alone helps, keys are left out one after another until the
+// pump can be built, and those that were not needed are put back.
+#ifndef CUTWATER_GEOMETRY_REMEDY_H
+#define CUTWATER_GEOMETRY_REMEDY_H
+
+#include <stddef.h>
+
+#include "geometry/hydraulic_design.h"
+#include "pipeline/case.h"
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Whether the geometry of a case can be made; on success `design` is that of the case.
+typedef CwStatus (*CwRemedyTrial)(const CwCase *table, CwDesign *design);
+
+// Looks for a change of `table`, which was refused with `message`, and writes it to `text`: "impeller.wrap_angle_deg:
+// 120 works" or "it works without impeller.wrap_angle_deg". Returns whether one was found within 60 trials; failures of
+// trials are cleared.
+int cw_remedy_find(const CwCase *table, const char *message, CwRemedyTrial trial, char *text, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
