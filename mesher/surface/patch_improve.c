@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "mesher/common/vec.h"
+#include "mesher/surface/patch_cuts.h"
 
 // Edges longer or shorter than these shares of the wanted length are split or drawn together.
 static const double long_edge = 1.45, short_edge = 0.62;
@@ -323,15 +324,20 @@ static double least_cosine(const CwPatchWork *work, int32_t t) {
   return cosine_of(work, work->corner[t][0], work->corner[t][1], work->corner[t][2]);
 }
 
-// Flips the edge of the steep triangle t that lays it down most: the three corners of one on a cut across a fillet lie
-// in the dividing plane, and no column on this plane leaves it.
-static int flip_steep(CwPatchWork *work, int32_t t) {
+// How well a triangle fits the surface: its least cosine; below all of them where it lies in a cut.
+static double fit_of(const CwPatchWork *work, const CwPatchCuts *cuts, int32_t a, int32_t b, int32_t c) {
+  return cw_patch_cuts_hold(cuts, (const int32_t[3]){a, b, c}) ? -2 : cosine_of(work, a, b, c);
+}
+
+// Flips the edge of an unfit triangle after which the worse of the two fits best, and better than it does.
+static int flip_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int32_t t) {
   int best = -1;
-  double least = least_cosine(work, t) + 1e-3;
+  const int32_t *c = work->corner[t];
+  double least = fit_of(work, cuts, c[0], c[1], c[2]) + 1e-3;
   for (int i = 0; i < 3; i++) {
     if (work->given[t] >> i & 1) continue;
     Flip flip = flip_of(work, t, i);
-    double then = fmin(cosine_of(work, flip.a, flip.b, flip.d), cosine_of(work, flip.a, flip.d, flip.c));
+    double then = fmin(fit_of(work, cuts, flip.a, flip.b, flip.d), fit_of(work, cuts, flip.a, flip.d, flip.c));
     if (then <= least) continue;
     least = then;
     best = i;
@@ -350,17 +356,17 @@ static int is_too_large(const CwPatchWork *work, int32_t t) {
   return cw_norm(n) > 0.5 * sqrt(3) * most * most;
 }
 
-// Halves the longest free edge of triangles that are too large, and of those that stand steeply on the surface and
-// that no flip lays down: on a nose narrower than the wanted edges one may span half of it, and its corners see no
-// direction in common with the faces beside it.
-static CwStatus mend_unfit(CwPatchWork *work, int64_t *changes) {
+// Halves the longest free edge of triangles that are too large, and of those that lie in a cut or stand steeply on the
+// surface and that no flip lays down: on a nose narrower than the wanted edges one may span half of it, and its corners
+// see no direction in common with the faces beside it.
+static CwStatus mend_unfit(CwPatchWork *work, const CwPatchCuts *cuts, int64_t *changes) {
   CwStatus status = CW_OK;
   int32_t count = work->triangle_count;
   int inserted;
   for (int32_t t = 0; t < count; t++) {
     if (work->corner[t][0] < 0) continue;
-    int steep = least_cosine(work, t) < steep_cosine;
-    if (steep && flip_steep(work, t)) {
+    int steep = cw_patch_cuts_hold(cuts, work->corner[t]) || least_cosine(work, t) < steep_cosine;
+    if (steep && flip_unfit(work, cuts, t)) {
       ++*changes;
       continue;
     }
@@ -383,7 +389,8 @@ done:
 
 CwStatus cw_patch_improve(CwPatchWork *work) {
   CwStatus status = CW_OK;
-  enum { SWEEPS = 4, MENDS = 4, STEEP_ROUNDS = 3 };
+  enum { SWEEPS = 4, MENDS = 4, UNFIT_ROUNDS = 3 };
+  CwPatchCuts cuts = {0};
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     cw_patch_delaunay(work, 1);
     remove_crowded(work);
@@ -397,13 +404,15 @@ CwStatus cw_patch_improve(CwPatchWork *work) {
   cw_patch_delaunay(work, 1);
   for (int mend = 0; mend < MENDS; mend++)
     if (!mend_worst(work, 0.8)) break;
+  CW_TRY(cw_patch_cuts_make(work->input, &cuts));
   // Last, without flips after it: these go by the angles and would turn such triangles back.
-  for (int round = 0; round < STEEP_ROUNDS; round++) {
+  for (int round = 0; round < UNFIT_ROUNDS; round++) {
     int64_t changes = 0;
-    CW_TRY(mend_unfit(work, &changes));
+    CW_TRY(mend_unfit(work, &cuts, &changes));
     if (changes == 0) break;
     smooth(work);
   }
 done:
+  cw_patch_cuts_free(&cuts);
   return status;
 }

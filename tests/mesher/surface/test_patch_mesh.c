@@ -460,22 +460,36 @@ static void triangles_follow_a_narrow_nose(void **state) {
   }
 }
 
-// A quarter of a cylinder, as a fillet is one, cut across in two edges: no triangle has the three points of the cut as
-// corners, for it would lie in the dividing plane.
+// A quarter of a cylinder, as a fillet is one, cut across in two to four edges: no triangle has three points of the cut
+// as corners, for it would lie in the dividing plane.
 static void no_triangle_lies_in_a_cut(void **state) {
-  for (int aside = -2; aside <= 2; aside++) {
+  for (int i = 0; i < 15; i++) {
+    const int edges = 2 + i % 3, aside = i / 3 - 2;
     Plan *plan = new_plan(CYLINDER, 0.4);
     CwPatchMesh mesh;
     for (int k = 0; k <= 6; k++) add_point(plan, M_PI / 2, k / 3.0);
     for (int k = 6; k >= 0; k--) add_point(plan, 0, k / 3.0);
     for (int32_t p = 0; p < 14; p++) add_edge(plan, p, (p + 1) % 14, 1);
-    int32_t middle = add_point(plan, M_PI / 4, 1 + 0.01 * aside);
-    add_edge(plan, 3, middle, 0);
-    add_edge(plan, middle, 10, 0);
+    int32_t last = 3;
+    for (int k = 1; k < edges; k++) {
+      double t = (double)k / edges;
+      int32_t p = add_point(plan, (1 - t) * M_PI / 2, 1 + 0.05 * aside * t * (1 - t));
+      add_edge(plan, last, p, 0);
+      last = p;
+    }
+    add_edge(plan, last, 10, 0);
     if (cw_patch_mesh(&plan->input, &mesh) != CW_OK) fail_msg("%s", cw_fail_message());
     check_topology(plan, &mesh, 1);
     check_places(plan, &mesh, M_PI);
     check_not_steep(&mesh);
+    for (int32_t t = 0; t < mesh.triangle_count; t++) {
+      int on_cut = 0;
+      for (int k = 0; k < 3; k++) {
+        int32_t p = mesh.triangle[t][k];
+        on_cut += p == 3 || p == 10 || (p >= 14 && p < plan->input.point_count);
+      }
+      assert_true(on_cut < 3);
+    }
     cw_patch_mesh_free(&mesh);
     free(plan);
   }
