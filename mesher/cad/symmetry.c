@@ -8,7 +8,7 @@
 #include "mesher/common/vec.h"
 
 enum { TURNS_MOST = 64, FACE_SAMPLES = 5, EDGE_SAMPLES = 5 };
-static const double SAME = 1e-9; // m
+static const double SAME = 1e-9; // of the model's unit
 
 void cw_symmetry_turn(int32_t count, int32_t turns, const double x[3], double turned[3]) {
   if (turns == 0) {

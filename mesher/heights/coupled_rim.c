@@ -8,7 +8,7 @@
 #include "mesher/common/vec.h"
 
 enum { SIZE_STEPS = 400 };
-static const double SAME_PLACE = 1e-9; // m
+static const double SAME_PLACE = 1e-9; // of the model's unit
 static const double NEAR = 0.15;       // of the size: breaks of the two domains that are nearer share one place
 
 // A place on the edge, as shares of its length in the sense of side 0, for either side.

@@ -73,7 +73,8 @@ double cw_face_onto_plane(const CwCad *cad, int32_t face, const CwPlane *plane, 
 double cw_face_onto_planes(const CwCad *cad, int32_t face, const CwPlane *a, const CwPlane *b, double uv[2],
                            double x[3]);
 
-static const double cw_same_corner = 1e-8; // m: corners nearer to one another, on the same things, are one
+// Of the model's unit: corners nearer to one another, on the same things, are one.
+static const double cw_same_corner = 1e-8;
 
 // Adds a corner unless one with the same CAD entity and planes lies within `tolerance` m; returns its number, or -1
 // where memory ran out.

@@ -8,7 +8,7 @@
 #include "mesher/network/network.h"
 
 enum { NEWTON_STEPS = 20 };
-static const double ON_PLANE = 1e-12; // m: as near as double precision allows at pump size
+static const double ON_PLANE = 1e-12; // of the model's unit: as near as double precision allows
 
 double cw_face_onto_plane(const CwCad *cad, int32_t face, const CwPlane *plane, double uv[2], double x[3]) {
   double distance = 0;

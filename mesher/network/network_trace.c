@@ -9,7 +9,9 @@
 #include "mesher/network/network.h"
 
 enum { EDGE_SAMPLES = 257 };
-static const double FOUND = 1e-9; // m: Newton has arrived
+static const double FOUND = 1e-9; // of the model's unit: Newton has arrived
+// Of the model's unit, over the length of a background edge: a corner found farther off is another.
+static const double BESIDE = 1e-4;
 
 // A background edge that the plane crosses, as seen from one of its two triangles.
 typedef struct {
@@ -147,7 +149,7 @@ static CwStatus corner_on_edge(const CwNetwork *network, const Crossings *found,
     corner->t = fmin(fmax(corner->t - distance / slope, range[0]), range[1]);
   }
   double length = cw_distance(background->x[found->crossing[2 * key].a], background->x[found->crossing[2 * key].b]);
-  CW_END_UNLESS(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + 1e-4, outcome, CW_OUTCOME_REPLAN,
+  CW_END_UNLESS(fabs(distance) < FOUND && cw_distance(corner->x, guess) < length + BESIDE, outcome, CW_OUTCOME_REPLAN,
                 guess, "dividing plane %d grazes the edge between faces %s and %s", node, cw_cad_face_name(cad, f),
                 cw_cad_face_name(cad, g));
 done:

@@ -7,7 +7,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/plan/plan.h"
 
-static const double SAME_CORNER = 1e-7; // m
+static const double SAME_CORNER = 1e-7; // of the model's unit
 static const double SAME_CURVE = 0.1;   // of its length: how far the middle of a turned curve may be off its image
 
 void cw_orbit_free(CwSkeletonOrbits *orbits) {

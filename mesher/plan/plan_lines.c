@@ -14,7 +14,7 @@ static const double ROOM = 1.5;      // thicknesses of the layers: lines of two 
 // have room.
 static const double SAME_LINE = 1, APART = 3;
 static const double NEIGHBOUR_REACH = 5; // base sizes: planes farther from a line do not matter to it
-static const double SAME_POINT = 1e-9;   // m
+static const double SAME_POINT = 1e-9;   // of the model's unit
 static const double LEANING = 0.55;      // cosine of a line to a wall's normal: columns that lean more are lower
 static const double LEANING_MOST = 0.25; // the same, where nothing is left of them
 static const double TANGENT = 0.15;      // the same, where a column along the line would hardly leave the wall

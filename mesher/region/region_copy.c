@@ -10,7 +10,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/heights/layer_heights.h"
 
-static const double SAME_POINT = 1e-9; // m
+static const double SAME_POINT = 1e-9; // of the model's unit
 
 static int32_t copied_region(const CwRegionContext *context, int32_t first, int32_t turns) {
   return cw_orbit_region(&context->skeleton->orbits, context->skeleton->plan, first, turns);

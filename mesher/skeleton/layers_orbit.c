@@ -19,7 +19,7 @@ static const double REACH = 4;    // thicknesses: how far the layers feel one an
 static const double FAIR = 0.05, VALID = 0.02; // least prism quality, and where half the rounds did not bring it
 static const double THIN = 0.8;                // what a column keeps where the copies do not fit one another
 static const double SLOPE = 0.3; // heights change by no more per distance, as where they are graded (layers_gap)
-static const double SAME = 1e-9; // m: fronts that differ less are the same
+static const double SAME = 1e-9; // of the model's unit: fronts that differ less are the same
 
 // The part of the wall that the first ones and what stands near them make up.
 typedef struct {

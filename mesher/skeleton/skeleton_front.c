@@ -14,7 +14,7 @@
 #include "mesher/skeleton/skeleton.h"
 #include "pipeline/log.h"
 
-static const double DIRECTION_LENGTH = 1e-5; // m
+static const double DIRECTION_LENGTH = 1e-5; // of the model's unit
 
 // Outward or inward unit normal of a cap at the point nearest to x.
 static void cap_normal(const CwCad *cad, int32_t face, const double x[3], double uv[2], double normal[3]) {

@@ -10,7 +10,7 @@
 #include "mesher/skeleton/skeleton_curves.h"
 #include "mesher/surface/patch_task.h"
 
-static const double BESIDE = 1e-7; // m: where the two regions beside an interface are asked for
+static const double BESIDE = 1e-7; // of the model's unit: where the two regions beside an interface are asked for
 
 CwStatus cw_skeleton_add_node(CwSkeleton *skeleton, const double x[3], int on_plane, int32_t *node) {
   CwStatus status = CW_OK;

@@ -13,7 +13,7 @@
 #include "mesher/surface/patch_task.h"
 
 enum { SIZE_STEPS = 400, MOST_FOR_BENDS = 12 };
-static const double ON_PLANE = 1e-8; // m
+static const double ON_PLANE = 1e-8; // of the model's unit
 // Of the length of an edge, how far its curve may lie beside it: a circle's edges turn by 62 degrees.
 static const double MOST_BESIDE = 0.14;
 
