@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include <BRep_Builder.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -43,21 +45,41 @@ int CwShellBuilder::edge(const Handle(Geom_Curve) & curve, double first, double 
   return (int)edges.size() - 1;
 }
 
+// Parameters at which a curve is held against its surface: even ones, and some between the knots of both splines, where
+// the peaks of their deviation are.
+static std::vector<double> samples_of(const Handle(Geom_Curve) & curve, const Handle(Geom2d_Curve) & on_surface,
+                                      double first, double last) {
+  const int even = 100, between = 8;
+  std::vector<double> knots = {first, last}, samples;
+  if (const Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve); !spline.IsNull())
+    for (int i = 1; i <= spline->NbKnots(); i++) knots.push_back(spline->Knot(i));
+  if (const Handle(Geom2d_BSplineCurve) spline = Handle(Geom2d_BSplineCurve)::DownCast(on_surface); !spline.IsNull())
+    for (int i = 1; i <= spline->NbKnots(); i++) knots.push_back(spline->Knot(i));
+  std::sort(knots.begin(), knots.end());
+  for (int i = 0; i <= even; i++) samples.push_back(first + (last - first) * i / even);
+  for (size_t i = 0; i + 1 < knots.size(); i++)
+    for (int k = 0; k < between; k++) samples.push_back(knots[i] + (knots[i + 1] - knots[i]) * k / between);
+  samples.erase(std::remove_if(samples.begin(), samples.end(), [&](double t) { return t < first || t > last; }),
+                samples.end());
+  std::sort(samples.begin(), samples.end());
+  return samples;
+}
+
 void CwShellBuilder::face(const Handle(Geom_Surface) & surface, std::vector<CwEdgeUse> loop, bool outward,
                           const char *patch, const char *kind, const std::string &name) {
-  const int samples = 100;
   BRep_Builder builder;
   CwSolidFace made;
   double twice_area = 0;
   for (const CwEdgeUse &use : loop) {
     Edge &edge = edges[use.edge];
     gp_Pnt2d last;
-    for (int i = 0; i <= samples; i++) {
-      const double t = edge.first + (edge.last - edge.first) * i / samples;
+    bool begun = false;
+    for (double t : samples_of(edge.curve, use.curve, edge.first, edge.last)) {
       const gp_Pnt2d uv = use.curve->Value(t);
       edge.deviation = std::max(edge.deviation, edge.curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
-      if (i > 0) twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
+      if (begun) twice_area += (use.forward ? 1 : -1) * (last.X() * uv.Y() - last.Y() * uv.X());
       last = uv;
+      begun = true;
     }
   }
   // A forward face has its fluid-side loop counter-clockwise in the parameter plane.

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the solids are for another program that goes on with them: OpenCASCADE's check of the arguments of boolean
+// operations, as FreeCAD's "check geometry" runs it, finds nothing. It looks for faces and edges of a solid that cross
+// or touch one another and for curves that leave their surface by more than the edge's tolerance, among others.
+#include <csetjmp>
+#include <cstdarg>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <BOPAlgo_ArgumentAnalyzer.hxx>
+
+extern "C" {
+#include <cmocka.h>
+}
+
+#include "geometry/hydraulic_design.h"
+#include "geometry/pump.h"
+#include "geometry/solid.hpp"
+#include "pipeline/case.h"
+
+static const char *status_name(BOPAlgo_CheckStatus status) {
+  switch (status) {
+  case BOPAlgo_SelfIntersect:
+    return "crosses itself";
+  case BOPAlgo_TooSmallEdge:
+    return "has too small an edge";
+  case BOPAlgo_NonRecoverableFace:
+    return "has a face that its edges do not bound";
+  case BOPAlgo_IncompatibilityOfVertex:
+  case BOPAlgo_IncompatibilityOfEdge:
+  case BOPAlgo_IncompatibilityOfFace:
+    return "has parts that lie on one another";
+  case BOPAlgo_GeomAbs_C0:
+    return "has a kink in a curve or surface";
+  case BOPAlgo_InvalidCurveOnSurface:
+    return "has an edge off its surface";
+  default:
+    return "cannot be checked";
+  }
+}
+
+// `crossings`: whether faces are held against one another too, which takes minutes where root fillets touch.
+static void expect_no_fault(const CwSolid *solid, bool crossings) {
+  BOPAlgo_ArgumentAnalyzer check;
+  check.SetShape1(solid->solid);
+  check.SelfInterMode() = crossings;
+  check.ArgumentTypeMode() = check.SmallEdgeMode() = Standard_True;
+  check.RebuildFaceMode() = check.MergeVertexMode() = check.MergeEdgeMode() = Standard_True;
+  check.ContinuityMode() = check.CurveOnSurfaceMode() = Standard_True;
+  check.Perform();
+  for (const BOPAlgo_CheckResult &fault : check.GetCheckResult()) {
+    std::string where;
+    for (const TopoDS_Shape &shape : fault.GetFaultyShapes1())
+      for (const CwSolidFace &face : solid->faces)
+        if (face.face.IsSame(shape)) where += " " + face.name;
+    fail_msg("%s %s:%s", solid->domain.c_str(), status_name(fault.GetCheckStatus()), where.c_str());
+  }
+}
+
+static void expect_no_fault_in(const CwCase &table, bool crossings) {
+  CwDesign design;
+  CwPipeStubs stubs;
+  CwPump pump = {};
+  if (cw_hydraulic_design(&table, &design) != CW_OK || cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK ||
+      cw_pump_build(&table, &design, &stubs, &pump) != CW_OK)
+    fail_msg("%s", cw_fail_message());
+  for (int i = 0; i < pump.count; i++) expect_no_fault(pump.solid[i], crossings);
+  cw_pump_free(&pump);
+}
+
+static CwCase read_case(const char *name) {
+  CwCase table;
+  const std::string path = std::string(CUTWATER_SOURCE_DIR "/cases/") + name + "/case.yaml";
+  assert_int_equal(cw_case_read(path.c_str(), &table), CW_OK);
+  return table;
+}
+
+static void paper(void **) {
+  expect_no_fault_in(read_case("paper"), true);
+}
+
+static void splitters_and_zones(void **) {
+  CwCase table = read_case("splitters");
+  table.impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
+  table.volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
+  expect_no_fault_in(table, true);
+}
+
+static void fillets_round_edges_shaft_and_radial_discharge(void **) {
+  CwCase table = read_case("paper");
+  table.impeller.root_fillet_radius = 1e-3;
+  table.impeller.trailing_edge = CW_EDGE_ROUNDED;
+  table.impeller.through_shaft_diameter = 20e-3;
+  table.impeller.rotation = CW_ROTATION_CLOCKWISE;
+  table.volute.discharge = CW_DISCHARGE_RADIAL;
+  expect_no_fault_in(table, false);
+}
+
+static void rectangle_and_sharp_edges(void **) {
+  CwCase table = read_case("ns200");
+  table.impeller.trailing_edge = CW_EDGE_SHARP;
+  table.volute.section = CW_SECTION_RECTANGLE;
+  expect_no_fault_in(table, false);
+}
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(paper),
+      cmocka_unit_test(splitters_and_zones),
+      cmocka_unit_test(fillets_round_edges_shaft_and_radial_discharge),
+      cmocka_unit_test(rectangle_and_sharp_edges),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
