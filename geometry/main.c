@@ -111,6 +111,8 @@ static CwStatus write_file(const CwPump *pump, const CwDesign *design, const CwM
     return cw_interfaces_table_write(pump, path);
   case 10:
     return cw_model_unit_write(cw_solid_unit(solids[0]), path);
+  case 11:
+    return cw_step_write_with_faces(solids, pump->count, path);
   case 2:
     return cw_step_write(solids, pump->count, path);
   case 3:
@@ -161,7 +163,8 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
                                       "blade_angle.svg",
                                       "volute_sections.svg",
                                       "volute_plan.svg",
-                                      "model.json"};
+                                      "model.json",
+                                      "pump_faces.step"};
   enum { FILES = sizeof names / sizeof *names };
   CwStatus status = CW_OK;
   CwDesign design;

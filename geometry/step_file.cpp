@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <APIHeaderSection_MakeHeader.hxx>
+#include <BRep_Builder.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -21,6 +22,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Shell.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
@@ -64,7 +66,18 @@ void set_name(const TDF_Label &label, const std::string &name) {
 
 const double millimetre = 1e-3; // m
 
-CwStatus write(const CwSolid *const *solids, int count, const char *temporary_path) {
+// Each face once more, as a shell that is a product with the name of its patch.
+void add_faces(const Handle(XCAFDoc_ShapeTool) & shapes, const CwSolid &solid) {
+  for (const CwSolidFace &face : solid.faces) {
+    TopoDS_Shell shell;
+    BRep_Builder builder;
+    builder.MakeShell(shell);
+    builder.Add(shell, face.face);
+    set_name(shapes->AddShape(shell, Standard_False), face.patch);
+  }
+}
+
+CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const char *temporary_path) {
   Document document;
   const Handle(XCAFDoc_ShapeTool) shapes = document.shapes();
   for (int i = 0; i < count; i++) {
@@ -76,6 +89,7 @@ CwStatus write(const CwSolid *const *solids, int count, const char *temporary_pa
       if (part.IsNull()) throw Standard_Failure(("no label for face " + face.name).c_str());
       set_name(part, face.patch);
     }
+    if (with_faces) add_faces(shapes, solid);
   }
   STEPCAFControl_Writer writer;
   Interface_Static::SetCVal("write.step.unit", "MM");
@@ -129,12 +143,12 @@ CwSolid *read(const char *path, const char *domain, CwStatus *status) {
 
 } // namespace
 
-CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path) {
+static CwStatus write_whole(const CwSolid *const *solids, int count, bool with_faces, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {};
   try {
     CW_TRY(cw_atomic_file_name(path, &file));
-    CW_TRY(write(solids, count, file.temporary_path));
+    CW_TRY(write(solids, count, with_faces, file.temporary_path));
     CW_TRY(cw_atomic_file_commit(&file));
   } catch (const Standard_Failure &failure) {
     status = CW_FAIL(CW_ERR_LIBRARY, "%s: OpenCASCADE: %s", path, failure.GetMessageString());
@@ -144,6 +158,14 @@ CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path
 done:
   cw_atomic_file_abandon(&file);
   return status;
+}
+
+CwStatus cw_step_write(const CwSolid *const *solids, int count, const char *path) {
+  return write_whole(solids, count, false, path);
+}
+
+CwStatus cw_step_write_with_faces(const CwSolid *const *solids, int count, const char *path) {
+  return write_whole(solids, count, true, path);
 }
 
 CwStatus cw_step_read(const char *path, const char *domain, CwSolid **solid) {

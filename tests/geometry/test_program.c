@@ -49,7 +49,7 @@ static void files_are_written_and_the_same_each_time(void **state) {
                                       "blade_to_blade.svg", "meridional_section.svg",
                                       "blade_angle.svg",    "velocity_triangles.svg",
                                       "volute_plan.svg",    "volute_sections.svg",
-                                      "model.json"};
+                                      "model.json",         "pump_faces.step"};
   char command[300];
   assert_int_equal(run(CUTWATER_SOURCE_DIR "/cases/paper/case.yaml", "a"), 0);
   assert_true(messages_have("measured: wrap 71.000 deg, D1 74.0000, D2 200.0000, b2 8.0000 mm"));

@@ -60,6 +60,16 @@ class Step(unittest.TestCase):
         named = collections.Counter(re.findall(r"ADVANCED_FACE\('([^']*)'", text))
         self.assertEqual(named, collections.Counter(row[2] for row in rows))
 
+    def test_gmsh_shows_the_patch_of_every_face(self):
+        gmsh.model.add("faces")
+        gmsh.model.occ.importShapes(str(RUN / "geometry/pump_faces.step"))
+        gmsh.model.occ.synchronize()
+        shown = collections.Counter(gmsh.model.getEntityName(*face).split("/")[-1] for face in gmsh.model.getEntities(2))
+        rows = [row.split(",") for row in (RUN / "geometry/faces.csv").read_text().splitlines()[1:]]
+        self.assertEqual(len(gmsh.model.getEntities(3)), 2)
+        self.assertEqual(shown, collections.Counter(row[2] for row in rows))
+        gmsh.model.remove()
+
 
 if __name__ == "__main__":
     unittest.main()
