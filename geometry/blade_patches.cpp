@@ -38,6 +38,8 @@ private:
   void trailing_points(double p_bevel);
   void points();
   void fill(CwBladePatch &patch);
+  Handle(Geom2d_BSplineCurve) curve_on_wall(const CwBladePatch &patch, int wall) const;
+  gp_Pnt2d nearest_on_wall(const CwMeridianCurve &curve, const gp_Pnt &point, const gp_Pnt2d &guess) const;
   CwBladePoint between(const CwBladePatch &patch, size_t i, double s) const;
   Handle(Geom_BSplineSurface)
       surface(const CwBladePatch &patch, const std::vector<double> &v, const std::vector<std::vector<double>> &span,
@@ -119,8 +121,6 @@ void Maker::fill(CwBladePatch &patch) {
   patch.band.push_back(surface(patch, v, span, points));
   if (fillets) patch.band.push_back(fillet(patch, CW_SHROUD));
   for (int wall : {CW_HUB, CW_SHROUD}) {
-    const CwBladeOnWall on = cw_blade_on_wall(&meridian, wall);
-    std::vector<gp_Pnt2d> on_wall;
     for (size_t i = 0; i < count; i++) {
       CwBladePoint point = patch.points[i * CW_SPAN_POINTS + (wall == CW_HUB ? 0 : CW_SPAN_POINTS - 1)];
       if (fillets) {
@@ -128,10 +128,43 @@ void Maker::fill(CwBladePatch &patch) {
         point.theta += patch.foot[wall][i].theta;
       }
       patch.outline[wall].push_back(point);
-      on_wall.push_back(gp_Pnt2d(point.theta, cw_meridian_parameter(on.curve, on.begin + point.q * on.length)));
     }
-    patch.on_wall[wall] = cw_bspline_curve_2d(patch.u, on_wall);
+    patch.on_wall[wall] = curve_on_wall(patch, wall);
   }
+}
+
+// The outline in (theta, t), through its points and, half-way between them, through those of the wall nearest to the
+// surface's edge: t may run very unevenly along a wall.
+Handle(Geom2d_BSplineCurve) Maker::curve_on_wall(const CwBladePatch &patch, int wall) const {
+  const CwBladeOnWall on = cw_blade_on_wall(&meridian, wall);
+  const Handle(Geom_Curve) edge = wall == CW_HUB ? patch.band.front()->VIso(0) : patch.band.back()->VIso(1);
+  std::vector<double> u;
+  std::vector<gp_Pnt2d> points;
+  for (size_t i = 0; i < patch.u.size(); i++) {
+    const CwBladePoint &point = patch.outline[wall][i];
+    const gp_Pnt2d here(point.theta, cw_meridian_parameter(on.curve, on.begin + point.q * on.length));
+    if (i > 0) {
+      u.push_back(0.5 * (patch.u[i - 1] + patch.u[i]));
+      points.push_back(
+          nearest_on_wall(*on.curve, edge->Value(u.back()), gp_Pnt2d(0.5 * (points.back().XY() + here.XY()))));
+    }
+    u.push_back(patch.u[i]);
+    points.push_back(here);
+  }
+  return cw_bspline_curve_2d(u, points);
+}
+
+// (theta, t) of the point of a wall nearest to one beside it, from a guess.
+gp_Pnt2d Maker::nearest_on_wall(const CwMeridianCurve &curve, const gp_Pnt &point, const gp_Pnt2d &guess) const {
+  const double r = std::hypot(point.X(), point.Y()) / scale, z = point.Z() / scale;
+  double theta = std::atan2(point.Y(), point.X()), t = guess.Y();
+  theta += 2 * M_PI * std::round((guess.X() - theta) / (2 * M_PI));
+  for (int i = 0; i < 8; i++) {
+    double x[2], dx[2];
+    cw_meridian_point(&curve, t, x, dx);
+    t -= ((x[0] - r) * dx[0] + (x[1] - z) * dx[1]) / (dx[0] * dx[0] + dx[1] * dx[1]);
+  }
+  return gp_Pnt2d(theta, t);
 }
 
 // Bevel and cut, both from the suction to the pressure side.

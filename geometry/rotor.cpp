@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/rotor.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -32,9 +33,10 @@
 
 namespace {
 
-// Parameter planes of the surfaces of revolution begin this far before a blade's trailing edge, so that a
-// whole passage has angles between 0 and 2 pi.
-const double margin = 0.5;
+// Parameter planes of the surfaces of revolution begin a margin before a blade's trailing edge, so that a whole passage
+// has angles between 0 and 2 pi; half of it is left behind the leading edge. rad; bevels and leaning edges need the
+// least.
+const double usual_margin = 0.5, least_margin = 0.15;
 enum { WALL_LEVELS = 4 }; // curves along the blade: hub, ends of both root fillets, shroud
 
 // A blade in the shell. Levels run from the hub's (0) to the shroud's, one more than bands; inner levels are
@@ -69,7 +71,7 @@ private:
   const CwMeridianCurve *curve[2];  // hub and shroud
   std::vector<CwBladeShape> shapes; // the blade and, with splitters, the splitter behind its pressure side
   std::vector<Blade> blade;         // splitters among the blades
-  double pitch;
+  double pitch, margin;
   int bands;
   bool has_nut, has_shaft;
   CwShellBuilder shell;
@@ -117,6 +119,7 @@ Handle(Geom2d_Curve) moved(const Handle(Geom2d_BSplineCurve) & curve, double du)
 
 CwStatus Rotor::sections() {
   CwStatus status = CW_OK;
+  double last = 0; // angle of the foremost leading edge
   pitch = 2 * M_PI / design->blade_count;
   CW_TRY(cw_meridian_make(design, &meridian));
   shapes.resize(design->splitter_start > 0 ? 2 : 1);
@@ -130,17 +133,17 @@ CwStatus Rotor::sections() {
   if (shapes.size() > 1) shapes[1].name = "splitter";
   for (const CwBladeShape &shape : shapes)
     for (const CwBladeSection &s : shape.section) {
-      const double last = cw_blade_theta(&s, 0);
-      CW_REQUIRE(last + pitch < 2 * M_PI - 1.5 * margin, CW_ERR_GEOMETRY,
-                 "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
-                 "raise blade_count",
-                 last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * margin) * 180 / M_PI);
+      last = std::max(last, cw_blade_theta(&s, 0));
       CW_REQUIRE(s.nose < 0.5 * s.end && s.nose < 0.8 * s.thickest_at, CW_ERR_GEOMETRY,
                  "the leading edge's ellipse takes %.0f %% of the %s at span %.2f: lower "
-                 "leading_edge_thickness_mm or "
-                 "leading_edge_ratio, or raise thickest_at",
+                 "leading_edge_thickness_mm or leading_edge_ratio, or raise thickest_at",
                  100 * s.nose, shape.name, s.span);
     }
+  margin = std::min(usual_margin, (2 * M_PI - last - pitch) / 1.5);
+  CW_REQUIRE(margin >= least_margin, CW_ERR_GEOMETRY,
+             "the wrap of %.1f deg plus the pitch of %.1f deg must stay under %.1f deg: lower wrap_angle_deg or "
+             "raise blade_count",
+             last * 180 / M_PI, pitch * 180 / M_PI, (2 * M_PI - 1.5 * least_margin) * 180 / M_PI);
 done:
   return status;
 }
