@@ -6,7 +6,8 @@
 #define CUTWATER_MESHER_FILL_FILL_POLICY_H
 
 #define CW_FILL_POLICY(X)                                                                                              \
-  CW_FILL_POLICY_POINTS(X) CW_FILL_POLICY_IMPROVE(X) CW_FILL_POLICY_RELAX(X) CW_FILL_POLICY_SEARCH(X)
+  CW_FILL_POLICY_POINTS(X)                                                                                             \
+  CW_FILL_POLICY_RECOVER(X) CW_FILL_POLICY_IMPROVE(X) CW_FILL_POLICY_RELAX(X) CW_FILL_POLICY_SEARCH(X)
 
 // Inner points.
 #define CW_FILL_POLICY_POINTS(X)                                                                                       \
@@ -14,6 +15,7 @@
   X(double, wall_distance, 0.5, "edge", "or h where that is less: least distance of a point to a boundary triangle")   \
   X(double, tetgen_clearance, 2.0, "1", "times that distance when TetGen tries again")                                 \
   X(double, lattice_jitter, 1e-3, "cell", "points are moved off common spheres by up to this")                         \
+  X(double, lattice_fit, 0.01, "1", "log of cells found over cells wanted: below it the spacing fits")                 \
   X(double, offset_height, 0.75, "spacing", "of offset points; sqrt(2/3) in a close packing, denser than asked for")   \
   X(double, offset_spacing_most, 1.3, "edge", "spacing of offset points at most")                                      \
   X(double, offset_apart, 0.7, "spacing", "least distance between offset points")                                      \
@@ -22,6 +24,12 @@
     "of the square of a triangle's sphere, out of which offset points keep: with all of it large triangles leave "     \
     "gaps where edges are of unlike length")
 
+// Recovery of the boundary by flips.
+#define CW_FILL_POLICY_RECOVER(X)                                                                                      \
+  X(int32_t, recover_rounds, 4, "1", "what one facet could not have may be free after others have theirs")             \
+  X(int32_t, recover_tries, 8, "1", "of an edge or facet, from its ends in turn, each two of a depth")                 \
+  X(int32_t, recover_hold, 16, "1", "flips that only prepare others, before the other end is tried")
+
 // Single changes.
 #define CW_FILL_POLICY_IMPROVE(X)                                                                                      \
   X(double, improve_below, 0.4226, "quality", "sine of 25 degrees: more costs time and gives no better worst ones")    \
@@ -29,9 +37,14 @@
     "sine of 21 degrees, in crowded regions: the last degrees, which the boundary keeps many from, cost aspect")       \
   X(int32_t, improve_passes, 5, "1", "over the list, at most")                                                         \
   X(double, move_gain, 2e-3, "quality", "least gain of a move: smaller ones cost much and give little")                \
+  X(double, move_step, 0.2, "radius", "first step of the search for the best place in a cavity")                       \
+  X(double, move_step_last, 0.2, "1", "last step over the first")                                                      \
   X(double, insert_below, 0.4226, "quality", "a new point is tried")                                                   \
   X(double, insert_round_below, 0.38, "quality", "and at places round about")                                          \
   X(double, insert_gain, 0.02, "quality", "least gain of a new point: it must pay for its cells")                      \
+  X(double, insert_aim_high, 0.4, "quality", "first threshold for the growth of a cavity")                             \
+  X(double, insert_aim, 0.32, "quality", "second threshold")                                                           \
+  X(double, insert_aim_low, 0.25, "quality", "third threshold, before none")                                           \
   X(double, insert_shell, 0.2, "edge", "distance between the shells of places round about")                            \
   X(double, slender_aspect, 1.6, "1", "longest over shortest edge above which the longest edge may go")                \
   X(double, slender_aspect_crowded, 1.5, "1", "the same in crowded regions, once points were taken away")              \
@@ -70,6 +83,7 @@
   X(double, search_counted, 0.3746, "sine", "22 degrees: what is less counts in a patch, and is improved there")       \
   X(double, search_kept, 0.95, "1", "of the least sine, in a search for determinants")                                 \
   X(double, search_sound, 0.02, "quality", "that a disturbance leaves; flatter ones are no matter of the search")      \
+  X(double, search_aim, 0.3, "quality", "threshold for a cavity of a disturbance, at most")                            \
   X(double, search_alike, 0.05, "sine", "above the worst: those that are disturbed, too")                              \
   X(double, search_shaken, 0.3, "edge", "farthest that points are moved by a disturbance")                             \
   X(int32_t, search_patch, 300, "tetrahedra", "of a patch")                                                            \

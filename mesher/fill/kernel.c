@@ -18,6 +18,7 @@
 #include "mesher/fill/kernel_facets.h"
 #include "mesher/fill/kernel_recover.h"
 #include "mesher/fill/tet_improve.h"
+#include "mesher/policy.h"
 #include "pipeline/log.h"
 
 // Boundary points, then inner candidates, in the mesh but not yet connected; the deep ones of the lattice in the
@@ -51,7 +52,6 @@ static void give_back(void) {
 #endif
 }
 
-enum { ROUNDS = 4 };               // of recovery: what one facet could not have may be free after others have theirs
 enum { INNER = 16, OUTSIDE = 32 }; // of a tetrahedron, and bit i: its face i is a facet
 #define MARKED (UINT32_C(1) << 31) // and any of these
 enum { SOON = 8, LATER = 16 };     // facets ahead of which is prefetched, for the outer and the inner tetrahedron
@@ -156,7 +156,7 @@ static CwStatus recover(const CwFillInput *input, CwTetMesh *mesh, CwFacets *fac
   int64_t flips = 0;
   CW_TRY(cw_facets_locate(mesh, input->point_count, facets));
   recovery->missing = facets->missing_count;
-  for (int round = 0; round < ROUNDS && facets->missing_count; round++)
+  for (int round = 0; round < cw_fill_policy.recover_rounds && facets->missing_count; round++)
     CW_TRY(cw_kernel_recover(mesh, facets, round, &flips));
   recovery->flips = (int32_t)(flips < INT32_MAX ? flips : INT32_MAX);
   if (facets->missing_count) {

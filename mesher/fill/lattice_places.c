@@ -116,7 +116,7 @@ done:
 static CwStatus fit_spacing(Lattice *lattice, int32_t count, const CwLatticeCell *cell) {
   CwStatus status = CW_OK;
   double low = 0.5, high = 2.0, best = 1.0, best_error = INFINITY;
-  for (int round = 0; round < ROUNDS && best_error >= 0.01; round++) {
+  for (int round = 0; round < ROUNDS && best_error >= cw_fill_policy.lattice_fit; round++) {
     CW_TRY(cut_all(lattice, count, cell, 0));
     if (!(lattice->wanted > 0.0)) break;
     double ratio = lattice->found / lattice->wanted, error = fabs(log(ratio));

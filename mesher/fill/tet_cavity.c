@@ -46,7 +46,8 @@ double cw_cavity_best(CwCavity *cavity, double p[3], double start) {
     memcpy(p, mean, sizeof mean);
   }
   int last = 0;
-  for (double step = 0.2 * sqrt(square), end = 0.2 * step; step > end; step *= 0.5) {
+  for (double step = cw_fill_policy.move_step * sqrt(square), end = cw_fill_policy.move_step_last * step; step > end;
+       step *= 0.5) {
     for (int tries = 0, k = last; tries < 14; tries++, k = (k + 1) % 14) {
       double there[3];
       for (int i = 0; i < 3; i++) there[i] = p[i] + step * cw_tet_direction[k][i];

@@ -176,7 +176,7 @@ CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double
 
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
-  static const double aim[4] = {0.4, 0.32, 0.25, 0.0};
+  const double aim[4] = {cw_fill_policy.insert_aim_high, cw_fill_policy.insert_aim, cw_fill_policy.insert_aim_low, 0.0};
   double place[PLACES][3], least = w->mesh->tet[t].quality + cw_fill_policy.insert_gain, best = least, p[3];
   int tries = candidates(w, t, place);
   Cleared chosen = {0};

@@ -159,7 +159,7 @@ static CwStatus insert(Search *s, int32_t t) {
     place[i] = edge * (2.0 * next_random(s) - 1.0);
     for (int k = 0; k < 4; k++) place[i] += 0.25 * s->trial.point[s->trial.tet[t].corner[k]].x[i];
   }
-  return cw_tet_insert_at(&s->work, t, place, 0.3 * next_random(s), policy->search_sound);
+  return cw_tet_insert_at(&s->work, t, place, policy->search_aim * next_random(s), policy->search_sound);
 }
 
 // Moves about half of the free points, where no tetrahedron turns over.
