@@ -29,8 +29,9 @@ int main(int argc, char **argv) {
   CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
   if (args.finished) goto done;
   CW_TRY(cw_policy_start());
+  MPI_Barrier(MPI_COMM_WORLD); // else the run folder may be that of another mesher, which has the file of cw_stop_claim
   CW_TRY(cw_stop_watch(args.run_path, "mesh", run.rank == 0));
-  // Were rank 0 late with the file of cw_stop_claim, it would tell of its end beside the rank that failed.
+  // Were rank 0 late with that file, it would tell of its end beside the rank that failed.
   MPI_Barrier(MPI_COMM_WORLD);
   run.table = &table;
   run.run_path = args.run_path;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/atomic_file.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define PART_PREFIX ".part-"
 
 static void forget(CwAtomicFile *file) {
   free(file->temporary_path);
@@ -13,19 +17,32 @@ static void forget(CwAtomicFile *file) {
   memset(file, 0, sizeof *file);
 }
 
-CwStatus cw_atomic_file_name(const char *path, CwAtomicFile *file) {
+// Makes an empty file that no other process has, on this host or another one that sees the folder.
+static CwStatus make_temporary(const char *path, CwAtomicFile *file, int *handle) {
   CwStatus status = CW_OK;
-  memset(file, 0, sizeof *file);
   const char *slash = strrchr(path, '/');
   const char *name = slash ? slash + 1 : path;
+  size_t size = strlen(path) + sizeof PART_PREFIX + 2 * 3 * sizeof(int) + 2; // two numbers, each with its "-"
   CW_REQUIRE(*name, CW_ERR_IO, "\"%s\": cannot be written: no file name", path);
-  size_t size = strlen(path) + sizeof ".part-";
   CW_NEW(file->temporary_path, size);
-  snprintf(file->temporary_path, size, "%.*s.part-%s", (int)(name - path), path, name);
   file->final_path = strdup(path);
   CW_REQUIRE(file->final_path, CW_ERR_MEMORY, "out of memory: the name %s", path);
-  CW_REQUIRE(!unlink(file->temporary_path) || errno == ENOENT || errno == ENOTDIR, CW_ERR_IO,
-             "%s: cannot be removed: %s", file->temporary_path, strerror(errno));
+  for (int attempt = 0; *handle < 0; ++attempt) {
+    snprintf(file->temporary_path, size, "%.*s" PART_PREFIX "%d-%d-%s", (int)(name - path), path, (int)getpid(),
+             attempt, name);
+    *handle = open(file->temporary_path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    CW_REQUIRE(*handle >= 0 || errno == EEXIST, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
+  }
+done:
+  return status;
+}
+
+CwStatus cw_atomic_file_name(const char *path, CwAtomicFile *file) {
+  CwStatus status = CW_OK;
+  int handle = -1;
+  memset(file, 0, sizeof *file);
+  CW_TRY(make_temporary(path, file, &handle));
+  close(handle);
 done:
   if (status != CW_OK) forget(file);
   return status;
@@ -33,16 +50,40 @@ done:
 
 CwStatus cw_atomic_file_open(const char *path, CwAtomicFile *file) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_atomic_file_name(path, file));
-  file->stream = fopen(file->temporary_path, "w");
+  int handle = -1;
+  memset(file, 0, sizeof *file);
+  CW_TRY(make_temporary(path, file, &handle));
+  file->stream = fdopen(handle, "w");
+  if (!file->stream) close(handle);
   CW_REQUIRE(file->stream, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
 done:
   if (status != CW_OK) forget(file);
   return status;
 }
 
+CwStatus cw_sync(const char *path) {
+  CwStatus status = CW_OK;
+  int handle = open(path, O_RDONLY | O_CLOEXEC);
+  CW_REQUIRE(handle >= 0 && (!fsync(handle) || errno == EINVAL), CW_ERR_IO, "%s: cannot be brought to the disk: %s",
+             path, strerror(errno)); // EINVAL: the file system knows nothing of it
+done:
+  if (handle >= 0) close(handle);
+  return status;
+}
+
+CwStatus cw_sync_folder_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  if (!slash) return cw_sync(".");
+  if (slash == path) return cw_sync("/");
+  char *folder = strndup(path, (size_t)(slash - path));
+  CwStatus status = folder ? cw_sync(folder) : CW_FAIL(CW_ERR_MEMORY, "out of memory: the name %s", path);
+  free(folder);
+  return status;
+}
+
 CwStatus cw_atomic_file_commit(CwAtomicFile *file) {
   CwStatus status = CW_OK;
+  struct stat about;
   if (file->stream) {
     FILE *stream = file->stream;
     file->stream = NULL;
@@ -51,9 +92,14 @@ CwStatus cw_atomic_file_commit(CwAtomicFile *file) {
     if (fclose(stream)) broken = 1;
     CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", file->final_path,
                errno ? strerror(errno) : "a write failed");
+  } else { // nothing that this program writes is empty
+    CW_REQUIRE(!stat(file->temporary_path, &about) && about.st_size > 0, CW_ERR_IO,
+               "%s: cannot be written: nothing came", file->final_path);
   }
+  CW_TRY(cw_sync(file->temporary_path));
   CW_REQUIRE(!rename(file->temporary_path, file->final_path), CW_ERR_IO, "%s: cannot be written: %s", file->final_path,
              strerror(errno));
+  CW_TRY(cw_sync_folder_of(file->final_path));
   forget(file);
 done:
   if (status != CW_OK) cw_atomic_file_abandon(file);
@@ -65,6 +111,21 @@ void cw_atomic_file_abandon(CwAtomicFile *file) {
   if (file->stream) fclose(file->stream);
   unlink(file->temporary_path);
   forget(file);
+}
+
+CwStatus cw_atomic_file_clear(const char *folder) {
+  CwStatus status = CW_OK;
+  struct dirent *entry;
+  DIR *list = opendir(folder);
+  CW_REQUIRE(list, CW_ERR_IO, "%s: cannot be read: %s", folder, strerror(errno));
+  while ((entry = readdir(list))) {
+    if (strncmp(entry->d_name, PART_PREFIX, strlen(PART_PREFIX))) continue;
+    CW_REQUIRE(!unlinkat(dirfd(list), entry->d_name, 0) || errno == ENOENT, CW_ERR_IO, "%s/%s: cannot be removed: %s",
+               folder, entry->d_name, strerror(errno));
+  }
+done:
+  if (list) closedir(list);
+  return status;
 }
 
 CwStatus cw_make_directory(const char *path) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Files that appear whole or not at all: written under a temporary name in the same folder, then renamed.
+// Files that appear whole or not at all, through killed runs and power cuts: written under a temporary name in the same
+// folder, brought to the disk, then renamed.
 //
 //   CwAtomicFile file = {0};
 //   CW_TRY(cw_atomic_file_open("run/mesh/manifest.json", &file));
@@ -8,8 +9,8 @@
 // done:
 //   cw_atomic_file_abandon(&file); // nothing after a commit
 //
-// The temporary name is ".part-NAME": the same each time, so a killed run leaves no heap of them, and with
-// the ending of the final name, which some libraries look at.
+// The temporary name is ".part-PROCESS-COUNT-NAME", made so that no two processes share one, on whatever host. Its
+// ending is that of the final name, which some libraries look at.
 #ifndef CUTWATER_PIPELINE_ATOMIC_FILE_H
 #define CUTWATER_PIPELINE_ATOMIC_FILE_H
 
@@ -31,16 +32,24 @@ typedef struct {
 // Opens the temporary file for writing. Fails with CW_ERR_IO.
 CwStatus cw_atomic_file_open(const char *path, CwAtomicFile *file);
 
-// Chooses the temporary name only (and removes what an earlier run left there), for a library that opens
-// `temporary_path` by itself and closes it before the commit.
+// Makes an empty temporary file, for a library that opens `temporary_path` by itself and closes it before the commit,
+// which fails where the file is still empty. CW_ERR_IO.
 CwStatus cw_atomic_file_name(const char *path, CwAtomicFile *file);
 
-// Closes the stream, checks that everything was written, gives the file its final name. Without fsync: it
-// guards against a killed run, not against a power cut. On failure (CW_ERR_IO) the temporary file is gone.
+// Closes the stream, checks that everything was written, brings the file to the disk (fsync), gives it its final name,
+// and brings the folder to the disk. On failure (CW_ERR_IO) the temporary file is gone.
 CwStatus cw_atomic_file_commit(CwAtomicFile *file);
 
 // Closes and removes the temporary file. Does nothing on a zeroed or committed file. Keeps the last failure.
 void cw_atomic_file_abandon(CwAtomicFile *file);
+
+// Removes the temporary files that killed runs have left in `folder`. Only for who holds the lock of the run
+// (run_lock.h). CW_ERR_IO.
+CwStatus cw_atomic_file_clear(const char *folder);
+
+// Brings a closed file or a folder to the disk, or the folder that `path` lies in. CW_ERR_IO.
+CwStatus cw_sync(const char *path);
+CwStatus cw_sync_folder_of(const char *path);
 
 // Makes the folder `path` and its parents where they are missing. Fine when other ranks do the same.
 // CW_ERR_IO.

@@ -272,11 +272,13 @@ done:
 static CwStatus read_file(const char *path, const char *shown_path, char **text, size_t *length) {
   CwStatus status = CW_OK;
   struct stat about;
-  FILE *file = fopen(path, "rb");
+  FILE *file = NULL;
+  CW_REQUIRE(!stat(path, &about), CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path, strerror(errno));
+  // Every rank reads it: a pipe would serve one of them, and one without a writer would hold all.
+  CW_REQUIRE(S_ISREG(about.st_mode), CW_ERR_IO, "%s: this is %s; allowed: a case file in YAML", shown_path,
+             S_ISDIR(about.st_mode) ? "a folder" : "no plain file");
+  file = fopen(path, "rb");
   CW_REQUIRE(file, CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path, strerror(errno));
-  CW_REQUIRE(!fstat(fileno(file), &about), CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path,
-             strerror(errno));
-  CW_REQUIRE(!S_ISDIR(about.st_mode), CW_ERR_IO, "%s: this is a folder; allowed: a case file in YAML", shown_path);
   CW_NEW(*text, FILE_LIMIT + 1);
   *length = fread(*text, 1, FILE_LIMIT + 1, file);
   CW_REQUIRE(!ferror(file), CW_ERR_IO, "%s: the case file cannot be read: %s", shown_path, strerror(errno));

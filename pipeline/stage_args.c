@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include "pipeline/case_schema.h"
 #include "pipeline/case_value.h"
 #include "pipeline/log.h"
+#include "pipeline/run_lock.h"
 
 // Codes past all characters, so that getopt's code of an unknown short option is never one of them.
 enum { CASE = 256, RUN, CELLS, VERBOSE, VERSION, HELP, OPTION, SHARED_COUNT = OPTION - CASE };
@@ -130,7 +132,7 @@ done:
   return status;
 }
 
-// Makes RUN/STAGE, which must be writable, and removes the record of an earlier run.
+// Makes RUN/STAGE, which must be writable, and removes the record of an earlier run and what killed ones have left.
 static CwStatus claim_folder(const CwStageArgs *args, const char *stage) {
   CwStatus status = CW_OK;
   char *folder = NULL, *record = NULL, name[64];
@@ -140,6 +142,7 @@ static CwStatus claim_folder(const CwStageArgs *args, const char *stage) {
   CW_TRY(cw_make_directory(folder));
   CW_REQUIRE(!access(folder, W_OK | X_OK), CW_ERR_IO, "%s: cannot be written: %s", folder, strerror(errno));
   CW_REQUIRE(!remove(record) || errno == ENOENT, CW_ERR_IO, "%s: cannot be removed: %s", record, strerror(errno));
+  CW_TRY(cw_atomic_file_clear(folder));
 done:
   free(folder);
   free(record);
@@ -150,9 +153,11 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
                         CwCase *table) {
   CwStatus status = CW_OK;
   char *log_path = NULL, name[64];
+  signal(SIGXFSZ, SIG_IGN); // a write past the largest size of a file fails, and its one line says why
   CW_TRY(cw_log_open(usage->stage, NULL, speaks, 0));
   CW_TRY(cw_stage_args_read(argc, argv, usage, speaks ? stdout : NULL, args));
   if (args->finished) goto done;
+  if (speaks) CW_TRY(cw_run_lock(args->run_path, usage->stage)); // before the log of the stage that may have it
   snprintf(name, sizeof name, "log/%s.log", usage->stage);
   CW_TRY(cw_stage_path(args, name, &log_path));
   CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));

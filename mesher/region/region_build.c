@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/hash.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/fill/fill_with_fallback.h"
@@ -14,6 +13,7 @@
 #include "mesher/region/region_boundary.h"
 #include "mesher/policy.h"
 #include "mesher/source_hash.h"
+#include "pipeline/hash.h"
 #include "pipeline/mesh/interface_tolerance.h"
 
 static int compare_rims(const void *p, const void *q) {

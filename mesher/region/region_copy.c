@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesher/common/hash.h"
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/heights/layer_heights.h"
+#include "pipeline/hash.h"
 
 static const double SAME_POINT = 1e-9; // of the model's unit
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "mesher/common/hash.h"
+#include "pipeline/hash.h"
 #include "pipeline/record.h"
 
 enum { PATH_SIZE = 4096 };

@@ -174,7 +174,7 @@ def main():
             kernel += compare(program, f"ring {edge}", surface, 7, words, words.delaunay and first, folder)
             first = False
         for run in words.run:
-            for region in sorted((run / "mesh").glob("*.h5")):
+            for region in sorted((run / "mesh").glob("[!.]*.h5")):
                 if words.regions and region.stem not in words.regions:
                     continue
                 subprocess.run([str(program), "region", str(region), str(surface)], check=True)

@@ -72,7 +72,7 @@ def kill_half_way(options, run, cells, regions):
     began = time.monotonic()
     process = subprocess.Popen(command(options, "mesh", run, cells), env=ENVIRONMENT, stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL, start_new_session=True)
-    while len(list((run / "mesh").glob("*.h5"))) < regions // 2:
+    while len(list((run / "mesh").glob("[!.]*.h5"))) < regions // 2:
         if process.poll() is not None:
             sys.exit("scale: the run ended before it could be killed")
         time.sleep(0.05)
@@ -80,7 +80,7 @@ def kill_half_way(options, run, cells, regions):
     process.wait()
     killed = time.monotonic()
     time.sleep(2)  # ranks end when they see their mpirun gone
-    whole = len(list((run / "mesh").glob("*.h5")))
+    whole = len(list((run / "mesh").glob("[!.]*.h5")))
     again = time.monotonic()
     execute(*command(options, "mesh", run, cells))
     return killed - began, whole, time.monotonic() - again

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <dirent.h>
 #include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,12 +16,11 @@
 #include "pipeline/atomic_file.h"
 
 static char folder[] = CUTWATER_BIN_DIR "/atomic-XXXXXX";
-static char whole[sizeof folder + 32], part[sizeof folder + 32];
+static char whole[sizeof folder + 32];
 
 static int make_folder(void **state) {
   if (!mkdtemp(folder)) return -1;
   snprintf(whole, sizeof whole, "%s/mesh.txt", folder);
-  snprintf(part, sizeof part, "%s/.part-mesh.txt", folder);
   return 0;
 }
 
@@ -42,16 +42,27 @@ static int exists(const char *path) {
   return !access(path, F_OK);
 }
 
+// Files in the folder, the final one among them.
+static int files(void) {
+  int count = 0;
+  DIR *list = opendir(folder);
+  assert_non_null(list);
+  for (struct dirent *entry; (entry = readdir(list));) count += entry->d_type == DT_REG;
+  closedir(list);
+  return count;
+}
+
 static void file_appears_at_the_commit(void **state) {
   CwAtomicFile file = {0};
   assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
-  assert_string_equal(file.temporary_path, part);
+  const size_t length = strlen(file.temporary_path), end = strlen("-mesh.txt");
+  assert_string_equal(file.temporary_path + length - end, "-mesh.txt");
   fputs("new", file.stream);
   assert_false(exists(whole));
-  assert_true(exists(part));
+  assert_true(exists(file.temporary_path));
   assert_int_equal(cw_atomic_file_commit(&file), CW_OK);
   assert_content(whole, "new");
-  assert_false(exists(part));
+  assert_int_equal(files(), 1);
   cw_atomic_file_abandon(&file); // nothing after a commit
   assert_content(whole, "new");
 }
@@ -63,17 +74,54 @@ static void abandoned_file_leaves_the_old_one(void **state) {
   cw_atomic_file_abandon(&file);
   cw_atomic_file_abandon(&file);
   assert_content(whole, "new");
-  assert_false(exists(part));
+  assert_int_equal(files(), 1);
+}
+
+// Another process may write the same file: who commits last has it, and neither gets bytes of the other.
+static void two_writers_do_not_meet(void **state) {
+  CwAtomicFile one = {0}, two = {0};
+  assert_int_equal(cw_atomic_file_open(whole, &one), CW_OK);
+  assert_int_equal(cw_atomic_file_open(whole, &two), CW_OK);
+  assert_string_not_equal(one.temporary_path, two.temporary_path);
+  fputs("one", one.stream);
+  fputs("the other", two.stream);
+  assert_int_equal(cw_atomic_file_commit(&two), CW_OK);
+  assert_content(whole, "the other");
+  assert_int_equal(cw_atomic_file_commit(&one), CW_OK);
+  assert_content(whole, "one");
+  assert_int_equal(files(), 1);
+}
+
+static void what_killed_runs_left_is_cleared(void **state) {
+  CwAtomicFile file = {0};
+  assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
+  assert_int_equal(files(), 2);
+  assert_int_equal(cw_atomic_file_clear(folder), CW_OK);
+  assert_int_equal(files(), 1);
+  assert_content(whole, "one");
+  assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
+  assert_content(whole, "one");
+  assert_int_equal(cw_atomic_file_clear(whole), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "mesh.txt: cannot be read"));
+}
+
+// By the umask, as any file that a program makes, not for the owner alone.
+static void others_may_read_it(void **state) {
+  struct stat about;
+  mode_t before = umask(022);
+  CwAtomicFile file = {0};
+  assert_int_equal(cw_atomic_file_open(whole, &file), CW_OK);
+  fputs("open", file.stream);
+  assert_int_equal(cw_atomic_file_commit(&file), CW_OK);
+  umask(before);
+  assert_int_equal(stat(whole, &about), 0);
+  assert_int_equal(about.st_mode & 0777, 0644);
 }
 
 static void library_writes_by_name(void **state) {
   CwAtomicFile file = {0};
-  FILE *stale = fopen(part, "w"); // of a killed run
-  assert_non_null(stale);
-  fclose(stale);
   assert_int_equal(cw_atomic_file_name(whole, &file), CW_OK);
   assert_null(file.stream);
-  assert_false(exists(part));
   FILE *library = fopen(file.temporary_path, "w");
   assert_non_null(library);
   fputs("by name", library);
@@ -95,7 +143,7 @@ static void full_disk_is_an_error(void **state) {
   assert_int_equal(cw_atomic_file_commit(&file), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "mesh.txt: cannot be written: No space left on device"));
   assert_content(whole, "by name");
-  assert_false(exists(part));
+  assert_int_equal(files(), 1);
   assert_null(file.temporary_path);
 }
 
@@ -136,9 +184,15 @@ static void directories_are_made_with_parents(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(file_appears_at_the_commit), cmocka_unit_test(abandoned_file_leaves_the_old_one),
-      cmocka_unit_test(library_writes_by_name),     cmocka_unit_test(full_disk_is_an_error),
-      cmocka_unit_test(bad_places_are_errors),      cmocka_unit_test(directories_are_made_with_parents),
+      cmocka_unit_test(file_appears_at_the_commit),
+      cmocka_unit_test(abandoned_file_leaves_the_old_one),
+      cmocka_unit_test(two_writers_do_not_meet),
+      cmocka_unit_test(what_killed_runs_left_is_cleared),
+      cmocka_unit_test(others_may_read_it),
+      cmocka_unit_test(library_writes_by_name),
+      cmocka_unit_test(full_disk_is_an_error),
+      cmocka_unit_test(bad_places_are_errors),
+      cmocka_unit_test(directories_are_made_with_parents),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

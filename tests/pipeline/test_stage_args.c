@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "pipeline/log.h"
+#include "pipeline/run_lock.h"
 #include "pipeline/stage_args.h"
 
 static const CwStageOption own_options[] = {
@@ -174,6 +175,9 @@ static void stage_begins_with_log_and_case(void **state) {
   assert_int_equal(cw_stage_begin(7, argv, &usage, 1, &args, &table), CW_ERR_IO);
   cw_log_close();
   assert_int_equal(strncmp(cw_fail_message(), "/nowhere.yaml: ", 15), 0);
+  assert_int_equal(unlink(path), 0);
+  cw_run_unlock();
+  snprintf(path, sizeof path, "%s/log/run.lock", folder);
   assert_int_equal(unlink(path), 0);
   snprintf(path, sizeof path, "%s/log", folder);
   assert_int_equal(rmdir(path), 0);

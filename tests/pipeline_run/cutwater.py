@@ -82,6 +82,11 @@ def digests(folder, pattern="*", leave_out=("record.json",)):
             for path in sorted(folder.rglob(pattern)) if path.is_file() and path.name not in leave_out}
 
 
+def regions(run):
+    """The region files of a run that are whole."""
+    return sorted((Path(run) / "mesh").glob("[!.]*.h5"))
+
+
 def error_lines(text, name):
     return [line for line in text.splitlines() if line.startswith(f"cutwater-{name}: error: ")]
 

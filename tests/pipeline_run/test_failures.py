@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import socket
 import time
 import unittest
 from pathlib import Path
@@ -67,6 +68,15 @@ class BadInput(unittest.TestCase):
         folder = fresh("bad-none")
         self.one_line(stage("geometry", folder / "run", case=folder / "no.yaml"), "geometry", folder / "run")
         self.one_line(stage("geometry", folder / "run", case=folder), "geometry", folder / "run")
+
+    def test_a_pipe_as_case_file(self):
+        # Without a writer it would hold whoever opens it.
+        for name in ("geometry", "mesh"):
+            folder = fresh(f"bad-pipe-{name}")
+            os.mkfifo(folder / "case.yaml")
+            result = stage(name, folder / "run", case=folder / "case.yaml", ranks=2)
+            self.one_line(result, name, folder / "run")
+            self.assertIn("no plain file; allowed: a case file", result.stdout)
 
     def test_cells(self):
         for cells in ("many", "-5", "12", "1e99", "1.5"):
@@ -156,6 +166,27 @@ class Failures(unittest.TestCase):
                 self.assertEqual(result.returncode, 4)
                 self.assertEqual(result.stdout.strip(), f"cutwater-{name}: error: {run / name}: is not a folder")
 
+    def test_a_second_stage_in_the_folder(self):
+        """It ends in one line that names the holder, whose files, log and end stay as they would have been."""
+        run = with_geometry("locked")
+        holder = start("mesh", run, cells="2M", ranks=2)
+        for line in holder.stderr:
+            if "size field" in line:
+                break
+        text = (run / "log/mesh.log").read_text()
+        for name in ("mesh", "geometry", "report"):
+            with self.subTest(name):
+                result = stage(name, run, ranks=2)
+                self.assertEqual(result.returncode, 4, result.stdout)
+                self.assertEqual(len(result.stdout.strip().splitlines()), 1, result.stdout)
+                self.assertRegex(result.stdout, f"cutwater-{name}: error: {run}: cutwater-mesh on host "
+                                 f"{socket.gethostname()}, process ({'|'.join(map(str, ranks_of(holder.pid)))}) works")
+        self.assertIsNone(holder.poll())
+        self.assertTrue((run / "log/mesh.log").read_text().startswith(text))
+        os.kill(holder.pid, signal.SIGTERM)
+        _, text = holder.communicate(timeout=60)
+        self.assertIn("stopped from outside", error_lines(text, "mesh")[0])
+
     def test_a_run_that_is_stopped_says_so_once(self):
         run = with_geometry("stopped")
         process = start("mesh", run, cells="2M", ranks=3)
@@ -168,7 +199,7 @@ class Failures(unittest.TestCase):
         self.assertEqual(len(error_lines(text, "mesh")), 1, text)
         self.assertIn("stopped from outside", error_lines(text, "mesh")[0])
         self.assertEqual(files_of(run / "mesh"), [])
-        self.assertEqual([path.name for path in (run / "log").iterdir()], ["mesh.log"])
+        self.assertEqual(sorted(path.name for path in (run / "log").iterdir()), ["mesh.log", "run.lock"])
 
     def test_a_killed_rank_ends_the_run(self):
         run = with_geometry("killed")

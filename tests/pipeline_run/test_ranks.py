@@ -7,8 +7,8 @@ import subprocess
 import time
 import unittest
 
-from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, ranks_of, record, start, state,
-                     with_geometry)
+from cutwater import (CELLS, RUN, command, digests, done, error_lines, execute, ranks_of, record, regions, start,
+                     state, with_geometry)
 
 
 class Ranks(unittest.TestCase):
@@ -31,12 +31,12 @@ class Ranks(unittest.TestCase):
             shutil.rmtree(run)
 
 
-def first_region(mesh, process):
+def first_region(run, process):
     """Waits until a region is whole; whether one is before the run is over."""
     deadline = time.monotonic() + 900
-    while not list(mesh.glob("*.h5")) and process.poll() is None and time.monotonic() < deadline:
+    while not regions(run) and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.005)
-    return bool(list(mesh.glob("*.h5")))
+    return bool(regions(run))
 
 
 class Resume(unittest.TestCase):
@@ -48,7 +48,7 @@ class Resume(unittest.TestCase):
         """The run is called again and ends in the bytes of the whole run; no region that was whole is made again."""
         mesh = run / "mesh"
         self.assertFalse((mesh / "manifest.json").exists(), "stopped too late: the run was over")
-        whole = {path.name: path.stat().st_mtime_ns for path in mesh.glob("*.h5")}
+        whole = {path.name: path.stat().st_mtime_ns for path in regions(run)}
         self.assertTrue(whole, "no region was whole")
         for name in whole:  # what bears a final name is whole
             self.assertEqual((mesh / name).read_bytes(), (RUN / "mesh" / name).read_bytes(), name)
@@ -60,7 +60,7 @@ class Resume(unittest.TestCase):
     def test_a_killed_run_called_again_ends_in_the_same_bytes(self):
         run = with_geometry("resume")
         process = start("mesh", run, cells=CELLS, ranks=2)
-        self.assertTrue(first_region(run / "mesh", process))
+        self.assertTrue(first_region(run, process))
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
         time.sleep(1)  # ranks end when they see their mpirun gone
@@ -69,7 +69,7 @@ class Resume(unittest.TestCase):
     def test_a_run_with_a_killed_rank_called_again(self):
         run = with_geometry("resume-rank")
         process = start("mesh", run, cells=CELLS, ranks=2)
-        self.assertTrue(first_region(run / "mesh", process))
+        self.assertTrue(first_region(run, process))
         ranks = ranks_of(process.pid)
         self.assertEqual(len(ranks), 2)
         os.kill(ranks[1], signal.SIGKILL)
@@ -104,9 +104,9 @@ class Resume(unittest.TestCase):
     def test_a_second_call_makes_no_region_again(self):
         run = with_geometry("again")
         shutil.copytree(RUN / "mesh", run / "mesh")
-        before = {path.name: path.stat().st_mtime_ns for path in (run / "mesh").glob("*.h5")}
+        before = {path.name: path.stat().st_mtime_ns for path in regions(run)}
         done(self, "mesh", run, cells=CELLS, ranks=2)
-        after = {path.name: path.stat().st_mtime_ns for path in (run / "mesh").glob("*.h5")}
+        after = {path.name: path.stat().st_mtime_ns for path in regions(run)}
         self.assertEqual(after, before)
         shutil.rmtree(run)
 
