@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pipeline/atomic_file.h"
+
 static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
   (void)info;
   (void)kind;
@@ -22,6 +24,19 @@ done:
   return status;
 }
 
+static int sync_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)kind;
+  (void)place;
+  return (S_ISREG(info->st_mode) || S_ISDIR(info->st_mode)) && cw_sync(path) != CW_OK;
+}
+
+CwStatus cw_folder_sync(const char *path) {
+  int failed = nftw(path, sync_one, 16, FTW_DEPTH | FTW_PHYS);
+  return failed == 0  ? CW_OK
+         : failed > 0 ? CW_ERR_IO // cw_sync has told
+                      : CW_FAIL(CW_ERR_IO, "%s: cannot be brought to the disk: %s", path, strerror(errno));
+}
+
 CwStatus cw_folder_replace(const char *from, const char *to) {
   CwStatus status = CW_OK;
   char *old = NULL;
@@ -29,6 +44,7 @@ CwStatus cw_folder_replace(const char *from, const char *to) {
   CW_TRY(cw_folder_remove(old));
   CW_REQUIRE(rename(to, old) == 0 || errno == ENOENT, CW_ERR_IO, "%s: cannot be moved aside: %s", to, strerror(errno));
   CW_REQUIRE(rename(from, to) == 0, CW_ERR_IO, "%s: cannot be renamed to %s: %s", from, to, strerror(errno));
+  CW_TRY(cw_sync_folder_of(to));
   CW_TRY(cw_folder_remove(old));
 done:
   free(old);

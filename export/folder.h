@@ -8,7 +8,10 @@
 // Removes a folder and what it holds; fine where there is none. CW_ERR_IO.
 CwStatus cw_folder_remove(const char *path);
 
-// Puts the folder or file `from` in the place of `to`, whatever was there before. CW_ERR_IO.
+// Brings a folder and what it holds to the disk. CW_ERR_IO.
+CwStatus cw_folder_sync(const char *path);
+
+// Puts the folder or file `from` in the place of `to`, whatever was there before, and that to the disk. CW_ERR_IO.
 CwStatus cw_folder_replace(const char *from, const char *to);
 
 #endif

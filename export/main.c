@@ -29,7 +29,7 @@ int main(int argc, char **argv) {
   MPI_Comm_size(ranks.comm, &ranks.size);
   CW_TRY(cw_ranks_agree(&ranks, cw_stage_begin(argc, argv, &usage, ranks.rank == 0, &args, &table)));
   if (!args.finished) CW_TRY(cw_ranks_agree(&ranks, cw_stop_watch(args.run_path, "export", ranks.rank == 0)));
-  if (!args.finished) CW_TRY(cw_export_run(&table, args.run_path, &ranks));
+  if (!args.finished) CW_TRY(cw_export_run(&table, args.run_path, usage.reads, &ranks));
 done:;
   int speaks = cw_ranks_speaks_of(&ranks, status);
   int code = status == CW_OK ? 0 : speaks ? cw_log_error(status) : (int)status;

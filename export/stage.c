@@ -16,6 +16,7 @@
 #include "export/patch_role.h"
 #include "export/region_check.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/file_digest.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
@@ -184,10 +185,31 @@ static void warn(const CwAssembly *a, const CwInterface *interfaces) {
     if (!cw_patch_is_there(a, p)) cw_log_warn("patch '%s' has no face and is left out", a->mesh->patches[p].name);
 }
 
+// The digest of a file that the ranks have written together, each of some of its blocks. Collective.
+static CwStatus digest_together(const char *path, const CwRanks *ranks, char digest[CW_HASH_TEXT]) {
+  CwStatus status = CW_OK;
+  CwHash *blocks = NULL;
+  int64_t size = 0;
+  CW_TRY(cw_ranks_agree(ranks, cw_file_size(path, &size)));
+  int64_t count = cw_file_block_count(size);
+  blocks = calloc((size_t)count + 1, sizeof *blocks);
+  if (!blocks)
+    status = CW_FAIL(CW_ERR_MEMORY, "out of memory: %lld blocks of %s", (long long)count, path);
+  else
+    status = cw_file_digest_blocks(path, size, ranks->rank, ranks->size, blocks);
+  CW_TRY(cw_ranks_agree(ranks, status));
+  MPI_Allreduce(MPI_IN_PLACE, blocks, 2 * (int)count, MPI_UINT64_T, MPI_SUM, ranks->comm); // the others' are 0
+  cw_file_digest_join(blocks, size, digest);
+done:
+  free(blocks);
+  return status;
+}
+
 static CwStatus finish_files(const Paths *paths) {
   CwStatus status = CW_OK;
   static const char *const names[] = {"pump.cgns", "openfoam", "cfx"};
   char *from = NULL, *to = NULL;
+  CW_TRY(cw_folder_sync(paths->part));
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
     CW_TRY(join(paths->part, names[i], &from));
     CW_TRY(join(paths->folder, names[i], &to));
@@ -203,7 +225,7 @@ done:
   return status;
 }
 
-CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *ranks) {
+CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *reads, const CwRanks *ranks) {
   CwStatus status = CW_OK;
   Paths paths = {0};
   CwMesh mesh = {0};
@@ -213,12 +235,13 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   CwInterface interfaces[CW_DOMAINS_MOST] = {{0}};
   CwFoamMesh foam = {0};
   CwRecord *record = NULL;
-  char *path = NULL;
+  char *path = NULL, digest[CW_HASH_TEXT];
   double start = cw_seconds(), checked = 0, planned = 0, written = 0;
   CW_TRY(paths_make(run, &paths));
   CW_TRY(cw_record_start("export", &record));
   CW_TRY(join(run, "geometry/design.json", &path));
-  status = cw_design_read(path, &design, &whole);
+  status = cw_record_made_from(record, run, reads);
+  if (status == CW_OK) status = cw_design_read(path, &design, &whole);
   if (status == CW_OK) status = cw_mesh_manifest_read(run, &mesh);
   CW_TRY(cw_ranks_agree(ranks, status));
   CW_TRY(cw_assembly_make(&mesh, ranks, &assembly));
@@ -228,6 +251,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
   CW_TRY(cw_ranks_agree(ranks, status));
   planned = cw_seconds();
   CW_TRY(write_regions(&assembly, ranks, &paths, &foam));
+  CW_TRY(digest_together(paths.cgns, ranks, digest));
   written = cw_seconds();
   int64_t memory = cw_peak_memory_bytes(), cells = 0, faces = 0;
   for (int d = 0; d < mesh.domain_count; ++d) cells += assembly.totals[d].cells;
@@ -241,6 +265,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *rank
     CW_TRY(record_results(&assembly, interfaces, record));
     CW_TRY(cw_record_case(record, table));
     CW_TRY(cw_record_integer(record, "ranks", ranks->size));
+    CW_TRY(cw_record_file_digest(record, "pump.cgns", digest));
     cw_record_set_peak_memory(record, memory);
     CW_TRY(finish_files(&paths));
     free(path);

@@ -7,7 +7,7 @@
 #include "pipeline/case.h"
 
 // Collective. What it writes takes its final name only when all of it is whole; on failure nothing stays
-// behind.
-CwStatus cw_export_run(const CwCase *table, const char *run, const CwRanks *ranks);
+// behind. `reads`: the stages whose files it reads, NULL behind the last.
+CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *reads, const CwRanks *ranks);
 
 #endif

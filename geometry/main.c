@@ -171,7 +171,8 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CwPipeStubs stubs;
   CwMeasuredPump measured = {0};
   CwPump pump = {0};
-  char *path = NULL;
+  char *folder = NULL, *path = NULL;
+  CW_TRY(cw_stage_path(args, "geometry", &folder));
   CW_TRY(cw_hydraulic_design(table, &design));
   CW_TRY(cw_pump_pipe_stubs(table, &design, &stubs));
   show_design(&design);
@@ -183,12 +184,14 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
     snprintf(name, sizeof name, "%s.brep", cw_solid_domain(pump.solid[i]));
     CW_TRY(in_folder(args, name, &path));
     CW_TRY(cw_solid_write_brep(pump.solid[i], path));
+    CW_TRY(cw_record_file(record, folder, name));
     free(path);
     path = NULL;
   }
   for (int i = 0; i < FILES; i++) {
     CW_TRY(in_folder(args, names[i], &path));
     CW_TRY(write_file(&pump, &design, &measured, path, i));
+    CW_TRY(cw_record_file(record, folder, names[i]));
     free(path);
     path = NULL;
   }
@@ -199,6 +202,7 @@ static CwStatus make_geometry(const CwStageArgs *args, const CwCase *table, CwRe
   CW_TRY(cw_record_number(record, "head_residual_m", design.head_residual));
   CW_TRY(cw_record_number(record, "specific_speed_ns", design.specific_speed_ns));
 done:
+  free(folder);
   free(path);
   cw_pump_free(&pump);
   return status;

@@ -36,6 +36,7 @@ int main(int argc, char **argv) {
   run.table = &table;
   run.run_path = args.run_path;
   CW_TRY(cw_record_start("mesh", &run.record));
+  CW_TRY(cw_record_made_from(run.record, args.run_path, USAGE.reads));
   CW_TRY(cw_mesh_run(&run));
   json_t *account = NULL, *sides = NULL;
   CW_TRY(cw_ledger_json(&account, &sides));

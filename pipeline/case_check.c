@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/case_check.h"
 
-
 static const double pi = 3.14159265358979323846;
 static const double gravity = 9.80665; // m/s2
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "pipeline/case_schema.h"
-#include "pipeline/json_read.h"
+#include "pipeline/sealed_json.h"
 
 // Records hold 15 digits.
 static const double TOLERANCE = 1e-12;
@@ -61,7 +61,7 @@ CwStatus cw_case_origin_check(const CwCase *table, const char *run, const char *
   snprintf(path, sizeof path, "%s/%s/record.json", run, stage);
   CW_REQUIRE(!access(path, F_OK), CW_ERR_IO, "%s: it is missing; cutwater-%s writes it when all of its files are there",
              path, stage);
-  CW_TRY(cw_json_read(path, &record));
+  CW_TRY(cw_sealed_json_read(path, &record));
   of = json_object_get(record, "case");
   CW_REQUIRE(json_is_object(of), CW_ERR_INPUT,
              "%s: does not say of which case; run cutwater-%s on this case file first", path, stage);

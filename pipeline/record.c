@@ -8,14 +8,19 @@
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
+#include "pipeline/file_digest.h"
 #include "pipeline/log.h"
+#include "pipeline/sealed_json.h"
+#include "pipeline/stage_files.h"
 
 struct CwRecord {
   char stage[33];
   double started;
   int64_t peak_memory_bytes; // 0: ask the system
   json_t *steps, *results;
-  json_t *origin; // NULL: of no case
+  json_t *files;     // digests by name
+  json_t *made_from; // NULL: from no files
+  json_t *origin;    // NULL: of no case
 };
 
 CwStatus cw_record_start(const char *stage, CwRecord **record) {
@@ -27,7 +32,8 @@ CwStatus cw_record_start(const char *stage, CwRecord **record) {
   made->started = cw_seconds();
   made->steps = json_array();
   made->results = json_object();
-  CW_REQUIRE(made->steps && made->results, CW_ERR_MEMORY, "out of memory: the record");
+  made->files = json_object();
+  CW_REQUIRE(made->steps && made->results && made->files, CW_ERR_MEMORY, "out of memory: the record");
   *record = made;
   made = NULL;
 done:
@@ -39,6 +45,8 @@ void cw_record_free(CwRecord *record) {
   if (!record) return;
   json_decref(record->steps);
   json_decref(record->results);
+  json_decref(record->files);
+  json_decref(record->made_from);
   json_decref(record->origin);
   free(record);
 }
@@ -80,6 +88,29 @@ CwStatus cw_record_case(CwRecord *record, const CwCase *table) {
   return record->origin ? CW_OK : CW_FAIL(CW_ERR_MEMORY, "out of memory: the record of the case");
 }
 
+CwStatus cw_record_made_from(CwRecord *record, const char *run, const char *const *stages) {
+  json_decref(record->made_from);
+  return cw_stage_files_read(run, stages, &record->made_from);
+}
+
+CwStatus cw_record_file(CwRecord *record, const char *folder, const char *name) {
+  CwStatus status = CW_OK;
+  char path[4096], digest[CW_HASH_TEXT];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  CW_TRY(cw_file_digest(path, digest));
+  CW_TRY(cw_record_file_digest(record, name, digest));
+done:
+  return status;
+}
+
+CwStatus cw_record_file_digest(CwRecord *record, const char *name, const char *digest) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(!json_object_set_new(record->files, name, json_string(digest)), CW_ERR_MEMORY,
+             "out of memory: the record of %s", name);
+done:
+  return status;
+}
+
 CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value) {
   CwStatus status = CW_OK;
   CW_REQUIRE(!json_object_set_new(record->results, key, value), CW_ERR_MEMORY, "out of memory: the record of result %s",
@@ -100,8 +131,7 @@ CwStatus cw_json_write(const json_t *value, const char *path) {
   CwStatus status = CW_OK;
   CwAtomicFile file = {0};
   CW_TRY(cw_atomic_file_open(path, &file));
-  int broken =
-      json_dumpf(value, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) || fputc('\n', file.stream) == EOF;
+  int broken = json_dumpf(value, file.stream, CW_JSON_FORMAT) || fputc('\n', file.stream) == EOF;
   CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
   CW_TRY(cw_atomic_file_commit(&file));
 done:
@@ -118,12 +148,14 @@ CwStatus cw_record_write(const CwRecord *record, const char *path) {
     CW_REQUIRE(!json_array_append_new(warnings, json_text(cw_log_warning(i))), CW_ERR_MEMORY,
                "out of memory: the record of a warning");
   int64_t peak = record->peak_memory_bytes ? record->peak_memory_bytes : cw_peak_memory_bytes();
-  root = json_pack("{so so sI sO sO sO}", "stage", json_text(record->stage), "seconds",
+  root = json_pack("{so so sI sO sO sO sO}", "stage", json_text(record->stage), "seconds",
                    cw_json_number(cw_seconds() - record->started), "peak_memory_bytes", (json_int_t)peak, "steps",
-                   record->steps, "warnings", warnings, "results", record->results);
+                   record->steps, "warnings", warnings, "results", record->results, "files", record->files);
+  CW_REQUIRE(root && (!record->made_from || !json_object_set(root, "made_from", record->made_from)), CW_ERR_MEMORY,
+             "out of memory: the record");
   CW_REQUIRE(root && (!record->origin || !json_object_set(root, "case", record->origin)), CW_ERR_MEMORY,
              "out of memory: the record");
-  CW_TRY(cw_json_write(root, path));
+  CW_TRY(cw_sealed_json_write(root, path));
 done:
   json_decref(root);
   json_decref(warnings);

@@ -30,6 +30,13 @@ void cw_record_set_peak_memory(CwRecord *record, int64_t bytes);
 // Keeps of which case the stage's files are made (case_origin.h).
 CwStatus cw_record_case(CwRecord *record, const CwCase *table);
 
+// Keeps from which files of earlier stages (stage_files.h): called before they are read. `stages` ends with NULL.
+CwStatus cw_record_made_from(CwRecord *record, const char *run, const char *const *stages);
+
+// Keeps the digest of FOLDER/NAME, a file that the stage has written for others; or one that is known.
+CwStatus cw_record_file(CwRecord *record, const char *folder, const char *name);
+CwStatus cw_record_file_digest(CwRecord *record, const char *name, const char *digest);
+
 // Set one result. A number that is not finite becomes null. Keys keep the order of their first setting.
 CwStatus cw_record_number(CwRecord *record, const char *key, double value);
 CwStatus cw_record_integer(CwRecord *record, const char *key, int64_t value);
@@ -38,7 +45,8 @@ CwStatus cw_record_integer(CwRecord *record, const char *key, int64_t value);
 // CW_ERR_MEMORY.
 CwStatus cw_record_json(CwRecord *record, const char *key, json_t *value);
 
-// Writes the record whole: the seconds since cw_record_start and the warnings of the log first.
+// Writes the record whole and with its own digest (sealed_json.h): the seconds since cw_record_start and the warnings
+// of the log first.
 CwStatus cw_record_write(const CwRecord *record, const char *path);
 
 // A JSON number; null for NAN and infinities, which JSON does not know.

@@ -14,6 +14,7 @@
 #include "pipeline/case_value.h"
 #include "pipeline/log.h"
 #include "pipeline/run_lock.h"
+#include "pipeline/stage_files.h"
 
 // Codes past all characters, so that getopt's code of an unknown short option is never one of them.
 enum { CASE = 256, RUN, CELLS, VERBOSE, VERSION, HELP, OPTION, SHARED_COUNT = OPTION - CASE };
@@ -163,8 +164,10 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
   CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));
   CW_TRY(cw_case_read(args->case_path, table));
   if (args->cells) table->mesh.cells = args->cells;
-  for (const char *const *stage = usage->reads; *stage; ++stage)
+  for (const char *const *stage = usage->reads; *stage; ++stage) {
     CW_TRY(cw_case_origin_check(table, args->run_path, *stage));
+    if (speaks) CW_TRY(cw_stage_files_check(args->run_path, *stage));
+  }
   if (speaks) CW_TRY(claim_folder(args, usage->stage));
 done:
   free(log_path);

@@ -65,9 +65,9 @@ CwStatus cw_count_read(const char *name, const char *text, int64_t least, int64_
 
 // Begins a stage: opens the log, reads the command line, takes the run folder (run_lock.h), lets the log copy its lines
 // to RUN/log/STAGE.log, reads the case and puts --cells in its place, refuses files of earlier stages that were made of
-// another case, makes RUN/STAGE, which must be writable, and removes the record of an earlier run of the stage itself,
-// which must not vouch for the files of this one. Call with `speaks` false on all ranks but one, which waits for that
-// one before it writes to the run.
+// another case or are not as they were written (stage_files.h), makes RUN/STAGE, which must be writable, and removes
+// the record of an earlier run of the stage itself, which must not vouch for the files of this one. Call with `speaks`
+// false on all ranks but one, which waits for that one before it writes to the run.
 CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int speaks, CwStageArgs *args, CwCase *table);
 
 // "RUN/NAME" in a new string to be freed, such as "RUN/mesh/manifest.json".

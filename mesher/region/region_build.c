@@ -87,7 +87,7 @@ void cw_region_context_free(CwRegionContext *context) {
   context->rim = NULL;
 }
 
-void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]) {
+void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]) {
   const CwSkeleton *skeleton = context->skeleton;
   CwHash hash = cw_hash_start();
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};

@@ -29,7 +29,7 @@ CwStatus cw_region_context_make(CwRegionContext *context);
 void cw_region_context_free(CwRegionContext *context);
 
 // Hex fingerprint of all that region `region` (0-based) follows from.
-void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[33]);
+void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char fingerprint[CW_HASH_TEXT]);
 
 // Makes the region. Fails with CW_ERR_MESH naming domain, region and place.
 CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t number, CwRegionMesh *mesh);

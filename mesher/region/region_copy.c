@@ -17,7 +17,7 @@ static int32_t copied_region(const CwRegionContext *context, int32_t first, int3
 }
 
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
-                                char fingerprint[33]) {
+                                char fingerprint[CW_HASH_TEXT]) {
   char own[33];
   CwHash hash = cw_hash_start();
   cw_region_fingerprint(context, copied_region(context, first->region - 1, turns), own);

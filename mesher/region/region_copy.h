@@ -9,7 +9,7 @@
 // Hex fingerprint of the copy of `first`, the mesh of the first region of an orbit, `turns` turns on: of what both
 // follow from.
 void cw_region_copy_fingerprint(const CwRegionContext *context, const CwRegionMesh *first, int32_t turns,
-                                char fingerprint[33]);
+                                char fingerprint[CW_HASH_TEXT]);
 
 // Makes that copy, with its fingerprint. Fails with CW_ERR_MESH where a shared point of the skeleton does not lie where
 // the turn takes it.

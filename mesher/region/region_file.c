@@ -2,36 +2,24 @@
 #include "mesher/region/region_file.h"
 
 #include <errno.h>
-#include <stdio.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "mesher/common/model_unit.h"
+#include "pipeline/atomic_file.h"
 
-static CwStatus write_attribute(hid_t file, const char *name, hid_t type, const void *data) {
-  CwStatus status = CW_OK;
-  hid_t space = H5Screate(H5S_SCALAR);
-  hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, data) >= 0, CW_ERR_IO, "attribute %s: cannot be written",
-             name);
-done:
-  if (attribute >= 0) H5Aclose(attribute);
-  if (space >= 0) H5Sclose(space);
-  return status;
-}
-
-static CwStatus write_integer(hid_t file, const char *name, int32_t value) {
-  return write_attribute(file, name, H5T_STD_I32LE, &value);
-}
-
-static CwStatus write_text(hid_t file, const char *name, const char *text) {
-  hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, strlen(text) + 1);
-  CwStatus status = write_attribute(file, name, type, text);
-  H5Tclose(type);
-  return status;
-}
+// The attributes that are integers.
+static const struct {
+  const char *name;
+  size_t place; // in CwRegionMesh
+} integers[] = {{"region", offsetof(CwRegionMesh, region)},
+                {"number", offsetof(CwRegionMesh, number)},
+                {"recovered_triangles", offsetof(CwRegionMesh, recovery.missing)},
+                {"recovery_flips", offsetof(CwRegionMesh, recovery.flips)},
+                {"tetgen", offsetof(CwRegionMesh, recovery.tetgen)}};
+enum { INTEGERS = sizeof integers / sizeof *integers };
 
 CwRegionData cw_region_data(const CwRegionMesh *r) {
   return (CwRegionData){.point_count = r->point_count,
@@ -82,44 +70,33 @@ static void multiply(int32_t count, const double (*x)[3], double by, double (*to
   }
 }
 
-static CwStatus write_items(hid_t file, const CwRegionMesh *r) {
+static CwStatus write_items(hid_t file, CwRegionMesh *r) {
   CwStatus status = CW_OK;
   CwRegionData data = cw_region_data(r);
   double(*metres)[3] = NULL;
   CW_NEW_UNSET(metres, r->point_count);
   multiply(r->point_count, (const double(*)[3])r->x, cw_model_unit(), metres);
   data.points = metres;
-  CW_TRY(write_integer(file, "format", CW_REGION_FORMAT));
-  CW_TRY(write_text(file, "domain", r->domain));
-  CW_TRY(write_integer(file, "region", r->region));
-  CW_TRY(write_integer(file, "number", r->number));
-  CW_TRY(write_text(file, "fingerprint", r->fingerprint));
-  CW_TRY(write_integer(file, "recovered_triangles", r->recovery.missing));
-  CW_TRY(write_integer(file, "recovery_flips", r->recovery.flips));
-  CW_TRY(write_integer(file, "tetgen", r->recovery.tetgen));
-  CW_TRY(cw_region_items_write(file, &data));
+  CW_TRY(cw_region_items_put_integer(file, "format", CW_REGION_FORMAT));
+  CW_TRY(cw_region_items_put_text(file, "domain", r->domain));
+  CW_TRY(cw_region_items_put_text(file, "fingerprint", r->fingerprint));
+  for (size_t k = 0; k < INTEGERS; k++)
+    CW_TRY(
+        cw_region_items_put_integer(file, integers[k].name, *(const int32_t *)((const char *)r + integers[k].place)));
+  CW_TRY(cw_region_items_write(file, &data, r->digest));
 done:
   free(metres);
   return status;
 }
 
-CwStatus cw_region_write(const char *path, const CwRegionMesh *region) {
+CwStatus cw_region_write(const char *path, CwRegionMesh *region) {
   CwStatus status = CW_OK;
-  hid_t access = -1, creation = -1, file = -1;
-  char *temporary = NULL;
-  int made = 0;
-  CW_NEW(temporary, strlen(path) + 6);
-  sprintf(temporary, "%s.part", path);
-
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-  creation = H5Pcreate(H5P_FILE_CREATE);
-  H5Pset_obj_track_times(creation, 0); // equal regions give equal bytes
+  hid_t file = -1;
+  CwAtomicFile temporary = {0};
+  CW_TRY(cw_atomic_file_name(path, &temporary));
   errno = 0;
-  file = H5Fcreate(temporary, H5F_ACC_TRUNC, creation, access);
+  file = cw_region_items_create(temporary.temporary_path);
   CW_REQUIRE(file >= 0, CW_ERR_IO, "%s: cannot be made: %s", path, errno ? strerror(errno) : "HDF5 refuses");
-  made = 1;
   status = write_items(file, region);
   if (status != CW_OK) {
     status = CW_FAIL(status, "%s: %s (is the disk full?)", path, cw_fail_message());
@@ -128,17 +105,14 @@ CwStatus cw_region_write(const char *path, const CwRegionMesh *region) {
   herr_t closed = H5Fclose(file);
   file = -1;
   CW_REQUIRE(closed >= 0, CW_ERR_IO, "%s: cannot be written to its end (is the disk full?)", path);
-  CW_REQUIRE(rename(temporary, path) == 0, CW_ERR_IO, "%s: cannot be renamed to %s", temporary, path);
-  made = 0;
+  CW_TRY(cw_atomic_file_commit(&temporary));
 done:
   if (file >= 0) H5Fclose(file);
-  if (made) unlink(temporary);
-  if (creation >= 0) H5Pclose(creation);
-  if (access >= 0) H5Pclose(access);
-  free(temporary);
+  cw_atomic_file_abandon(&temporary);
   return status;
 }
 
+// Of an open file.
 static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
   CwStatus status = CW_OK;
   CwRegionData data = {.point_count = -1,
@@ -148,16 +122,8 @@ static CwStatus read_items(hid_t file, const char *path, CwRegionMesh *r) {
                        .prism_count = -1,
                        .triangle_count = -1,
                        .quad_count = -1};
-  const struct {
-    const char *name;
-    int32_t *value;
-  } integers[] = {{"region", &r->region},
-                  {"number", &r->number},
-                  {"recovered_triangles", &r->recovery.missing},
-                  {"recovery_flips", &r->recovery.flips},
-                  {"tetgen", &r->recovery.tetgen}};
-  for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
-    CW_TRY(cw_region_items_integer(file, path, integers[k].name, integers[k].value));
+  for (size_t k = 0; k < INTEGERS; k++)
+    CW_TRY(cw_region_items_integer(file, path, integers[k].name, (int32_t *)((char *)r + integers[k].place)));
   CW_TRY(cw_region_items_text(file, path, "domain", r->domain, sizeof r->domain));
   CW_TRY(cw_region_items_text(file, path, "fingerprint", r->fingerprint, sizeof r->fingerprint));
   status = cw_region_items_read(file, path, CW_REGION_WHOLE, &data);
@@ -173,7 +139,7 @@ CwStatus cw_region_read(const char *path, CwRegionMesh *region) {
   CwStatus status = CW_OK;
   hid_t file = -1;
   memset(region, 0, sizeof *region);
-  CW_TRY(cw_region_items_open(path, &file));
+  CW_TRY(cw_region_items_open(path, &file, region->digest));
   CW_TRY(read_items(file, path, region));
 done:
   if (file >= 0) H5Fclose(file);
@@ -181,19 +147,30 @@ done:
   return status;
 }
 
-int cw_region_is_current(const char *path, const char *fingerprint) {
-  int current = 0;
-  char found[sizeof((CwRegionMesh *)0)->fingerprint];
+CwStatus cw_region_take_up(const char *path, const char *fingerprint, CwRegionMesh *region, CwRegionFound *found) {
+  CwStatus status = CW_OK;
+  char its[sizeof region->fingerprint];
   hid_t file = -1;
-  if (access(path, R_OK) != 0) return 0;
-  // A file cut short does not open: its superblock holds its length.
-  if (cw_region_items_open(path, &file) == CW_OK) {
-    current = cw_region_items_text(file, path, "fingerprint", found, sizeof found) == CW_OK &&
-              strcmp(found, fingerprint) == 0;
-    H5Fclose(file);
-  }
-  if (!current) cw_fail_clear();
-  return current;
+  memset(region, 0, sizeof *region);
+  *found = CW_REGION_OTHER;
+  if (access(path, F_OK) != 0) goto done;
+  status = cw_region_items_open(path, &file, region->digest);
+  if (status == CW_ERR_INPUT) goto done; // of another format
+  if (status == CW_OK) status = cw_region_items_text(file, path, "fingerprint", its, sizeof its);
+  if (status == CW_OK && strcmp(its, fingerprint)) goto done;
+  if (status == CW_OK) status = read_items(file, path, region);
+  *found = status == CW_OK ? CW_REGION_TAKEN : CW_REGION_DAMAGED;
+done:
+  if (file >= 0) H5Fclose(file);
+  if (*found != CW_REGION_TAKEN) cw_region_free(region);
+  return status == CW_ERR_MEMORY ? status : CW_OK;
+}
+
+CwStatus cw_region_digest_read(const char *path, char digest[CW_HASH_TEXT]) {
+  hid_t file = -1;
+  CwStatus status = cw_region_items_open(path, &file, digest);
+  if (file >= 0) H5Fclose(file);
+  return status;
 }
 
 void cw_region_free(CwRegionMesh *region) {

@@ -19,8 +19,9 @@ typedef struct {
   char domain[16];
   int32_t region; // 1-based
   int32_t number;
-  char fingerprint[33];    // hex of all that the region follows from
-  CwFillRecovery recovery; // how its boundary was recovered
+  char fingerprint[CW_HASH_TEXT]; // hex of all that the region follows from
+  char digest[CW_HASH_TEXT];      // of its file; "" before there is one
+  CwFillRecovery recovery;                  // how its boundary was recovered
   int32_t point_count, shared_count;
   double (*x)[3]; // shared points first
   int64_t *shared_id;
@@ -31,13 +32,23 @@ typedef struct {
   int32_t (*quad)[4], *quad_patch, *quad_cell;
 } CwRegionMesh;
 
-// Writes under a temporary name and renames. Equal regions give equal bytes.
-CwStatus cw_region_write(const char *path, const CwRegionMesh *region);
-// Reads and checks ranges; CW_ERR_INPUT with file and item where something does not fit, CW_ERR_IO where the file is
-// cut short.
+// Writes under a temporary name and renames. Equal regions give equal bytes. Sets the digest.
+CwStatus cw_region_write(const char *path, CwRegionMesh *region);
+// Reads and checks digests and ranges; CW_ERR_INPUT with file and item where something does not fit, CW_ERR_IO where
+// the file is damaged or cut short.
 CwStatus cw_region_read(const char *path, CwRegionMesh *region);
-// True where `path` is a whole region file with this fingerprint. Never fails.
-int cw_region_is_current(const char *path, const char *fingerprint);
+
+typedef enum {
+  CW_REGION_TAKEN,  // whole and of the fingerprint: `region` holds it
+  CW_REGION_OTHER,  // no file, or one of something else
+  CW_REGION_DAMAGED // cw_fail_message() says how
+} CwRegionFound;
+
+// Takes up what an earlier run has left. CW_ERR_MEMORY.
+CwStatus cw_region_take_up(const char *path, const char *fingerprint, CwRegionMesh *region, CwRegionFound *found);
+// Reads the digest, by which files are told apart, and holds the attributes against it, not the arrays. CW_ERR_IO,
+// CW_ERR_INPUT.
+CwStatus cw_region_digest_read(const char *path, char digest[CW_HASH_TEXT]);
 // The arrays of a region as its file has them, in the same memory.
 CwRegionData cw_region_data(const CwRegionMesh *region);
 void cw_region_free(CwRegionMesh *region);

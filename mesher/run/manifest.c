@@ -38,11 +38,11 @@ static json_t *regions_json(const CwMeshRun *run, int d) {
     const CwRegionSummary *made = &run->summary[d][r];
     char file[64];
     snprintf(file, sizeof file, "%s-%04d.h5", run->domain[d].name, r + 1);
-    json_array_append_new(regions,
-                          json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", file, "region", r + 1,
-                                    "number", run->domain[d].number[r], "points", made->points, "own_points",
-                                    made->own_points, "tetrahedra", made->tetrahedra, "pyramids", made->pyramids,
-                                    "prisms", made->prisms, "triangles", made->triangles, "quads", made->quads));
+    json_array_append_new(
+        regions, json_pack("{s:s, s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", file, "digest",
+                           made->digest, "region", r + 1, "number", run->domain[d].number[r], "points", made->points,
+                           "own_points", made->own_points, "tetrahedra", made->tetrahedra, "pyramids", made->pyramids,
+                           "prisms", made->prisms, "triangles", made->triangles, "quads", made->quads));
   }
   return regions;
 }
@@ -65,7 +65,8 @@ static json_t *manifest_json(const CwMeshRun *run) {
                                              metres_json(domain->solid_volume, 3), "patches", patches_json(domain),
                                              "regions", regions_json(run, d)));
   }
-  return json_pack("{s:i, s:o, s:o}", "format", 1, "domains", domains, "interfaces", interfaces_json(&run->domains));
+  return json_pack("{s:i, s:o, s:o}", "format", CW_REGION_FORMAT, "domains", domains, "interfaces",
+                   interfaces_json(&run->domains));
 }
 
 static json_t *counts_json(const int64_t *count, int size) {
@@ -299,13 +300,32 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
   return result;
 }
 
+// What the manifest will tell of must lie there: a person may have cleared the folder meanwhile.
+static CwStatus check_files(const CwMeshRun *run) {
+  CwStatus status = CW_OK;
+  char path[4096], digest[CW_HASH_TEXT];
+  for (int d = 0; d < run->domains.count; d++) {
+    for (int32_t r = 0; r < run->domain[d].plan.region_count; r++) {
+      snprintf(path, sizeof path, "%s/mesh/%s-%04d.h5", run->run_path, run->domain[d].name, r + 1);
+      status = cw_region_digest_read(path, digest);
+      CW_REQUIRE(status == CW_OK && !strcmp(digest, run->summary[d][r].digest), CW_ERR_IO,
+                 "%s: was removed or changed while the mesher ran; run it again, it makes this region anew", path);
+    }
+  }
+done:
+  return status;
+}
+
 CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CwStatus status = CW_OK;
   char path[4096];
   json_t *manifest = manifest_json(run), *domains = json_array();
   CW_REQUIRE(manifest && domains, CW_ERR_MEMORY, "out of memory: manifest");
+  CW_TRY(check_files(run));
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run->run_path);
   CW_TRY(cw_json_write(manifest, path));
+  snprintf(path, sizeof path, "%s/mesh", run->run_path);
+  CW_TRY(cw_record_file(run->record, path, "manifest.json"));
   for (int d = 0; d < run->domains.count; d++) json_array_append_new(domains, domain_json(run, d));
   CW_TRY(cw_record_integer(run->record, "ranks", run->ranks));
   CW_TRY(cw_record_integer(run->record, "asked_cells", run->table->mesh.cells));

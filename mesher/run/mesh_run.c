@@ -67,7 +67,7 @@ static double rounded(double value) {
 
 CwStatus cw_mesh_run(CwMeshRun *run) {
   CwStatus status = CW_OK;
-  char path[4096], fingerprint[33];
+  char path[4096], fingerprint[CW_HASH_TEXT];
   snprintf(path, sizeof path, "%s/mesh", run->run_path);
   CW_TRY(cw_make_directory(path));
   CW_TRY(cw_mesh_open(run));

@@ -64,6 +64,7 @@ static void summarise(const CwRegionMesh *mesh, CwRegionSummary *summary) {
   summary->triangles = mesh->triangle_count;
   summary->quads = mesh->quad_count;
   summary->recovery = mesh->recovery;
+  strcpy(summary->digest, mesh->digest);
   for (int32_t i = 0; i < mesh->triangle_count; i++) {
     summary->patch_area[mesh->triangle_patch[i]] += face_area(mesh, mesh->triangle[i], 3);
   }
@@ -85,43 +86,73 @@ done:
   return status;
 }
 
+static CwStatus failure_path(const CwMeshRun *run, const CwDomain *domain, int32_t region, size_t size, char *path) {
+  CwStatus status = CW_OK;
+  CW_REQUIRE(snprintf(path, size, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name, region + 1) < (int)size,
+             CW_ERR_USAGE, "%s: the path is too long", run->run_path);
+done:
+  return status;
+}
+
+// Takes up a region that an earlier run has left whole. A file that is damaged, or that fails the audit though it was
+// written as it is, counts as none, and the summary says so.
+static CwStatus take_up(const char *path, const char *fingerprint, CwRegionMesh *mesh, CwRegionSummary *summary,
+                        int *taken) {
+  CwStatus status = CW_OK;
+  CwRegionFound found;
+  CW_TRY(cw_region_take_up(path, fingerprint, mesh, &found));
+  if (found == CW_REGION_TAKEN) {
+    status = cw_audit_region(mesh, &summary->quality);
+    if (status == CW_ERR_MESH) found = CW_REGION_DAMAGED;
+    if (status != CW_ERR_MESH) CW_TRY(status);
+  }
+  status = CW_OK;
+  *taken = found == CW_REGION_TAKEN;
+  if (found == CW_REGION_DAMAGED) snprintf(summary->damage, sizeof summary->damage, "%s", cw_fail_message());
+  if (!*taken) cw_region_free(mesh);
+done:
+  return status;
+}
+
 // Makes a turned copy of the region `source`, whose file at `source_path` is whole, or takes it up where an earlier run
 // left it so.
 static CwStatus make_copy(const CwMeshRun *run, CwMeshTask task, int32_t source, const char *source_path,
-                          CwQuality *quality) {
+                          CwRegionSummary *summary) {
   CwStatus status = CW_OK;
   const CwDomain *domain = &run->domain[task.domain];
   const CwSkeletonOrbits *orbits = &domain->skeleton.orbits;
   CwRegionMesh first = {0}, mesh = {0};
-  char path[4096], fingerprint[33];
+  char path[4096], fingerprint[CW_HASH_TEXT];
   int32_t turns = 1;
+  int taken;
   while (cw_orbit_region(orbits, &domain->plan, source, turns) != task.index) turns++;
   CW_TRY(cw_region_read(source_path, &first));
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
   cw_region_copy_fingerprint(&domain->context, &first, turns, fingerprint);
-  if (cw_region_is_current(path, fingerprint)) { // its cells come from a file
-    CW_TRY(cw_region_read(path, &mesh));
-    CW_TRY(cw_audit_region(&mesh, quality));
-  } else {
+  CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
+  if (!taken) {
     CW_TRY(cw_region_copy(&domain->context, &first, turns, domain->number[task.index], fingerprint, &mesh));
-    CW_TRY(cw_audit_copy(&mesh, &quality->open_faces));
+    CW_TRY(cw_audit_copy(&mesh, &summary->quality.open_faces));
     CW_TRY(cw_region_write(path, &mesh));
   }
+  strcpy(summary->digest, mesh.digest);
 done:
   cw_region_free(&first);
   cw_region_free(&mesh);
   return status;
 }
 
-// Of its summary the open faces alone; it has failed where its first has, which then has no file.
+// Of its summary the digest and the open faces alone; it has failed where its first has, which then has left its
+// boundary.
 static CwStatus step_copy(const CwMeshRun *run, CwMeshTask task, int32_t first, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   CwRegionSummary *summary = NULL;
-  char path[4096];
+  char path[4096], boundary_path[4096];
   CW_NEW(summary, 1);
   CW_TRY(region_path(run, &run->domain[task.domain], first, sizeof path, path));
-  summary->failure.failed = access(path, F_OK) != 0;
-  if (!summary->failure.failed) CW_TRY(make_copy(run, task, first, path, &summary->quality));
+  CW_TRY(failure_path(run, &run->domain[task.domain], first, sizeof boundary_path, boundary_path));
+  summary->failure.failed = access(boundary_path, F_OK) == 0;
+  if (!summary->failure.failed) CW_TRY(make_copy(run, task, first, path, summary));
   *bytes = summary;
   *size = sizeof *summary;
   summary = NULL;
@@ -150,30 +181,29 @@ CwStatus cw_step_region(CwMeshRun *run, CwMeshTask task, void **bytes, int64_t *
   const CwDomain *domain = &run->domain[task.domain];
   CwRegionMesh mesh = {0};
   CwRegionSummary *summary = NULL;
-  char path[4096], boundary_path[4096], fingerprint[33];
+  char path[4096], boundary_path[4096], fingerprint[CW_HASH_TEXT];
+  int taken;
   int32_t first = cw_orbit_region_first(&domain->skeleton.orbits, &domain->plan, task.index);
   if (first != task.index) return step_copy(run, task, first, bytes, size);
   CW_TRY(region_path(run, domain, task.index, sizeof path, path));
-  snprintf(boundary_path, sizeof boundary_path, "%s/mesh/failed-%s-%04d.vtk", run->run_path, domain->name,
-           task.index + 1);
+  CW_TRY(failure_path(run, domain, task.index, sizeof boundary_path, boundary_path));
   CW_NEW(summary, 1);
   cw_region_fingerprint(&domain->context, task.index, fingerprint);
-  int current = cw_region_is_current(path, fingerprint);
-  CwStatus made = current ? cw_region_read(path, &mesh)
-                          : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
-  if (made == CW_OK) made = cw_audit_region(&mesh, &summary->quality);
+  CW_TRY(take_up(path, fingerprint, &mesh, summary, &taken));
+  CwStatus made = taken ? CW_OK : cw_region_build(&domain->context, task.index, domain->number[task.index], &mesh);
+  if (made == CW_OK && !taken) made = cw_audit_region(&mesh, &summary->quality);
   if (made == CW_ERR_MESH) {
     CW_TRY(
         cw_region_failure_examine(&domain->skeleton, task.index, cw_fail_message(), boundary_path, &summary->failure));
     remove(path); // of an earlier attempt: it must not be copied
   } else {
     CW_TRY(made);
-    if (!current) CW_TRY(cw_region_write(path, &mesh));
+    remove(boundary_path); // of an earlier attempt
+    if (!taken) CW_TRY(cw_region_write(path, &mesh));
     summarise(&mesh, summary);
     CW_TRY(bound_angles(domain, task.index, &summary->dihedral_allowed));
     cw_domain_coverage(domain, task.index, CW_PATCH_LIMIT, summary->coverage);
     CW_TRY(cw_layer_ratio(&mesh, domain->layer_count, CW_PATCH_LIMIT, summary->ratio));
-    remove(boundary_path); // of an earlier attempt
   }
   *bytes = summary;
   *size = sizeof *summary;

@@ -5,9 +5,11 @@
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "pipeline/hash.h"
-#include "pipeline/record.h"
+#include "pipeline/log.h"
+#include "pipeline/sealed_json.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -26,7 +28,7 @@ done:
 }
 
 CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
-                             char fingerprint[33]) {
+                             char fingerprint[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
   static const char *const FILES[] = {"faces.csv", "interfaces.csv", "design.json"};
   CwHash hash = cw_hash_start();
@@ -63,7 +65,9 @@ done:
 void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state) {
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
-  json_t *file = json_load_file(path, 0, NULL);
+  json_t *file = NULL;
+  if (access(path, F_OK) == 0 && cw_sealed_json_read(path, &file) != CW_OK)
+    cw_log_warn("%s; the passes begin anew", cw_fail_message());
   const char *of = json_string_value(json_object_get(file, "fingerprint"));
   json_int_t pass = json_integer_value(json_object_get(file, "pass"));
   double prisms = json_number_value(json_object_get(file, "prism_factor"));
@@ -86,7 +90,7 @@ CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, cons
                    state->prism_factor, "tet_factor", state->tet_factor, "whole", state->whole, "more_regions", more);
   CW_REQUIRE(file, CW_ERR_MEMORY, "out of memory: state of the passes");
   snprintf(path, sizeof path, "%s/mesh/pass.json", run_path);
-  CW_TRY(cw_json_write(file, path));
+  CW_TRY(cw_sealed_json_write(file, path));
 done:
   json_decref(file);
   return status;

@@ -5,6 +5,7 @@
 #define CUTWATER_MESHER_RUN_PASS_STATE_H
 
 #include "mesher/run/domain_table.h"
+#include "pipeline/hash.h"
 
 typedef struct {
   int pass;                              // the pass to run, from 1
@@ -15,9 +16,10 @@ typedef struct {
 
 // Hex fingerprint of what the passes follow from: the case's walls and mesh tables and the files of the geometry stage.
 CwStatus cw_pass_fingerprint(const CwCase *table, const char *run_path, const CwDomainTable *domains,
-                             char fingerprint[33]);
+                             char fingerprint[CW_HASH_TEXT]);
 
-// Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise. Never fails.
+// Reads the state where it is there, whole and of this fingerprint; leaves *state as it is otherwise, with a
+// warning where it is damaged. Never fails.
 void cw_pass_state_read(const char *run_path, const char *fingerprint, CwPassState *state);
 
 CwStatus cw_pass_state_write(const char *run_path, const char *fingerprint, const CwPassState *state);

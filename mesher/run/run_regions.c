@@ -2,10 +2,12 @@
 #include "mesher/run/run_regions.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesher/parallel/ledger.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"
+#include "pipeline/log.h"
 
 static const double COPY_COST = 0.07; // of a turned copy of a region, by that of its first
 
@@ -62,6 +64,8 @@ CwStatus cw_run_regions(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome
   for (int32_t i = 0; i < count; i++) {
     const CwRegionSummary *made = results.bytes[task[i].domain][task[i].index];
     if (after[i] < 0) take_summaries(run, task[i].domain, task[i].index, made);
+    strcpy(run->summary[task[i].domain][task[i].index].digest, made->digest); // each copy its own
+    if (made->damage[0] && run->rank == 0) cw_log_warn("%s; it is made again", made->damage);
     open_faces[task[i].domain] += made->quality.open_faces;
     if (made->failure.failed) outcome->kind = CW_OUTCOME_THIN;
   }

@@ -21,6 +21,8 @@ typedef struct {
   CwLayerRatio ratio[CW_PATCH_LIMIT]; // wall faces by last layer over first tetrahedron
   CwLayerCoverage coverage[CW_PATCH_LIMIT];
   CwFillRecovery recovery;
+  char digest[CW_HASH_TEXT]; // of its file
+  char damage[256];          // of the file that was there before, which is made again; "": none
   CwQuality quality;
   double dihedral_allowed; // degrees: no filling of the region's boundary has a least angle above, see cw_tet_bound
   CwRegionFailure failure; // else nothing of the above holds

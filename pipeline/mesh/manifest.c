@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "pipeline/json_read.h"
+#include "pipeline/mesh/region_items.h"
 
 static const char *const first_domains[] = {"rotor", "stator"};
 
@@ -84,6 +85,7 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
   CwMeshDomain *d = &mesh->domains[domain];
   CwMeshRegion *region = &mesh->regions[mesh->region_count];
   const char *name = json_string_value(json_object_get(item, "file"));
+  const char *digest = json_string_value(json_object_get(item, "digest"));
   char where[80];
   int64_t index = 0, number = 0;
   snprintf(where, sizeof where, "domain %s, region %d", d->name, d->region_count + 1);
@@ -93,6 +95,9 @@ static CwStatus read_region_line(CwMesh *mesh, int domain, const json_t *item, c
              "%s: %s: 'region' is %lld; regions must stand in order 1, 2, 3, ...", file, where, (long long)index);
   region->domain = domain;
   region->region = (int)index;
+  CW_REQUIRE(digest && strlen(digest) < sizeof region->digest, CW_ERR_INPUT, "%s: %s: 'digest' must have %d digits",
+             file, where, CW_HASH_TEXT - 1);
+  strcpy(region->digest, digest);
   CW_TRY(read_count(item, "number", INT32_MAX, file, where, &number));
   region->number = (int)number;
   CW_TRY(read_count(item, "points", INT32_MAX, file, where, &region->points));
@@ -209,8 +214,8 @@ CwStatus cw_mesh_manifest_read(const char *run, CwMesh *mesh) {
   json_t *root = NULL;
   CW_REQUIRE(asprintf(&file, "%s/mesh/manifest.json", run) >= 0, CW_ERR_MEMORY, "out of memory");
   CW_TRY(cw_json_read(file, &root));
-  CW_REQUIRE(json_integer_value(json_object_get(root, "format")) == 1, CW_ERR_INPUT,
-             "%s: 'format' must be 1: the mesh was written by another version", file);
+  CW_REQUIRE(json_integer_value(json_object_get(root, "format")) == CW_REGION_FORMAT, CW_ERR_INPUT,
+             "%s: 'format' must be %d: the mesh was written by another version", file, CW_REGION_FORMAT);
   const json_t *domains = json_object_get(root, "domains");
   CW_REQUIRE(json_array_size(domains) >= 2 && json_array_size(domains) <= CW_DOMAINS_MOST, CW_ERR_INPUT,
              "%s: 'domains' must list rotor, stator and at most %d more", file, CW_DOMAINS_MOST - 2);

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "pipeline/hash.h"
 #include "pipeline/status.h"
 
 enum { CW_MESH_NAME_SIZE = 33, CW_MESH_ROTOR = 0, CW_MESH_STATOR = 1, CW_DOMAINS_MOST = 8, CW_PATCHES_MOST = 64 };
@@ -17,12 +18,13 @@ typedef struct {
   int domain;
 } CwMeshPatch;
 
-// One line of the manifest: a region file and the counts it must have.
+// One line of the manifest: a region file and the digest and the counts it must have.
 typedef struct {
   char *path; // of the region file
   int domain; // CW_MESH_ROTOR, CW_MESH_STATOR or one of the others
   int region; // 1-based in its domain
   int number; // its region number
+  char digest[CW_HASH_TEXT];
   int64_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
 } CwMeshRegion;
 

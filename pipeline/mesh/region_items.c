@@ -31,7 +31,7 @@ static const struct {
     ARRAY(quad_cell, CW_REGION_WHOLE, INDEX, 1, quad_count),
 };
 #undef ARRAY
-enum { ARRAYS = sizeof arrays / sizeof *arrays };
+_Static_assert(sizeof arrays / sizeof *arrays == CW_REGION_ARRAYS, "an array without a digest");
 
 // Little-endian in the file.
 static hid_t type_of(Kind kind) {
@@ -42,15 +42,62 @@ static hid_t type_here(Kind kind) {
   return kind == REAL ? H5T_NATIVE_DOUBLE : kind == INDEX ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
 }
 
-CwStatus cw_region_items_open(const char *path, hid_t *file) {
+hid_t cw_region_items_create(const char *path) {
+  hid_t access = H5Pcreate(H5P_FILE_ACCESS), creation = H5Pcreate(H5P_FILE_CREATE);
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // ours is the one line that a person sees
+  // Object headers with checksums, all attributes and links in them, and no blocks kept free between.
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+  H5Pset_meta_block_size(access, 0);
+  H5Pset_small_data_block_size(access, 0);
+  H5Pset_link_phase_change(creation, 2 * CW_REGION_ARRAYS, CW_REGION_ARRAYS);
+  H5Pset_attr_phase_change(creation, 2 * CW_REGION_ARRAYS, CW_REGION_ARRAYS);
+  H5Pset_obj_track_times(creation, 0);
+  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
+  H5Pclose(creation);
+  H5Pclose(access);
+  return file;
+}
+
+// Adds an attribute to the digest: its name, and its bytes as they stand in the file. The digest itself is left out.
+static herr_t add_attribute(hid_t file, const char *name, const H5A_info_t *info, void *hash) {
+  char value[CW_REGION_ARRAYS * sizeof(CwHash)]; // the longest
+  if (!strcmp(name, "digest")) return 0;
+  if (info->data_size > sizeof value) return -1;
+  hid_t attribute = H5Aopen(file, name, H5P_DEFAULT), type = H5Aget_type(attribute);
+  int fixed = H5Tis_variable_str(type) == 0;
+  herr_t read = fixed ? H5Aread(attribute, type, value) : -1;
+  cw_hash_bytes(hash, name, strlen(name));
+  cw_hash_bytes(hash, value, read >= 0 ? (size_t)info->data_size : 0);
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return read;
+}
+
+CwStatus cw_region_items_digest(hid_t file, const char *path, char digest[CW_HASH_TEXT]) {
+  CwStatus status = CW_OK;
+  CwHash hash = cw_hash_start();
+  hsize_t first = 0;
+  CW_REQUIRE(H5Aiterate2(file, H5_INDEX_NAME, H5_ITER_INC, &first, add_attribute, &hash) >= 0, CW_ERR_IO,
+             "%s: attributes: the file is damaged", path);
+  cw_hash_hex(&hash, digest);
+done:
+  return status;
+}
+
+CwStatus cw_region_items_open(const char *path, hid_t *file, char digest[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
   int32_t format = 0;
+  char found[CW_HASH_TEXT], wanted[CW_HASH_TEXT];
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // ours is the one line that a person sees
   *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   CW_REQUIRE(*file >= 0, CW_ERR_IO, "%s: is missing, damaged or cut short: cannot be opened as HDF5", path);
   CW_TRY(cw_region_items_integer(*file, path, "format", &format));
   CW_REQUIRE(format == CW_REGION_FORMAT, CW_ERR_INPUT, "%s: attribute 'format' is %d; it must be %d", path, format,
              CW_REGION_FORMAT);
+  CW_TRY(cw_region_items_text(*file, path, "digest", wanted, sizeof wanted));
+  CW_TRY(cw_region_items_digest(*file, path, found));
+  CW_REQUIRE(!strcmp(found, wanted), CW_ERR_IO, "%s: attributes: not as they were written; the file is damaged", path);
+  if (digest) memcpy(digest, found, sizeof found);
 done:
   if (status != CW_OK && *file >= 0) {
     H5Fclose(*file);
@@ -92,8 +139,14 @@ done:
   return status;
 }
 
+static CwHash digest_of(const void *data, size_t size) {
+  CwHash hash = cw_hash_start();
+  cw_hash_bytes(&hash, data, size);
+  return hash;
+}
+
 // Reads one array. One without rows may be left out of the file where none are wanted.
-static CwStatus read_array(hid_t file, const char *path, int which, int32_t *rows, void **into) {
+static CwStatus read_array(hid_t file, const char *path, int which, const CwHash *wanted, int32_t *rows, void **into) {
   CwStatus status = CW_OK;
   const char *name = arrays[which].name;
   int columns = arrays[which].columns, dimensions = columns > 1 ? 2 : 1;
@@ -120,6 +173,9 @@ static CwStatus read_array(hid_t file, const char *path, int which, int32_t *row
   if (*rows)
     CW_REQUIRE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *into) >= 0, CW_ERR_IO,
                "%s: dataset '%s' cannot be read: the file is damaged or cut short", path, name);
+  CwHash made = digest_of(*into, bytes);
+  CW_REQUIRE(!memcmp(&made, wanted, sizeof made), CW_ERR_IO,
+             "%s: dataset '%s': not as it was written; the file is damaged", path, name);
 done:
   if (space >= 0) H5Sclose(space);
   if (set >= 0) H5Dclose(set);
@@ -128,41 +184,86 @@ done:
 
 CwStatus cw_region_items_read(hid_t file, const char *path, CwRegionPart part, CwRegionData *data) {
   CwStatus status = CW_OK;
-  for (int k = 0; k < ARRAYS; ++k)
+  CwHash digests[CW_REGION_ARRAYS];
+  hid_t attribute = H5Aopen(file, "digests", H5P_DEFAULT), space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+  CW_REQUIRE(space >= 0 && H5Sget_simple_extent_npoints(space) == 2 * CW_REGION_ARRAYS &&
+                 H5Aread(attribute, H5T_NATIVE_UINT64, digests) >= 0,
+             CW_ERR_INPUT, "%s: attribute 'digests' must hold %d numbers", path, 2 * CW_REGION_ARRAYS);
+  for (int k = 0; k < CW_REGION_ARRAYS; ++k)
     if (part == CW_REGION_WHOLE || arrays[k].part == CW_REGION_SURFACE)
-      CW_TRY(read_array(file, path, k, (int32_t *)((char *)data + arrays[k].count),
+      CW_TRY(read_array(file, path, k, &digests[k], (int32_t *)((char *)data + arrays[k].count),
                         (void **)((char *)data + arrays[k].member)));
 done:
+  if (space >= 0) H5Sclose(space);
+  if (attribute >= 0) H5Aclose(attribute);
   return status;
 }
 
-CwStatus cw_region_items_write(hid_t file, const CwRegionData *data) {
+static CwStatus write_array(hid_t file, int which, hid_t properties, const CwRegionData *data, CwHash *digest) {
   CwStatus status = CW_OK;
-  hid_t space = -1, set = -1, properties = H5Pcreate(H5P_DATASET_CREATE);
-  // No time stamps and no fill: the bytes follow from the region alone.
-  H5Pset_obj_track_times(properties, 0);
-  H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
-  for (int k = 0; k < ARRAYS; ++k) {
-    int32_t rows = *(const int32_t *)((const char *)data + arrays[k].count);
-    const void *values = *(void *const *)((const char *)data + arrays[k].member);
-    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)arrays[k].columns};
-    space = H5Screate_simple(arrays[k].columns > 1 ? 2 : 1, size, NULL);
-    set = H5Dcreate2(file, arrays[k].name, type_of(arrays[k].kind), space, H5P_DEFAULT, properties, H5P_DEFAULT);
-    CW_REQUIRE(space >= 0 && set >= 0, CW_ERR_IO, "dataset '%s' cannot be made", arrays[k].name);
-    if (rows)
-      CW_REQUIRE(H5Dwrite(set, type_here(arrays[k].kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
-                 "dataset '%s' cannot be written", arrays[k].name);
-    // Small arrays are kept back until here: what the disk refuses is not told before, nor by the end of the file.
-    herr_t closed = H5Dclose(set);
-    set = -1;
-    CW_REQUIRE(closed >= 0, CW_ERR_IO, "dataset '%s' cannot be written", arrays[k].name);
-    H5Sclose(space);
-    space = -1;
-  }
+  const char *name = arrays[which].name;
+  int32_t rows = *(const int32_t *)((const char *)data + arrays[which].count);
+  const void *values = *(void *const *)((const char *)data + arrays[which].member);
+  const hsize_t size[2] = {(hsize_t)rows, (hsize_t)arrays[which].columns};
+  hid_t type = type_of(arrays[which].kind);
+  hid_t space = H5Screate_simple(arrays[which].columns > 1 ? 2 : 1, size, NULL);
+  hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+  CW_REQUIRE(space >= 0 && set >= 0, CW_ERR_IO, "dataset '%s' cannot be made", name);
+  if (rows)
+    CW_REQUIRE(H5Dwrite(set, type_here(arrays[which].kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, CW_ERR_IO,
+               "dataset '%s' cannot be written", name);
+  *digest = digest_of(values, (size_t)rows * (size_t)arrays[which].columns * H5Tget_size(type));
+  // Small arrays are kept back until here: what the disk refuses is not told before, nor by the end of the file.
+  herr_t closed = H5Dclose(set);
+  set = -1;
+  CW_REQUIRE(closed >= 0, CW_ERR_IO, "dataset '%s' cannot be written", name);
 done:
   if (set >= 0) H5Dclose(set);
   if (space >= 0) H5Sclose(space);
+  return status;
+}
+
+static CwStatus write_attribute(hid_t file, const char *name, hid_t type, hid_t space, const void *data) {
+  CwStatus status = CW_OK;
+  hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  CW_REQUIRE(attribute >= 0 && H5Awrite(attribute, type, data) >= 0, CW_ERR_IO, "attribute '%s' cannot be written",
+             name);
+done:
+  if (attribute >= 0) H5Aclose(attribute);
+  return status;
+}
+
+CwStatus cw_region_items_put_integer(hid_t file, const char *name, int32_t value) {
+  hid_t space = H5Screate(H5S_SCALAR);
+  CwStatus status = write_attribute(file, name, H5T_STD_I32LE, space, &value);
+  H5Sclose(space);
+  return status;
+}
+
+CwStatus cw_region_items_put_text(hid_t file, const char *name, const char *text) {
+  hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, strlen(text) + 1);
+  CwStatus status = write_attribute(file, name, type, space, text);
+  H5Tclose(type);
+  H5Sclose(space);
+  return status;
+}
+
+CwStatus cw_region_items_write(hid_t file, const CwRegionData *data, char digest[CW_HASH_TEXT]) {
+  CwStatus status = CW_OK;
+  CwHash digests[CW_REGION_ARRAYS];
+  hid_t space = H5Screate_simple(2, (hsize_t[]){CW_REGION_ARRAYS, 2}, NULL);
+  hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+  // No time stamps and no fill: the bytes follow from the region alone.
+  H5Pset_obj_track_times(properties, 0);
+  H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
+  for (int k = 0; k < CW_REGION_ARRAYS; ++k) CW_TRY(write_array(file, k, properties, data, &digests[k]));
+  CW_TRY(write_attribute(file, "digests", H5T_STD_U64LE, space, digests));
+  CW_TRY(cw_region_items_digest(file, "what was written", digest));
+  CW_TRY(cw_region_items_put_text(file, "digest", digest));
+done:
   H5Pclose(properties);
+  H5Sclose(space);
   return status;
 }
 

@@ -26,14 +26,16 @@ CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, 
   const char *path = line->path;
   hid_t file = -1;
   int32_t number = 0;
-  char name[CW_MESH_NAME_SIZE];
-  CW_TRY(cw_region_items_open(path, &file));
+  char name[CW_MESH_NAME_SIZE], digest[CW_HASH_TEXT];
+  CW_TRY(cw_region_items_open(path, &file, digest));
   CW_TRY(cw_region_items_integer(file, path, "region", &number));
   CW_REQUIRE(number == line->region, CW_ERR_INPUT, "%s: attribute 'region' is %d; it must be %d", path, number,
              line->region);
   CW_TRY(cw_region_items_text(file, path, "domain", name, sizeof name));
   CW_REQUIRE(strcmp(name, domain->name) == 0, CW_ERR_INPUT, "%s: attribute 'domain' is '%s'; it must be '%s'", path,
              name, domain->name);
+  CW_REQUIRE(!strcmp(digest, line->digest), CW_ERR_INPUT,
+             "%s: is not the file that the manifest tells of; run cutwater-mesh again", path);
   r->domain = line->domain;
   r->region = line->region;
   r->point_count = (int32_t)line->points;

@@ -6,7 +6,7 @@
 #include "pipeline/mesh/manifest.h"
 #include "pipeline/mesh/region_items.h"
 
-// Reads one region file, or a part of it, and checks it against its line of the manifest: counts, and that
+// Reads one region file, or a part of it, and checks it against its line of the manifest: digest, counts, and that
 // every index is in range and every coordinate finite. CW_ERR_IO or CW_ERR_INPUT. Zeroed `data` on entry;
 // free it with cw_mesh_region_free, also after a failure.
 CwStatus cw_mesh_region_read(const CwMesh *mesh, int region, CwRegionPart part, CwRegionData *data);

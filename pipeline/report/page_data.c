@@ -7,6 +7,8 @@
 #include "pipeline/case_origin.h"
 #include "pipeline/json_read.h"
 #include "pipeline/report/page.h"
+#include "pipeline/sealed_json.h"
+#include "pipeline/stage_files.h"
 
 const char *const cw_report_stage[CW_STAGES] = {"geometry", "mesh", "export"};
 
@@ -19,8 +21,9 @@ static CwStatus read_record(const char *run, const CwCase *table, int stage, jso
   if (!strcmp(cw_report_stage[stage], "export")) {
     if (access(path, F_OK) != 0) goto done; // not exported yet
     CW_TRY(cw_case_origin_check(table, run, "export"));
+    CW_TRY(cw_stage_files_check(run, "export"));
   }
-  CW_TRY(cw_json_read(path, record));
+  CW_TRY(cw_sealed_json_read(path, record));
   CW_TRY(cw_json_text(*record, path, "stage", &name));
   CW_REQUIRE(!strcmp(name, cw_report_stage[stage]), CW_ERR_INPUT, "%s: 'stage' is %s; it must be %s", path, name,
              cw_report_stage[stage]);
@@ -54,25 +57,6 @@ done:
   return status;
 }
 
-// An export that an earlier mesh of the same pump left behind.
-static CwStatus require_export_of_mesh(const CwReportData *data) {
-  CwStatus status = CW_OK;
-  char where[4096];
-  int64_t exported, meshed = 0;
-  json_t *results;
-  if (!data->record[2]) goto done;
-  snprintf(where, sizeof where, "%s/export/record.json", data->run);
-  CW_TRY(cw_json_object(data->record[2], where, "results", &results));
-  CW_TRY(cw_json_count(results, where, "cells", &exported));
-  for (int r = 0; r < data->mesh.region_count; r++)
-    meshed += data->mesh.regions[r].tetrahedra + data->mesh.regions[r].pyramids + data->mesh.regions[r].prisms;
-  CW_REQUIRE(exported == meshed, CW_ERR_INPUT,
-             "%s/export: has the %lld cells of another mesh, %s/mesh has %lld; run cutwater-export first", data->run,
-             (long long)exported, data->run, (long long)meshed);
-done:
-  return status;
-}
-
 CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData *data) {
   CwStatus status = CW_OK;
   char path[4096];
@@ -84,7 +68,6 @@ CwStatus cw_report_data_read(const char *run, const CwCase *table, CwReportData 
   for (int s = 0; s < CW_STAGES; s++) CW_TRY(read_record(run, table, s, &data->record[s]));
   CW_TRY(read_solve(run, &data->solve));
   CW_TRY(cw_mesh_manifest_read(run, &data->mesh));
-  CW_TRY(require_export_of_mesh(data));
 done:
   return status;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tests/export/synthetic_run.h"
 
-#include <hdf5.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdint.h>
@@ -11,6 +10,8 @@
 #include <sys/stat.h>
 
 #include "pipeline/case_origin.h"
+#include "pipeline/mesh/region_items.h"
+#include "tests/seal_run.h"
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -51,11 +52,7 @@ typedef struct {
 } Domain;
 
 typedef struct {
-  double (*points)[3];
-  int64_t *shared_id;
-  int32_t (*tetrahedra)[4], (*pyramids)[5], (*prisms)[6], (*triangles)[3], (*quads)[4];
-  int32_t *triangle_patch, *triangle_cell, *quad_patch, *quad_cell;
-  int point_count, shared_count, tetrahedron_count, pyramid_count, prism_count, triangle_count, quad_count;
+  CwRegionData data;
   int *local; // by node: place in the region or -1
 } Region;
 
@@ -130,8 +127,8 @@ static int patch_of(const Domain *d, int i, int j, int axis, int up) {
 
 static int local_node(const Domain *d, Region *r, int node) {
   if (r->local[node] < 0) {
-    r->local[node] = r->point_count;
-    place(d, node, r->points[r->point_count++]);
+    r->local[node] = r->data.point_count;
+    place(d, node, r->data.points[r->data.point_count++]);
   }
   return r->local[node];
 }
@@ -147,7 +144,7 @@ static double dot_cross(const double *a, const double *b, const double *c, const
 }
 
 static double tetrahedron_volume(const Region *r, int a, int b, int c, int e) {
-  return dot_cross(r->points[a], r->points[b], r->points[c], r->points[e]) / 6;
+  return dot_cross(r->data.points[a], r->data.points[b], r->data.points[c], r->data.points[e]) / 6;
 }
 
 // Cells of a type by their place, before it is known how many of the earlier types there are.
@@ -156,7 +153,7 @@ static int32_t cell_code(int nodes, int place_of_type) {
 }
 
 static int32_t cell_number(const Region *r, int32_t code) {
-  const int before[] = {0, r->tetrahedron_count, r->tetrahedron_count + r->pyramid_count};
+  const int before[] = {0, r->data.tetrahedron_count, r->data.tetrahedron_count + r->data.pyramid_count};
   return before[code >> 28] + (code & 0xfffffff);
 }
 
@@ -169,20 +166,21 @@ static void add_boundary(Region *r, const int32_t *cells, int first, int count, 
     int found = 0;
     double centre[3] = {0};
     for (int n = 0; n < nodes; ++n)
-      for (int k = 0; k < 3; ++k) centre[k] += r->points[cell[n]][k] / nodes;
+      for (int k = 0; k < 3; ++k) centre[k] += r->data.points[cell[n]][k] / nodes;
     for (int m = 0; m < corner_count; ++m)
       for (int n = 0; n < nodes; ++n) found += cell[n] == corners[m];
     if (found < corner_count) continue;
-    int inward = dot_cross(r->points[corners[0]], r->points[corners[1]], r->points[corners[2]], centre) > 0;
-    int32_t *out = corner_count == 3 ? r->triangles[r->triangle_count] : r->quads[r->quad_count];
+    int inward =
+        dot_cross(r->data.points[corners[0]], r->data.points[corners[1]], r->data.points[corners[2]], centre) > 0;
+    int32_t *out = corner_count == 3 ? r->data.triangles[r->data.triangle_count] : r->data.quads[r->data.quad_count];
     for (int m = 0; m < corner_count; ++m) out[m] = corners[inward ? corner_count - 1 - m : m];
     int32_t number = cell_code(nodes, c);
     if (corner_count == 3) {
-      r->triangle_patch[r->triangle_count] = patch;
-      r->triangle_cell[r->triangle_count++] = number;
+      r->data.triangle_patch[r->data.triangle_count] = patch;
+      r->data.triangle_cell[r->data.triangle_count++] = number;
     } else {
-      r->quad_patch[r->quad_count] = patch;
-      r->quad_cell[r->quad_count++] = number;
+      r->data.quad_patch[r->data.quad_count] = patch;
+      r->data.quad_cell[r->data.quad_count++] = number;
     }
     return;
   }
@@ -196,11 +194,11 @@ static int has_middle(const Domain *d, int i, int j, int k) {
 }
 
 static void add_cell_with_middle(Domain *d, Region *r, int i, int j, int k) {
-  int v[8], middle = r->point_count++;
-  memset(r->points[middle], 0, sizeof *r->points);
+  int v[8], middle = r->data.point_count++;
+  memset(r->data.points[middle], 0, sizeof *r->data.points);
   for (int b = 0; b < 8; ++b) {
     v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
-    for (int x = 0; x < 3; ++x) r->points[middle][x] += r->points[v[b]][x] / 8;
+    for (int x = 0; x < 3; ++x) r->data.points[middle][x] += r->data.points[v[b]][x] / 8;
   }
   for (int side = 0; side < 6; ++side) {
     int axis = side / 2, up = side % 2;
@@ -213,13 +211,15 @@ static void add_cell_with_middle(Domain *d, Region *r, int i, int j, int k) {
     }
     d->volume += tetrahedron_volume(r, c[0], c[1], c[2], middle) + tetrahedron_volume(r, c[0], c[2], c[3], middle);
     if (axis == 2 && up) {
-      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[1], c[2], middle}, 4 * sizeof(int32_t));
-      memcpy(r->tetrahedra[r->tetrahedron_count++], (int32_t[]){c[0], c[2], c[3], middle}, 4 * sizeof(int32_t));
+      memcpy(r->data.tetrahedra[r->data.tetrahedron_count++], (int32_t[]){c[0], c[1], c[2], middle},
+             4 * sizeof(int32_t));
+      memcpy(r->data.tetrahedra[r->data.tetrahedron_count++], (int32_t[]){c[0], c[2], c[3], middle},
+             4 * sizeof(int32_t));
       continue;
     }
-    int place_of_type = r->pyramid_count++;
-    memcpy(r->pyramids[place_of_type], (int32_t[]){c[0], c[1], c[2], c[3], middle}, 5 * sizeof(int32_t));
-    if (axis == 2) add_boundary(r, *r->pyramids, place_of_type, 1, 5, c, 4, patch_of(d, i, j, axis, up));
+    int place_of_type = r->data.pyramid_count++;
+    memcpy(r->data.pyramids[place_of_type], (int32_t[]){c[0], c[1], c[2], c[3], middle}, 5 * sizeof(int32_t));
+    if (axis == 2) add_boundary(r, *r->data.pyramids, place_of_type, 1, 5, c, 4, patch_of(d, i, j, axis, up));
   }
 }
 
@@ -229,9 +229,9 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
   for (int b = 0; b < 8; ++b) v[b] = local_node(d, r, node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)));
   if (is_prism) {
     const int base[2][3] = {{0, 1, 3}, {0, 3, 2}};
-    first = r->prism_count;
+    first = r->data.prism_count;
     for (int p = 0; p < 2; ++p) {
-      int32_t *prism = r->prisms[r->prism_count++];
+      int32_t *prism = r->data.prisms[r->data.prism_count++];
       for (int n = 0; n < 3; ++n) {
         prism[n] = v[base[p][n]];
         prism[n + 3] = v[base[p][n] + 4];
@@ -239,9 +239,9 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
     }
   } else {
     const int order[6][3] = {{1, 2, 4}, {2, 4, 1}, {4, 1, 2}, {1, 4, 2}, {4, 2, 1}, {2, 1, 4}};
-    first = r->tetrahedron_count;
+    first = r->data.tetrahedron_count;
     for (int p = 0; p < 6; ++p) {
-      int32_t *t = r->tetrahedra[r->tetrahedron_count++];
+      int32_t *t = r->data.tetrahedra[r->data.tetrahedron_count++];
       int a = order[p][0], b = order[p][0] + order[p][1];
       t[0] = v[0];
       t[1] = v[p < 3 ? a : b]; // the last three permutations are odd
@@ -253,10 +253,10 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
   if (is_prism) {
     // The sides of the prisms are flat or ruled along the axis: the volume is that of the base times the
     // height.
-    double z = r->points[v[4]][2] - r->points[v[0]][2];
+    double z = r->data.points[v[4]][2] - r->data.points[v[0]][2];
     for (int p = 0; p < 2; ++p) {
-      const int32_t *n = r->prisms[first + p];
-      const double *a = r->points[n[0]], *b = r->points[n[1]], *c = r->points[n[2]];
+      const int32_t *n = r->data.prisms[first + p];
+      const double *a = r->data.points[n[0]], *b = r->data.points[n[1]], *c = r->data.points[n[2]];
       d->volume += 0.5 * z * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
     }
   }
@@ -267,7 +267,7 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
       int patch = patch_of(d, i, j, axis, up);
       int s = axis == 0 ? 2 : 1, t = axis == 2 ? 2 : 4, o = up ? 1 << axis : 0;
       int corners[4] = {v[o], v[o + s], v[o + s + t], v[o + t]};
-      const int32_t *cells = is_prism ? *r->prisms : *r->tetrahedra;
+      const int32_t *cells = is_prism ? *r->data.prisms : *r->data.tetrahedra;
       int nodes = is_prism ? 6 : 4, count = is_prism ? 2 : 6;
       if (is_prism && axis != 2) {
         add_boundary(r, cells, first, count, nodes, corners, 4, patch);
@@ -279,53 +279,15 @@ static void add_cell(Domain *d, Region *r, int i, int j, int k) {
     }
 }
 
-static int put(hid_t file, const char *name, hid_t type, int rows, int columns, const void *data) {
-  hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
-  hid_t space = H5Screate_simple(columns ? 2 : 1, size, NULL);
-  hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  int failed = set < 0 || (rows && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0);
-  H5Dclose(set);
-  H5Sclose(space);
-  return failed;
-}
-
-static void put_number(hid_t file, const char *name, int value) {
-  hid_t space = H5Screate(H5S_SCALAR),
-        attribute = H5Acreate2(file, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(attribute, H5T_NATIVE_INT, &value);
-  H5Aclose(attribute);
-  H5Sclose(space);
-}
-
-static void put_text(hid_t file, const char *name, const char *value) {
-  hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-  H5Tset_size(type, strlen(value) + 1);
-  hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(attribute, type, value);
-  H5Aclose(attribute);
-  H5Sclose(space);
-  H5Tclose(type);
-}
-
-static int write_region_file(const char *path, const Domain *d, int region, const Region *r) {
-  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+static int write_region_file(const char *path, const Domain *d, int region, const CwRegionData *data) {
+  char digest[CW_HASH_TEXT];
+  hid_t file = cw_region_items_create(path);
   if (file < 0) return -1;
-  put_number(file, "format", 1);
-  put_number(file, "region", region + 1);
-  put_number(file, "number", region + 1);
-  put_text(file, "domain", d->name);
-  put_text(file, "fingerprint", "synthetic");
-  int failed = put(file, "points", H5T_NATIVE_DOUBLE, r->point_count, 3, r->points);
-  failed |= put(file, "shared_id", H5T_NATIVE_INT64, r->shared_count, 0, r->shared_id);
-  failed |= put(file, "tetrahedra", H5T_NATIVE_INT32, r->tetrahedron_count, 4, r->tetrahedra);
-  failed |= put(file, "pyramids", H5T_NATIVE_INT32, r->pyramid_count, 5, r->pyramids);
-  failed |= put(file, "prisms", H5T_NATIVE_INT32, r->prism_count, 6, r->prisms);
-  failed |= put(file, "triangles", H5T_NATIVE_INT32, r->triangle_count, 3, r->triangles);
-  failed |= put(file, "triangle_patch", H5T_NATIVE_INT32, r->triangle_count, 0, r->triangle_patch);
-  failed |= put(file, "triangle_cell", H5T_NATIVE_INT32, r->triangle_count, 0, r->triangle_cell);
-  failed |= put(file, "quads", H5T_NATIVE_INT32, r->quad_count, 4, r->quads);
-  failed |= put(file, "quad_patch", H5T_NATIVE_INT32, r->quad_count, 0, r->quad_patch);
-  failed |= put(file, "quad_cell", H5T_NATIVE_INT32, r->quad_count, 0, r->quad_cell);
+  int failed = cw_region_items_put_integer(file, "format", CW_REGION_FORMAT) != CW_OK;
+  failed |= cw_region_items_put_integer(file, "region", region + 1) != CW_OK;
+  failed |= cw_region_items_put_integer(file, "number", region + 1) != CW_OK;
+  failed |= cw_region_items_put_text(file, "domain", d->name) != CW_OK;
+  failed |= cw_region_items_write(file, data, digest) != CW_OK;
   failed |= H5Fclose(file) < 0;
   return failed ? -1 : 0;
 }
@@ -351,17 +313,17 @@ static json_t *write_region(const char *run, Domain *d, int region) {
   const SyntheticAnnulus *a = d->annulus;
   size_t cells = (size_t)a->radial * (size_t)(a->around / a->regions + 1) * (size_t)a->axial;
   Region r = {0};
-  r.points = malloc(2 * (size_t)d->node_count * sizeof *r.points);
-  r.shared_id = malloc((size_t)(d->shared_count + 1) * sizeof *r.shared_id);
-  r.tetrahedra = malloc(6 * cells * sizeof *r.tetrahedra);
-  r.pyramids = malloc(5 * cells * sizeof *r.pyramids);
-  r.prisms = malloc(2 * cells * sizeof *r.prisms);
-  r.triangles = malloc(12 * cells * sizeof *r.triangles);
-  r.quads = malloc(6 * cells * sizeof *r.quads);
-  r.triangle_patch = malloc(12 * cells * sizeof *r.triangle_patch);
-  r.triangle_cell = malloc(12 * cells * sizeof *r.triangle_cell);
-  r.quad_patch = malloc(6 * cells * sizeof *r.quad_patch);
-  r.quad_cell = malloc(6 * cells * sizeof *r.quad_cell);
+  r.data.points = malloc(2 * (size_t)d->node_count * sizeof *r.data.points);
+  r.data.shared_id = malloc((size_t)(d->shared_count + 1) * sizeof *r.data.shared_id);
+  r.data.tetrahedra = malloc(6 * cells * sizeof *r.data.tetrahedra);
+  r.data.pyramids = malloc(5 * cells * sizeof *r.data.pyramids);
+  r.data.prisms = malloc(2 * cells * sizeof *r.data.prisms);
+  r.data.triangles = malloc(12 * cells * sizeof *r.data.triangles);
+  r.data.quads = malloc(6 * cells * sizeof *r.data.quads);
+  r.data.triangle_patch = malloc(12 * cells * sizeof *r.data.triangle_patch);
+  r.data.triangle_cell = malloc(12 * cells * sizeof *r.data.triangle_cell);
+  r.data.quad_patch = malloc(6 * cells * sizeof *r.data.quad_patch);
+  r.data.quad_cell = malloc(6 * cells * sizeof *r.data.quad_cell);
   r.local = malloc((size_t)d->node_count * sizeof *r.local);
   for (int n = 0; n < d->node_count; ++n) r.local[n] = -1;
   // Shared points first: those of the planes that bound this region and are used by its cells.
@@ -381,36 +343,36 @@ static json_t *write_region(const char *run, Domain *d, int region) {
           for (int b = 0; b < 8; ++b) {
             int node = node_at(d, i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1));
             if (d->shared[node] >= 0 && r.local[node] < 0) {
-              r.shared_id[r.shared_count++] = d->shared[node];
+              r.data.shared_id[r.data.shared_count++] = d->shared[node];
               local_node(d, &r, node);
             }
           }
         }
   }
-  for (int t = 0; t < r.triangle_count; ++t) r.triangle_cell[t] = cell_number(&r, r.triangle_cell[t]);
-  for (int q = 0; q < r.quad_count; ++q) r.quad_cell[q] = cell_number(&r, r.quad_cell[q]);
+  for (int t = 0; t < r.data.triangle_count; ++t) r.data.triangle_cell[t] = cell_number(&r, r.data.triangle_cell[t]);
+  for (int q = 0; q < r.data.quad_count; ++q) r.data.quad_cell[q] = cell_number(&r, r.data.quad_cell[q]);
   char path[4000], name[40];
   snprintf(name, sizeof name, "%s-%04d.h5", d->name, region + 1);
   snprintf(path, sizeof path, "%s/mesh/%s", run, name);
   json_t *line = NULL;
-  if (write_region_file(path, d, region, &r) == 0)
+  if (write_region_file(path, d, region, &r.data) == 0)
     line = json_pack("{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "file", name, "region", region + 1, "number",
-                     region + 1, "points", r.point_count, "own_points", r.point_count - r.shared_count, "tetrahedra",
-                     r.tetrahedron_count, "pyramids", r.pyramid_count, "prisms", r.prism_count, "triangles",
-                     r.triangle_count, "quads", r.quad_count);
+                     region + 1, "points", r.data.point_count, "own_points", r.data.point_count - r.data.shared_count,
+                     "tetrahedra", r.data.tetrahedron_count, "pyramids", r.data.pyramid_count, "prisms",
+                     r.data.prism_count, "triangles", r.data.triangle_count, "quads", r.data.quad_count);
   else
     fprintf(stderr, "%s: cannot be written\n", path);
-  free(r.points);
-  free(r.shared_id);
-  free(r.tetrahedra);
-  free(r.pyramids);
-  free(r.prisms);
-  free(r.triangles);
-  free(r.quads);
-  free(r.triangle_patch);
-  free(r.triangle_cell);
-  free(r.quad_patch);
-  free(r.quad_cell);
+  free(r.data.points);
+  free(r.data.shared_id);
+  free(r.data.tetrahedra);
+  free(r.data.pyramids);
+  free(r.data.prisms);
+  free(r.data.triangles);
+  free(r.data.quads);
+  free(r.data.triangle_patch);
+  free(r.data.triangle_cell);
+  free(r.data.quad_patch);
+  free(r.data.quad_cell);
   free(r.local);
   return line;
 }
@@ -465,8 +427,8 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
     json_decref(stator);
     return -1;
   }
-  json_t *root = json_pack("{s:i, s:[o, o], s:[[s, s]]}", "format", 1, "domains", rotor, stator, "interfaces",
-                           "rotor_interface", "stator_interface");
+  json_t *root = json_pack("{s:i, s:[o, o], s:[[s, s]]}", "format", CW_REGION_FORMAT, "domains", rotor, stator,
+                           "interfaces", "rotor_interface", "stator_interface");
   snprintf(path, sizeof path, "%s/mesh/manifest.json", run);
   int failed = json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
@@ -476,5 +438,5 @@ int synthetic_run_write(const char *run, const SyntheticPump *pump) {
   snprintf(path, sizeof path, "%s/geometry/design.json", run);
   failed |= json_dump_file(root, path, JSON_INDENT(1));
   json_decref(root);
-  return failed || write_record(run, "geometry") || write_record(run, "mesh") ? -1 : 0;
+  return failed || write_record(run, "geometry") || write_record(run, "mesh") || seal_run(run) ? -1 : 0;
 }

@@ -15,6 +15,7 @@
 #include "pipeline/case_origin.h"
 #include "pipeline/case_schema.h"
 #include "pipeline/record.h"
+#include "pipeline/sealed_json.h"
 
 static char run[] = "/tmp/cutwater-origin-XXXXXX", path[sizeof run + 40];
 static CwCase paper;
@@ -98,9 +99,9 @@ static void another_unit_is_the_same_pump(void **state) {
 static void a_record_that_is_missing_or_broken_is_told(void **state) {
   assert_int_equal(cw_case_origin_check(&paper, run, "mesh"), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "mesh/record.json: it is missing; cutwater-mesh writes it"));
-  FILE *file = fopen(path, "w");
-  fputs("{\"results\": {}}", file);
-  fclose(file);
+  json_t *none = json_pack("{s:{}}", "results");
+  assert_int_equal(cw_sealed_json_write(none, path), CW_OK);
+  json_decref(none);
   assert_int_equal(cw_case_origin_check(&paper, run, "geometry"), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "geometry/record.json: does not say of which case; run cutwater-geometry"));
 }

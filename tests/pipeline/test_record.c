@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "pipeline/hash.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
 
@@ -43,6 +44,8 @@ static void record_is_written_whole_and_in_order(void **state) {
   assert_int_equal(cw_record_json(record, "list", json_pack("[i, i]", 1, 2)), CW_OK);
   assert_int_equal(cw_record_json(record, "list2", NULL), CW_ERR_MEMORY);
   assert_int_equal(cw_record_integer(record, "zeta", 2), CW_OK); // keeps its place
+  assert_int_equal(cw_record_file_digest(record, "known", "00ff"), CW_OK);
+  assert_int_equal(cw_record_file(record, folder, "none"), CW_ERR_IO);
   cw_record_set_peak_memory(record, 5000000000);
   assert_int_equal(cw_record_write(record, path), CW_OK);
   cw_record_free(record);
@@ -68,8 +71,13 @@ static void record_is_written_whole_and_in_order(void **state) {
            "  \"warnings\": [\n    \"narrow gap at 5 mm in \\\"pa?per\\\"\"\n  ],\n"
            "  \"results\": {\n    \"zeta\": 2,\n    \"alpha\": 0.10000000000000001,\n    \"undefined\": null,\n"
            "    \"endless\": null,\n"
-           "    \"list\": [\n      1,\n      2\n    ]\n  }\n}\n",
+           "    \"list\": [\n      1,\n      2\n    ]\n  },\n"
+           "  \"files\": {\n    \"known\": \"00ff\"\n  },\n  \"digest\": \"",
            digits, place + 11);
+  char *end = strstr(text, "\"digest\": \"") + strlen("\"digest\": \"");
+  assert_int_equal(strspn(end, "0123456789abcdef"), CW_HASH_TEXT - 1);
+  assert_string_equal(end + CW_HASH_TEXT - 1, "\"\n}\n");
+  *end = '\0';
   assert_string_equal(text, expected);
 }
 

@@ -27,31 +27,13 @@ static const CwRegionData region = {.point_count = 4,
                                     .triangle_patch = triangle_patch,
                                     .triangle_cell = zero};
 
-static void put_integer(hid_t file, const char *name, int value) {
-  hid_t space = H5Screate(H5S_SCALAR);
-  hid_t attribute = H5Acreate2(file, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT);
-  assert_true(H5Awrite(attribute, H5T_NATIVE_INT, &value) >= 0);
-  H5Aclose(attribute);
-  H5Sclose(space);
-}
-
-// A string of any length, as other programs may write it.
-static void put_text(hid_t file, const char *name, const char *text) {
-  hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, H5T_VARIABLE);
-  hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  assert_true(H5Awrite(attribute, type, &text) >= 0);
-  H5Aclose(attribute);
-  H5Tclose(type);
-  H5Sclose(space);
-}
-
 static void write_file(int format) {
-  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  char digest[CW_HASH_TEXT];
+  hid_t file = cw_region_items_create(path);
   assert_true(file >= 0);
-  put_integer(file, "format", format);
-  put_text(file, "domain", "rotor");
-  assert_int_equal(cw_region_items_write(file, &region), CW_OK);
+  assert_int_equal(cw_region_items_put_integer(file, "format", format), CW_OK);
+  assert_int_equal(cw_region_items_put_text(file, "domain", "rotor"), CW_OK);
+  assert_int_equal(cw_region_items_write(file, &region, digest), CW_OK);
   H5Fclose(file);
 }
 
@@ -68,7 +50,7 @@ static void the_surface_comes_without_the_cells(void **state) {
   CwRegionData data = {.point_count = -1, .triangle_count = -1, .quad_count = -1};
   hid_t file = -1;
   write_file(CW_REGION_FORMAT);
-  assert_int_equal(cw_region_items_open(path, &file), CW_OK);
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_OK);
   assert_int_equal(cw_region_items_read(file, path, CW_REGION_SURFACE, &data), CW_OK);
   assert_int_equal(data.point_count, 4);
   assert_int_equal(data.triangle_count, 1);
@@ -88,7 +70,7 @@ static void counts_that_are_asked_must_be_met(void **state) {
   CwRegionData data = {.point_count = 4, .shared_count = 1, .tetrahedron_count = 2};
   hid_t file = -1;
   write_file(CW_REGION_FORMAT);
-  assert_int_equal(cw_region_items_open(path, &file), CW_OK);
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_OK);
   assert_int_equal(cw_region_items_read(file, path, CW_REGION_WHOLE, &data), CW_ERR_INPUT);
   assert_non_null(strstr(cw_fail_message(), "dataset 'tetrahedra' has 1 rows; it must have 2"));
   cw_mesh_region_free(&data);
@@ -106,7 +88,7 @@ static void attributes_are_read_and_named(void **state) {
   int32_t value;
   char text[6];
   write_file(CW_REGION_FORMAT);
-  assert_int_equal(cw_region_items_open(path, &file), CW_OK);
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_OK);
   assert_int_equal(cw_region_items_text(file, path, "domain", text, 6), CW_OK);
   assert_string_equal(text, "rotor");
   assert_int_equal(cw_region_items_text(file, path, "domain", text, 5), CW_ERR_INPUT);
@@ -120,18 +102,42 @@ static void attributes_are_read_and_named(void **state) {
 static void files_that_are_none_are_told(void **state) {
   hid_t file = -1;
   write_file(7);
-  assert_int_equal(cw_region_items_open(path, &file), CW_ERR_INPUT);
-  assert_non_null(strstr(cw_fail_message(), "attribute 'format' is 7; it must be 1"));
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_ERR_INPUT);
+  assert_non_null(strstr(cw_fail_message(), "attribute 'format' is 7; it must be 2"));
   assert_int_equal(truncate(path, 100), 0);
-  assert_int_equal(cw_region_items_open(path, &file), CW_ERR_IO);
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_ERR_IO);
   assert_non_null(strstr(cw_fail_message(), "is missing, damaged or cut short"));
+}
+
+// A value of an array or of an attribute that HDF5 itself takes for good.
+static void what_was_not_written_so_is_told(void **state) {
+  const int32_t other = 3;
+  int32_t value = 1;
+  CwRegionData data = {.point_count = 4, .shared_count = 1, .tetrahedron_count = 1, .triangle_count = 1};
+  hid_t file = -1;
+  write_file(CW_REGION_FORMAT);
+  hid_t changed = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), set = H5Dopen2(changed, "triangle_patch", H5P_DEFAULT);
+  assert_true(H5Dwrite(set, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, &other) >= 0);
+  H5Dclose(set);
+  H5Fclose(changed);
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_OK);
+  assert_int_equal(cw_region_items_read(file, path, CW_REGION_WHOLE, &data), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "dataset 'triangle_patch': not as it was written; the file is damaged"));
+  cw_mesh_region_free(&data);
+  H5Fclose(file);
+  write_file(CW_REGION_FORMAT);
+  changed = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+  assert_int_equal(cw_region_items_put_integer(changed, "number", value), CW_OK);
+  H5Fclose(changed);
+  assert_int_equal(cw_region_items_open(path, &file, NULL), CW_ERR_IO);
+  assert_non_null(strstr(cw_fail_message(), "attributes: not as they were written; the file is damaged"));
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_surface_comes_without_the_cells), cmocka_unit_test(counts_that_are_asked_must_be_met),
       cmocka_unit_test(shared_numbers_have_a_limit),         cmocka_unit_test(attributes_are_read_and_named),
-      cmocka_unit_test(files_that_are_none_are_told),
+      cmocka_unit_test(files_that_are_none_are_told),        cmocka_unit_test(what_was_not_written_so_is_told),
   };
   return cmocka_run_group_tests(tests, make_file, remove_file);
 }

@@ -13,11 +13,12 @@
 #include <unistd.h>
 
 #include <cmocka.h>
-#include <hdf5.h>
 
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
+#include "pipeline/mesh/region_items.h"
 #include "pipeline/report/page.h"
+#include "tests/seal_run.h"
 
 #define CASE CUTWATER_SOURCE_DIR "/cases/paper/case.yaml"
 
@@ -74,23 +75,6 @@ static int is_clean(void) {
   return system(command) == 0;
 }
 
-static void attribute(hid_t file, const char *name, hid_t type, const void *value) {
-  hid_t space = H5Screate(H5S_SCALAR), set = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  assert_true(H5Awrite(set, type, value) >= 0);
-  H5Aclose(set);
-  H5Sclose(space);
-}
-
-static void dataset(hid_t file, const char *name, hid_t type, int rows, int columns, const void *data) {
-  hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
-  hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, size, NULL);
-  hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  assert_true(set >= 0);
-  if (rows) assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
-  H5Dclose(set);
-  H5Sclose(space);
-}
-
 // A box from (x0, -0.02, -0.004) to (x1, 0.02, 0.004) m of two prisms standing on z; patches by side: 0
 // below, 1 above, 3 around. `corner` is the highest index used.
 static void write_region(const char *domain, double x0, double x1, int corner) {
@@ -100,31 +84,31 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
     x[k][1] = k & 2 ? 0.02 : -0.02;
     x[k][2] = k & 4 ? 0.004 : -0.004;
   }
-  const int32_t prism[2][6] = {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 5, corner, 6}};
-  const int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}}, triangle_patch[4] = {0, 0, 1, 1};
-  const int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}, quad_patch[4] = {3, 3, 3, 3};
-  const int32_t triangle_cell[4] = {0, 1, 0, 1}, quad_cell[4] = {0, 1, 1, 0};
-  const int format = 1, region = 1;
-  char name[40], path[200];
+  int32_t prism[2][6] = {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 5, corner, 6}};
+  int32_t triangle[4][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}}, triangle_patch[4] = {0, 0, 1, 1};
+  int32_t quad[4][4] = {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}, quad_patch[4] = {3, 3, 3, 3};
+  int32_t triangle_cell[4] = {0, 1, 0, 1}, quad_cell[4] = {0, 1, 1, 0};
+  char name[40], path[200], digest[CW_HASH_TEXT];
   snprintf(name, sizeof name, "mesh/%s-0001.h5", domain);
   path_in_run(name, path);
-  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const CwRegionData data = {.point_count = 8,
+                             .prism_count = 2,
+                             .triangle_count = 4,
+                             .quad_count = 4,
+                             .points = x,
+                             .prisms = prism,
+                             .triangles = triangle,
+                             .triangle_patch = triangle_patch,
+                             .triangle_cell = triangle_cell,
+                             .quads = quad,
+                             .quad_patch = quad_patch,
+                             .quad_cell = quad_cell};
+  hid_t file = cw_region_items_create(path);
   assert_true(file >= 0);
-  hid_t text = H5Tcopy(H5T_C_S1);
-  H5Tset_size(text, strlen(domain) + 1);
-  attribute(file, "format", H5T_NATIVE_INT, &format);
-  attribute(file, "domain", text, domain);
-  attribute(file, "region", H5T_NATIVE_INT, &region);
-  H5Tclose(text);
-  dataset(file, "points", H5T_NATIVE_DOUBLE, 8, 3, x);
-  dataset(file, "tetrahedra", H5T_NATIVE_INT32, 0, 4, NULL);
-  dataset(file, "prisms", H5T_NATIVE_INT32, 2, 6, prism);
-  dataset(file, "triangles", H5T_NATIVE_INT32, 4, 3, triangle);
-  dataset(file, "triangle_patch", H5T_NATIVE_INT32, 4, 1, triangle_patch);
-  dataset(file, "quads", H5T_NATIVE_INT32, 4, 4, quad);
-  dataset(file, "quad_patch", H5T_NATIVE_INT32, 4, 1, quad_patch);
-  dataset(file, "triangle_cell", H5T_NATIVE_INT32, 4, 1, triangle_cell);
-  dataset(file, "quad_cell", H5T_NATIVE_INT32, 4, 1, quad_cell);
+  assert_int_equal(cw_region_items_put_integer(file, "format", CW_REGION_FORMAT), CW_OK);
+  assert_int_equal(cw_region_items_put_integer(file, "region", 1), CW_OK);
+  assert_int_equal(cw_region_items_put_text(file, "domain", domain), CW_OK);
+  assert_int_equal(cw_region_items_write(file, &data, digest), CW_OK);
   H5Fclose(file);
 }
 
@@ -135,7 +119,7 @@ static void write_region(const char *domain, double x0, double x1, int corner) {
   "{\"name\":\"" end "\",\"kind\":\"" end "\"},{\"name\":\"" c "\",\"kind\":\"interface\"}]"
 #define MESHED(name, patches, file) "{\"name\":\"" name "\",\"shared_points\":0,\"solid_volume_m3\":1," \
   "\"patches\":" patches ",\"regions\":[" REGION(file) "]}"
-#define MANIFEST "{\"format\":1,\"domains\":[" \
+#define MANIFEST "{\"format\":2,\"domains\":[" \
   MESHED("rotor", PATCHES("shroud", "hub", "inlet", "rotor_interface"), "rotor-0001.h5") "," \
   MESHED("stator", PATCHES("volute", "tongue", "outlet", "stator_interface"), "stator-0001.h5") "]," \
   "\"interfaces\":[[\"rotor_interface\",\"stator_interface\"]]}"
@@ -174,7 +158,7 @@ static int make_run(void **state) {
   write_text("mesh/manifest.json", MANIFEST);
   write_region("rotor", 0.03, 0.101, 7);
   write_region("stator", 0.101, 0.14, 7);
-  return 0;
+  return seal_run(run);
 }
 
 static int remove_run(void **state) {
@@ -275,6 +259,7 @@ static void export_figures_are_shown(void **state) {
                                      "\"warnings\":[],\"results\":{\"cells\":4,\"rotor\":{\"volume_m3\":0.00025},"
                                      "\"interfaces\":[{\"domains\":[\"rotor\",\"stator\"],\"faces\":[7,8]}],"
                                      "\"patches\":[{\"name\":\"hub\",\"triangles\":12345}]}}");
+  assert_int_equal(seal_run(run), 0);
   char *page = page_without_pictures();
   holds(page, "<tr><td>Volume</td><td class=\"n\">250</td><td>cm&sup3;</td></tr>");
   holds(page, "<h3>Patches</h3>");
@@ -283,9 +268,37 @@ static void export_figures_are_shown(void **state) {
   assert_null(strstr(page, "flow rate m3 per h")); // the record's case is not shown as a result
   assert_null(strstr(page, "has not been exported"));
   free(page);
+}
+
+// Files of a stage that are not those it wrote, or not those that a later one was made from.
+static void files_that_do_not_belong_together_are_told(void **state) {
+  char path[200], first[300];
+  path_in_run("export", path);
+  assert_int_equal(cw_make_directory(path), CW_OK);
+  write_text("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
   write_record("export/record.json", "{\"stage\":\"export\",\"seconds\":1,\"peak_memory_bytes\":1,\"steps\":[],"
-                                     "\"warnings\":[],\"results\":{\"cells\":5}}");
-  fails(CW_ERR_INPUT, "export: has the 5 cells of another mesh");
+                                     "\"warnings\":[],\"results\":{\"cells\":4,\"interfaces\":[],\"patches\":[]}}");
+  assert_int_equal(seal_run(run), 0);
+  write_text("export/pump.cgns", "a mesh, for whoever looks at its digest alon");
+  fails(CW_ERR_IO, "export/pump.cgns: is not as cutwater-export wrote it: damaged or replaced; run cutwater-export");
+  write_text("export/pump.cgns", "a mesh, for whoever looks at its digest alone");
+  write_text("geometry/velocity_triangles.svg", "<svg></svg>");
+  fails(CW_ERR_IO, "geometry/velocity_triangles.svg: is not as cutwater-geometry wrote it");
+  // The geometry is made again and another one: the mesh is not of it.
+  char *mesh_record = read_text("mesh/record.json");
+  assert_int_equal(seal_run(run), 0);
+  write_text("mesh/record.json", mesh_record);
+  free(mesh_record);
+  snprintf(first, sizeof first, "%s/mesh: was made from other files than lie in %s/geometry; run cutwater-mesh again",
+           run, run);
+  fails(CW_ERR_INPUT, first);
+  // A record that was changed by hand.
+  assert_int_equal(seal_run(run), 0);
+  char *text = read_text("geometry/record.json");
+  *strstr(text, "1.5") = '2';
+  write_text("geometry/record.json", text);
+  free(text);
+  fails(CW_ERR_IO, "geometry/record.json: is not as the stage wrote it");
 }
 
 static void missing_files_are_named(void **state) {
@@ -306,8 +319,8 @@ static void wrong_content_is_named(void **state) {
     const char *file, *text, *message;
   } wrong[] = {
       {"mesh/manifest.json", "{\"format\":1,", "mesh/manifest.json:1:"},
-      {"mesh/manifest.json", "{\"format\":2}", "'format' must be 1"},
-      {"mesh/manifest.json", "{\"format\":1,\"domains\":[]}", "'domains' must list rotor, stator"},
+      {"mesh/manifest.json", "{\"format\":1}", "'format' must be 2"},
+      {"mesh/manifest.json", "{\"format\":2,\"domains\":[]}", "'domains' must list rotor, stator"},
       {"geometry/design.json", "[]", "object"},
       {"geometry/design.json", "{}", "blade_count"},
       {"geometry/design.json", "{\"blade_count\":6}", "outlet_diameter_m"},
@@ -325,12 +338,17 @@ static void wrong_content_is_named(void **state) {
     path_in_run(wrong[k].file, path);
     assert_int_equal(rename(path, aside), 0);
     (strstr(wrong[k].text, "\"stage\"") ? write_record : write_text)(wrong[k].file, wrong[k].text);
+    assert_int_equal(seal_run(run), 0);
     fails(CW_ERR_INPUT, wrong[k].message);
     assert_int_equal(rename(aside, path), 0);
   }
   write_text("mesh/rotor-0001.h5", "no HDF5");
+  assert_int_equal(seal_run(run), 0);
   fails(CW_ERR_IO, "mesh/rotor-0001.h5: is missing, damaged or cut short");
+  write_region("rotor", 0.03, 0.101, 7);
+  fails(CW_ERR_INPUT, "mesh/rotor-0001.h5: is not the file that the manifest tells of");
   write_region("rotor", 0.03, 0.101, 8);
+  assert_int_equal(seal_run(run), 0);
   fails(CW_ERR_INPUT, "'prisms': entry 10 is 8; allowed 0 to 7");
 }
 
@@ -338,6 +356,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(page_tells_all_and_stands_alone, make_run, remove_run),
       cmocka_unit_test_setup_teardown(export_figures_are_shown, make_run, remove_run),
+      cmocka_unit_test_setup_teardown(files_that_do_not_belong_together_are_told, make_run, remove_run),
       cmocka_unit_test_setup_teardown(missing_files_are_named, make_run, remove_run),
       cmocka_unit_test_setup_teardown(wrong_content_is_named, make_run, remove_run),
   };

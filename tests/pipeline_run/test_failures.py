@@ -8,8 +8,8 @@ import time
 import unittest
 from pathlib import Path
 
-from cutwater import (CELLS, PAPER, RUN, digests, done, error_lines, fresh, ranks_of, record, stage, start, state,
-                      with_geometry)
+from cutwater import (BIN, CELLS, PAPER, RUN, digests, done, error_lines, execute, fresh, ranks_of, record, stage,
+                      start, state, with_geometry)
 
 # What is changed in the case of the paper, and what the one line must hold.
 BAD = [
@@ -99,6 +99,7 @@ class BadInput(unittest.TestCase):
                 run = with_geometry("bad-solid")
                 path = run / "geometry" / file
                 path.write_text(new if old is None else path.read_text().replace(old, new, 1))
+                self.assertEqual(execute([BIN / "seal", run]).returncode, 0)
                 result = stage("mesh", run, cells=CELLS, ranks=2)
                 self.assertNotEqual(result.returncode, 0)
                 self.assertEqual(len(error_lines(result.stdout, "mesh")), 1, result.stdout)
@@ -159,7 +160,8 @@ class Failures(unittest.TestCase):
             with self.subTest(name):
                 run = with_geometry(f"blocked-{name}")
                 (run / "mesh").mkdir()
-                shutil.copy(RUN / "mesh/record.json", run / "mesh")
+                for file in ("record.json", "manifest.json"):
+                    shutil.copy(RUN / "mesh" / file, run / "mesh")
                 shutil.rmtree(run / name, ignore_errors=True)
                 (run / name).write_text("")
                 result = stage(name, run, cells=CELLS, ranks=3)

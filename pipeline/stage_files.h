@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What binds the files of a run together. The record of a stage holds a digest of each file that it wrote for others
+// ("files"), and one of the files of each stage that it read ("made_from"). So a stage sees files that are damaged,
+// replaced by hand, or newer than what was made of them, whatever their time stamps say.
+#ifndef CUTWATER_PIPELINE_STAGE_FILES_H
+#define CUTWATER_PIPELINE_STAGE_FILES_H
+
+#include <jansson.h>
+
+#include "pipeline/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Holds the files of RUN/STAGE, and those it was made from, against its record. CW_ERR_IO where one is missing or not
+// as it was written, CW_ERR_INPUT where the stage was made from other files than lie there.
+CwStatus cw_stage_files_check(const char *run, const char *stage);
+
+// For the record: by name the digest of the files of each stage, as its record tells of them. `stages` ends with NULL.
+// CW_ERR_IO, CW_ERR_INPUT, CW_ERR_MEMORY.
+CwStatus cw_stage_files_read(const char *run, const char *const *stages, json_t **made_from);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
