@@ -12,7 +12,8 @@
 #ifndef CUTWATER_GEOMETRY_ROOT_FILLET_HPP
 #define CUTWATER_GEOMETRY_ROOT_FILLET_HPP
 
-#include "geometry/blade_patches.hpp"
+#include "geometry/blade_shape.hpp"
+#include "geometry/hydraulic_design.h"
 
 // Sets foot, reach and handle of all patches of a shape whose points are made. Throws Standard_Failure where
 // the fillets of hub and shroud leave too little of the blade between them, or have no room before its leading

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What the surfaces of one blade or splitter are made of, and the surfaces: see blade_patches.hpp.
+#ifndef CUTWATER_GEOMETRY_BLADE_SHAPE_HPP
+#define CUTWATER_GEOMETRY_BLADE_SHAPE_HPP
+
+#include <vector>
+
+#include <Geom2d_BSplineCurve.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+
+#include "geometry/blade.h"
+#include "geometry/meridian.h"
+
+enum { CW_HUB, CW_SHROUD }; // the two walls
+enum { CW_SPAN_POINTS = 13 };
+
+// A grid of points. Angles are of blade 0. The sides run from the leading to the trailing edge, the leading
+// edge from suction to pressure, bevel and trailing edge towards greater theta.
+struct CwBladePatch {
+  std::vector<double> u;
+  std::vector<CwBladePoint> points; // points[i * CW_SPAN_POINTS + j], without fillets
+  // Root fillets (empty: none): along the wall the outline moves out by `foot` (q, theta), and along the blade
+  // the fillet ends at the share `reach` of the span; `handle` is the share of both at which the inner poles
+  // of the arc between lie.
+  std::vector<CwBladePoint> foot[2];
+  std::vector<double> reach[2], handle[2];
+  // Made of the above: surfaces from hub to shroud (v = 0 to 1 each), and the outline on both walls as points
+  // and as a curve of (theta, t).
+  std::vector<Handle(Geom_BSplineSurface)> band;
+  std::vector<CwBladePoint> outline[2];
+  Handle(Geom2d_BSplineCurve) on_wall[2];
+};
+
+// A blade or a splitter. A bevelled trailing edge has a bevel and a cut, a blunt or rounded one no bevel, a
+// sharp one no cut.
+struct CwBladeShape {
+  const char *name;
+  std::vector<CwBladeSection> section;
+  bool has_bevel, has_trailing;
+  CwBladePatch pressure, suction, leading, bevel, trailing;
+  double u_bevel;                       // last parameter of the suction side: where bevel or cut begins
+  double theta_tip[2], theta_corner[2]; // of the nose and of the pressure side's end
+  double t_tip[2], t_corner[2];         // the same along hub and shroud
+  // The line on the wall from the eye to the nose: of a blade the meridian, of a splitter along the passage
+  // between the blades, which a meridian would cross. theta_up is where it begins.
+  double theta_up[2];
+  Handle(Geom2d_BSplineCurve) guide_on_wall[2];
+  Handle(Geom_BSplineCurve) guide[2];
+
+  // The patches that this shape has.
+  std::vector<CwBladePatch *> patches();
+};
+
+// Arc lengths of the blade's ends on a wall, m, and the wall's curve.
+struct CwBladeOnWall {
+  const CwMeridianCurve *curve;
+  double begin, length;
+};
+CwBladeOnWall cw_blade_on_wall(const CwMeridian *meridian, int wall);
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The rotor in the making: vertices and edges of all blades first (rotor_edges.cpp), then the faces between them
+// (rotor_faces.cpp).
+#ifndef CUTWATER_GEOMETRY_ROTOR_MAKER_HPP
+#define CUTWATER_GEOMETRY_ROTOR_MAKER_HPP
+
+#include <cmath>
+#include <vector>
+
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <gp_Ax3.hxx>
+#include <gp_Pnt.hxx>
+
+#include "geometry/blade_shape.hpp"
+#include "geometry/hydraulic_design.h"
+#include "geometry/meridian.h"
+#include "geometry/shell_builder.hpp"
+#include "geometry/solid.hpp"
+#include "pipeline/status.h"
+
+enum { WALL_LEVELS = 4 }; // curves along the blade: hub, ends of both root fillets, shroud
+
+// A blade in the shell. Levels run from the hub's (0) to the shroud's, one more than bands; inner levels are
+// where root fillets end.
+struct RotorBlade {
+  const CwBladeShape *shape;
+  int turns; // multiples of the pitch
+  // Vertices on the walls: upstream corner of the meridian line, tip of the nose, on the interface.
+  int up[2], tip[2], out[2], disk, inlet, shaft;
+  // Vertices of each level: nose/pressure, nose/suction, end of the pressure side, begin and end of the bevel.
+  int nose_p[WALL_LEVELS], nose_s[WALL_LEVELS], corner[WALL_LEVELS], bevel0[WALL_LEVELS], bevel1[WALL_LEVELS];
+  // Edges on the walls: meridian lines, their continuation on nut or pipe, along the shaft and the inlet, arcs
+  // from this blade to the next.
+  int e_up[2], e_down[2], e_end[2], e_shaft, e_inlet, x_out, a_out[2], a_up[2], a_end[2], a_shaft;
+  // Edges of each level. On a wall the nose has two edges with the tip between, on an inner level one (nose_p).
+  int e_nose_s[WALL_LEVELS], e_nose_p[WALL_LEVELS], e_p[WALL_LEVELS], e_s[WALL_LEVELS], e_bevel[WALL_LEVELS],
+      e_te[WALL_LEVELS];
+  // Edges across the span, of each band.
+  int x_p[WALL_LEVELS], x_s[WALL_LEVELS], x_bevel0[WALL_LEVELS], x_bevel1[WALL_LEVELS], x_corner[WALL_LEVELS];
+};
+
+class RotorMaker {
+public:
+  RotorMaker(const CwDesign *from, double model_unit) : design(from), unit(model_unit), scale(1 / model_unit) {}
+  CwStatus sections();
+  CwSolid *build();
+
+private:
+  const CwDesign *design;
+  const double unit, scale; // the model unit, m; model units in a metre
+  CwMeridian meridian;
+  const CwMeridianCurve *curve[2];  // hub and shroud
+  std::vector<CwBladeShape> shapes; // the blade and, with splitters, the splitter behind its pressure side
+  std::vector<RotorBlade> blade;    // splitters among the blades
+  double pitch, margin;
+  int bands;
+  bool has_nut, has_shaft;
+  CwShellBuilder shell;
+
+  gp_Pnt at(double r, double theta, double z) const {
+    return gp_Pnt(scale * r * std::cos(theta), scale * r * std::sin(theta), scale * z);
+  }
+  gp_Ax3 frame(int k, double z = 0) const;
+  Handle(Geom_Curve) meridian_curve(const CwMeridianCurve &curve, double theta) const;
+  Handle(Geom_Curve) nut_curve(double theta) const;
+  Handle(Geom_Surface) cylinder(int i, double r) const;
+  // An edge between places (r, theta, z), in which it is linear: straight where both angles are the same, else part of
+  // a helix or spiral.
+  int slanted_line(const double from[3], const double to[3], int begin, int end);
+  void level_edges(RotorBlade &b, int level);
+  void band_edges(RotorBlade &b, int band);
+  void wall_edges(RotorBlade &b);
+  void arcs(int i);
+  void wall_face(int i, int w);
+  void tube_faces(int i);
+  void inlet_ring_face(int i);
+  void interface_face(int i);
+  void blade_faces(int i);
+  void disk(double height, double r, int w, bool outward, const char *patch, const char *kind, const char *name);
+  // Angle of the next blade's frame in that of blade i: 0, or the pitch where it is the first of its pitch.
+  double far_of(int i) const {
+    return (i + 1) % (int)shapes.size() == 0 ? pitch : 0;
+  }
+};
+
+#endif
