@@ -5,6 +5,9 @@
 
 static const double gravity = 9.80665;
 static const double degree = M_PI / 180;
+// A small pump of low efficiency needs a far larger D2 for its head; its width follows D2 up to so many times the
+// correlation's.
+static const double LARGEST_GROWTH = 1.2;
 static const double LEAST_WIDENING = 0.006; // of D2, from b2 to b3
 
 // Guelich, table 3.9, single-stage radial pumps: 1 - a Q^-m - b (c - lg(nq / d))^2 Q^-e with Q in m3/s.
@@ -40,6 +43,10 @@ static double torsion_diameter(const CwDesign *d, double stress) {
   return cbrt(16 * d->shaft_power / d->angular_speed / (M_PI * stress));
 }
 
+static double guelich_diameter(const CwDesign *d) {
+  return 2 / d->angular_speed * sqrt(2 * gravity * d->water_head / (1.21 * exp(-0.77 * d->specific_speed_nq / 100)));
+}
+
 // A hub that the shaft asks for, within what stiffness needs and the eye leaves room for.
 static double hub(double by_shaft, double d2, const char *shaft_source, const char **source) {
   *source = by_shaft < 0.12 * d2                   ? "stiffness: 0.12 D2"
@@ -63,12 +70,13 @@ static double guelich(CwCorrelated quantity, const CwDesign *d, const char **sou
     return cbrt(1.2) * torsion_diameter(d, 20e6);
   case CW_CORRELATED_OUTLET_DIAMETER:
     *source = "Guelich: psi = 1.21 exp(-0.77 nq/100)";
-    return 2 / d->angular_speed * sqrt(2 * gravity * d->water_head / (1.21 * exp(-0.77 * nq / 100)));
+    return guelich_diameter(d);
   case CW_CORRELATED_HUB_DIAMETER:
     return hub(1.35 * d->shaft_diameter, d2, "1.35 shaft diameters", source);
   case CW_CORRELATED_OUTLET_WIDTH:
     *source = "Guelich: b2/D2 = 0.017 + 0.262 x - 0.08 x^2 + 0.0093 x^3, x = nq/100";
-    return d2 * (0.017 + nq / 100 * (0.262 + nq / 100 * (-0.08 + nq / 100 * 0.0093)));
+    return fmin(d2, LARGEST_GROWTH * guelich_diameter(d)) *
+           (0.017 + nq / 100 * (0.262 + nq / 100 * (-0.08 + nq / 100 * 0.0093)));
   case CW_CORRELATED_INLET_DIAMETER:
     *source = "Guelich: D1/D2 = 1.16 ((dn/D2)^2 + 1.5e-3 psi nq^1.33)^0.5";
     return d2 * 1.16 * sqrt(share * share + 1.5e-3 * d->head_coefficient * pow(nq, 1.33));

@@ -73,6 +73,13 @@ done:
   return status;
 }
 
+// Mean width of the throat along the axis over its height: at 3 and more the diffuser's corners curl on their way from
+// the flat throat to the circle.
+static const double FLATTEST_THROAT = 2.9;
+static double flatness(const CwVolute *volute) {
+  return volute->throat_area / (volute->throat_width * volute->throat_width);
+}
+
 // Where the usual volute has no solution, what is open of it yields: at high specific speed b3 and the side
 // walls, which else would make the spiral too tall, at low specific speed the tongue's radius, which is too
 // large for its throat.
@@ -100,6 +107,11 @@ CwStatus cw_design_volute(const CwVoluteTable *given, CwDesign *design) {
     status = volute_of(given, design);
   }
   CW_TRY(status);
+  const double narrowest = 1.001 * (design->outlet_width + CW_VOLUTE_LEAST_STEP * design->base_diameter);
+  while (width_open && flatness(&design->volute) > FLATTEST_THROAT && design->inlet_width > narrowest) {
+    SET(inlet_width, fmax(narrowest, 0.9 * design->inlet_width), "narrowed for a throat that is not too flat");
+    CW_TRY(volute_of(given, design));
+  }
   TAKE(throat_area, given->throat_area, design->volute.throat_area,
        given->area_law == CW_AREA_LAW_VELOCITY ? "constant velocity" : "constant angular momentum K");
   SET(throat_speed, design->flow_rate / design->throat_area, "Q / throat area");

@@ -14,8 +14,8 @@
 static const double START_MARGIN = 0.003;
 // The kink at the end of the spiral lies within so many D3/2: enough for nq 60 or so.
 static const double LARGEST_SPIRAL = 2.5;
-// Least step from b2 to b3 on either side, in D3; the neck before it is at least half as long.
-static const double LEAST_STEP = 2.5e-3;
+// Least length of the neck before the step from b2 to b3, in D3.
+static const double LEAST_NECK = 1.25e-3;
 static const double SLACK = 1e-9; // of values that went through other units
 // Half angle of the outer arc at the tongue. A larger one sweeps the nose back more: with 60 degrees it leans
 // so far that its edge to the flank has a radius of 0.05 mm (0.4 mm with 35); a smaller one sharpens the kink
@@ -25,7 +25,7 @@ static const double ARC_HALF_ANGLE = 35 * PI / 180;
 // smaller it is, the further the nose lies along the side walls, and the sharper are the corners of the faces
 // there.
 static const double DEFAULT_WEDGE = 26 * PI / 180, LEAST_WEDGE = 15 * PI / 180, LARGEST_WEDGE = 42 * PI / 180;
-// Where a gap of the tongue is asked for, the spiral's kink at the tongue lies within these, in D3/2.
+// The spiral's kink at the tongue lies within these, in D3/2: nearer, the tongue's sides would touch the base circle.
 static const double LEAST_START = 1.02, LARGEST_START = 1.35;
 // Least share of Q that the throat passes by the law: one-dimensional theory is no better than that.
 static const double THROAT_SHARE = 0.98;
@@ -221,6 +221,7 @@ static void choose_tongue(CwVolute *volute) {
     return;
   }
   place_tongue_by_wedge(volute, DEFAULT_WEDGE);
+  if (!(cw_volute_section(volute, volute->start_angle).kink_radius >= least)) place_tongue_at(volute, least);
   double wanted = gap_of(volute);
   if (!isnan(in->tongue_gap))
     wanted = in->tongue_gap;
@@ -273,7 +274,7 @@ static CwStatus check_input(const CwVoluteInput *in) {
       {"base_diameter_mm (D3)", d3, 1e-6, 1e3, 1e3, "mm", 0},
       {"interface radius", in->interface_radius, 0.05 * d3, 0.5 * d3, 1e3, "mm", 0},
       {"outlet_width_mm (b2)", in->neck_width, 1e-3 * d3, 0.39 * d3, 1e3, "mm", 0},
-      {"inlet_width_mm (b3)", in->inlet_width, in->neck_width + 2 * LEAST_STEP * d3, 0.4 * d3, 1e3, "mm", 0},
+      {"inlet_width_mm (b3)", in->inlet_width, in->neck_width + CW_VOLUTE_LEAST_STEP * d3, 0.4 * d3, 1e3, "mm", 0},
       {"side_wall_angle_deg", in->side_wall_angle, rectangle ? 0 : PI / 36, PI / 5, 180 / PI, "deg", 0},
       {"corner_radius_mm", in->corner_radius, 2.5e-3 * d3, 0.5 * in->inlet_width, 1e3, "mm", !rectangle},
       {"throat_area_mm2", in->throat_area, 1e-6 * area, 10 * area, 1e6, "mm2", 1},
@@ -293,10 +294,10 @@ static CwStatus check_input(const CwVoluteInput *in) {
                ranges[i].value * ranges[i].unit, ranges[i].unit_name, ranges[i].least * ranges[i].unit,
                ranges[i].largest * ranges[i].unit, ranges[i].unit_name);
   }
-  CW_REQUIRE(0.5 * d3 >= in->interface_radius + LEAST_STEP / 2 * d3 * (1 - SLACK), CW_ERR_DESIGN,
+  CW_REQUIRE(0.5 * d3 >= in->interface_radius + LEAST_NECK * d3 * (1 - SLACK), CW_ERR_DESIGN,
              "volute: base_diameter_mm (D3) is %g mm; allowed: at least %g mm, so that the neck from the interface at "
              "r = %g mm to D3/2 has %.2g D3",
-             d3 * 1e3, 2e3 * in->interface_radius / (1 - LEAST_STEP), in->interface_radius * 1e3, LEAST_STEP / 2);
+             d3 * 1e3, 2e3 * in->interface_radius / (1 - 2 * LEAST_NECK), in->interface_radius * 1e3, LEAST_NECK);
   CW_REQUIRE(in->section != CW_SECTION_CIRCLE || isnan(in->corner_radius), CW_ERR_DESIGN,
              "volute: corner_radius_mm is %g mm, but a circle has no corners; allowed: with section trapezoid or "
              "rectangle",

@@ -44,6 +44,9 @@
 // rad: from one split of the solid's faces to the next; the contour changes over the first two of them.
 #define CW_VOLUTE_SECTOR (3.14159265358979323846 * 5 / 12)
 
+// Least difference of b3 and b2, in D3.
+#define CW_VOLUTE_LEAST_STEP 5e-3
+
 #ifdef __cplusplus
 extern "C" {
 #endif

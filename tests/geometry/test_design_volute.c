@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Volutes of pumps given by their duty alone, from nq 6 to 90 and from D2 of 20 mm to 4 m.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "geometry/hydraulic_design.h"
+#include "pipeline/case.h"
+#include "tests/geometry/near_to.h"
+
+static const double LEAST_FLOW = 0.3 / 3600; // m3/s
+
+// A pump of the size D2 (m, about) that turns with u2 = 25 m/s: psi by Guelich gives the head, nq the flow rate.
+// Returns 0 where that is under 0.3 m3/h.
+static int duty(double nq, double size, CwDesign *design) {
+  CwCase table;
+  const double speed = 25 / (size / 2), rpm = speed * 30 / M_PI;
+  const double head = 1.21 * exp(-0.77 * nq / 100) * 25 * 25 / (2 * 9.80665);
+  cw_case_defaults(&table);
+  table.operating_point.head = head;
+  table.operating_point.speed = speed;
+  table.operating_point.flow_rate = pow(nq * pow(head, 0.75) / rpm, 2);
+  if (table.operating_point.flow_rate < LEAST_FLOW) return 0;
+  if (cw_hydraulic_design(&table, design) != CW_OK) fail_msg("nq %g, D2 %g m: %s", nq, size, cw_fail_message());
+  return 1;
+}
+
+static void volutes_of_any_duty(void **state) {
+  static const double sizes[] = {0.02, 0.3, 4};
+  for (double nq = 6; nq < 91; nq *= 1.57)
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+      CwDesign d;
+      if (!duty(nq, sizes[i], &d)) continue;
+      const double tip = 2 * d.tongue_tip_radius / d.outlet_diameter;
+      assert_true(tip > 1.045 && tip < 1.25);
+      assert_true(d.diffuser_area_ratio > 1.499 && d.diffuser_area_ratio < 3.001);
+      assert_true(d.diffuser_angle * 180 / M_PI < 9.001);
+      assert_true(d.throat_area / pow(d.volute.throat_width, 2) < 3.1);
+      // No faster than the swirl of the law at the radius of the tongue's tip, by 2 %.
+      assert_true(d.throat_speed < 1.03 * d.swirl_constant / d.tongue_tip_radius);
+      assert_true(d.hub_diameter < 0.36 * d.outlet_diameter);
+    }
+}
+
+// Of similar pumps (the same u2, twice the size) what does not depend on efficiencies has the same shares of D2.
+static void similar_pumps(void **state) {
+  CwDesign small, large;
+  assert_true(duty(30, 0.3, &small) && duty(30, 0.6, &large));
+  near_to(large.base_diameter / large.outlet_diameter, small.base_diameter / small.outlet_diameter, 1e-12);
+  near_to(large.inlet_width / large.outlet_diameter, small.inlet_width / small.outlet_diameter, 1e-3);
+  near_to(large.tongue_radius / large.outlet_diameter, small.tongue_radius / small.outlet_diameter, 1e-12);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(volutes_of_any_duty),
+      cmocka_unit_test(similar_pumps),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
