@@ -7,15 +7,24 @@
 #include "mesher/parallel/ranks.h"
 #include "mesher/policy.h"
 #include "mesher/run/mesh_run.h"
+#include "mesher/run/stage_view.h"
 #include "pipeline/log.h"
 #include "pipeline/stage_args.h"
 #include "pipeline/stop_line.h"
+
+static const CwStageOption OPTIONS[] = {
+    {"stop-after", "STAGE", "end after a stage, without a mesh: surface, layers or interfaces"},
+    {"vtk", NULL, "write what that stage made, RUN/mesh/DOMAIN-STAGE.vtk"},
+};
+enum { STOP_AFTER, VTK, OPTION_COUNT };
 
 static const CwStageUsage USAGE = {
     .stage = "mesh",
     .summary =
         "Meshes RUN/geometry into region files and a manifest in RUN/mesh. Regions that an earlier run left whole\n"
         "are kept. Start it under mpirun for more than one rank; the mesh is the same for any number.\n",
+    .options = OPTIONS,
+    .option_count = OPTION_COUNT,
     .reads = {"geometry"},
 };
 
@@ -35,6 +44,8 @@ int main(int argc, char **argv) {
   MPI_Barrier(MPI_COMM_WORLD);
   run.table = &table;
   run.run_path = args.run_path;
+  if (args.options[STOP_AFTER]) CW_TRY(cw_stage_of(args.options[STOP_AFTER], &run.stop_after));
+  run.vtk = args.options[VTK] != NULL;
   CW_TRY(cw_record_start("mesh", &run.record));
   CW_TRY(cw_record_made_from(run.record, args.run_path, USAGE.reads));
   CW_TRY(cw_mesh_run(&run));
@@ -44,7 +55,7 @@ int main(int argc, char **argv) {
   CW_TRY(cw_record_json(run.record, "side_by_side", sides));
   long long mine = cw_peak_memory_bytes(), all = 0;
   MPI_Reduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
-  if (run.rank == 0) {
+  if (run.rank == 0 && !run.stopped) { // else there is no mesh to vouch for
     CW_TRY(cw_stage_path(&args, "mesh/record.json", &record_path));
     cw_record_set_peak_memory(run.record, all);
     CW_TRY(cw_record_case(run.record, &table));

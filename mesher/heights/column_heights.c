@@ -78,29 +78,29 @@ static double size_at(const CwSkeleton *skeleton, const double x[3]) {
 // Unit normal of a triangle, out of the domain.
 static void find_normal(const CwSkeleton *skeleton, const int32_t corner[3], double normal[3]) {
   double u[3], v[3];
-  cw_sub(skeleton->wall_x[corner[1]], skeleton->wall_x[corner[0]], u);
-  cw_sub(skeleton->wall_x[corner[2]], skeleton->wall_x[corner[0]], v);
+  cw_sub(skeleton->surface.x[corner[1]], skeleton->surface.x[corner[0]], u);
+  cw_sub(skeleton->surface.x[corner[2]], skeleton->surface.x[corner[0]], v);
   cw_cross(u, v, normal);
   cw_unit(normal);
 }
 
 static Bend bend_at(const CwSkeleton *skeleton, const CwIncident *around, int32_t v) {
   Bend bend = {.cosine = 1, .rise = -1};
-  const double *x = skeleton->wall_x[v];
+  const double *x = skeleton->surface.x[v];
   for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
     double normal[3];
-    find_normal(skeleton, skeleton->wall_triangle[around->triangle[i]], normal);
+    find_normal(skeleton, skeleton->surface.triangle[around->triangle[i]], normal);
     for (int c = 0; c < 3; c++) bend.normal[c] += normal[c];
   }
   cw_unit(bend.normal);
   for (int32_t i = around->start[v]; i < around->start[v + 1]; i++) {
-    const int32_t *corner = skeleton->wall_triangle[around->triangle[i]];
+    const int32_t *corner = skeleton->surface.triangle[around->triangle[i]];
     double normal[3], edge[3];
     find_normal(skeleton, corner, normal);
     bend.cosine = fmin(bend.cosine, cw_dot(normal, bend.normal));
     for (int k = 0; k < 3; k++) {
       if (corner[k] == v) continue;
-      cw_sub(x, skeleton->wall_x[corner[k]], edge);
+      cw_sub(x, skeleton->surface.x[corner[k]], edge);
       cw_unit(edge);
       bend.rise = fmax(bend.rise, cw_dot(edge, bend.normal));
     }
@@ -116,7 +116,7 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   const Columns *columns = context;
   const CwSkeleton *skeleton = columns->skeleton;
   const CwColumnHeights *heights = columns->heights;
-  const double *x = skeleton->wall_x[v];
+  const double *x = skeleton->surface.x[v];
   if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
   Bend bend = bend_at(skeleton, columns->around, v);
   int bent = bend.cosine < BEND, crowded = bent && bend.rise > 0;
@@ -145,16 +145,16 @@ typedef struct {
 
 static double most_beside(const void *context, int32_t v, int32_t w) {
   const Slope *slope = context;
-  return slope->height[v] + slope->slope * cw_distance(slope->skeleton->wall_x[v], slope->skeleton->wall_x[w]);
+  return slope->height[v] + slope->slope * cw_distance(slope->skeleton->surface.x[v], slope->skeleton->surface.x[w]);
 }
 
 // Heights rise by no more than `slope` per distance along any edge of the wall. Collective.
 static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, double slope, double *height) {
   return cw_grade_heights(&(CwGradation){.step = "heights: steep",
-                                         .count = skeleton->wall_count,
+                                         .count = skeleton->surface.vertex_count,
                                          .start = around->start,
                                          .triangle = around->triangle,
-                                         .corner = (const int32_t(*)[3])skeleton->wall_triangle,
+                                         .corner = (const int32_t(*)[3])skeleton->surface.triangle,
                                          .most = most_beside,
                                          .context = &(Slope){skeleton, height, slope},
                                          .height = height},
@@ -165,11 +165,11 @@ static CwStatus grade(const CwSkeleton *skeleton, const CwIncident *around, doub
 static CwStatus find_asked(void *context, int32_t v, void *out) {
   CwStatus status = CW_OK;
   const Columns *columns = context;
-  const double *x = columns->skeleton->wall_x[v];
+  const double *x = columns->skeleton->surface.x[v];
   CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY};
   int32_t before = -1;
   for (int32_t i = columns->around->start[v]; i < columns->around->start[v + 1]; i++) {
-    int32_t face = columns->skeleton->wall_face[columns->around->triangle[i]];
+    int32_t face = columns->skeleton->surface.face[columns->around->triangle[i]];
     if (face == before) continue;
     before = face;
     of.first_height = fmin(of.first_height, columns->layers[face].first_height);
@@ -189,9 +189,9 @@ static CwStatus take_asked(const CwSkeleton *skeleton, const CwIncident *around,
   CwStatus status = CW_OK;
   CwLayerTarget *asked = NULL;
   Columns columns = {.skeleton = skeleton, .around = around, .layers = layers};
-  CW_NEW_UNSET(asked, skeleton->wall_count);
-  CW_TRY(cw_share("heights: asked", skeleton->wall_count, sizeof *asked, find_asked, &columns, asked));
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
+  CW_NEW_UNSET(asked, skeleton->surface.vertex_count);
+  CW_TRY(cw_share("heights: asked", skeleton->surface.vertex_count, sizeof *asked, find_asked, &columns, asked));
+  for (int32_t v = 0; v < skeleton->surface.vertex_count; v++) {
     heights->first_height[v] = asked[v].first_height;
     heights->target[v] = asked[v].thickness;
     heights->growth[v] = asked[v].growth;
@@ -219,20 +219,20 @@ CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *ar
   CwStatus status = CW_OK;
   double *fair = NULL;
   *heights = (CwColumnHeights){.layer_count = layer_count};
-  CW_NEW_UNSET(heights->first_height, skeleton->wall_count);
-  CW_NEW_UNSET(heights->growth, skeleton->wall_count);
-  CW_NEW_UNSET(heights->target, skeleton->wall_count);
-  CW_NEW_UNSET(heights->least, skeleton->wall_count);
-  CW_NEW_UNSET(fair, skeleton->wall_count);
+  CW_NEW_UNSET(heights->first_height, skeleton->surface.vertex_count);
+  CW_NEW_UNSET(heights->growth, skeleton->surface.vertex_count);
+  CW_NEW_UNSET(heights->target, skeleton->surface.vertex_count);
+  CW_NEW_UNSET(heights->least, skeleton->surface.vertex_count);
+  CW_NEW_UNSET(fair, skeleton->surface.vertex_count);
   CW_TRY(take_asked(skeleton, around, layers, heights));
   Columns columns = {.skeleton = skeleton, .around = around, .heights = heights};
-  CW_TRY(cw_share("heights: fair ones", skeleton->wall_count, sizeof *fair, find_fair, &columns, fair));
+  CW_TRY(cw_share("heights: fair ones", skeleton->surface.vertex_count, sizeof *fair, find_fair, &columns, fair));
   free(heights->target);
   heights->target = fair;
   fair = NULL;
-  turn_copies(&skeleton->orbits, skeleton->wall_count, heights);
+  turn_copies(&skeleton->orbits, skeleton->surface.vertex_count, heights);
   double lowest = cw_layer_thickness(1, layer_count, KEPT_GROWTH);
-  for (int32_t v = 0; v < skeleton->wall_count; v++) heights->least[v] = lowest * heights->first_height[v];
+  for (int32_t v = 0; v < skeleton->surface.vertex_count; v++) heights->least[v] = lowest * heights->first_height[v];
 done:
   free(fair);
   return status;
@@ -246,13 +246,13 @@ typedef struct {
 static CwStatus find_taken(void *context, int32_t t, void *out) {
   const Columns *columns = context;
   const CwSkeleton *skeleton = columns->skeleton;
-  const int32_t *corner = skeleton->wall_triangle[t], face = skeleton->wall_face[t];
+  const int32_t *corner = skeleton->surface.triangle[t], face = skeleton->surface.face[t];
   double u[3], v[3], normal[3], centre[3], mean = 0;
-  if (skeleton->wall_source[t] != t) return CW_OK;
+  if (skeleton->surface.source[t] != t) return CW_OK;
   for (int k = 0; k < 3; k++) {
-    u[k] = skeleton->wall_x[corner[1]][k] - skeleton->wall_x[corner[0]][k];
-    v[k] = skeleton->wall_x[corner[2]][k] - skeleton->wall_x[corner[0]][k];
-    centre[k] = skeleton->wall_x[corner[0]][k] + (u[k] + v[k]) / 3;
+    u[k] = skeleton->surface.x[corner[1]][k] - skeleton->surface.x[corner[0]][k];
+    v[k] = skeleton->surface.x[corner[2]][k] - skeleton->surface.x[corner[0]][k];
+    centre[k] = skeleton->surface.x[corner[0]][k] + (u[k] + v[k]) / 3;
     mean += columns->graded[corner[k]] / 3;
   }
   cw_cross(u, v, normal);
@@ -268,13 +268,13 @@ CwStatus cw_column_heights_share(const CwColumnHeights *heights, const CwSkeleto
   CwStatus status = CW_OK;
   double *graded = NULL;
   Taken *of = NULL, sum = {0};
-  CW_NEW_UNSET(graded, skeleton->wall_count);
-  CW_NEW_UNSET(of, skeleton->wall_triangle_count);
-  memcpy(graded, heights->target, (size_t)skeleton->wall_count * sizeof *graded);
+  CW_NEW_UNSET(graded, skeleton->surface.vertex_count);
+  CW_NEW_UNSET(of, skeleton->surface.triangle_count);
+  memcpy(graded, heights->target, (size_t)skeleton->surface.vertex_count * sizeof *graded);
   CW_TRY(grade(skeleton, around, CW_HEIGHT_SLOPE, graded));
   Columns columns = {.skeleton = skeleton, .heights = heights, .layers = layers, .graded = graded};
-  CW_TRY(cw_share("heights: volume", skeleton->wall_triangle_count, sizeof *of, find_taken, &columns, of));
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
+  CW_TRY(cw_share("heights: volume", skeleton->surface.triangle_count, sizeof *of, find_taken, &columns, of));
+  for (int32_t t = 0; t < skeleton->surface.triangle_count; t++) {
     sum.taken += of[t].taken;
     sum.flat += of[t].flat;
   }

@@ -18,18 +18,18 @@ static const double LEAN = 20;   // a right prism of so many times LEAST: column
 // First height of the column as divided, m; fraction: of its layers.
 static double divide(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t v, double first,
                      double *fraction) {
-  return cw_layer_fractions(skeleton->height[v], first, heights->layer_count, heights->growth[v], fraction);
+  return cw_layer_fractions(skeleton->layers.height[v], first, heights->layer_count, heights->growth[v], fraction);
 }
 
 void cw_column_determinants(const CwColumnHeights *heights, const CwSkeleton *skeleton, int32_t t,
                             const double first[3], double *determinant) {
   double fraction[3][CW_LAYERS_MOST + 1], x[2][3][3];
-  for (int k = 0; k < 3; k++) divide(heights, skeleton, skeleton->wall_triangle[t][k], first[k], fraction[k]);
+  for (int k = 0; k < 3; k++) divide(heights, skeleton, skeleton->surface.triangle[t][k], first[k], fraction[k]);
   for (int level = 0; level <= heights->layer_count; level++) {
     double(*base)[3] = x[(level + 1) % 2], (*top)[3] = x[level % 2];
     for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      cw_lerp(skeleton->wall_x[v], skeleton->front[v], fraction[k][level], top[k]);
+      int32_t v = skeleton->surface.triangle[t][k];
+      cw_lerp(skeleton->surface.x[v], skeleton->layers.front[v], fraction[k][level], top[k]);
     }
     if (level > 0)
       determinant[level - 1] = cw_prism_determinant((const double(*)[3])base, (const double(*)[3])top, level == 1);
@@ -49,7 +49,7 @@ typedef struct {
 // First height of the column as even as it may become.
 static double even_first(const Columns *columns, int32_t v) {
   const CwColumnHeights *heights = columns->heights;
-  double even = columns->skeleton->height[v] / heights->layer_count, asked = heights->first_height[v];
+  double even = columns->skeleton->layers.height[v] / heights->layer_count, asked = heights->first_height[v];
   return even < asked ? even : fmin(even, MORE * asked);
 }
 
@@ -65,12 +65,12 @@ static double least_determinant(const Columns *columns, int32_t t, const double 
 static int is_thick(const Columns *columns, int32_t t) {
   const CwColumnHeights *heights = columns->heights;
   const CwSkeleton *skeleton = columns->skeleton;
-  const int32_t *corner = skeleton->wall_triangle[t];
+  const int32_t *corner = skeleton->surface.triangle[t];
   double first = INFINITY, base[3][3], top[3][3], normal[3];
   for (int k = 0; k < 3; k++) {
-    if (skeleton->height[corner[k]] < heights->layer_count * heights->first_height[corner[k]]) return 0;
+    if (skeleton->layers.height[corner[k]] < heights->layer_count * heights->first_height[corner[k]]) return 0;
     first = fmin(first, heights->first_height[corner[k]]);
-    cw_copy(skeleton->wall_x[corner[k]], base[k]);
+    cw_copy(skeleton->surface.x[corner[k]], base[k]);
   }
   cw_normal(base[0], base[1], base[2], normal);
   cw_unit(normal);
@@ -86,9 +86,9 @@ static CwStatus judge(void *context, int32_t i, void *out) {
   const CwSkeleton *skeleton = columns->skeleton;
   uint8_t *made = out;
   int32_t t = columns->triangle ? columns->triangle[i] : i;
-  const int32_t *corner = skeleton->wall_triangle[t];
+  const int32_t *corner = skeleton->surface.triangle[t];
   double first[3];
-  if (skeleton->wall_source[t] != t) return CW_OK;
+  if (skeleton->surface.source[t] != t) return CW_OK;
   if (is_thick(columns, t)) return CW_OK;
   *made = LEFT;
   for (int k = 0; k < 3; k++) first[k] = columns->heights->first_made[corner[k]];
@@ -103,7 +103,7 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
   double fraction[CW_LAYERS_MOST + 1];
   const CwSkeletonOrbits *orbits = &columns->skeleton->orbits;
   int32_t changed = 0;
-  for (int32_t v = 0; v < columns->skeleton->wall_count; v++) {
+  for (int32_t v = 0; v < columns->skeleton->surface.vertex_count; v++) {
     if (cw_orbit_node_turns(orbits, v) > 0) continue;
     int marked = mark[v];
     for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1))
@@ -123,12 +123,13 @@ static int32_t even_marked(const Columns *columns, const uint8_t *mark, double *
 CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   Columns columns = {skeleton, heights, NULL};
-  int32_t *list = NULL, count = skeleton->wall_triangle_count, kept = 0, changed;
+  int32_t *list = NULL, count = skeleton->surface.triangle_count, kept = 0, changed;
   uint8_t *judgement = NULL, *mark = NULL;
-  CW_NEW_UNSET(heights->first_made, skeleton->wall_count);
-  memcpy(heights->first_made, heights->first_height, (size_t)skeleton->wall_count * sizeof *heights->first_made);
+  CW_NEW_UNSET(heights->first_made, skeleton->surface.vertex_count);
+  memcpy(heights->first_made, heights->first_height,
+         (size_t)skeleton->surface.vertex_count * sizeof *heights->first_made);
   CW_NEW(judgement, count);
-  CW_NEW(mark, skeleton->wall_count);
+  CW_NEW(mark, skeleton->surface.vertex_count);
   CW_NEW_UNSET(list, count);
   CW_TRY(cw_share("heights: small prisms", count, sizeof *judgement, judge, &columns, judgement));
   for (int32_t t = 0; t < count; t++) {
@@ -138,9 +139,9 @@ CwStatus cw_column_heights_even(CwColumnHeights *heights, const CwSkeleton *skel
   }
   columns.triangle = list;
   do {
-    memset(mark, 0, (size_t)skeleton->wall_count);
+    memset(mark, 0, (size_t)skeleton->surface.vertex_count);
     for (int32_t i = 0; i < kept; i++) {
-      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[skeleton->wall_triangle[list[i]][k]] = 1;
+      for (int k = 0; k < 3 && judgement[i] == SMALL; k++) mark[skeleton->surface.triangle[list[i]][k]] = 1;
     }
     changed = even_marked(&columns, mark, heights->first_made);
     if (changed) CW_TRY(cw_share("heights: small prisms", kept, sizeof *judgement, judge, &columns, judgement));

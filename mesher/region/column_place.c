@@ -44,8 +44,8 @@ void cw_rim_places_free(CwRimPlaces *places) {
 }
 
 void cw_column_place(const CwSkeleton *skeleton, const CwRimPlaces *places, int32_t vertex, double share, double x[3]) {
-  CwGuide guide = skeleton->guide[vertex];
-  cw_lerp(skeleton->wall_x[vertex], skeleton->front[vertex], share, x);
+  CwGuide guide = skeleton->surface.guide[vertex];
+  cw_lerp(skeleton->surface.x[vertex], skeleton->layers.front[vertex], share, x);
   if (share <= 0 || share >= 1) return;
   if (guide.kind == CW_GUIDE_CAP) {
     CwRimPlace key = {vertex, guide.index, {0, 0}};

@@ -15,9 +15,9 @@
 enum { OUTLINE, INSERTED, TRIANGLES, ENCROACHED, LEFT, HEADER };
 
 int32_t cw_interface_owner(const CwSkeleton *skeleton, const int32_t *number, int32_t outline) {
-  const CwInterfaceOutline *interface = &skeleton->outline[outline];
-  const int32_t(*regions)[2] =
-      (const int32_t(*)[2])(skeleton->planned_region ? skeleton->planned_region : skeleton->interface_region);
+  const CwInterfaceOutline *interface = &skeleton->interfaces.outline[outline];
+  const int32_t(*regions)[2] = (const int32_t(*)[2])(
+      skeleton->interfaces.planned.region ? skeleton->interfaces.planned.region : skeleton->interfaces.refined.region);
   const int32_t *region = regions[interface->triangle_start];
   return number[region[0]] < number[region[1]] ? region[0] : region[1];
 }
@@ -47,8 +47,8 @@ static CwStatus planned_points(const CwSkeleton *skeleton, const CwInterfaceOutl
   for (int32_t node = interface->free_start; node < interface->free_start + interface->free_count; node++) {
     double uv[2];
     int32_t local;
-    cw_plane_uv(map, skeleton->node_x[node], uv);
-    CW_TRY(cw_outline_point(outline, node, uv, skeleton->node_x[node], &local));
+    cw_plane_uv(map, skeleton->interfaces.nodes.x[node], uv);
+    CW_TRY(cw_outline_point(outline, node, uv, skeleton->interfaces.nodes.x[node], &local));
   }
 done:
   return status;
@@ -101,15 +101,15 @@ static CwFillSlab beside_interface(const CwSkeleton *skeleton, const CwInterface
   const CwPlane *plane = &skeleton->plan->node[interface->node].plane;
   CwPlaneMap map = cw_plane_map_of(plane);
   double radius = largest_radius(&map, interface->triangle_count,
-                                 (const int32_t(*)[3])skeleton->interface_triangle + interface->triangle_start,
-                                 (const double(*)[3])skeleton->node_x);
+                                 (const int32_t(*)[3])skeleton->interfaces.refined.triangle + interface->triangle_start,
+                                 (const double(*)[3])skeleton->interfaces.nodes.x);
   return (CwFillSlab){*plane, 2 * radius};
 }
 
 static CwStatus refine(const CwSkeleton *skeleton, int32_t index, double reach, int32_t count,
                        const double (*candidate)[3], char **bytes, int64_t *size) {
   CwStatus status = CW_OK;
-  const CwInterfaceOutline *interface = &skeleton->outline[index];
+  const CwInterfaceOutline *interface = &skeleton->interfaces.outline[index];
   CwPatchOutline outline = {0};
   CwBeside beside = {0};
   CwEncroachRefined refined = {0};
@@ -147,11 +147,11 @@ CwStatus cw_interface_rule(const CwSkeleton *skeleton, const int32_t *number, in
   *size = 0;
   CW_NEW(made, sizeof owned);
   *size = sizeof owned;
-  CW_NEW(outline, skeleton->outline_count);
-  CW_NEW(slab, skeleton->outline_count);
-  for (int32_t i = 0; i < skeleton->outline_count; i++) {
+  CW_NEW(outline, skeleton->interfaces.outline_count);
+  CW_NEW(slab, skeleton->interfaces.outline_count);
+  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
     if (cw_interface_owner(skeleton, number, i) != region) continue;
-    slab[owned] = beside_interface(skeleton, &skeleton->outline[i]);
+    slab[owned] = beside_interface(skeleton, &skeleton->interfaces.outline[i]);
     outline[owned++] = i;
   }
   CW_TRY(candidates(skeleton, region, name, owned, slab, &count, &candidate, NULL));
@@ -173,8 +173,8 @@ CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInt
   CwStatus status = CW_OK;
   const char **block = NULL;
   int32_t header[HEADER], total = 0;
-  *counts = (CwInterfaceRuleCounts){.planned = skeleton->interface_triangle_count};
-  CW_NEW(block, skeleton->outline_count);
+  *counts = (CwInterfaceRuleCounts){.planned = skeleton->interfaces.refined.count};
+  CW_NEW(block, skeleton->interfaces.outline_count);
   for (int32_t r = 0; r < skeleton->plan->region_count; r++) {
     int32_t owned = 0;
     const char *at = bytes[r];
@@ -193,33 +193,29 @@ CwStatus cw_interface_rule_merge(CwSkeleton *skeleton, void *const *bytes, CwInt
       total += header[TRIANGLES];
     }
   }
-  skeleton->planned_triangle_count = skeleton->interface_triangle_count;
-  skeleton->planned_triangle = skeleton->interface_triangle;
-  skeleton->planned_region = skeleton->interface_region;
-  skeleton->interface_triangle_count = 0;
-  skeleton->interface_triangle = NULL;
-  skeleton->interface_region = NULL;
-  CW_NEW(skeleton->interface_triangle, total);
-  CW_NEW(skeleton->interface_region, total);
-  for (int32_t i = 0; i < skeleton->outline_count; i++) {
-    CwInterfaceOutline *interface = &skeleton->outline[i];
+  skeleton->interfaces.planned = skeleton->interfaces.refined;
+  skeleton->interfaces.refined = (CwInterfaceTriangles){0};
+  CW_NEW(skeleton->interfaces.refined.triangle, total);
+  CW_NEW(skeleton->interfaces.refined.region, total);
+  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
+    CwInterfaceOutline *interface = &skeleton->interfaces.outline[i];
     CW_REQUIRE(block[i], CW_ERR_MESH, "interface %d has no owner", i);
     memcpy(header, block[i], sizeof header);
     const char *at = block[i] + sizeof header;
-    int32_t first = skeleton->node_count, node;
+    int32_t first = skeleton->interfaces.nodes.count, node;
     for (int32_t p = 0; p < header[INSERTED]; p++, at += sizeof(double[3])) {
       double x[3];
       memcpy(x, at, sizeof x);
       CW_TRY(cw_skeleton_add_node(skeleton, x, 1, &node));
     }
-    interface->refined_start = skeleton->interface_triangle_count;
+    interface->refined_start = skeleton->interfaces.refined.count;
     interface->refined_count = header[TRIANGLES];
     for (int32_t t = 0; t < header[TRIANGLES]; t++, at += sizeof(int32_t[3])) {
-      int32_t *corner = skeleton->interface_triangle[skeleton->interface_triangle_count];
+      int32_t *corner = skeleton->interfaces.refined.triangle[skeleton->interfaces.refined.count];
       memcpy(corner, at, sizeof(int32_t[3]));
       for (int k = 0; k < 3; k++) corner[k] = corner[k] < 0 ? first + (-1 - corner[k]) : corner[k];
-      memcpy(skeleton->interface_region[skeleton->interface_triangle_count++],
-             skeleton->planned_region[interface->triangle_start], sizeof(int32_t[2]));
+      memcpy(skeleton->interfaces.refined.region[skeleton->interfaces.refined.count++],
+             skeleton->interfaces.planned.region[interface->triangle_start], sizeof(int32_t[2]));
     }
   }
 done:
@@ -235,17 +231,18 @@ CwStatus cw_interface_rule_points(const CwSkeleton *skeleton, int32_t region, co
   int32_t kept = 0;
   CW_TRY(candidates(skeleton, region, name, 0, NULL, count, x, site));
   CW_NEW(dropped, *count);
-  for (int32_t i = 0; i < skeleton->outline_count; i++) {
-    const CwInterfaceOutline *interface = &skeleton->outline[i];
-    const int32_t *regions = skeleton->interface_region[interface->refined_start];
+  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
+    const CwInterfaceOutline *interface = &skeleton->interfaces.outline[i];
+    const int32_t *regions = skeleton->interfaces.refined.region[interface->refined_start];
     if (regions[0] != region && regions[1] != region) continue;
     CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
-    const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->interface_triangle + interface->refined_start;
-    double reach = largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])skeleton->node_x);
+    const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->interfaces.refined.triangle + interface->refined_start;
+    double reach =
+        largest_radius(&map, interface->refined_count, triangle, (const double(*)[3])skeleton->interfaces.nodes.x);
     CW_TRY(cw_beside_make(map.origin, (const double(*)[3])map.axis, reach, *count, (const double(*)[3]) * x, &beside));
     for (int32_t t = 0; t < interface->refined_count; t++) {
       double uv[3][2], centre[2], radius;
-      for (int k = 0; k < 3; k++) cw_plane_uv(&map, skeleton->node_x[triangle[t][k]], uv[k]);
+      for (int k = 0; k < 3; k++) cw_plane_uv(&map, skeleton->interfaces.nodes.x[triangle[t][k]], uv[k]);
       if (!cw_encroach_circle(uv[0], uv[1], uv[2], centre, &radius)) continue;
       cw_beside_in_sphere(&beside, centre, radius, dropped);
     }

@@ -16,7 +16,7 @@ static int32_t local_of(Gathering *gathering, int32_t node) {
   CwRegionBoundary *boundary = gathering->boundary;
   if (gathering->local[node] < 0) {
     gathering->local[node] = boundary->node_count;
-    cw_copy(gathering->skeleton->node_x[node], boundary->x[boundary->node_count]);
+    cw_copy(gathering->skeleton->interfaces.nodes.x[node], boundary->x[boundary->node_count]);
     boundary->node[boundary->node_count++] = node;
   }
   return gathering->local[node];
@@ -33,28 +33,30 @@ static void add(Gathering *gathering, int32_t *count, const int32_t corner[3], i
 CwStatus cw_region_boundary_make(const CwSkeleton *skeleton, int32_t region, int planned, CwRegionBoundary *boundary) {
   CwStatus status = CW_OK;
   Gathering gathering = {skeleton, boundary, NULL};
-  planned = planned && skeleton->planned_triangle;
-  int32_t interfaces = planned ? skeleton->planned_triangle_count : skeleton->interface_triangle_count;
-  int32_t wall_start = skeleton->region_wall_start[region], wall_end = skeleton->region_wall_start[region + 1];
+  planned = planned && skeleton->interfaces.planned.triangle;
+  int32_t interfaces = planned ? skeleton->interfaces.planned.count : skeleton->interfaces.refined.count;
+  int32_t wall_start = skeleton->surface.region_start[region], wall_end = skeleton->surface.region_start[region + 1];
   int32_t count = wall_end - wall_start;
   const int32_t(*triangle)[3] =
-      (const int32_t(*)[3])(planned ? skeleton->planned_triangle : skeleton->interface_triangle);
-  const int32_t(*beside)[2] = (const int32_t(*)[2])(planned ? skeleton->planned_region : skeleton->interface_region);
+      (const int32_t(*)[3])(planned ? skeleton->interfaces.planned.triangle : skeleton->interfaces.refined.triangle);
+  const int32_t(*beside)[2] =
+      (const int32_t(*)[2])(planned ? skeleton->interfaces.planned.region : skeleton->interfaces.refined.region);
   *boundary = (CwRegionBoundary){0};
-  for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) count += skeleton->cap_region[t] == region;
+  for (int32_t t = 0; t < skeleton->interfaces.cap.count; t++) count += skeleton->interfaces.cap.region[t] == region;
   for (int32_t t = 0; t < interfaces; t++) count += beside[t][0] == region || beside[t][1] == region;
   CW_NEW(boundary->triangle, count);
   CW_NEW(boundary->source, count);
   CW_NEW(boundary->node, 3 * (size_t)count);
   CW_NEW(boundary->x, 3 * (size_t)count);
-  CW_NEW(gathering.local, skeleton->node_count);
-  memset(gathering.local, -1, (size_t)skeleton->node_count * sizeof *gathering.local);
+  CW_NEW(gathering.local, skeleton->interfaces.nodes.count);
+  memset(gathering.local, -1, (size_t)skeleton->interfaces.nodes.count * sizeof *gathering.local);
   for (int32_t i = wall_start; i < wall_end; i++) {
-    int32_t t = skeleton->region_wall[i];
-    add(&gathering, &boundary->wall_count, skeleton->wall_triangle[t], 0, t);
+    int32_t t = skeleton->surface.region_triangle[i];
+    add(&gathering, &boundary->wall_count, skeleton->surface.triangle[t], 0, t);
   }
-  for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) {
-    if (skeleton->cap_region[t] == region) add(&gathering, &boundary->cap_count, skeleton->cap_triangle[t], 0, t);
+  for (int32_t t = 0; t < skeleton->interfaces.cap.count; t++) {
+    if (skeleton->interfaces.cap.region[t] == region)
+      add(&gathering, &boundary->cap_count, skeleton->interfaces.cap.triangle[t], 0, t);
   }
   for (int32_t t = 0; t < interfaces; t++) {
     for (int side = 0; side < 2; side++) {

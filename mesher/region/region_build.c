@@ -62,14 +62,14 @@ CwStatus cw_region_context_make(CwRegionContext *context) {
   const CwSkeleton *skeleton = context->skeleton;
   CW_REQUIRE(context->layer_count <= CW_LAYERS_MOST, CW_ERR_INPUT, "%d layers; at most %d can be made",
              context->layer_count, CW_LAYERS_MOST);
-  CW_NEW(context->shared_base, skeleton->node_count);
-  CW_NEW(context->shared_node, skeleton->node_count);
-  for (int32_t i = 0; i < skeleton->node_count; i++) {
+  CW_NEW(context->shared_base, skeleton->interfaces.nodes.count);
+  CW_NEW(context->shared_node, skeleton->interfaces.nodes.count);
+  for (int32_t i = 0; i < skeleton->interfaces.nodes.count; i++) {
     context->shared_base[i] = -1;
-    if (!skeleton->on_plane[i]) continue;
+    if (!skeleton->interfaces.nodes.on_plane[i]) continue;
     context->shared_base[i] = context->shared_count;
     context->shared_node[context->shared_node_count++] = i;
-    context->shared_count += i < skeleton->wall_count ? context->layer_count + 1 : 1;
+    context->shared_count += i < skeleton->surface.vertex_count ? context->layer_count + 1 : 1;
   }
   CW_TRY(find_rims(context));
   CW_TRY(cw_rim_places_make(skeleton, &context->rim_places));
@@ -97,36 +97,41 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
 #endif
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));
-  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
-    int32_t t = skeleton->region_wall[i];
-    cw_hash_bytes(&hash, &skeleton->wall_face[t], sizeof(int32_t));
+  for (int32_t i = skeleton->surface.region_start[region]; i < skeleton->surface.region_start[region + 1]; i++) {
+    int32_t t = skeleton->surface.region_triangle[i];
+    cw_hash_bytes(&hash, &skeleton->surface.face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      cw_hash_bytes(&hash, skeleton->wall_x[v], sizeof(double[3]));
-      cw_hash_bytes(&hash, skeleton->front[v], sizeof(double[3]));
+      int32_t v = skeleton->surface.triangle[t][k];
+      cw_hash_bytes(&hash, skeleton->surface.x[v], sizeof(double[3]));
+      cw_hash_bytes(&hash, skeleton->layers.front[v], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->first_height[v], sizeof(double));
       cw_hash_bytes(&hash, &context->growth[v], sizeof(double));
       cw_hash_bytes(&hash, &context->shared_base[v], sizeof(int64_t));
     }
   }
-  for (int32_t t = 0; t < skeleton->cap_triangle_count; t++) {
-    if (skeleton->cap_region[t] != region) continue;
-    cw_hash_bytes(&hash, &skeleton->cap_face[t], sizeof(int32_t));
-    for (int k = 0; k < 3; k++) cw_hash_bytes(&hash, skeleton->node_x[skeleton->cap_triangle[t][k]], sizeof(double[3]));
-  }
-  for (int32_t t = 0; t < skeleton->planned_triangle_count; t++) { // candidates follow from these
-    if (skeleton->planned_region[t][0] != region && skeleton->planned_region[t][1] != region) continue;
+  for (int32_t t = 0; t < skeleton->interfaces.cap.count; t++) {
+    if (skeleton->interfaces.cap.region[t] != region) continue;
+    cw_hash_bytes(&hash, &skeleton->interfaces.cap.face[t], sizeof(int32_t));
     for (int k = 0; k < 3; k++)
-      cw_hash_bytes(&hash, skeleton->node_x[skeleton->planned_triangle[t][k]], sizeof(double[3]));
+      cw_hash_bytes(&hash, skeleton->interfaces.nodes.x[skeleton->interfaces.cap.triangle[t][k]], sizeof(double[3]));
   }
-  for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
-    if (skeleton->interface_region[t][0] != region && skeleton->interface_region[t][1] != region) continue;
+  for (int32_t t = 0; t < skeleton->interfaces.planned.count; t++) { // candidates follow from these
+    if (skeleton->interfaces.planned.region[t][0] != region && skeleton->interfaces.planned.region[t][1] != region)
+      continue;
+    for (int k = 0; k < 3; k++)
+      cw_hash_bytes(&hash, skeleton->interfaces.nodes.x[skeleton->interfaces.planned.triangle[t][k]],
+                    sizeof(double[3]));
+  }
+  for (int32_t t = 0; t < skeleton->interfaces.refined.count; t++) {
+    if (skeleton->interfaces.refined.region[t][0] != region && skeleton->interfaces.refined.region[t][1] != region)
+      continue;
     for (int k = 0; k < 3; k++) {
-      int32_t node = skeleton->interface_triangle[t][k];
-      cw_hash_bytes(&hash, skeleton->node_x[node], sizeof(double[3]));
+      int32_t node = skeleton->interfaces.refined.triangle[t][k];
+      cw_hash_bytes(&hash, skeleton->interfaces.nodes.x[node], sizeof(double[3]));
       cw_hash_bytes(&hash, &context->shared_base[node], sizeof(int64_t));
     }
-    double centre = skeleton->size_at(skeleton->size, skeleton->node_x[skeleton->interface_triangle[t][0]]);
+    double centre =
+        skeleton->size_at(skeleton->size, skeleton->interfaces.nodes.x[skeleton->interfaces.refined.triangle[t][0]]);
     cw_hash_bytes(&hash, &centre, sizeof centre);
   }
   cw_hash_hex(&hash, fingerprint);
@@ -150,7 +155,7 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   int32_t levels = context->layer_count, total = build->fill.point_count, shared = 0;
   double fraction[CW_LAYERS_MOST + 1];
   for (int32_t i = 0; i < build->boundary.node_count; i++) {
-    int on_front = build->boundary.node[i] < skeleton->wall_count,
+    int on_front = build->boundary.node[i] < skeleton->surface.vertex_count,
         is_shared = context->shared_base[build->boundary.node[i]] >= 0;
     if (on_front) total += levels;
     if (is_shared) shared += on_front ? levels + 1 : 1;
@@ -165,11 +170,12 @@ static CwStatus place_points(Build *build, CwRegionMesh *mesh) {
   for (int32_t i = 0; i < build->fill.point_count; i++) {
     int32_t node = i < build->boundary.node_count ? build->boundary.node[i] : -1;
     int64_t base = node >= 0 ? context->shared_base[node] : -1;
-    int on_front = node >= 0 && node < skeleton->wall_count;
+    int on_front = node >= 0 && node < skeleton->surface.vertex_count;
     int32_t *next = base >= 0 ? &next_shared : &next_own;
     if (on_front) {
       build->column[i] = *next;
-      cw_layer_fractions(skeleton->height[node], context->first_height[node], levels, context->growth[node], fraction);
+      cw_layer_fractions(skeleton->layers.height[node], context->first_height[node], levels, context->growth[node],
+                         fraction);
       for (int k = 0; k < levels; k++) {
         if (base >= 0) mesh->shared_id[*next] = base + k;
         cw_column_place(skeleton, &context->rim_places, node, fraction[k], mesh->x[(*next)++]);
@@ -259,7 +265,7 @@ static CwStatus add_layers(Build *build, CwRegionMesh *mesh) {
       }
       int32_t w = mesh->triangle_count++;
       for (int c = 0; c < 3; c++) mesh->triangle[w][c] = column_point(build, corner[c], 0);
-      mesh->triangle_patch[w] = cw_cad_face_patch(skeleton->cad, skeleton->wall_face[build->boundary.source[t]]);
+      mesh->triangle_patch[w] = cw_cad_face_patch(skeleton->cad, skeleton->surface.face[build->boundary.source[t]]);
       mesh->triangle_cell[w] = first_cell;
     }
   }
@@ -300,7 +306,7 @@ static CwStatus add_caps(Build *build, CwRegionMesh *mesh) {
     face[t] = face_of(corner[0], corner[1], corner[2], t);
     int32_t made = mesh->triangle_count++;
     for (int c = 0; c < 3; c++) mesh->triangle[made][c] = build->place[corner[c]];
-    int32_t cap = skeleton->cap_face[build->boundary.source[first + t]];
+    int32_t cap = skeleton->interfaces.cap.face[build->boundary.source[first + t]];
     mesh->triangle_patch[made] = cw_cad_face_patch(skeleton->cad, cap);
     mesh->triangle_cell[made] = -1;
     CW_TRY(check_on_cap(build, mesh, cap, mesh->triangle[made], 3));
@@ -343,7 +349,7 @@ CwStatus cw_region_build(const CwRegionContext *context, int32_t region, int32_t
   cw_region_fingerprint(context, region, mesh->fingerprint);
   CW_TRY(cw_region_boundary_make(context->skeleton, region, 0, &build.boundary));
   CwFillInput input = cw_region_fill_input(context->skeleton, &build.boundary, name);
-  if (context->skeleton->planned_triangle) {
+  if (context->skeleton->interfaces.planned.triangle) {
     CW_TRY(cw_interface_rule_points(context->skeleton, region, name, &input.inner_count, &inner, &site));
     input.inner = (const double(*)[3])inner;
     input.inner_site = site;

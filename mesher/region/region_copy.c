@@ -47,15 +47,15 @@ static CwStatus turned_point(const CwRegionContext *context, int64_t id, int32_t
   int32_t from = node_of(context, id), node = cw_orbit_node(&skeleton->orbits, from, turns);
   int64_t level = id - context->shared_base[from];
   CW_REQUIRE(node >= 0, CW_ERR_MESH, "%s: a shared point at (%.3f, %.3f, %.3f) mm has no turned copy", context->domain,
-             CW_MM(skeleton->node_x[from]));
+             CW_MM(skeleton->interfaces.nodes.x[from]));
   *turned = context->shared_base[node] + level;
-  if (node < skeleton->wall_count && level < context->layer_count) {
+  if (node < skeleton->surface.vertex_count && level < context->layer_count) {
     double fraction[CW_LAYERS_MOST + 1];
-    cw_layer_fractions(skeleton->height[node], context->first_height[node], context->layer_count, context->growth[node],
-                       fraction);
+    cw_layer_fractions(skeleton->layers.height[node], context->first_height[node], context->layer_count,
+                       context->growth[node], fraction);
     cw_column_place(skeleton, &context->rim_places, node, fraction[level], x);
   } else {
-    cw_copy(skeleton->node_x[node], x);
+    cw_copy(skeleton->interfaces.nodes.x[node], x);
   }
 done:
   return status;

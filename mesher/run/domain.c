@@ -372,8 +372,8 @@ CwStatus cw_domain_targets(CwDomain *domain) {
   int faces = cw_cad_face_count(domain->cad);
   CW_NEW(layers, faces);
   for (int f = 0; f < faces; f++) layers[f] = domain->patch_layers[cw_cad_face_patch(domain->cad, f)];
-  CW_TRY(cw_incident_make(skeleton->wall_count, skeleton->wall_triangle_count,
-                          (const int32_t(*)[3])skeleton->wall_triangle, &around));
+  CW_TRY(cw_incident_make(skeleton->surface.vertex_count, skeleton->surface.triangle_count,
+                          (const int32_t(*)[3])skeleton->surface.triangle, &around));
   CW_TRY(cw_column_heights_make(skeleton, &around, layers, domain->layer_count, &domain->heights));
   CW_TRY(cw_column_heights_share(&domain->heights, skeleton, &around, layers, &domain->layer_share));
 done:
@@ -407,7 +407,7 @@ done:
 
 // Adds the prisms over a wall triangle that are thin for their length, or sheared: of small determinants.
 static void count_thin(const CwSkeleton *skeleton, int32_t t, const CwColumnHeights *heights, CwLayerCoverage *of) {
-  const int32_t *corner = skeleton->wall_triangle[t];
+  const int32_t *corner = skeleton->surface.triangle[t];
   double determinant[CW_LAYERS_MOST], first[3];
   for (int k = 0; k < 3; k++) first[k] = heights->first_made[corner[k]];
   cw_column_determinants(heights, skeleton, t, first, determinant);
@@ -417,7 +417,7 @@ static void count_thin(const CwSkeleton *skeleton, int32_t t, const CwColumnHeig
     of->thin++;
     if (wanted <= of->thin_wanted) continue;
     of->thin_wanted = wanted;
-    cw_copy(skeleton->wall_x[corner[0]], of->thin_at);
+    cw_copy(skeleton->surface.x[corner[0]], of->thin_at);
   }
 }
 
@@ -425,21 +425,21 @@ void cw_domain_coverage(const CwDomain *domain, int32_t region, int patches, CwL
   const CwSkeleton *skeleton = &domain->skeleton;
   const CwColumnHeights *heights = &domain->heights;
   double fraction[CW_LAYERS_MOST + 1];
-  for (int32_t i = skeleton->region_wall_start[region]; i < skeleton->region_wall_start[region + 1]; i++) {
-    int32_t t = skeleton->region_wall[i];
-    int patch = cw_cad_face_patch(domain->cad, skeleton->wall_face[t]);
+  for (int32_t i = skeleton->surface.region_start[region]; i < skeleton->surface.region_start[region + 1]; i++) {
+    int32_t t = skeleton->surface.region_triangle[i];
+    int patch = cw_cad_face_patch(domain->cad, skeleton->surface.face[t]);
     if (patch >= patches) continue;
     CwLayerCoverage *of = &coverage[patch];
     int full = 1, met = 1, worst = 0;
     for (int k = 0; k < 3; k++) {
-      int32_t v = skeleton->wall_triangle[t][k];
-      double height = skeleton->height[v];
+      int32_t v = skeleton->surface.triangle[t][k];
+      double height = skeleton->layers.height[v];
       double wanted = heights->first_height[v];
       double first =
           cw_layer_fractions(height, heights->first_made[v], heights->layer_count, heights->growth[v], fraction);
       full &= height >= 0.99 * heights->target[v];
       met &= fabs(first / wanted - 1) <= FIRST_HEIGHT_TOLERANCE;
-      if (skeleton->reason[v] > worst) worst = skeleton->reason[v];
+      if (skeleton->layers.reason[v] > worst) worst = skeleton->layers.reason[v];
       of->thickness += height / 3;
       of->least = of->faces == 0 && k == 0 ? height : fmin(of->least, height);
     }

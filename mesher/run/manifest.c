@@ -250,9 +250,9 @@ static json_t *sums_json(const CwMeshRun *run, int d) {
   json_t *result = json_pack(
       "{s:s, s:I, s:I, s:I, s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "name", domain->name, "points", (json_int_t)points,
       "tetrahedra", (json_int_t)tets, "prisms", (json_int_t)prisms, "regions", domain->plan.region_count, "interfaces",
-      domain->skeleton.outline_count, "colours", domain->colours, "mesh_volume_m3", metres_json(quality.volume, 3),
-      "solid_volume_m3", metres_json(solid, 3), "volume_error", cw_json_number(quality.volume / solid - 1),
-      "least_cell_volume_m3", metres_json(quality.least_volume, 3));
+      domain->skeleton.interfaces.outline_count, "colours", domain->colours, "mesh_volume_m3",
+      metres_json(quality.volume, 3), "solid_volume_m3", metres_json(solid, 3), "volume_error",
+      cw_json_number(quality.volume / solid - 1), "least_cell_volume_m3", metres_json(quality.least_volume, 3));
   json_object_set_new(result, "equal_passages", json_integer(domain->symmetry ? domain->symmetry->count : 1));
   json_object_set_new(result, "regions_by_tetgen", json_integer(tetgen));
   json_object_set_new(result, "tetrahedron_aspect_mean", cw_json_number(quality.aspect_mean));

@@ -15,19 +15,26 @@
 #include "mesher/run/run_regions.h"
 #include "mesher/run/run_thinning.h"
 #include "mesher/run/run_walls.h"
+#include "mesher/run/stage_view.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/log.h"
 
 enum { PASSES_MOST = 4 };
 static const double COUNT_TOLERANCE = 0.02; // of the asked number of cells
 
-// The stages of one attempt, in their order.
+// The stages of one attempt, in their order. After the one that the run is to end with it is done.
 static CwStatus mesh_attempt(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   CW_TRY_STAGE(cw_run_walls(run, outcome), outcome);
+  CW_TRY(cw_stage_view(run, CW_STAGE_SURFACE));
+  if (run->stopped) goto done;
   CW_TRY_STAGE(cw_run_layers(run, outcome), outcome);
+  CW_TRY(cw_stage_view(run, CW_STAGE_LAYERS));
+  if (run->stopped) goto done;
   CW_TRY_STAGE(cw_run_interfaces(run, places, outcome), outcome);
   CW_TRY(cw_run_region_rule(run));
+  CW_TRY(cw_stage_view(run, CW_STAGE_INTERFACES));
+  if (run->stopped) goto done;
   CW_TRY(cw_run_regions(run, places, outcome));
 done:
   return status;
@@ -87,6 +94,7 @@ CwStatus cw_mesh_run(CwMeshRun *run) {
   }
   for (run->passes = state.pass;; run->passes++) {
     CW_TRY(mesh_pass(run));
+    if (run->stopped) goto done;
     double off = (double)run->cells / asked - 1;
     cw_log("pass %d: %lld cells, %.2f %% off the asked %.0f", run->passes, (long long)run->cells, 100 * off, asked);
     cw_learn_tets(run);

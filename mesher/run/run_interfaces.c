@@ -28,8 +28,8 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   CW_TRY(cw_face_tasks(run, 0, &caps, &cap));
   count = caps;
   for (int d = 0; d < run->domains.count; d++) {
-    parts[d] = faces[d] + run->domain[d].skeleton.outline_count;
-    count += run->domain[d].skeleton.outline_count;
+    parts[d] = faces[d] + run->domain[d].skeleton.interfaces.outline_count;
+    count += run->domain[d].skeleton.interfaces.outline_count;
   }
   CW_TRY(cw_results_make(&results, run->domains.count, parts));
   CW_NEW(task, count);
@@ -37,16 +37,17 @@ CwStatus cw_run_interfaces(CwMeshRun *run, CwThinPlaces *places, CwOutcome *outc
   count = caps;
   for (int d = 0; d < run->domains.count; d++) {
     const CwSkeleton *skeleton = &run->domain[d].skeleton;
-    for (int32_t i = 0; i < skeleton->outline_count; i++) {
+    for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
       if (cw_orbit_turns(&skeleton->orbits, &skeleton->orbits.outline, i) > 0) continue;
       // Takes about as long as a cap of as many triangles.
-      task[count++] = (CwMeshTask){d, faces[d] + i, skeleton->outline[i].corner_count};
+      task[count++] = (CwMeshTask){d, faces[d] + i, skeleton->interfaces.outline[i].corner_count};
     }
   }
   CW_TRY(cw_run_step(run, "inner surfaces", "surfaces", cw_step_inner, count, task, NULL, results.bytes, NULL));
   cw_ledger_part("inner surfaces merged");
   for (int d = 0; d < run->domains.count; d++) {
     CW_TRY(cw_skeleton_merge_inner(&run->domain[d].skeleton, results.bytes[d], results.bytes[d] + faces[d]));
+    CW_AUDIT(cw_interfaces_audit(&run->domain[d].skeleton.interfaces, run->domain[d].plan.region_count));
     CW_TRY(cw_domain_number(&run->domain[d]));
   }
 done:
@@ -70,7 +71,7 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
     const CwDomain *domain = &run->domain[d];
     for (int32_t r = 0; r < regions[d]; r++) {
       int owns = 0;
-      for (int32_t i = 0; i < domain->skeleton.outline_count && !domain->symmetry; i++) {
+      for (int32_t i = 0; i < domain->skeleton.interfaces.outline_count && !domain->symmetry; i++) {
         owns |= cw_interface_owner(&domain->skeleton, domain->number, i) == r;
       }
       if (owns) task[count++] = (CwMeshTask){d, r, domain->plan.predicted_cells[r]};
@@ -83,6 +84,7 @@ CwStatus cw_run_region_rule(CwMeshRun *run) {
     CwDomain *domain = &run->domain[d];
     if (domain->symmetry) continue;
     CW_TRY(cw_interface_rule_merge(&domain->skeleton, results.bytes[d], &domain->rule));
+    CW_AUDIT(cw_interfaces_audit(&domain->skeleton.interfaces, domain->plan.region_count));
     if (domain->rule.planned == 0) continue;
     cw_log("%s: region numbers in %d colours; of %lld interface triangles, with new points in their spheres %lld, "
            "centres inserted %lld, triangles left to both sides %lld",

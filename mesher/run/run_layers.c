@@ -17,9 +17,9 @@ static int64_t find_costs(const CwMeshRun *run, double copied, double cost[CW_DO
   for (int d = 0; d < run->domains.count; d++) {
     const CwSkeleton *skeleton = &run->domain[d].skeleton;
     int32_t firsts = 0;
-    for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) firsts += skeleton->wall_source[t] == t;
-    cost[d] = firsts + copied * (skeleton->wall_triangle_count - firsts);
-    all += skeleton->wall_triangle_count;
+    for (int32_t t = 0; t < skeleton->surface.triangle_count; t++) firsts += skeleton->surface.source[t] == t;
+    cost[d] = firsts + copied * (skeleton->surface.triangle_count - firsts);
+    all += skeleton->surface.triangle_count;
   }
   return all;
 }
@@ -34,7 +34,7 @@ static CwStatus hand_heights(void *context, const CwSideHand *hand) {
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[hand->side];
   CwColumnHeights *heights = &domain->heights;
-  int32_t n = domain->skeleton.wall_count;
+  int32_t n = domain->skeleton.surface.vertex_count;
   heights->layer_count = domain->layer_count;
   CW_SIDE_ARRAY(hand, heights->first_height, n);
   CW_SIDE_ARRAY(hand, heights->growth, n);
@@ -86,11 +86,12 @@ static CwStatus hand_layers(void *context, const CwSideHand *hand) {
   CwMeshRun *run = context;
   CwDomain *domain = &run->domain[hand->side];
   CwSkeleton *skeleton = &domain->skeleton;
-  int32_t n = skeleton->wall_count;
-  cw_side_give(hand, skeleton->wall_triangle, skeleton->wall_triangle_count * (int64_t)sizeof *skeleton->wall_triangle);
-  CW_SIDE_ARRAY(hand, skeleton->front, n);
-  CW_SIDE_ARRAY(hand, skeleton->height, n);
-  CW_SIDE_ARRAY(hand, skeleton->reason, n);
+  int32_t n = skeleton->surface.vertex_count;
+  cw_side_give(hand, skeleton->surface.triangle,
+               skeleton->surface.triangle_count * (int64_t)sizeof *skeleton->surface.triangle);
+  CW_SIDE_ARRAY(hand, skeleton->layers.front, n);
+  CW_SIDE_ARRAY(hand, skeleton->layers.height, n);
+  CW_SIDE_ARRAY(hand, skeleton->layers.reason, n);
   CW_SIDE_ARRAY(hand, domain->heights.first_made, n);
 done:
   return status;

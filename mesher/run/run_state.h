@@ -14,6 +14,13 @@
 
 enum { CW_PATCH_LIMIT = 32 };
 
+// Checks a product as it is made, in builds with sanitizers.
+#ifdef CUTWATER_AUDIT
+#define CW_AUDIT(call) CW_TRY(call)
+#else
+#define CW_AUDIT(call) ((void)0)
+#endif
+
 // What is known of a finished region; travels between ranks as bytes.
 typedef struct {
   int32_t points, own_points, tetrahedra, pyramids, prisms, triangles, quads;
@@ -28,11 +35,17 @@ typedef struct {
   CwRegionFailure failure; // else nothing of the above holds
 } CwRegionSummary;
 
+// The stages whose product can be looked at.
+typedef enum { CW_STAGE_NONE, CW_STAGE_SURFACE, CW_STAGE_LAYERS, CW_STAGE_INTERFACES, CW_STAGE_COUNT } CwStage;
+
 typedef struct {
   const CwCase *table;
   const char *run_path;
   int rank, ranks;
   CwRecord *record;
+  CwStage stop_after; // CW_STAGE_NONE: the run goes to its end
+  int vtk;            // 1: what the stage made is written
+  int stopped;
   CwDomainTable domains;
   CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
   CwRegionSummary *summary[CW_DOMAINS_MOST];

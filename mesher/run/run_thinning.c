@@ -15,7 +15,7 @@ static const double FIRST_REACH = 4; // wanted lengths about a failure in which 
 // Gives all turned copies of a column the least height of them.
 static void thin_alike(const CwSkeleton *skeleton, double *most_height) {
   const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  for (int32_t v = 0; orbits->symmetry && v < skeleton->wall_count; v++) {
+  for (int32_t v = 0; orbits->symmetry && v < skeleton->surface.vertex_count; v++) {
     if (cw_orbit_node_turns(orbits, v) > 0) continue;
     double least = most_height[v];
     for (int32_t at = cw_orbit_node(orbits, v, 1); at >= 0 && at != v; at = cw_orbit_node(orbits, at, 1)) {
@@ -30,7 +30,7 @@ static void thin_alike(const CwSkeleton *skeleton, double *most_height) {
 
 static CwStatus start_thinning(CwMeshRun *run, int d) {
   CwStatus status = CW_OK;
-  int32_t count = run->domain[d].skeleton.wall_count;
+  int32_t count = run->domain[d].skeleton.surface.vertex_count;
   if (run->most_height[d]) goto done;
   CW_NEW(run->most_height[d], count);
   for (int32_t v = 0; v < count; v++) run->most_height[d][v] = INFINITY;
@@ -56,8 +56,8 @@ CwStatus cw_thin_places_on_planes(const CwMeshRun *run, const CwOutcome *why, Cw
   const CwSkeleton *skeleton = &run->domain[why->domain].skeleton;
   CwRegionFailure failure = {.failed = 1, .patch = "inner surface"};
   snprintf(failure.message, sizeof failure.message, "%s", why->reason);
-  for (int32_t i = 0; i < skeleton->tight_count; i++) {
-    memcpy(failure.at, skeleton->tight[i], sizeof failure.at);
+  for (int32_t i = 0; i < skeleton->interfaces.tight_count; i++) {
+    memcpy(failure.at, skeleton->interfaces.tight[i], sizeof failure.at);
     CW_TRY(add_place(why->domain, -1, &failure, places));
   }
 done:

@@ -48,13 +48,15 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
     CW_TRY(cw_results_make(&results, run->domains.count, faces));
     CW_TRY(cw_run_step(run, "surface", "faces", cw_step_wall, count, task, NULL, results.bytes, NULL));
     cw_ledger_part("walls merged");
-    for (int d = 0; d < run->domains.count; d++)
+    for (int d = 0; d < run->domains.count; d++) {
       CW_TRY(cw_skeleton_merge_walls(&run->domain[d].skeleton, results.bytes[d]));
+      CW_AUDIT(cw_surface_mesh_audit(&run->domain[d].skeleton.surface, run->domain[d].plan.region_count));
+    }
     CW_TRY(cw_run_heights(run));
     for (int d = 0; d < run->domains.count; d++) {
       cw_log_debug("%s: graded columns take %.3f of the volume of full ones", run->domain[d].name,
                    run->domain[d].layer_share);
-      triangles += run->domain[d].skeleton.wall_triangle_count;
+      triangles += run->domain[d].skeleton.surface.triangle_count;
     }
     cw_results_free(&results);
     cw_learn_prisms(run, triangles);
@@ -66,7 +68,7 @@ CwStatus cw_run_walls(CwMeshRun *run, CwOutcome *outcome) {
   }
   for (int d = 0; d < run->domains.count; d++) {
     CwDomain *domain = &run->domain[d];
-    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.wall_count; v++) {
+    for (int32_t v = 0; run->most_height[d] && v < domain->skeleton.surface.vertex_count; v++) {
       domain->heights.target[v] = fmin(domain->heights.target[v], run->most_height[d][v]);
     }
   }

@@ -107,9 +107,9 @@ typedef struct {
 static CwStatus find_narrow(void *context, int32_t t, void *out) {
   const Grooves *grooves = context;
   const CwSkeleton *skeleton = grooves->skeleton;
-  if (skeleton->wall_source[t] != t) return CW_OK;
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->wall_triangle;
-  const double(*front)[3] = (const double(*)[3])skeleton->front;
+  if (skeleton->surface.source[t] != t) return CW_OK;
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->surface.triangle;
+  const double(*front)[3] = (const double(*)[3])skeleton->layers.front;
   double bound = cw_front_bound(t, triangle, front, grooves->around.start, grooves->around.triangle, CW_FRONT_NARROW);
   *(uint8_t *)out = bound < CW_FRONT_NARROW;
   return CW_OK;
@@ -118,7 +118,7 @@ static CwStatus find_narrow(void *context, int32_t t, void *out) {
 // Marks the columns at a narrow triangle and at those beside it.
 static void mark_columns(Grooves *grooves, int32_t t) {
   const CwSkeleton *skeleton = grooves->skeleton;
-  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->wall_triangle, *corner = triangle[t];
+  const int32_t(*triangle)[3] = (const int32_t(*)[3])skeleton->surface.triangle, *corner = triangle[t];
   for (int k = 0; k < 3; k++) {
     int32_t apex = corner[k];
     across(t, corner[k], corner[(k + 1) % 3], triangle, grooves->around.start, grooves->around.triangle, &apex);
@@ -145,9 +145,10 @@ static CwStatus make_part(Grooves *grooves, const CwLayerInput *wall) {
   CW_NEW_UNSET(grooves->front, work->n);
   for (int32_t i = 0; i < work->n; i++) {
     int32_t v = grooves->part.global[i];
-    memcpy(grooves->front[i], skeleton->front[v], sizeof *grooves->front);
-    work->t[i] = skeleton->height[v];
-    for (int k = 0; k < 3; k++) work->column[i][k] = (skeleton->front[v][k] - skeleton->wall_x[v][k]) / work->t[i];
+    memcpy(grooves->front[i], skeleton->layers.front[v], sizeof *grooves->front);
+    work->t[i] = skeleton->layers.height[v];
+    for (int k = 0; k < 3; k++)
+      work->column[i][k] = (skeleton->layers.front[v][k] - skeleton->surface.x[v][k]) / work->t[i];
     work->base_cos[i] = cw_layers_least_cosine(work, i, work->column[i]) / cw_norm(work->column[i]);
   }
 done:
@@ -183,7 +184,7 @@ static int open_column(Grooves *grooves, int32_t v) {
 static void open_columns(Grooves *grooves) {
   for (int pass = 0, changed = 1; pass < PASSES && changed; pass++) {
     changed = pass == 0;
-    for (int32_t v = 0; v < grooves->skeleton->wall_count; v++) {
+    for (int32_t v = 0; v < grooves->skeleton->surface.vertex_count; v++) {
       if (grooves->turning[v]) changed |= open_column(grooves, v);
     }
   }
@@ -192,18 +193,18 @@ static void open_columns(Grooves *grooves) {
 // Gives all copies of the columns that moved their new ends, heights and reasons; marks them.
 static void spread(Grooves *grooves, uint8_t *moved, int32_t *opened) {
   CwSkeleton *skeleton = grooves->skeleton;
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    const double *end = grooves->turning[v] ? grooves->front[grooves->part.local[v]] : skeleton->front[v];
-    if (memcmp(end, skeleton->front[v], sizeof *skeleton->front) == 0) continue;
+  for (int32_t v = 0; v < skeleton->surface.vertex_count; v++) {
+    const double *end = grooves->turning[v] ? grooves->front[grooves->part.local[v]] : skeleton->layers.front[v];
+    if (memcmp(end, skeleton->layers.front[v], sizeof *skeleton->layers.front) == 0) continue;
     int32_t local = grooves->part.local[v], at = v, turns = 0;
     double column[3];
-    cw_sub(end, skeleton->wall_x[v], column);
+    cw_sub(end, skeleton->surface.x[v], column);
     double height = cw_layers_least_cosine(&grooves->work, local, column);
-    int same = fabs(height - skeleton->height[v]) < 0.01 * height;
+    int same = fabs(height - skeleton->layers.height[v]) < 0.01 * height;
     do {
-      cw_orbit_point(&skeleton->orbits, turns++, end, skeleton->front[at]);
-      skeleton->height[at] = height;
-      if (!same) skeleton->reason[at] = CW_LAYER_REPAIR;
+      cw_orbit_point(&skeleton->orbits, turns++, end, skeleton->layers.front[at]);
+      skeleton->layers.height[at] = height;
+      if (!same) skeleton->layers.reason[at] = CW_LAYER_REPAIR;
       moved[at] = 1;
       at = cw_orbit_node(&skeleton->orbits, at, 1);
     } while (at >= 0 && at != v);
@@ -217,7 +218,7 @@ static CwStatus check(const CwSkeleton *skeleton, const CwLayerInput *wall, cons
   CwStatus status = CW_OK;
   CwLayerWork work = {.in = wall, .n = wall->point_count};
   CwLayerCrossing crossing = {0};
-  const double(*front)[3] = (const double(*)[3])skeleton->front;
+  const double(*front)[3] = (const double(*)[3])skeleton->layers.front;
   *fits = 1;
   for (int32_t t = 0; t < wall->triangle_count && *fits; t++) {
     const int32_t *corner = wall->triangle[t];
@@ -239,12 +240,12 @@ done:
 CwStatus cw_front_open(CwSkeleton *skeleton, const CwLayerInput *wall, int32_t *opened) {
   CwStatus status = CW_OK;
   Grooves grooves = {.skeleton = skeleton};
-  int32_t count = skeleton->wall_triangle_count, found = 0;
-  size_t n = (size_t)skeleton->wall_count;
+  int32_t count = skeleton->surface.triangle_count, found = 0;
+  size_t n = (size_t)skeleton->surface.vertex_count;
   uint8_t *narrow = NULL, *moved = NULL, *reason = NULL;
   double(*front)[3] = NULL, *height = NULL;
   *opened = 0;
-  CW_TRY(cw_incident_make(skeleton->wall_count, count, wall->triangle, &grooves.around));
+  CW_TRY(cw_incident_make(skeleton->surface.vertex_count, count, wall->triangle, &grooves.around));
   CW_NEW(narrow, count);
   CW_TRY(cw_share("layers: grooves", count, sizeof *narrow, find_narrow, &grooves, narrow));
   for (int32_t t = 0; t < count; t++) found += narrow[t];
@@ -252,7 +253,7 @@ CwStatus cw_front_open(CwSkeleton *skeleton, const CwLayerInput *wall, int32_t *
   CW_NEW(grooves.is_first, n);
   CW_NEW(grooves.turning, n);
   for (int32_t t = 0; t < count; t++) {
-    for (int k = 0; k < 3 && skeleton->wall_source[t] == t; k++) grooves.is_first[wall->triangle[t][k]] = 1;
+    for (int k = 0; k < 3 && skeleton->surface.source[t] == t; k++) grooves.is_first[wall->triangle[t][k]] = 1;
   }
   for (int32_t t = 0; t < count; t++) {
     if (narrow[t]) mark_columns(&grooves, t);
@@ -263,16 +264,16 @@ CwStatus cw_front_open(CwSkeleton *skeleton, const CwLayerInput *wall, int32_t *
   CW_NEW_UNSET(height, n);
   CW_NEW_UNSET(reason, n);
   CW_NEW(moved, n);
-  memcpy(front, skeleton->front, n * sizeof *front);
-  memcpy(height, skeleton->height, n * sizeof *height);
-  memcpy(reason, skeleton->reason, n);
+  memcpy(front, skeleton->layers.front, n * sizeof *front);
+  memcpy(height, skeleton->layers.height, n * sizeof *height);
+  memcpy(reason, skeleton->layers.reason, n);
   spread(&grooves, moved, opened);
   int fits = 1;
   if (*opened) CW_TRY(check(skeleton, wall, (const double(*)[3])front, moved, &fits));
   if (!fits) {
-    memcpy(skeleton->front, front, n * sizeof *front);
-    memcpy(skeleton->height, height, n * sizeof *height);
-    memcpy(skeleton->reason, reason, n);
+    memcpy(skeleton->layers.front, front, n * sizeof *front);
+    memcpy(skeleton->layers.height, height, n * sizeof *height);
+    memcpy(skeleton->layers.reason, reason, n);
     *opened = 0;
   }
   cw_log_debug("%d triangles of the front in narrow grooves: %d columns %s", found, *opened,

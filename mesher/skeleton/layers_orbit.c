@@ -85,7 +85,7 @@ static CwStatus mark_near(const CwSkeleton *skeleton, const CwLayerInput *whole,
   double longest = 0, thickest = 0;
   for (int32_t t = 0; t < whole->triangle_count; t++) {
     const int32_t *corner = whole->triangle[t];
-    if (skeleton->wall_source[t] != t) continue;
+    if (skeleton->surface.source[t] != t) continue;
     for (int k = 0; k < 3; k++) {
       is_first[corner[k]] = 1;
       longest = fmax(longest, cw_distance(whole->x[corner[k]], whole->x[corner[(k + 1) % 3]]));

@@ -49,14 +49,15 @@ CwStatus cw_orbit_outlines(CwSkeleton *skeleton, CwOutcome *outcome) {
   CwStatus status = CW_OK;
   int whole;
   CwSkeletonOrbits *orbits = &skeleton->orbits;
-  int32_t count = skeleton->outline_count, turns = orbits->symmetry->count, *next = NULL, *corner = NULL, *start = NULL;
+  int32_t count = skeleton->interfaces.outline_count, turns = orbits->symmetry->count, *next = NULL, *corner = NULL,
+          *start = NULL;
   CW_NEW(start, count + 1);
-  for (int32_t i = 0; i < count; i++) start[i + 1] = start[i] + skeleton->outline[i].corner_count;
+  for (int32_t i = 0; i < count; i++) start[i + 1] = start[i] + skeleton->interfaces.outline[i].corner_count;
   CW_NEW(corner, 2 * (size_t)start[count]); // ascending: of each outline, then as one turn takes them
   for (int32_t i = 0; i < count; i++) {
-    size_t n = (size_t)skeleton->outline[i].corner_count;
+    size_t n = (size_t)skeleton->interfaces.outline[i].corner_count;
     for (size_t k = 0; k < n; k++) {
-      int32_t node = skeleton->outline[i].corner[k];
+      int32_t node = skeleton->interfaces.outline[i].corner[k];
       corner[start[i] + (int32_t)k] = node;
       corner[start[count] + start[i] + (int32_t)k] = cw_orbit_node(orbits, node, 1);
     }
@@ -65,15 +66,17 @@ CwStatus cw_orbit_outlines(CwSkeleton *skeleton, CwOutcome *outcome) {
   }
   CW_NEW(next, count);
   for (int32_t i = 0; i < count; i++) {
-    const CwInterfaceOutline *outline = &skeleton->outline[i];
+    const CwInterfaceOutline *outline = &skeleton->interfaces.outline[i];
     int32_t node = cw_fan_turned_node(skeleton->plan, turns, 1, outline->node);
     next[i] = -1;
     for (int32_t j = 0; j < count && next[i] < 0; j++) {
-      if (skeleton->outline[j].node != node || skeleton->outline[j].corner_count != outline->corner_count) continue;
+      if (skeleton->interfaces.outline[j].node != node ||
+          skeleton->interfaces.outline[j].corner_count != outline->corner_count)
+        continue;
       size_t size = (size_t)outline->corner_count * sizeof *corner;
       if (!memcmp(corner + start[j], corner + start[count] + start[i], size)) next[i] = j;
     }
-    const double *x = skeleton->node_x[outline->corner[0]];
+    const double *x = skeleton->interfaces.nodes.x[outline->corner[0]];
     CW_END_UNLESS(next[i] >= 0, outcome, CW_OUTCOME_ASYMMETRIC, x, "an interface on plane %d has no turned copy",
                   outline->node);
   }
@@ -90,12 +93,12 @@ done:
 
 void cw_orbit_copy_triangles(CwSkeleton *skeleton) {
   const CwSkeletonOrbits *orbits = &skeleton->orbits;
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    int32_t source = skeleton->wall_source[t];
+  for (int32_t t = 0; t < skeleton->surface.triangle_count; t++) {
+    int32_t source = skeleton->surface.source[t];
     if (source == t) continue;
-    int32_t turns = orbits->symmetry->face.turns[skeleton->wall_face[t]];
+    int32_t turns = orbits->symmetry->face.turns[skeleton->surface.face[t]];
     for (int k = 0; k < 3; k++) {
-      skeleton->wall_triangle[t][k] = cw_orbit_node(orbits, skeleton->wall_triangle[source][k], turns);
+      skeleton->surface.triangle[t][k] = cw_orbit_node(orbits, skeleton->surface.triangle[source][k], turns);
     }
   }
 }

@@ -10,34 +10,9 @@ void cw_skeleton_free(CwSkeleton *skeleton) {
   free(skeleton->rim);
   cw_orbit_free(&skeleton->orbits);
   free(skeleton->largest);
-  free(skeleton->wall_x);
-  free(skeleton->guide);
-  free(skeleton->corner_vertex);
-  free(skeleton->wall_triangle);
-  free(skeleton->wall_face);
-  free(skeleton->wall_region);
-  free(skeleton->region_wall_start);
-  free(skeleton->region_wall);
-  free(skeleton->wall_source);
-  free(skeleton->front);
-  free(skeleton->height);
-  free(skeleton->reason);
-  free(skeleton->node_x);
-  free(skeleton->on_plane);
-  free(skeleton->corner_node);
-  free(skeleton->tight);
-  free(skeleton->cap_triangle);
-  free(skeleton->cap_face);
-  free(skeleton->cap_region);
-  for (int32_t i = 0; i < skeleton->outline_count; i++) {
-    free(skeleton->outline[i].loop_start);
-    free(skeleton->outline[i].corner);
-  }
-  free(skeleton->outline);
-  free(skeleton->interface_triangle);
-  free(skeleton->interface_region);
-  free(skeleton->planned_triangle);
-  free(skeleton->planned_region);
+  cw_surface_mesh_free(&skeleton->surface);
+  cw_layers_free(&skeleton->layers);
+  cw_interfaces_free(&skeleton->interfaces);
   memset(skeleton, 0, sizeof *skeleton);
 }
 
@@ -47,8 +22,8 @@ CwStatus cw_skeleton_adjacency(const CwSkeleton *skeleton, int32_t *pair_count, 
   uint8_t *adjacent = NULL;
   CW_NEW(adjacent, (size_t)regions * (size_t)regions);
   *pair_count = 0;
-  for (int32_t t = 0; t < skeleton->interface_triangle_count; t++) {
-    const int32_t *region = skeleton->interface_region[t];
+  for (int32_t t = 0; t < skeleton->interfaces.refined.count; t++) {
+    const int32_t *region = skeleton->interfaces.refined.region[t];
     int32_t low = region[0] < region[1] ? region[0] : region[1], high = region[0] < region[1] ? region[1] : region[0];
     uint8_t *mark = &adjacent[(size_t)low * (size_t)regions + (size_t)high];
     *pair_count += !*mark;

@@ -91,7 +91,7 @@ typedef struct {
 static void snap(const void *context, int32_t vertex, double x[3]) {
   const Snap *snap = context;
   const CwSkeleton *skeleton = snap->skeleton;
-  CwGuide guide = skeleton->guide[vertex];
+  CwGuide guide = skeleton->surface.guide[vertex];
   if (guide.kind == CW_GUIDE_PLANE) {
     const CwPlane *plane = &skeleton->plan->node[guide.index].plane;
     double distance = cw_plane_distance(plane, x);
@@ -111,11 +111,11 @@ static void snap(const void *context, int32_t vertex, double x[3]) {
 // Edges may be flipped inside one CAD face and one region: curves stay. Turned copies are left to follow.
 static CwStatus make_groups(const CwSkeleton *skeleton, int64_t **group) {
   CwStatus status = CW_OK;
-  CW_NEW_UNSET(*group, skeleton->wall_triangle_count);
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) {
-    (*group)[t] = skeleton->wall_source[t] != t
+  CW_NEW_UNSET(*group, skeleton->surface.triangle_count);
+  for (int32_t t = 0; t < skeleton->surface.triangle_count; t++) {
+    (*group)[t] = skeleton->surface.source[t] != t
                       ? -1 - (int64_t)t
-                      : (int64_t)skeleton->wall_face[t] * skeleton->plan->region_count + skeleton->wall_region[t];
+                      : (int64_t)skeleton->surface.face[t] * skeleton->plan->region_count + skeleton->surface.region[t];
   }
 done:
   return status;
@@ -124,12 +124,12 @@ done:
 static CwStatus unfold_wall(CwSkeleton *skeleton, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips, folded;
-  CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, group, mesh));
-  CW_TRY(cw_wall_unfold(skeleton->wall_count, (const double(*)[3])skeleton->wall_x, skeleton->wall_triangle_count, mesh,
-                        group, &flips, &folded));
+  CW_TRY(cw_flip_neighbours(skeleton->surface.vertex_count, skeleton->surface.triangle_count, group, mesh));
+  CW_TRY(cw_wall_unfold(skeleton->surface.vertex_count, (const double(*)[3])skeleton->surface.x,
+                        skeleton->surface.triangle_count, mesh, group, &flips, &folded));
   cw_orbit_copy_triangles(skeleton);
   if (flips && skeleton->orbits.symmetry) { // copies have followed
-    CW_TRY(cw_flip_neighbours(skeleton->wall_count, skeleton->wall_triangle_count, group, mesh));
+    CW_TRY(cw_flip_neighbours(skeleton->surface.vertex_count, skeleton->surface.triangle_count, group, mesh));
   }
   if (flips || folded)
     cw_log_debug("%d edges flipped where the wall was folded; %d vertices with sharp faces", flips, folded);
@@ -140,8 +140,8 @@ done:
 static CwStatus flip_front(CwSkeleton *skeleton, const int64_t *group, CwFlipMesh *mesh) {
   CwStatus status = CW_OK;
   int32_t flips;
-  CW_TRY(cw_front_flip((const double(*)[3])skeleton->wall_x, (const double(*)[3])skeleton->front,
-                       skeleton->wall_triangle_count, mesh, group, &flips));
+  CW_TRY(cw_front_flip((const double(*)[3])skeleton->surface.x, (const double(*)[3])skeleton->layers.front,
+                       skeleton->surface.triangle_count, mesh, group, &flips));
   cw_orbit_copy_triangles(skeleton);
   cw_log_debug("%d edges of wall and front flipped", flips);
 done:
@@ -155,9 +155,9 @@ static CwStatus make_guides(const CwSkeleton *skeleton, const CwBackground *back
   int32_t faces = cw_cad_face_count(skeleton->cad);
   CapCorners *corners = NULL;
   CW_NEW(corners, faces);
-  for (int32_t v = 0; v < skeleton->wall_count; v++) {
-    CwGuide guide = skeleton->guide[v];
-    const double *x = skeleton->wall_x[v];
+  for (int32_t v = 0; v < skeleton->surface.vertex_count; v++) {
+    CwGuide guide = skeleton->surface.guide[v];
+    const double *x = skeleton->surface.x[v];
     if (guide.kind == CW_GUIDE_PLANE) {
       guide_count[v] = 1;
       cw_copy(skeleton->plan->node[guide.index].plane.normal, guide_normal[v][0]);
@@ -186,13 +186,13 @@ done:
 CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, const double *target,
                           const double *least, const CwLayerDivision *division, CwOutcome *outcome) {
   CwStatus status = CW_OK;
-  int32_t n = skeleton->wall_count, caps = 0, opened;
+  int32_t n = skeleton->surface.vertex_count, caps = 0, opened;
   int32_t *guide_count = NULL, (*cap_triangle)[3] = NULL;
   double(*guide_normal)[2][3] = NULL;
   uint8_t *guide_stays = NULL;
   Snap snapping = {skeleton, NULL};
   CwLayers layers = {0};
-  CwFlipMesh mesh = {.triangle = skeleton->wall_triangle};
+  CwFlipMesh mesh = {.triangle = skeleton->surface.triangle};
   int64_t *group = NULL;
   cw_ledger_part("layers: wall unfolded");
   CW_TRY(make_groups(skeleton, &group));
@@ -209,9 +209,9 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
     memcpy(cap_triangle[caps++], background->triangle[t], sizeof cap_triangle[0]);
   }
   CwLayerInput input = {.point_count = n,
-                        .x = (const double(*)[3])skeleton->wall_x,
-                        .triangle_count = skeleton->wall_triangle_count,
-                        .triangle = (const int32_t(*)[3])skeleton->wall_triangle,
+                        .x = (const double(*)[3])skeleton->surface.x,
+                        .triangle_count = skeleton->surface.triangle_count,
+                        .triangle = (const int32_t(*)[3])skeleton->surface.triangle,
                         .target = target,
                         .least = least,
                         .division = division ? *division : (CwLayerDivision){0},
@@ -227,9 +227,7 @@ CwStatus cw_skeleton_grow(CwSkeleton *skeleton, const CwBackground *background, 
   CW_TRY_STAGE(skeleton->orbits.symmetry ? cw_orbit_layers(skeleton, &input, &layers, outcome)
                                          : cw_layers_make(&input, &layers, outcome),
                outcome);
-  skeleton->front = layers.front;
-  skeleton->height = layers.height;
-  skeleton->reason = layers.reason;
+  skeleton->layers = layers;
   layers = (CwLayers){0};
   cw_ledger_part("layers: front flipped");
   CW_TRY(flip_front(skeleton, group, &mesh));

@@ -14,18 +14,18 @@ static const double BESIDE = 1e-7; // of the model's unit: where the two regions
 
 CwStatus cw_skeleton_add_node(CwSkeleton *skeleton, const double x[3], int on_plane, int32_t *node) {
   CwStatus status = CW_OK;
-  if (skeleton->node_count == skeleton->node_capacity) {
-    int32_t capacity = 2 * skeleton->node_capacity;
-    void *xs = realloc(skeleton->node_x, (size_t)capacity * sizeof *skeleton->node_x);
-    if (xs) skeleton->node_x = xs;
-    void *flags = realloc(skeleton->on_plane, (size_t)capacity);
-    if (flags) skeleton->on_plane = flags;
+  if (skeleton->interfaces.nodes.count == skeleton->interfaces.nodes.capacity) {
+    int32_t capacity = 2 * skeleton->interfaces.nodes.capacity;
+    void *xs = realloc(skeleton->interfaces.nodes.x, (size_t)capacity * sizeof *skeleton->interfaces.nodes.x);
+    if (xs) skeleton->interfaces.nodes.x = xs;
+    void *flags = realloc(skeleton->interfaces.nodes.on_plane, (size_t)capacity);
+    if (flags) skeleton->interfaces.nodes.on_plane = flags;
     CW_REQUIRE(xs && flags, CW_ERR_MEMORY, "out of memory: %d nodes", capacity);
-    skeleton->node_capacity = capacity;
+    skeleton->interfaces.nodes.capacity = capacity;
   }
-  cw_copy(x, skeleton->node_x[skeleton->node_count]);
-  skeleton->on_plane[skeleton->node_count] = (uint8_t)on_plane;
-  *node = skeleton->node_count++;
+  cw_copy(x, skeleton->interfaces.nodes.x[skeleton->interfaces.nodes.count]);
+  skeleton->interfaces.nodes.on_plane[skeleton->interfaces.nodes.count] = (uint8_t)on_plane;
+  *node = skeleton->interfaces.nodes.count++;
 done:
   return status;
 }
@@ -34,28 +34,30 @@ done:
 static CwStatus start_nodes(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   const CwNetwork *network = &skeleton->network;
-  skeleton->node_capacity = skeleton->wall_count + 4096;
-  skeleton->node_count = skeleton->wall_count;
-  CW_NEW(skeleton->node_x, skeleton->node_capacity);
-  CW_NEW(skeleton->on_plane, skeleton->node_capacity);
-  memcpy(skeleton->node_x, skeleton->front, (size_t)skeleton->wall_count * sizeof *skeleton->node_x);
-  CW_NEW(skeleton->corner_node, network->corner_count);
+  skeleton->interfaces.nodes.capacity = skeleton->surface.vertex_count + 4096;
+  skeleton->interfaces.nodes.count = skeleton->surface.vertex_count;
+  CW_NEW(skeleton->interfaces.nodes.x, skeleton->interfaces.nodes.capacity);
+  CW_NEW(skeleton->interfaces.nodes.on_plane, skeleton->interfaces.nodes.capacity);
+  memcpy(skeleton->interfaces.nodes.x, skeleton->layers.front,
+         (size_t)skeleton->surface.vertex_count * sizeof *skeleton->interfaces.nodes.x);
+  CW_NEW(skeleton->interfaces.corner_node, network->corner_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
     const CwCurve *curve = &network->curve[i];
     if (!curve->wall || curve->kind != CW_CURVE_CUT) continue;
-    for (int32_t k = 0; k < curve->point_count; k++) skeleton->on_plane[curve->node[k]] = 1;
+    for (int32_t k = 0; k < curve->point_count; k++) skeleton->interfaces.nodes.on_plane[curve->node[k]] = 1;
   }
   for (int32_t i = 0; i < network->corner_count; i++) {
     const CwCorner *corner = &network->corner[i];
-    skeleton->corner_node[i] = skeleton->corner_vertex[i];
+    skeleton->interfaces.corner_node[i] = skeleton->surface.corner_vertex[i];
     if (corner->on_wall) continue;
-    CW_TRY(cw_skeleton_add_node(skeleton, corner->x, corner->plane[0] >= 0, &skeleton->corner_node[i]));
+    CW_TRY(cw_skeleton_add_node(skeleton, corner->x, corner->plane[0] >= 0, &skeleton->interfaces.corner_node[i]));
   }
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   for (int32_t i = 0; orbits->symmetry && i < network->corner_count; i++) {
     if (network->corner[i].on_wall) continue;
     int32_t next = orbits->corner.next[i];
-    CW_TRY(cw_orbit_link(orbits, skeleton->corner_node[i], skeleton->corner_node[next], orbits->corner.turns[next]));
+    CW_TRY(cw_orbit_link(orbits, skeleton->interfaces.corner_node[i], skeleton->interfaces.corner_node[next],
+                         orbits->corner.turns[next]));
   }
 done:
   return status;
@@ -64,16 +66,17 @@ done:
 // Arc length of an end of a free curve: where the layers end, or the end of the curve itself.
 static double free_end(const CwSkeleton *skeleton, const CwCurve *curve, int end) {
   int32_t corner = curve->corner[end];
-  if (skeleton->corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
-  return cw_curve_nearest(curve, skeleton->node_x[skeleton->corner_node[corner]]);
+  if (skeleton->surface.corner_vertex[corner] < 0) return end ? curve->fine_length[curve->fine_count - 1] : 0;
+  return cw_curve_nearest(curve, skeleton->interfaces.nodes.x[skeleton->interfaces.corner_node[corner]]);
 }
 
 static CwStatus add_tight(CwSkeleton *skeleton, const double x[3]) {
   CwStatus status = CW_OK;
-  void *grown = realloc(skeleton->tight, (size_t)(skeleton->tight_count + 1) * sizeof *skeleton->tight);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", skeleton->tight_count);
-  skeleton->tight = grown;
-  memcpy(skeleton->tight[skeleton->tight_count++], x, sizeof *skeleton->tight);
+  void *grown = realloc(skeleton->interfaces.tight,
+                        (size_t)(skeleton->interfaces.tight_count + 1) * sizeof *skeleton->interfaces.tight);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d places", skeleton->interfaces.tight_count);
+  skeleton->interfaces.tight = grown;
+  memcpy(skeleton->interfaces.tight[skeleton->interfaces.tight_count++], x, sizeof *skeleton->interfaces.tight);
 done:
   return status;
 }
@@ -86,7 +89,7 @@ static CwStatus divide_free_curve(CwSkeleton *skeleton, CwCurve *curve) {
   if (closed) from = 0, to = curve->fine_length[curve->fine_count - 1];
   if (!(from < to)) {
     for (int end = 0; end < 2; end++) {
-      CW_TRY(add_tight(skeleton, skeleton->node_x[skeleton->corner_node[curve->corner[end]]]));
+      CW_TRY(add_tight(skeleton, skeleton->interfaces.nodes.x[skeleton->interfaces.corner_node[curve->corner[end]]]));
     }
     goto done;
   }
@@ -97,7 +100,7 @@ static CwStatus divide_free_curve(CwSkeleton *skeleton, CwCurve *curve) {
     double x[3];
     cw_curve_point(&skeleton->network, curve, place[k], x, curve->parameter[k]);
     if (k == 0 || k == curve->point_count - 1) {
-      curve->node[k] = skeleton->corner_node[curve->corner[k > 0]];
+      curve->node[k] = skeleton->interfaces.corner_node[curve->corner[k > 0]];
     } else {
       CW_TRY(cw_skeleton_add_node(skeleton, x, on_plane, &curve->node[k]));
     }
@@ -124,7 +127,7 @@ static CwStatus plane_outline(const CwSkeleton *skeleton, int32_t node, CwPatchO
     int32_t previous = -1, local;
     for (int32_t k = 0; k < curve->point_count; k++) {
       double uv[2];
-      const double *x = skeleton->node_x[curve->node[k]];
+      const double *x = skeleton->interfaces.nodes.x[curve->node[k]];
       cw_plane_uv(&map, x, uv);
       CW_TRY(cw_outline_point(outline, curve->node[k], uv, x, &local));
       if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, bounds));
@@ -142,7 +145,8 @@ static CwStatus find_crossings(CwSkeleton *skeleton, const CwPatchOutline *outli
   CW_TRY(cw_polygons_crossings(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                                (const int32_t(*)[2])outline->edge, &count, &crossing));
   for (int32_t i = 0; i < count; i++) {
-    for (int k = 0; k < 4; k++) CW_TRY(add_tight(skeleton, skeleton->node_x[outline->node[crossing[i][k]]]));
+    for (int k = 0; k < 4; k++)
+      CW_TRY(add_tight(skeleton, skeleton->interfaces.nodes.x[outline->node[crossing[i][k]]]));
   }
 done:
   free(crossing);
@@ -155,18 +159,19 @@ static CwStatus find_polygons(CwSkeleton *skeleton, int32_t node, CwPatchOutline
   CwPolygons polygons = {0};
   CW_TRY(plane_outline(skeleton, node, outline));
   CW_TRY(find_crossings(skeleton, outline));
-  if (skeleton->tight_count > 0) goto done;
+  if (skeleton->interfaces.tight_count > 0) goto done;
   CW_TRY(cw_polygons_find(outline->point_count, (const double(*)[2])outline->uv, outline->edge_count,
                           (const int32_t(*)[2])outline->edge, outline->boundary, &polygons));
   if (polygons.polygon_count == 0) goto done;
-  CwInterfaceOutline *grown = realloc(skeleton->outline, (size_t)(skeleton->outline_count + polygons.polygon_count) *
-                                                             sizeof *skeleton->outline);
-  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", skeleton->outline_count);
-  skeleton->outline = grown;
+  CwInterfaceOutline *grown =
+      realloc(skeleton->interfaces.outline, (size_t)(skeleton->interfaces.outline_count + polygons.polygon_count) *
+                                                sizeof *skeleton->interfaces.outline);
+  CW_REQUIRE(grown, CW_ERR_MEMORY, "out of memory: %d interfaces", skeleton->interfaces.outline_count);
+  skeleton->interfaces.outline = grown;
   for (int32_t p = 0; p < polygons.polygon_count; p++) {
     int32_t first = polygons.polygon_start[p], last = polygons.polygon_start[p + 1];
     int32_t start = polygons.loop_start[first], end = polygons.loop_start[last];
-    CwInterfaceOutline *made = &skeleton->outline[skeleton->outline_count++];
+    CwInterfaceOutline *made = &skeleton->interfaces.outline[skeleton->interfaces.outline_count++];
     *made = (CwInterfaceOutline){.node = node, .corner_count = end - start, .loop_count = last - first};
     CW_NEW(made->loop_start, last - first + 1);
     CW_NEW(made->corner, end - start);
@@ -201,17 +206,18 @@ CwStatus cw_skeleton_free_curves(CwSkeleton *skeleton, CwOutcome *outcome) {
     const CwSkeletonOrbits *orbits = &skeleton->orbits;
     if (skeleton->network.curve[i].wall || cw_orbit_turns(orbits, &orbits->curve, i) > 0) continue;
     CW_TRY(divide_free_curve(skeleton, &skeleton->network.curve[i]));
-    if (skeleton->tight_count > 0) continue;
-    CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->corner_node, &skeleton->node_x, add_curve_node));
+    if (skeleton->interfaces.tight_count > 0) continue;
+    CW_TRY(cw_orbit_copy_curve(skeleton, i, skeleton->interfaces.corner_node, &skeleton->interfaces.nodes.x,
+                               add_curve_node));
   }
-  if (skeleton->tight_count > 0) goto done; // not all curves are divided
-  CW_TRY(cw_outline_start(&outline, skeleton->node_count));
+  if (skeleton->interfaces.tight_count > 0) goto done; // not all curves are divided
+  CW_TRY(cw_outline_start(&outline, skeleton->interfaces.nodes.count));
   for (int32_t node = 0; node < skeleton->plan->node_count; node++) CW_TRY(find_polygons(skeleton, node, &outline));
-  if (skeleton->tight_count == 0) CW_TRY(find_crossings_on_caps(skeleton));
-  if (skeleton->tight_count == 0 && skeleton->orbits.symmetry) CW_TRY(cw_orbit_outlines(skeleton, outcome));
+  if (skeleton->interfaces.tight_count == 0) CW_TRY(find_crossings_on_caps(skeleton));
+  if (skeleton->interfaces.tight_count == 0 && skeleton->orbits.symmetry) CW_TRY(cw_orbit_outlines(skeleton, outcome));
 done:
-  if (status == CW_OK && skeleton->tight_count > 0) {
-    cw_outcome_set(outcome, CW_OUTCOME_THIN, skeleton->tight[0],
+  if (status == CW_OK && skeleton->interfaces.tight_count > 0) {
+    cw_outcome_set(outcome, CW_OUTCOME_THIN, skeleton->interfaces.tight[0],
                    "the layers fill a line of two dividing planes, or cross it or a cut on a cap");
   }
   cw_outline_free(&outline);
@@ -221,7 +227,7 @@ done:
 CwStatus cw_skeleton_interface_outline(const CwSkeleton *skeleton, const CwInterfaceOutline *interface,
                                        const CwPlaneMap *map, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_outline_start(outline, skeleton->node_count));
+  CW_TRY(cw_outline_start(outline, skeleton->interfaces.nodes.count));
   for (int32_t l = 0; l < interface->loop_count; l++) {
     int32_t first = interface->loop_start[l], count = interface->loop_start[l + 1] - first;
     for (int32_t k = 0; k < count; k++) {
@@ -229,8 +235,8 @@ CwStatus cw_skeleton_interface_outline(const CwSkeleton *skeleton, const CwInter
       for (int end = 0; end < 2; end++) {
         int32_t node = interface->corner[first + (k + end) % count];
         double uv[2];
-        cw_plane_uv(map, skeleton->node_x[node], uv);
-        CW_TRY(cw_outline_point(outline, node, uv, skeleton->node_x[node], &local[end]));
+        cw_plane_uv(map, skeleton->interfaces.nodes.x[node], uv);
+        CW_TRY(cw_outline_point(outline, node, uv, skeleton->interfaces.nodes.x[node], &local[end]));
       }
       CW_TRY(cw_outline_edge(outline, local[0], local[1], 1));
     }
@@ -255,7 +261,7 @@ static int32_t sides_at(const void *context, const double x[3]) {
 CwStatus cw_skeleton_mesh_interface(const CwSkeleton *skeleton, int32_t index, void **bytes, int64_t *size) {
   CwStatus status = CW_OK;
   CwPatchOutline outline = {0};
-  const CwInterfaceOutline *interface = &skeleton->outline[index];
+  const CwInterfaceOutline *interface = &skeleton->interfaces.outline[index];
   CwPlaneMap map = cw_plane_map_of(&skeleton->plan->node[interface->node].plane);
   Sides sides = {skeleton->plan, map.axis[2]};
   char name[64];
@@ -273,7 +279,7 @@ static CwStatus append(CwSkeleton *skeleton, const CwPatchBlock *block, int on_p
                        int32_t (*triangle)[3]) {
   CwStatus status = CW_OK;
   CwSkeletonOrbits *orbits = &skeleton->orbits;
-  int32_t first = skeleton->node_count, node;
+  int32_t first = skeleton->interfaces.nodes.count, node;
   for (int32_t i = 0; i < block->point_count; i++) {
     double x[3];
     cw_orbit_point(orbits, turns, block->x[i], x);
@@ -298,10 +304,11 @@ static CwStatus merge_cap(CwSkeleton *skeleton, int32_t face, const CwPatchBlock
   CwStatus status = CW_OK;
   int32_t copies = cw_orbit_face_copies(&skeleton->orbits, face);
   for (int32_t turns = 0; turns < copies; turns++) {
-    CW_TRY(append(skeleton, block, 0, turns, copies, skeleton->cap_triangle + skeleton->cap_triangle_count));
+    CW_TRY(
+        append(skeleton, block, 0, turns, copies, skeleton->interfaces.cap.triangle + skeleton->interfaces.cap.count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
-      skeleton->cap_face[skeleton->cap_triangle_count] = cw_orbit_face(&skeleton->orbits, face, turns);
-      skeleton->cap_region[skeleton->cap_triangle_count++] =
+      skeleton->interfaces.cap.face[skeleton->interfaces.cap.count] = cw_orbit_face(&skeleton->orbits, face, turns);
+      skeleton->interfaces.cap.region[skeleton->interfaces.cap.count++] =
           cw_orbit_region(&skeleton->orbits, skeleton->plan, block->label[t], turns);
     }
   }
@@ -314,15 +321,15 @@ static CwStatus merge_interface(CwSkeleton *skeleton, int32_t index, const CwPat
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t copies = cw_orbit_copies(orbits, &orbits->outline, index), regions = skeleton->plan->region_count;
   for (int32_t turns = 0, copy = index; turns < copies; turns++) {
-    CwInterfaceOutline *interface = &skeleton->outline[copy];
-    interface->free_start = skeleton->node_count;
+    CwInterfaceOutline *interface = &skeleton->interfaces.outline[copy];
+    interface->free_start = skeleton->interfaces.nodes.count;
     interface->free_count = block->point_count;
-    interface->triangle_start = skeleton->interface_triangle_count;
+    interface->triangle_start = skeleton->interfaces.refined.count;
     interface->triangle_count = block->triangle_count;
-    CW_TRY(
-        append(skeleton, block, 1, turns, copies, skeleton->interface_triangle + skeleton->interface_triangle_count));
+    CW_TRY(append(skeleton, block, 1, turns, copies,
+                  skeleton->interfaces.refined.triangle + skeleton->interfaces.refined.count));
     for (int32_t t = 0; t < block->triangle_count; t++) {
-      int32_t *region = skeleton->interface_region[skeleton->interface_triangle_count++];
+      int32_t *region = skeleton->interfaces.refined.region[skeleton->interfaces.refined.count++];
       region[0] = cw_orbit_region(orbits, skeleton->plan, block->label[t] / regions, turns);
       region[1] = cw_orbit_region(orbits, skeleton->plan, block->label[t] % regions, turns);
     }
@@ -342,22 +349,22 @@ CwStatus cw_skeleton_merge_inner(CwSkeleton *skeleton, void *const *cap_bytes, v
     cw_patch_block(cap_bytes[f], &block);
     caps += block.triangle_count * cw_orbit_face_copies(orbits, f);
   }
-  for (int32_t i = 0; i < skeleton->outline_count; i++) {
+  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
     interfaces += block.triangle_count * cw_orbit_copies(orbits, &orbits->outline, i);
   }
-  CW_NEW(skeleton->cap_triangle, caps);
-  CW_NEW(skeleton->cap_face, caps);
-  CW_NEW(skeleton->cap_region, caps);
-  CW_NEW(skeleton->interface_triangle, interfaces);
-  CW_NEW(skeleton->interface_region, interfaces);
+  CW_NEW(skeleton->interfaces.cap.triangle, caps);
+  CW_NEW(skeleton->interfaces.cap.face, caps);
+  CW_NEW(skeleton->interfaces.cap.region, caps);
+  CW_NEW(skeleton->interfaces.refined.triangle, interfaces);
+  CW_NEW(skeleton->interfaces.refined.region, interfaces);
   for (int32_t f = 0; f < faces; f++) {
     if (!cap_bytes[f]) continue;
     cw_patch_block(cap_bytes[f], &block);
     CW_TRY(merge_cap(skeleton, f, &block));
   }
-  for (int32_t i = 0; i < skeleton->outline_count; i++) {
+  for (int32_t i = 0; i < skeleton->interfaces.outline_count; i++) {
     if (!interface_bytes[i]) continue;
     cw_patch_block(interface_bytes[i], &block);
     CW_TRY(merge_interface(skeleton, i, &block));

@@ -50,24 +50,24 @@ done:
 
 static CwStatus reserve_wall(CwSkeleton *skeleton, int32_t capacity) {
   CwStatus status = CW_OK;
-  void *xs = realloc(skeleton->wall_x, (size_t)capacity * sizeof *skeleton->wall_x);
-  if (xs) skeleton->wall_x = xs;
-  void *guides = realloc(skeleton->guide, (size_t)capacity * sizeof *skeleton->guide);
-  if (guides) skeleton->guide = guides;
+  void *xs = realloc(skeleton->surface.x, (size_t)capacity * sizeof *skeleton->surface.x);
+  if (xs) skeleton->surface.x = xs;
+  void *guides = realloc(skeleton->surface.guide, (size_t)capacity * sizeof *skeleton->surface.guide);
+  if (guides) skeleton->surface.guide = guides;
   CW_REQUIRE(xs && guides, CW_ERR_MEMORY, "out of memory: %d wall vertices", capacity);
-  skeleton->wall_capacity = capacity;
+  skeleton->surface.vertex_capacity = capacity;
 done:
   return status;
 }
 
 static CwStatus add_wall_vertex(CwSkeleton *skeleton, const double x[3], CwGuide guide, int32_t *vertex) {
   CwStatus status = CW_OK;
-  if (skeleton->wall_count == skeleton->wall_capacity) {
-    CW_TRY(reserve_wall(skeleton, skeleton->wall_capacity ? 2 * skeleton->wall_capacity : 4096));
+  if (skeleton->surface.vertex_count == skeleton->surface.vertex_capacity) {
+    CW_TRY(reserve_wall(skeleton, skeleton->surface.vertex_capacity ? 2 * skeleton->surface.vertex_capacity : 4096));
   }
-  cw_copy(x, skeleton->wall_x[skeleton->wall_count]);
-  skeleton->guide[skeleton->wall_count] = guide;
-  *vertex = skeleton->wall_count++;
+  cw_copy(x, skeleton->surface.x[skeleton->surface.vertex_count]);
+  skeleton->surface.guide[skeleton->surface.vertex_count] = guide;
+  *vertex = skeleton->surface.vertex_count++;
 done:
   return status;
 }
@@ -200,20 +200,20 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
   Curves curves = {.skeleton = skeleton};
   void **bytes = NULL;
   int64_t *size = NULL;
-  CW_NEW(skeleton->corner_vertex, network->corner_count);
+  CW_NEW(skeleton->surface.corner_vertex, network->corner_count);
   for (int32_t i = 0; i < network->corner_count; i++) {
-    skeleton->corner_vertex[i] = -1;
+    skeleton->surface.corner_vertex[i] = -1;
     if (!network->corner[i].on_wall) continue;
     CwGuide guide;
     CW_TRY(corner_guide(skeleton, i, &guide));
-    CW_TRY(add_wall_vertex(skeleton, network->corner[i].x, guide, &skeleton->corner_vertex[i]));
+    CW_TRY(add_wall_vertex(skeleton, network->corner[i].x, guide, &skeleton->surface.corner_vertex[i]));
   }
   CwSkeletonOrbits *orbits = &skeleton->orbits;
   for (int32_t i = 0; orbits->symmetry && i < network->corner_count; i++) {
     if (!network->corner[i].on_wall) continue;
     int32_t next = orbits->corner.next[i];
-    CW_TRY(
-        cw_orbit_link(orbits, skeleton->corner_vertex[i], skeleton->corner_vertex[next], orbits->corner.turns[next]));
+    CW_TRY(cw_orbit_link(orbits, skeleton->surface.corner_vertex[i], skeleton->surface.corner_vertex[next],
+                         orbits->corner.turns[next]));
   }
   CW_NEW(curves.curve, network->curve_count);
   for (int32_t i = 0; i < network->curve_count; i++) {
@@ -234,13 +234,13 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     for (int32_t k = 0; k < count; k++) {
       memcpy(curve->parameter[k], point[k].parameter, sizeof point[k].parameter);
       if (k == 0 || k == count - 1) {
-        curve->node[k] = skeleton->corner_vertex[curve->corner[k > 0]];
+        curve->node[k] = skeleton->surface.corner_vertex[curve->corner[k > 0]];
       } else {
         CW_TRY(add_wall_vertex(skeleton, point[k].x, guide, &curve->node[k]));
       }
     }
-    CW_TRY(
-        cw_orbit_copy_curve(skeleton, curves.curve[i], skeleton->corner_vertex, &skeleton->wall_x, add_curve_vertex));
+    CW_TRY(cw_orbit_copy_curve(skeleton, curves.curve[i], skeleton->surface.corner_vertex, &skeleton->surface.x,
+                               add_curve_vertex));
   }
 done:
   for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
@@ -262,7 +262,7 @@ static void curve_uv(const CwSkeleton *skeleton, const CwCurve *curve, int32_t k
 // The outline of a wall face: CAD edges first, so that their ends get the (u,v) of the edges, then the cuts.
 static CwStatus wall_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_outline_start(outline, skeleton->wall_count));
+  CW_TRY(cw_outline_start(outline, skeleton->surface.vertex_count));
   for (int pass = 0; pass < 2; pass++) {
     CwCurveKind kind = pass == 0 ? CW_CURVE_EDGE : CW_CURVE_CUT;
     for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
@@ -273,7 +273,7 @@ static CwStatus wall_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOu
         double uv[2];
         int32_t local;
         curve_uv(skeleton, curve, k, face, uv);
-        CW_TRY(cw_outline_point(outline, curve->node[k], uv, skeleton->wall_x[curve->node[k]], &local));
+        CW_TRY(cw_outline_point(outline, curve->node[k], uv, skeleton->surface.x[curve->node[k]], &local));
         if (k > 0) CW_TRY(cw_outline_edge(outline, previous, local, kind == CW_CURVE_EDGE));
         previous = local;
       }
@@ -322,12 +322,12 @@ CwStatus cw_skeleton_mesh_wall(const CwSkeleton *skeleton, int32_t face, void **
 static CwStatus check_triangle(void *context, int32_t t, void *out) {
   CwStatus status = CW_OK;
   const CwSkeleton *skeleton = context;
-  if (skeleton->wall_source[t] != t) goto done;
+  if (skeleton->surface.source[t] != t) goto done;
   for (int k = 0; k < 3; k++) {
-    const double *x = skeleton->wall_x[skeleton->wall_triangle[t][k]];
-    CW_REQUIRE(cw_plan_in_region(skeleton->plan, skeleton->wall_region[t], x, ON_PLANE), CW_ERR_MESH,
+    const double *x = skeleton->surface.x[skeleton->surface.triangle[t][k]];
+    CW_REQUIRE(cw_plan_in_region(skeleton->plan, skeleton->surface.region[t], x, ON_PLANE), CW_ERR_MESH,
                "a triangle of face %s at (%.3f, %.3f, %.3f) mm reaches out of region %d: a cut curve is missing",
-               cw_cad_face_name(skeleton->cad, skeleton->wall_face[t]), CW_MM(x), skeleton->wall_region[t] + 1);
+               cw_cad_face_name(skeleton->cad, skeleton->surface.face[t]), CW_MM(x), skeleton->surface.region[t] + 1);
   }
   *(uint8_t *)out = 1;
 done:
@@ -337,8 +337,8 @@ done:
 static CwStatus check_regions(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   uint8_t *checked = NULL;
-  CW_NEW(checked, skeleton->wall_triangle_count);
-  CW_TRY(cw_share("walls checked", skeleton->wall_triangle_count, 1, check_triangle, skeleton, checked));
+  CW_NEW(checked, skeleton->surface.triangle_count);
+  CW_TRY(cw_share("walls checked", skeleton->surface.triangle_count, 1, check_triangle, skeleton, checked));
 done:
   free(checked);
   return status;
@@ -350,15 +350,15 @@ static void append_triangles(CwSkeleton *skeleton, int32_t face, int32_t turns, 
   const CwSkeletonOrbits *orbits = &skeleton->orbits;
   int32_t on = cw_orbit_face(orbits, face, turns), label = -1, region = -1;
   for (int32_t t = 0; t < block->triangle_count; t++) {
-    int32_t at = skeleton->wall_triangle_count++;
+    int32_t at = skeleton->surface.triangle_count++;
     if (block->label[t] != label) { // those of one region mostly follow one another
       label = block->label[t];
       region = cw_orbit_region(orbits, skeleton->plan, label, turns);
     }
-    for (int k = 0; k < 3; k++) skeleton->wall_triangle[at][k] = vertex[block->triangle[t][k]];
-    skeleton->wall_face[at] = on;
-    skeleton->wall_source[at] = source + t;
-    skeleton->wall_region[at] = region;
+    for (int k = 0; k < 3; k++) skeleton->surface.triangle[at][k] = vertex[block->triangle[t][k]];
+    skeleton->surface.face[at] = on;
+    skeleton->surface.source[at] = source + t;
+    skeleton->surface.region[at] = region;
   }
 }
 
@@ -366,8 +366,8 @@ static void append_triangles(CwSkeleton *skeleton, int32_t face, int32_t turns, 
 static CwStatus merge_wall(CwSkeleton *skeleton, int32_t face, const CwPatchBlock *block) {
   CwStatus status = CW_OK;
   CwSkeletonOrbits *orbits = &skeleton->orbits;
-  int32_t copies = cw_orbit_face_copies(orbits, face), first = skeleton->wall_count;
-  int32_t source = skeleton->wall_triangle_count, *vertex = NULL;
+  int32_t copies = cw_orbit_face_copies(orbits, face), first = skeleton->surface.vertex_count;
+  int32_t source = skeleton->surface.triangle_count, *vertex = NULL;
   CW_NEW(vertex, block->outline_points + block->point_count);
   for (int32_t turns = 0; turns < copies; turns++) {
     for (int32_t i = 0; i < block->outline_points; i++) {
@@ -392,17 +392,17 @@ done:
 static CwStatus list_regions(CwSkeleton *skeleton) {
   CwStatus status = CW_OK;
   int32_t regions = skeleton->plan->region_count, *start, *fill = NULL;
-  CW_NEW(skeleton->region_wall_start, regions + 1);
-  CW_NEW(skeleton->region_wall, skeleton->wall_triangle_count);
+  CW_NEW(skeleton->surface.region_start, regions + 1);
+  CW_NEW(skeleton->surface.region_triangle, skeleton->surface.triangle_count);
   CW_NEW(fill, regions);
-  start = skeleton->region_wall_start;
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++) start[skeleton->wall_region[t] + 1]++;
+  start = skeleton->surface.region_start;
+  for (int32_t t = 0; t < skeleton->surface.triangle_count; t++) start[skeleton->surface.region[t] + 1]++;
   for (int32_t r = 0; r < regions; r++) {
     fill[r] = start[r];
     start[r + 1] += start[r];
   }
-  for (int32_t t = 0; t < skeleton->wall_triangle_count; t++)
-    skeleton->region_wall[fill[skeleton->wall_region[t]]++] = t;
+  for (int32_t t = 0; t < skeleton->surface.triangle_count; t++)
+    skeleton->surface.region_triangle[fill[skeleton->surface.region[t]]++] = t;
 done:
   free(fill);
   return status;
@@ -410,7 +410,7 @@ done:
 
 CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
   CwStatus status = CW_OK;
-  int32_t faces = cw_cad_face_count(skeleton->cad), total = 0, vertices = skeleton->wall_count;
+  int32_t faces = cw_cad_face_count(skeleton->cad), total = 0, vertices = skeleton->surface.vertex_count;
   CwPatchBlock block;
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
@@ -419,11 +419,11 @@ CwStatus cw_skeleton_merge_walls(CwSkeleton *skeleton, void *const *bytes) {
     total += block.triangle_count * copies;
     vertices += block.point_count * copies;
   }
-  if (vertices > skeleton->wall_capacity) CW_TRY(reserve_wall(skeleton, vertices));
-  CW_NEW(skeleton->wall_triangle, total);
-  CW_NEW(skeleton->wall_face, total);
-  CW_NEW(skeleton->wall_region, total);
-  CW_NEW(skeleton->wall_source, total);
+  if (vertices > skeleton->surface.vertex_capacity) CW_TRY(reserve_wall(skeleton, vertices));
+  CW_NEW(skeleton->surface.triangle, total);
+  CW_NEW(skeleton->surface.face, total);
+  CW_NEW(skeleton->surface.region, total);
+  CW_NEW(skeleton->surface.source, total);
   for (int32_t f = 0; f < faces; f++) {
     if (!bytes[f]) continue;
     cw_patch_block(bytes[f], &block);
@@ -440,14 +440,14 @@ static CwStatus add_cap_point(const CwSkeleton *skeleton, const CwCurve *curve, 
                               CwPatchOutline *outline, int32_t *local) {
   double uv[2];
   curve_uv(skeleton, curve, k, face, uv);
-  const double *x = skeleton->node_x[curve->node[k]];
+  const double *x = skeleton->interfaces.nodes.x[curve->node[k]];
   cw_cad_face_project(skeleton->cad, face, x, uv);
   return cw_outline_point(outline, curve->node[k], uv, x, local);
 }
 
 CwStatus cw_skeleton_cap_outline(const CwSkeleton *skeleton, int32_t face, CwPatchOutline *outline) {
   CwStatus status = CW_OK;
-  CW_TRY(cw_outline_start(outline, skeleton->node_count));
+  CW_TRY(cw_outline_start(outline, skeleton->interfaces.nodes.count));
   for (int32_t i = 0; i < skeleton->network.curve_count; i++) {
     const CwCurve *curve = &skeleton->network.curve[i];
     if (curve->kind == CW_CURVE_LINE || (curve->face[0] != face && curve->face[1] != face)) continue;

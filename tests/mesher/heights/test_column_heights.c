@@ -37,17 +37,17 @@ static void make_wall(Wall *wall, double size, int points, double (*x)[3], int t
   for (int t = 0; t < triangles; t++) wall->source[t] = wall->region_wall[t] = t;
   wall->skeleton = (CwSkeleton){.size_at = constant,
                                 .size = &wall->size,
-                                .wall_count = points,
-                                .wall_x = x,
-                                .wall_triangle_count = triangles,
-                                .wall_triangle = triangle,
-                                .wall_face = face,
-                                .wall_source = wall->source,
-                                .region_wall_start = wall->region_start,
-                                .region_wall = wall->region_wall,
-                                .front = wall->front,
-                                .height = wall->height,
-                                .reason = wall->reason};
+                                .surface.vertex_count = points,
+                                .surface.x = x,
+                                .surface.triangle_count = triangles,
+                                .surface.triangle = triangle,
+                                .surface.face = face,
+                                .surface.source = wall->source,
+                                .surface.region_start = wall->region_start,
+                                .surface.region_triangle = wall->region_wall,
+                                .layers.front = wall->front,
+                                .layers.height = wall->height,
+                                .layers.reason = wall->reason};
   for (int v = 0; v < points; v++) {
     memcpy(wall->front[v], x[v], sizeof *x);
     wall->front[v][2] -= 7;

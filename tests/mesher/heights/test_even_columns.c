@@ -19,13 +19,13 @@ static void make(int layers, double asked, const double height[4], double made[4
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, front[4][3];
   double first[4] = {asked, asked, asked, asked}, growth[4] = {1.2, 1.2, 1.2, 1.2}, own[4];
   int32_t triangle[2][3] = {{0, 2, 1}, {0, 3, 2}}, source[2] = {0, 1};
-  CwSkeleton skeleton = {.wall_count = 4,
-                         .wall_x = x,
-                         .wall_triangle_count = 2,
-                         .wall_triangle = triangle,
-                         .wall_source = source,
-                         .front = front,
-                         .height = own};
+  CwSkeleton skeleton = {.surface.vertex_count = 4,
+                         .surface.x = x,
+                         .surface.triangle_count = 2,
+                         .surface.triangle = triangle,
+                         .surface.source = source,
+                         .layers.front = front,
+                         .layers.height = own};
   CwColumnHeights heights = {.layer_count = layers, .first_height = first, .growth = growth};
   memcpy(own, height, sizeof own);
   memcpy(front, x, sizeof front);

@@ -65,10 +65,10 @@ struct Rim {
     skeleton.network.cad = cad;
     skeleton.network.curve = &curve;
     skeleton.network.curve_count = 1;
-    skeleton.wall_count = NODES;
-    skeleton.wall_x = wall;
-    skeleton.front = front;
-    skeleton.guide = guide;
+    skeleton.surface.vertex_count = NODES;
+    skeleton.surface.x = wall;
+    skeleton.layers.front = front;
+    skeleton.surface.guide = guide;
     assert_int_equal(cw_rim_places_make(&skeleton, &places), CW_OK);
   }
   ~Rim() {

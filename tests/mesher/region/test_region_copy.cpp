@@ -26,8 +26,9 @@ static void fill_the_tank(bool divided) {
     if (cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
   }
   check(cw_skeleton_merge_walls(&skeleton, walls.data()));
-  std::vector<double> target(skeleton.wall_count, 1.5e-3), first(skeleton.wall_count, 2e-4),
-      growth(skeleton.wall_count, 1.5);
+  check(cw_surface_mesh_audit(&skeleton.surface, tank.plan.region_count));
+  std::vector<double> target(skeleton.surface.vertex_count, 1.5e-3), first(skeleton.surface.vertex_count, 2e-4),
+      growth(skeleton.surface.vertex_count, 1.5);
   check(cw_skeleton_grow(&skeleton, &tank.background, target.data(), nullptr, nullptr, &tank.outcome));
   check(cw_skeleton_free_curves(&skeleton, &tank.outcome));
   assert_int_equal(tank.outcome.kind, CW_OUTCOME_DONE);
@@ -35,18 +36,19 @@ static void fill_the_tank(bool divided) {
     if (orbits.symmetry->face.first[f] != f) continue;
     if (!cw_face_is_wall(tank.cad, f)) check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }
-  assert_int_equal(skeleton.outline_count, divided ? 30 : 10);
-  interfaces.resize(skeleton.outline_count, nullptr);
-  for (int i = 0; i < skeleton.outline_count; i++) {
+  assert_int_equal(skeleton.interfaces.outline_count, divided ? 30 : 10);
+  interfaces.resize(skeleton.interfaces.outline_count, nullptr);
+  for (int i = 0; i < skeleton.interfaces.outline_count; i++) {
     if (orbits.outline.first[i] == i) check(cw_skeleton_mesh_interface(&skeleton, i, &interfaces[i], &size));
   }
   check(cw_skeleton_merge_inner(&skeleton, caps.data(), interfaces.data()));
-  for (int v = 0; v < skeleton.wall_count; v++) {
+  check(cw_interfaces_audit(&skeleton.interfaces, tank.plan.region_count));
+  for (int v = 0; v < skeleton.surface.vertex_count; v++) {
     const int next = cw_orbit_node(&orbits, v, 1);
     if (next < 0) continue;
     double turned[3];
-    cw_symmetry_turn(5, 1, skeleton.front[v], turned);
-    for (int k = 0; k < 3; k++) assert_near(turned[k], skeleton.front[next][k], 1e-15);
+    cw_symmetry_turn(5, 1, skeleton.layers.front[v], turned);
+    for (int k = 0; k < 3; k++) assert_near(turned[k], skeleton.layers.front[next][k], 1e-15);
     assert_int_equal(cw_orbit_node(&orbits, v, 5), v);
   }
 

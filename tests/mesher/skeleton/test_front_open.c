@@ -39,14 +39,14 @@ static void make_ring(Ring *ring, int i, double low, double least) {
   for (int k = 0; k < PASSAGES; k++)
     for (int j = 5; j <= 6; j++) ring->height[ring_point(k * OF_PASSAGE + i, j)] = low;
   for (int32_t v = 0; v < POINTS; v++) ring->front[v][2] = ring->height[v];
-  ring->skeleton = (CwSkeleton){.wall_count = POINTS,
-                                .wall_x = flat->x,
-                                .wall_triangle_count = TRIANGLES,
-                                .wall_triangle = flat->triangle,
-                                .wall_source = flat->source,
-                                .front = ring->front,
-                                .height = ring->height,
-                                .reason = ring->reason,
+  ring->skeleton = (CwSkeleton){.surface.vertex_count = POINTS,
+                                .surface.x = flat->x,
+                                .surface.triangle_count = TRIANGLES,
+                                .surface.triangle = flat->triangle,
+                                .surface.source = flat->source,
+                                .layers.front = ring->front,
+                                .layers.height = ring->height,
+                                .layers.reason = ring->reason,
                                 .orbits = ring_orbits(flat)};
   ring->wall = (CwLayerInput){.point_count = POINTS,
                               .x = (const double(*)[3])flat->x,

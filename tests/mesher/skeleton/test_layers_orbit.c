@@ -36,7 +36,7 @@ static void seams_get_the_sounder_column(void **state) {
     const double across[2][3] = {{-out[1], out[0], 0}, {0.6 * out[0], 0.6 * out[1], -0.8}};
     memcpy(guide[held], across, sizeof across);
     guides[held] = 2;
-    CwSkeleton skeleton = {.wall_source = ring.source, .orbits = ring_orbits(&ring)};
+    CwSkeleton skeleton = {.surface.source = ring.source, .orbits = ring_orbits(&ring)};
     CwLayerInput in = {.point_count = POINTS,
                        .x = x,
                        .triangle_count = TRIANGLES,

@@ -134,10 +134,10 @@ static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
   std::vector<int> inserted(4, 0);
   int64_t size;
   CwInterfaceRuleCounts counts;
-  int nodes = skeleton.node_count;
+  int nodes = skeleton.interfaces.nodes.count;
   skeleton.size_at = finer_size;
-  for (int i = 0; i < skeleton.outline_count; i++) {
-    const int32_t *region = skeleton.interface_region[skeleton.outline[i].triangle_start];
+  for (int i = 0; i < skeleton.interfaces.outline_count; i++) {
+    const int32_t *region = skeleton.interfaces.refined.region[skeleton.interfaces.outline[i].triangle_start];
     int owner = cw_interface_owner(&skeleton, number, i), other = owner == region[0] ? region[1] : region[0];
     assert_true(owner == region[0] || owner == region[1]);
     assert_true(number[owner] < number[other]);
@@ -146,16 +146,17 @@ static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
   Box::check(cw_interface_rule_merge(&skeleton, refined.data(), &counts));
   assert_true(counts.encroached > 20);
   assert_true(counts.inserted > 20);
-  assert_int_equal(skeleton.node_count, nodes + counts.inserted);
-  assert_int_equal(skeleton.planned_triangle_count, counts.planned);
-  assert_int_equal(skeleton.interface_triangle_count, counts.refined);
+  assert_int_equal(skeleton.interfaces.nodes.count, nodes + counts.inserted);
+  assert_int_equal(skeleton.interfaces.planned.count, counts.planned);
+  assert_int_equal(skeleton.interfaces.refined.count, counts.refined);
   assert_int_equal(counts.refined, counts.planned + 2 * counts.inserted); // Euler: outlines stay as they are
   // New nodes lie on the plane of their interface.
-  for (int i = 0; i < skeleton.outline_count; i++) {
-    const CwInterfaceOutline &interface = skeleton.outline[i];
+  for (int i = 0; i < skeleton.interfaces.outline_count; i++) {
+    const CwInterfaceOutline &interface = skeleton.interfaces.outline[i];
     for (int t = 0; t < interface.refined_count; t++) {
-      for (int node : skeleton.interface_triangle[interface.refined_start + t]) {
-        assert_near(cw_plane_distance(&skeleton.plan->node[interface.node].plane, skeleton.node_x[node]), 0, 1e-12);
+      for (int node : skeleton.interfaces.refined.triangle[interface.refined_start + t]) {
+        assert_near(cw_plane_distance(&skeleton.plan->node[interface.node].plane, skeleton.interfaces.nodes.x[node]), 0,
+                    1e-12);
       }
     }
   }
@@ -166,19 +167,19 @@ static void refine_interfaces(CwSkeleton &skeleton, const int32_t *number) {
     CwLatticeSite *site;
     Box::check(cw_interface_rule_points(&skeleton, r, "box", &count, &x, &site));
     assert_true(count > 100);
-    for (int t = 0; t < skeleton.interface_triangle_count; t++) {
-      if (skeleton.interface_region[t][0] != r && skeleton.interface_region[t][1] != r) continue;
-      const int32_t *node = skeleton.interface_triangle[t];
+    for (int t = 0; t < skeleton.interfaces.refined.count; t++) {
+      if (skeleton.interfaces.refined.region[t][0] != r && skeleton.interfaces.refined.region[t][1] != r) continue;
+      const int32_t *node = skeleton.interfaces.refined.triangle[t];
       double u[3], v[3], uu = 0, vv = 0, uv = 0, square = 0, centre[3];
       for (int k = 0; k < 3; k++) {
-        u[k] = skeleton.node_x[node[1]][k] - skeleton.node_x[node[0]][k];
-        v[k] = skeleton.node_x[node[2]][k] - skeleton.node_x[node[0]][k];
+        u[k] = skeleton.interfaces.nodes.x[node[1]][k] - skeleton.interfaces.nodes.x[node[0]][k];
+        v[k] = skeleton.interfaces.nodes.x[node[2]][k] - skeleton.interfaces.nodes.x[node[0]][k];
         uu += u[k] * u[k], vv += v[k] * v[k], uv += u[k] * v[k];
       }
       double det = 2 * (uu * vv - uv * uv), p = vv * (uu - uv) / det, q = uu * (vv - uv) / det;
       for (int k = 0; k < 3; k++) {
         double d = p * u[k] + q * v[k];
-        centre[k] = skeleton.node_x[node[0]][k] + d;
+        centre[k] = skeleton.interfaces.nodes.x[node[0]][k] + d;
         square += d * d;
       }
       square = std::fmin(square, std::fmax(std::fmax(uu, vv), uu + vv - 2 * uv)); // a needle's sphere ends
@@ -205,7 +206,8 @@ static void make_layers(Box &box) {
     if (cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
   }
   Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
-  std::vector<double> target(skeleton.wall_count, 1.5e-3);
+  Box::check(cw_surface_mesh_audit(&skeleton.surface, box.plan.region_count));
+  std::vector<double> target(skeleton.surface.vertex_count, 1.5e-3);
   Box::check(cw_skeleton_grow(&skeleton, &box.background, target.data(), nullptr, nullptr, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_DONE);
   for (void *bytes : walls) free(bytes);
@@ -219,10 +221,10 @@ static void layers_that_cross_a_line_are_found(void **) {
   Box::check(cw_skeleton_free_curves(&box.skeleton, &box.outcome));
   assert_int_equal(box.outcome.kind, CW_OUTCOME_THIN);
   assert_near(box.outcome.place[0], 0.021, 1e-9);
-  assert_true(skeleton.tight_count > 0);
-  for (int i = 0; i < skeleton.tight_count; i++) {
-    assert_near(skeleton.tight[i][0], 0.021, 1e-9);
-    assert_true(skeleton.tight[i][2] < 1.6e-3);
+  assert_true(skeleton.interfaces.tight_count > 0);
+  for (int i = 0; i < skeleton.interfaces.tight_count; i++) {
+    assert_near(skeleton.interfaces.tight[i][0], 0.021, 1e-9);
+    assert_true(skeleton.interfaces.tight[i][2] < 1.6e-3);
   }
 }
 
@@ -251,9 +253,10 @@ static void make_surfaces(Box &box) {
   std::vector<void *> caps(faces, nullptr), interfaces;
   int64_t size;
   make_layers(box);
-  for (int v = 0; v < skeleton.wall_count; v++) { // corners and edges of a box keep the asked height to the walls
+  for (int v = 0; v < skeleton.surface.vertex_count;
+       v++) { // corners and edges of a box keep the asked height to the walls
     for (int k = 1; k < 3; k++) {
-      double side = k == 1 ? 0.030 : 0.020, x = skeleton.front[v][k];
+      double side = k == 1 ? 0.030 : 0.020, x = skeleton.layers.front[v][k];
       assert_true(x > 1.5e-3 - 1e-9 && x < side - 1.5e-3 + 1e-9);
     }
   }
@@ -262,11 +265,12 @@ static void make_surfaces(Box &box) {
   for (int f = 0; f < faces; f++) {
     if (!cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_cap(&skeleton, f, &caps[f], &size));
   }
-  interfaces.resize(skeleton.outline_count);
-  for (int i = 0; i < skeleton.outline_count; i++) {
+  interfaces.resize(skeleton.interfaces.outline_count);
+  for (int i = 0; i < skeleton.interfaces.outline_count; i++) {
     Box::check(cw_skeleton_mesh_interface(&skeleton, i, &interfaces[i], &size));
   }
   Box::check(cw_skeleton_merge_inner(&skeleton, caps.data(), interfaces.data()));
+  Box::check(cw_interfaces_audit(&skeleton.interfaces, box.plan.region_count));
   for (void *bytes : caps) free(bytes);
   for (void *bytes : interfaces) free(bytes);
 }
@@ -277,19 +281,20 @@ static void fill_the_box(int rule) {
   Box box(3);
   CwSkeleton &skeleton = box.skeleton;
   make_surfaces(box);
-  assert_int_equal(skeleton.outline_count, 6); // four pieces of plane 0, one of each other
-  std::vector<double> first(skeleton.wall_count, 2e-4);
+  assert_int_equal(skeleton.interfaces.outline_count, 6); // four pieces of plane 0, one of each other
+  std::vector<double> first(skeleton.surface.vertex_count, 2e-4);
   int pair_count, colours, number[4];
   int32_t(*pair)[2];
   Box::check(cw_skeleton_adjacency(&skeleton, &pair_count, &pair));
   assert_int_equal(pair_count, 6); // all four regions touch one another on plane 0
   Box::check(cw_region_numbers(4, pair_count, pair, number, nullptr, &colours));
   if (rule) refine_interfaces(skeleton, number);
+  Box::check(cw_interfaces_audit(&skeleton.interfaces, 4));
   CwRegionContext context = {};
   context.skeleton = &skeleton;
   context.domain = "box";
   context.layer_count = 4;
-  std::vector<double> growth(skeleton.wall_count, 1.5);
+  std::vector<double> growth(skeleton.surface.vertex_count, 1.5);
   context.growth = growth.data();
   context.first_height = first.data();
   Box::check(cw_region_context_make(&context));
@@ -334,20 +339,21 @@ static void a_crossing_boundary_is_examined(void **) {
   make_surfaces(box);
   int best = -1;
   const double from[3] = {0.0195, 0.015, 0.0185}; // on the front under the upper side, before the plane
-  for (int v = 0; v < skeleton.wall_count; v++) {
-    if (skeleton.on_plane[v]) continue;
-    if (best < 0 || cw_distance(skeleton.front[v], from) < cw_distance(skeleton.front[best], from)) best = v;
+  for (int v = 0; v < skeleton.surface.vertex_count; v++) {
+    if (skeleton.interfaces.nodes.on_plane[v]) continue;
+    if (best < 0 || cw_distance(skeleton.layers.front[v], from) < cw_distance(skeleton.layers.front[best], from))
+      best = v;
   }
-  assert_true(cw_distance(skeleton.front[best], from) < 2e-3);
+  assert_true(cw_distance(skeleton.layers.front[best], from) < 2e-3);
   const double through[3] = {0.0235, 0.015, 0.010};
-  cw_copy(through, skeleton.front[best]);
-  cw_copy(through, skeleton.node_x[best]);
-  std::vector<double> first(skeleton.wall_count, 2e-4);
+  cw_copy(through, skeleton.layers.front[best]);
+  cw_copy(through, skeleton.interfaces.nodes.x[best]);
+  std::vector<double> first(skeleton.surface.vertex_count, 2e-4);
   CwRegionContext context = {};
   context.skeleton = &skeleton;
   context.domain = "box";
   context.layer_count = 4;
-  std::vector<double> growth(skeleton.wall_count, 1.5);
+  std::vector<double> growth(skeleton.surface.vertex_count, 1.5);
   context.growth = growth.data();
   context.first_height = first.data();
   Box::check(cw_region_context_make(&context));
@@ -395,29 +401,29 @@ static void a_crossing_boundary_is_examined(void **) {
   cw_region_boundary_free(&boundary);
   std::remove(path.c_str());
 
-  std::vector<double> most(skeleton.wall_count, INFINITY);
+  std::vector<double> most(skeleton.surface.vertex_count, INFINITY);
   cw_region_failure_thin(&skeleton, 0, &failure, 4, most.data());
   int thinned = 0;
-  for (int v = 0; v < skeleton.wall_count; v++) {
-    if (cw_distance(skeleton.front[v], failure.at) < 4 * 2.5e-3) {
-      assert_near(most[v], 0.7 * skeleton.height[v], 1e-15);
+  for (int v = 0; v < skeleton.surface.vertex_count; v++) {
+    if (cw_distance(skeleton.layers.front[v], failure.at) < 4 * 2.5e-3) {
+      assert_near(most[v], 0.7 * skeleton.layers.height[v], 1e-15);
       thinned++;
     } else {
       assert_true(std::isinf(most[v]));
     }
   }
-  assert_true(thinned > 3 && thinned < skeleton.wall_count / 2);
+  assert_true(thinned > 3 && thinned < skeleton.surface.vertex_count / 2);
   failure.everywhere = 1;
   cw_region_failure_thin(&skeleton, 0, &failure, 4, most.data());
-  for (int t = 0; t < skeleton.wall_triangle_count; t++) {
-    for (int v : skeleton.wall_triangle[t]) {
-      if (skeleton.wall_region[t] == 0) assert_near(most[v], 0.7 * skeleton.height[v], 1e-15);
+  for (int t = 0; t < skeleton.surface.triangle_count; t++) {
+    for (int v : skeleton.surface.triangle[t]) {
+      if (skeleton.surface.region[t] == 0) assert_near(most[v], 0.7 * skeleton.layers.height[v], 1e-15);
     }
   }
   // A sound boundary: no place is known.
-  cw_copy(skeleton.wall_x[best], skeleton.front[best]);
-  skeleton.front[best][2] -= 1.5e-3;
-  cw_copy(skeleton.front[best], skeleton.node_x[best]);
+  cw_copy(skeleton.surface.x[best], skeleton.layers.front[best]);
+  skeleton.layers.front[best][2] -= 1.5e-3;
+  cw_copy(skeleton.layers.front[best], skeleton.interfaces.nodes.x[best]);
   Box::check(cw_region_failure_examine(&skeleton, 0, "none", path.c_str(), &failure));
   assert_int_equal(failure.everywhere, 1);
   cw_region_context_free(&context);

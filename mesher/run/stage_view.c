@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "mesher/run/stage_view.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesher/common/vtk.h"
+#include "pipeline/log.h"
+
+static const char *const NAMES[CW_STAGE_COUNT] = {"", "surface", "layers", "interfaces"};
+
+CwStatus cw_stage_of(const char *name, CwStage *stage) {
+  CwStatus status = CW_OK;
+  *stage = CW_STAGE_NONE;
+  for (int s = CW_STAGE_NONE + 1; s < CW_STAGE_COUNT; s++) {
+    if (!strcmp(name, NAMES[s])) *stage = (CwStage)s;
+  }
+  CW_REQUIRE(*stage != CW_STAGE_NONE, CW_ERR_USAGE,
+             "--stop-after: %s is no stage; allowed: surface, layers, interfaces", name);
+done:
+  return status;
+}
+
+// The layer top: the triangles of the surface mesh over the outer ends of their columns, with the reason why the
+// thinnest of these has not its full thickness.
+static CwStatus write_layers(const CwSkeleton *skeleton, const char *path) {
+  CwStatus status = CW_OK;
+  const CwSurfaceMesh *surface = &skeleton->surface;
+  int32_t *reason = NULL;
+  CW_NEW(reason, surface->triangle_count);
+  for (int32_t t = 0; t < surface->triangle_count; t++) {
+    for (int k = 0; k < 3; k++) {
+      int32_t of = skeleton->layers.reason[surface->triangle[t][k]];
+      if (of > reason[t]) reason[t] = of;
+    }
+  }
+  const CwVtkField field[2] = {{"reason", reason}, {"region", surface->region}};
+  const CwVtkTriangles triangles = {.title = "layer top",
+                                    .point_count = surface->vertex_count,
+                                    .x = (const double(*)[3])skeleton->layers.front,
+                                    .triangle_count = surface->triangle_count,
+                                    .triangle = (const int32_t(*)[3])surface->triangle,
+                                    .field_count = 2,
+                                    .field = field};
+  CW_TRY(cw_vtk_write(path, &triangles));
+done:
+  free(reason);
+  return status;
+}
+
+static CwStatus write_product(const CwMeshRun *run, int d, CwStage stage) {
+  CwStatus status = CW_OK;
+  const CwSkeleton *skeleton = &run->domain[d].skeleton;
+  char path[4096];
+  snprintf(path, sizeof path, "%s/mesh/%s-%s.vtk", run->run_path, run->domain[d].name, NAMES[stage]);
+  if (stage == CW_STAGE_SURFACE) CW_TRY(cw_surface_mesh_vtk(&skeleton->surface, path));
+  if (stage == CW_STAGE_LAYERS) CW_TRY(write_layers(skeleton, path));
+  if (stage == CW_STAGE_INTERFACES) CW_TRY(cw_interfaces_vtk(&skeleton->interfaces, path));
+  cw_log("%s: written", path);
+done:
+  return status;
+}
+
+CwStatus cw_stage_view(CwMeshRun *run, CwStage stage) {
+  CwStatus status = CW_OK;
+  if (run->stop_after != stage) goto done;
+  run->stopped = 1;
+  for (int d = 0; run->vtk && run->rank == 0 && d < run->domains.count; d++) CW_TRY(write_product(run, d, stage));
+  cw_log("ended after the stage %s, as asked; there is no mesh", NAMES[stage]);
+done:
+  return status;
+}

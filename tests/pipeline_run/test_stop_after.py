@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""A mesher that ends after a stage: what it writes of each product, beside the finished mesh of the shared run."""
+import re
+import shutil
+import unittest
+
+from cutwater import CELLS, RUN, error_lines, execute, command, record, with_geometry
+
+
+def triangles(path):
+    """The triangles of a VTK file, and its points in m."""
+    text = path.read_text()
+    points, count = re.search(r"POINTS (\d+) double\n", text), re.search(r"POLYGONS (\d+) \d+\n", text)
+    places = [tuple(map(float, line.split())) for line in text[points.end():].splitlines()[:int(points[1])]]
+    corners = [tuple(map(int, line.split()[1:])) for line in text[count.end():].splitlines()[:int(count[1])]]
+    return places, corners
+
+
+def rims(corners):
+    """Edges that are in one triangle alone."""
+    once = set()
+    for a, b, c in corners:
+        for edge in ((a, b), (b, c), (c, a)):
+            once ^= {tuple(sorted(edge))}
+    return once
+
+
+class StopAfter(unittest.TestCase):
+    def stopped(self, stage):
+        run = with_geometry(f"stop-{stage}")
+        result = execute(command("mesh", run, cells=CELLS, ranks=2) + ["--stop-after", stage, "--vtk"])
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn(f"ended after the stage {stage}, as asked", result.stdout)
+        self.assertEqual([path.name for path in (run / "mesh").glob("*.json") if path.name != "pass.json"], [])
+        self.assertEqual(list((run / "mesh").glob("*.h5")), [])
+        return run
+
+    def test_each_stage_shows_what_it_made(self):
+        whole = record(RUN, "mesh")["results"]
+        self.assertEqual((whole["passes"], whole["retries"]), (1, 0))  # else it is another attempt that is stopped
+        for stage in ("surface", "layers", "interfaces"):
+            run = self.stopped(stage)
+            for domain in whole["domains"]:
+                places, corners = triangles(run / f"mesh/{domain['name']}-{stage}.vtk")
+                self.assertLess(max(map(max, corners)), len(places))
+                if stage == "interfaces":
+                    continue
+                # One column of prisms over each; the walls end where caps begin.
+                self.assertEqual(len(corners) * whole["layers"], domain["prisms"])
+                self.assertGreater(len(rims(corners)), 0)
+            shutil.rmtree(run)
+
+    def test_another_stage_is_refused(self):
+        run = with_geometry("stop-unknown")
+        result = execute(command("mesh", run, cells=CELLS) + ["--stop-after", "fill"])
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertEqual(error_lines(result.stdout, "mesh"), [
+            "cutwater-mesh: error: --stop-after: fill is no stage; allowed: surface, layers, interfaces"])
+        shutil.rmtree(run)
+
+
+if __name__ == "__main__":
+    unittest.main()
