@@ -25,9 +25,8 @@ extern "C" {
 #endif
 
 // One list makes the codes, their exit statuses and their texts.
-// Codes above zero are fatal and carry a message. Codes below zero are quiet and inner: a caller handles them.
+// All but CW_OK are fatal and carry a message.
 #define CW_STATUS_LIST(X)                                                                                              \
-  X(CW_RETRY, -1, "try again another way")                                                                             \
   X(CW_OK, 0, "fine")                                                                                                  \
   X(CW_ERR_USAGE, 2, "wrong use of the command line")                                                                  \
   X(CW_ERR_INPUT, 3, "wrong input")                                                                                    \
