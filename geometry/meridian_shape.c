@@ -12,6 +12,13 @@ enum { SHARES = 3, STATIONS = 49, ROUNDS = 120 };
 static const double LEAST_BEND = 0.62; // 0.6 is wanted, of the curve and not of samples
 static const double least_share[SHARES] = {0.2, 0.02, 0}, largest_share[SHARES] = {3, 0.95, 0.8};
 
+// Radii of the hub's poles grow, or the hub would reach out beyond the interface and come back; its last piece keeps a
+// tenth of the way, for the tangent at its end.
+static double largest_of(const CwDesign *design, int share) {
+  const double hub = design->hub_diameter / 2, way = design->interface_radius - hub;
+  return share > 0 ? largest_share[share] : fmin(largest_share[0], 0.9 * way / (design->inlet_diameter / 2 - hub));
+}
+
 typedef struct {
   const CwDesign *design;
   const double *given; // of every share, NAN where it is free
@@ -42,7 +49,7 @@ static double cost(const Problem *problem, const double at[SHARES]) {
   double share[SHARES], outside = 0, back = 0, sharpest = 0;
   for (int i = 0; i < SHARES; i++) {
     share[i] =
-        cw_case_given(problem->given[i]) ? problem->given[i] : fmin(largest_share[i], fmax(least_share[i], at[i]));
+        cw_case_given(problem->given[i]) ? problem->given[i] : fmin(largest_of(design, i), fmax(least_share[i], at[i]));
     outside += pow(at[i] - share[i], 2);
   }
   cw_meridian_walls(design, share[0], share[1], share[2], &hub, &shroud);
@@ -134,7 +141,7 @@ void cw_meridian_shape(const CwImpellerTable *table, CwDesign *design) {
   double *share[SHARES] = {&design->hub_pole_radial, &design->shroud_pole_axial, &design->shroud_pole_radial};
   for (int i = 0; i < SHARES; i++) {
     const int open = !cw_case_given(given[i]);
-    *share[i] = open ? round(1e3 * fmin(largest_share[i], fmax(least_share[i], best[i]))) / 1e3 : given[i];
+    *share[i] = open ? round(1e3 * fmin(largest_of(design, i), fmax(least_share[i], best[i]))) / 1e3 : given[i];
     design->source[quantity[i]] = open ? "monotone passage area with the least bending" : "case";
   }
 }

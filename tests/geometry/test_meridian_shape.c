@@ -91,6 +91,27 @@ static void bends_least(void **state) {
   assert_true(monotone > 0);
 }
 
+// At high specific speed, where the eye is nearly as wide as D2, too, the hub does not reach beyond its end.
+static void the_hub_goes_outwards(void **state) {
+  for (int i = 0; i < 10; i++) {
+    CwCase table;
+    CwDesign design;
+    CwMeridian meridian;
+    cw_case_defaults(&table);
+    const double nq = 6 * pow(15, i / 9.0), flow_rate = 0.6, head = 34;
+    table.operating_point.flow_rate = flow_rate;
+    table.operating_point.head = head;
+    table.operating_point.speed = nq * pow(head, 0.75) / sqrt(flow_rate) * M_PI / 30;
+    if (cw_hydraulic_design(&table, &design) != CW_OK || cw_meridian_make(&design, &meridian) != CW_OK)
+      fail_msg("nq %.1f: %s", nq, cw_fail_message());
+    for (int k = 0; k <= 100; k++) {
+      double x[2], dx[2];
+      cw_meridian_point(&meridian.hub, k / 100.0, x, dx);
+      if (!(dx[0] >= -1e-12 && hypot(dx[0], dx[1]) > 0)) fail_msg("nq %.1f: the hub turns back at %.4f m", nq, x[0]);
+    }
+  }
+}
+
 static void size_does_not_matter(void **state) {
   CwDesign large = paper_design;
   double *length[] = {&large.inlet_diameter,
@@ -126,9 +147,8 @@ static void given_poles_are_kept(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(area_is_monotone),
-      cmocka_unit_test(bends_least),
-      cmocka_unit_test(size_does_not_matter),
+      cmocka_unit_test(area_is_monotone),      cmocka_unit_test(bends_least),
+      cmocka_unit_test(the_hub_goes_outwards), cmocka_unit_test(size_does_not_matter),
       cmocka_unit_test(given_poles_are_kept),
   };
   return cmocka_run_group_tests(tests, setup, NULL);
