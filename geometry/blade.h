@@ -6,7 +6,7 @@
 #ifndef CUTWATER_GEOMETRY_BLADE_H
 #define CUTWATER_GEOMETRY_BLADE_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/meridian.h"
 #include "pipeline/status.h"
 

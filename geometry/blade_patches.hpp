@@ -8,7 +8,7 @@
 #define CUTWATER_GEOMETRY_BLADE_PATCHES_HPP
 
 #include "geometry/blade_shape.hpp"
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/meridian.h"
 
 // Makes all surfaces, in the model unit (m), and curves of a shape whose name and sections are set. Throws

@@ -4,7 +4,7 @@
 #ifndef CUTWATER_GEOMETRY_CORRELATIONS_H
 #define CUTWATER_GEOMETRY_CORRELATIONS_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "geometry/correlations.h"
+#include "geometry/design_value.h"
 #include "geometry/viscous_correction.h"
 
 static const double degree = M_PI / 180;

@@ -7,6 +7,7 @@
 
 #include "geometry/correlations.h"
 #include "geometry/design_check.h"
+#include "geometry/design_value.h"
 #include "geometry/volute_section.h"
 #include "pipeline/record.h"
 

@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/pump.h"
 #include "pipeline/status.h"
 

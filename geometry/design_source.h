@@ -3,7 +3,7 @@
 #ifndef CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 #define CUTWATER_GEOMETRY_DESIGN_SOURCE_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 
 // Takes the case's value where it is given, else the computed one, and notes which.
 #define TAKE(member, given, computed, text)                                                                            \

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design_value.h"
 
 // How each kind of quantity is shown, and stored in design.json.
 enum { NUMBER, LENGTH, HEAD, ANGLE, SPEED, FLOW, ANGULAR_SPEED, AREA, DIFFUSIVITY, POWER, PRESSURE };

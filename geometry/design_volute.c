@@ -5,6 +5,7 @@
 
 #include "geometry/design_source.h"
 #include "geometry/volute_diffuser.h"
+#include "geometry/volute_design.h"
 #include "geometry/volute_section.h"
 
 static const double gravity = 9.80665;

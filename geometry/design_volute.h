@@ -3,7 +3,7 @@
 #ifndef CUTWATER_GEOMETRY_DESIGN_VOLUTE_H
 #define CUTWATER_GEOMETRY_DESIGN_VOLUTE_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 

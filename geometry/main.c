@@ -6,6 +6,7 @@
 
 #include "geometry/design_check.h"
 #include "geometry/design_file.h"
+#include "geometry/design_value.h"
 #include "geometry/faces_table.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/model_unit.h"

@@ -13,7 +13,7 @@
 #ifndef CUTWATER_GEOMETRY_MERIDIAN_H
 #define CUTWATER_GEOMETRY_MERIDIAN_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus

@@ -3,7 +3,7 @@
 #ifndef CUTWATER_GEOMETRY_PICTURE_H
 #define CUTWATER_GEOMETRY_PICTURE_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/status.h"
 

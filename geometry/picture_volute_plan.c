@@ -5,6 +5,7 @@
 #include "geometry/picture.h"
 #include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
+#include "geometry/volute_tongue.h"
 
 enum { SPIRAL_POINTS = 181, NOSE_POINTS = 25, WALL_POINTS = 33, LINE_MOST = 512, STEP = 45 };
 static const double degree = M_PI / 180;

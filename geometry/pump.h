@@ -5,7 +5,7 @@
 #ifndef CUTWATER_GEOMETRY_PUMP_H
 #define CUTWATER_GEOMETRY_PUMP_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/measure.h"
 #include "geometry/solid.h"
 #include "pipeline/case.h"

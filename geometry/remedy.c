@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "geometry/remedy.h"
+#include "geometry/design_value.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,7 +10,7 @@
 
 #include <stddef.h>
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "pipeline/case.h"
 #include "pipeline/status.h"
 

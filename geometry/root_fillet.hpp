@@ -13,7 +13,7 @@
 #define CUTWATER_GEOMETRY_ROOT_FILLET_HPP
 
 #include "geometry/blade_shape.hpp"
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 
 // Sets foot, reach and handle of all patches of a shape whose points are made. Throws Standard_Failure where
 // the fillets of hub and shroud leave too little of the blade between them, or have no room before its leading

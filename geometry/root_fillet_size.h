@@ -6,7 +6,7 @@
 #define CUTWATER_GEOMETRY_ROOT_FILLET_SIZE_H
 
 #include "geometry/blade.h"
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 
 #ifdef __cplusplus
 extern "C" {

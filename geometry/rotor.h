@@ -5,7 +5,7 @@
 #ifndef CUTWATER_GEOMETRY_ROTOR_H
 #define CUTWATER_GEOMETRY_ROTOR_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/solid.h"
 #include "pipeline/status.h"
 

@@ -14,7 +14,7 @@
 #include <gp_Pnt.hxx>
 
 #include "geometry/blade_shape.hpp"
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/meridian.h"
 #include "geometry/shell_builder.hpp"
 #include "geometry/solid.hpp"

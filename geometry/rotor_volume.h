@@ -4,7 +4,7 @@
 #ifndef CUTWATER_GEOMETRY_ROTOR_VOLUME_H
 #define CUTWATER_GEOMETRY_ROTOR_VOLUME_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus

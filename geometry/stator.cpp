@@ -23,6 +23,7 @@
 #include "geometry/stator_spline.hpp"
 #include "geometry/volute_diffuser.h"
 #include "geometry/volute_section.h"
+#include "geometry/volute_tongue.h"
 
 namespace {
 
@@ -39,7 +40,7 @@ const double U_MARGIN = 0.1;      // rad: keeps the faces of cylinders and cones
 enum { BOTTOM, TOP };
 
 // The stator in the making. In the arrays, the last index says below or above z = 0; sectors count from the
-// start of the kink line at the tongue. Names of the points as in volute_design.h.
+// start of the kink line at the tongue. Names of the points as in volute.h.
 class StatorMaker {
 public:
   StatorMaker(const CwVolute &volute, double unit)
@@ -312,7 +313,11 @@ private:
 
     for (const Handle(Geom_BSplineSurface) & surface : {inner_surface, sides[BOTTOM], sides[TOP]})
       keep_off_spiral(surface);
+    add_diffuser_faces(outer, inner_surface, sides);
+  }
 
+  void add_diffuser_faces(const Handle(Geom_BSplineSurface) & outer, const Handle(Geom_BSplineSurface) & inner_surface,
+                          const std::array<Handle(Geom_BSplineSurface), 2> &sides) {
     const std::array<int, 4> &end = circle_end_.vertex, &arc = circle_end_.arc;
     int outer_edge[2], inner_edge[2];
     for (int side : {BOTTOM, TOP}) {

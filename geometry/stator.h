@@ -6,7 +6,7 @@
 #define CUTWATER_GEOMETRY_STATOR_H
 
 #include "geometry/solid.h"
-#include "geometry/volute_design.h"
+#include "geometry/volute.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus

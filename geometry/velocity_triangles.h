@@ -5,7 +5,7 @@
 #ifndef CUTWATER_GEOMETRY_VELOCITY_TRIANGLES_H
 #define CUTWATER_GEOMETRY_VELOCITY_TRIANGLES_H
 
-#include "geometry/hydraulic_design.h"
+#include "geometry/design.h"
 #include "geometry/meridian.h"
 #include "pipeline/status.h"
 

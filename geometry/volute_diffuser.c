@@ -6,6 +6,7 @@
 #include "geometry/root.h"
 #include "geometry/standard_bore.h"
 #include "geometry/volute_section.h"
+#include "geometry/volute_tongue.h"
 
 static const double degree = M_PI / 180;
 static const double PIPE_SPEED = 4;            // m/s, economic in pipes

@@ -8,7 +8,7 @@
 #ifndef CUTWATER_GEOMETRY_VOLUTE_DIFFUSER_H
 #define CUTWATER_GEOMETRY_VOLUTE_DIFFUSER_H
 
-#include "geometry/volute_design.h"
+#include "geometry/volute.h"
 #include "pipeline/status.h"
 
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Sections of the volute and its outer wall as functions of position; see volute_design.h for the shape, the
+// Sections of the volute and its outer wall as functions of position; see volute.h for the shape, the
 // names and the families. They need of the volute only its input, its law and the angles of its arcs.
 #ifndef CUTWATER_GEOMETRY_VOLUTE_SECTION_H
 #define CUTWATER_GEOMETRY_VOLUTE_SECTION_H
 
-#include "geometry/volute_design.h"
+#include "geometry/volute.h"
 
 #ifdef __cplusplus
 extern "C" {

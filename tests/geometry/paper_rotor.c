@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "geometry/hydraulic_design.h"
 #include "geometry/rotor.h"
 
 CwCase paper(void) {

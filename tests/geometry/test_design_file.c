@@ -9,6 +9,7 @@
 #include <jansson.h>
 
 #include "geometry/design_file.h"
+#include "geometry/hydraulic_design.h"
 #include "pipeline/case.h"
 
 static double number(const json_t *root, const char *key) {

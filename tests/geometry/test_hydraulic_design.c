@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "geometry/design_value.h"
 #include "geometry/hydraulic_design.h"
 #include "geometry/velocity_triangles.h"
 #include "pipeline/case.h"

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "geometry/hydraulic_design.h"
 #include "geometry/picture.h"
 #include "pipeline/case.h"
 

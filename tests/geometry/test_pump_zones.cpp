@@ -19,6 +19,7 @@ extern "C" {
 #include <cmocka.h>
 }
 
+#include "geometry/hydraulic_design.h"
 #include "geometry/measure.h"
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"

@@ -34,6 +34,7 @@ extern "C" {
 #include "geometry/measure.h"
 #include "geometry/solid.hpp"
 #include "geometry/stator.h"
+#include "geometry/volute_design.h"
 #include "geometry/volute_section.h"
 #include "tests/geometry/near_to.h"
 

@@ -25,6 +25,7 @@ extern "C" {
 #include "geometry/measure.h"
 #include "geometry/model_unit.h"
 #include "geometry/solid.hpp"
+#include "geometry/volute_design.h"
 #include "geometry/stator.h"
 
 static const double degree = M_PI / 180, gravity = 9.80665;

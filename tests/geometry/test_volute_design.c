@@ -9,6 +9,7 @@
 
 #include "geometry/volute_design.h"
 #include "geometry/volute_section.h"
+#include "geometry/volute_tongue.h"
 #include "tests/geometry/near_to.h"
 
 static const double degree = M_PI / 180, mm = 1e-3;
