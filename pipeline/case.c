@@ -289,6 +289,13 @@ done:
   return status;
 }
 
+int cw_walls_auto(const CwWalls *walls) {
+  const CwWallGroup *const group[] = {&walls->blade, &walls->hub_shroud, &walls->volute, &walls->pipe};
+  for (size_t i = 0; i < sizeof group / sizeof *group; ++i)
+    if (!cw_case_given(group[i]->y_plus) && !cw_case_given(group[i]->first_height)) return 1;
+  return 0;
+}
+
 CwStatus cw_case_read(const char *path, CwCase *table) {
   CwStatus status = CW_OK;
   char *text = NULL, shown_path[PATH_SHOWN + 4];

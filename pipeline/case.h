@@ -30,7 +30,8 @@ typedef enum { CW_FILL_KERNEL, CW_FILL_TETGEN } CwFillMethod;
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
 
-// A value the case leaves out (an optional key) is NAN: the hydraulic design then computes it.
+// A value the case leaves out (an optional key) is NAN: the hydraulic design or, of an automatic key, the mesher then
+// finds it.
 static inline int cw_case_given(double value) {
   return !isnan(value);
 }
@@ -116,7 +117,7 @@ typedef struct {
 
 // What one group of walls asks of its layers.
 typedef struct {
-  double y_plus;          // target
+  double y_plus;          // target; NAN: auto
   double velocity;        // m/s, of the flow along the wall; NAN: from the design
   double first_height;    // m; NAN: from y+ and velocity
   double growth_ratio;    // the largest; NAN: that of all walls
@@ -126,8 +127,8 @@ typedef struct {
 // Prism layers. The first height follows from y+ with the velocity and length scales of the wall. Their number is one
 // for all: columns are shared where patches meet, and a mesh of prisms and tetrahedra has no cell that ends a layer.
 typedef struct {
-  int layer_count;
-  double growth_ratio;    // the largest
+  int layer_count;        // 0: auto
+  double growth_ratio;    // the largest; NAN: auto
   double total_thickness; // m, the target of a column; NAN: from first height, count and growth
   CwYPlusAt y_plus_at;
   CwWallGroup blade, hub_shroud, volute, pipe;
@@ -161,6 +162,9 @@ typedef struct {
 // Every key at its default, as for an empty file: keys that the hydraulic design computes are NAN, required
 // ones NAN, 0 or "".
 void cw_case_defaults(CwCase *table);
+
+// Whether a first height is left open: neither given nor by a y+.
+int cw_walls_auto(const CwWalls *walls);
 
 // Reads and validates `path`, a YAML file of at most 1 MiB. A file that cannot be read fails with CW_ERR_IO,
 // bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then

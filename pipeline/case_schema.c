@@ -31,12 +31,15 @@ static const char *const treatments[] = {"smooth", "rough", NULL};
   { section, key, CW_KEY_REAL, CW_KEY_DEFAULT, unit, least, most, fallback, NULL, AT(field), meaning }
 #define REAL_COMPUTED(section, key, unit, least, most, field, meaning)                                                 \
   { section, key, CW_KEY_REAL, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
+#define REAL_AUTO(section, key, unit, least, most, field, meaning)                                                     \
+  { section, key, CW_KEY_REAL, CW_KEY_AUTO, unit, least, most, NAN, NULL, AT(field), meaning }
 #define CHOICE(section, key, choices, fallback, field, meaning)                                                        \
   { section, key, CW_KEY_CHOICE, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
 
 // The layers of one group of walls.
 #define WALL_GROUP(suffix, group, place)                                                                               \
-  REAL_DEFAULT("walls", "y_plus_" suffix, "", 0.05, 1000, 30, walls.group.y_plus, "target " place),                    \
+  REAL_AUTO("walls", "y_plus_" suffix, "", 0.05, 1000, walls.group.y_plus,                                             \
+            "target " place "; auto: 30, more where the cells are large, less where the passage is narrow"),           \
       REAL_COMPUTED("walls", "velocity_" suffix "_m_per_s", "m_per_s", 0.001, 1000, walls.group.velocity,              \
                     "of the flow along the walls " place "; computed: by the design"),                                 \
       REAL_COMPUTED("walls", "first_height_" suffix "_um", "um", 0.01, 1e5, walls.group.first_height,                  \
@@ -194,10 +197,10 @@ const CwCaseKey cw_case_keys[] = {
     WALL_GROUP("hub_shroud", hub_shroud, "on hub and shroud"),
     WALL_GROUP("volute", volute, "in the volute, on the tongue and in the neck"),
     WALL_GROUP("pipe", pipe, "in the suction and discharge pipes and in the diffuser"),
-    {"walls", "layer_count", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 40, 5, NULL, AT(walls.layer_count),
-     "number of prism layers, on all walls"},
-    REAL_DEFAULT("walls", "growth_ratio", "", 1, 2, 1.2, walls.growth_ratio,
-                 "largest ratio of the heights of neighbouring layers"),
+    {"walls", "layer_count", CW_KEY_INT, CW_KEY_AUTO, "", 1, 40, 0, NULL, AT(walls.layer_count),
+     "number of prism layers, on all walls; auto: as many as lead from the first height to the size of the tetrahedra"},
+    REAL_AUTO("walls", "growth_ratio", "", 1, 2, walls.growth_ratio,
+              "largest ratio of the heights of neighbouring layers; auto: 1.3, columns take what they need of it"),
     REAL_COMPUTED("walls", "total_thickness_mm", "mm", 0.001, 200, walls.total_thickness,
                   "of all layers together; computed: from first height, count and growth ratio"),
 
@@ -336,12 +339,14 @@ static const char *unit_text(const CwCaseKey *key) {
 
 void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]) {
   size_t size = CW_KEY_ALLOWED_SIZE, used = 0;
+  const char *or_auto = key->presence == CW_KEY_AUTO ? ", or auto" : "";
   switch (key->type) {
   case CW_KEY_REAL:
-    snprintf(allowed, size, "%.10g to %.10g%s%s", key->least, key->most, key->unit[0] ? " " : "", unit_text(key));
+    snprintf(allowed, size, "%.10g to %.10g%s%s%s", key->least, key->most, key->unit[0] ? " " : "", unit_text(key),
+             or_auto);
     return;
   case CW_KEY_INT:
-    snprintf(allowed, size, "a whole number from %.0f to %.0f", key->least, key->most);
+    snprintf(allowed, size, "a whole number from %.0f to %.0f%s", key->least, key->most, or_auto);
     return;
   case CW_KEY_INT64:
     snprintf(allowed, size, "a whole number from %.0f to %.0f, as 500000, 500k or 2M", key->least, key->most);
@@ -452,6 +457,8 @@ void cw_case_schema_markdown(FILE *stream) {
       snprintf(fallback, sizeof fallback, "required");
     else if (key->presence == CW_KEY_COMPUTED)
       snprintf(fallback, sizeof fallback, "computed");
+    else if (key->presence == CW_KEY_AUTO)
+      snprintf(fallback, sizeof fallback, "auto");
     else if (key->type == CW_KEY_CHOICE)
       snprintf(fallback, sizeof fallback, "%s", key->choices[(int)key->fallback]);
     else

@@ -17,7 +17,9 @@ extern "C" {
 typedef enum { CW_KEY_REAL, CW_KEY_INT, CW_KEY_INT64, CW_KEY_CHOICE, CW_KEY_NAME } CwKeyType;
 
 // A key left out: an error, the default, or NAN for the hydraulic design (or the mesher) to compute.
-typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED } CwKeyPresence;
+// A key left out is an error, has its default, or is left to the hydraulic design. An automatic key may also be given
+// as "auto", which is its default: the mesher then finds the value. A value left open is NAN, or 0 of a count.
+typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED, CW_KEY_AUTO } CwKeyPresence;
 
 // Units that a key may end in. `value` SI units are value * numerator / denominator: a quotient, so that 74
 // mm is the double nearest to 0.074 m.

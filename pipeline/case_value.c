@@ -89,6 +89,9 @@ int cw_case_value_read(const CwCaseKey *key, const CwUnit *unit, const char *tex
   double number = NAN;
   if (plain && (!*text || !strcmp(text, "~") || !strcasecmp(text, "null"))) {
     what = key->presence == CW_KEY_REQUIRED ? "is no value" : "is no value (leave the key out for its default)";
+  } else if (key->presence == CW_KEY_AUTO && plain && !strcmp(text, "auto")) {
+    cw_case_key_set(key, key->fallback, table);
+    return 1;
   } else if (key->type == CW_KEY_NAME) {
     if (is_name(text, key->most))
       snprintf((char *)table + key->offset, CW_NAME_SIZE, "%s", text);

@@ -62,8 +62,10 @@ def mesh_lines(result):
     if faces:
         first = sum(wall["first_height_met_faces"] for wall in walls)
         full = sum(wall["full_thickness_faces"] for wall in walls)
+        jumps = sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls)
         yield "layers", (f"{result['layers']} on {faces:,} wall faces; first height as asked on "
-                         f"{100 * first / faces:.1f} %, full thickness on {100 * full / faces:.1f} %")
+                         f"{100 * first / faces:.1f} %, full thickness on {100 * full / faces:.1f} %; volumes change by "
+                         f"up to 4 across the layer top on {100 * (1 - jumps / faces):.1f} %")
     yield "volume", ", ".join(f"{domain['name']} {100 * domain['volume_error']:+.3f} %" for domain in domains) + \
         " from its solid; least cell " + f"{1e9 * min(domain['least_cell_volume_m3'] for domain in domains):.2g} mm3"
 
@@ -89,6 +91,7 @@ def main():
         record = {stage: read(run, stage) for stage in ("geometry", "mesh", "export", "report")}
         lines = [("head", f"{record['geometry']['results']['predicted_head_m']:.2f} m predicted by the design")]
         lines += mesh_lines(record["mesh"]["results"])
+        lines += [("note", text) for text in record["mesh"]["results"]["headlines"]]
         seconds = {stage: record[stage]["seconds"] for stage in record}
         whole = sum(seconds[stage] for stage in ("geometry", "mesh", "export"))
         lines.append(("time", ", ".join(f"{stage} {shown_time(value)}" for stage, value in seconds.items()) +

@@ -7,23 +7,13 @@
 
 #include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
+#include "mesher/heights/layer_count.h"
 #include "mesher/heights/layer_heights.h"
 #include "mesher/layers/height_gradation.h"
 #include "mesher/parallel/share.h"
 
-static const double TALLER_COLUMN = 3.25;   // of the wanted length, where the last layer would else be below LOW_LAST
-static const double TALLEST_AT_BEND = 2;    // the same and that of all where the wall bends up: there columns crowd
-static const double BEND = 0.94;            // least cosine of the normals about a vertex of a wall as good as flat
-static const double HOLLOW = 0.25;          // least rise of an edge over its length at a bend that is concave
-static const double LAST_LAYER = 1.0;       // its height over that of a regular tetrahedron above, at most
-static const double LOW_LAST = 0.75;        // the same where columns are at their tallest
-static const double LAST_IN_HOLLOW = 0.65;  // the same at concave bends, times their cosine: tetrahedra there have two
-                                            // faces on the front, and are the flatter the sharper the bend is
-static const double FINE_IN_HOLLOW = 0.8;   // the same where layers are fine: with less, the slope of heights holds the
-                                            // columns beside a hollow below half a tetrahedron
-static const double FINE = 0.5;             // of the wanted length: columns of even layers below that are fine
-static const double REGULAR_HEIGHT = 0.816; // of a regular tetrahedron, over its edge
-static const double EVEN_LAYERS = 1.05;     // of count times first height: hardly any growth
+static const double BEND = 0.94;   // least cosine of the normals about a vertex of a wall as good as flat
+static const double HOLLOW = 0.25; // least rise of an edge over its length at a bend that is concave
 static const double LITTLE_GROWTH = 1.1;
 static const double KEPT_GROWTH = 0.7; // least in columns thinned for their shape, above CW_LEAST_GROWTH: thinned
                                        // further, some made angles of 16 degrees where others have 19
@@ -35,31 +25,19 @@ typedef struct {
   double rise;      // greatest, of the edges against it, over their lengths: above 0 in a hollow
 } Bend;
 
-// A column up to a last layer of `last` times the height of a regular tetrahedron; no layer grows by more than
-// `growth`.
-static double height_below(double last, double first, int count, double growth, double size) {
-  if (count > 1) growth = fmin(growth, pow(fmax(last * REGULAR_HEIGHT * size / first, 1), 1.0 / (count - 1)));
-  return cw_layer_thickness(first, count, growth);
-}
-
 double cw_column_height_least(double first, int layer_count) {
-  return EVEN_LAYERS * layer_count * first;
+  return CW_EVEN_LAYERS * layer_count * first;
 }
 
-// The tallest column that is fair below cells of the size `size`: its last layer no taller than `last` of a regular
-// tetrahedron, itself no taller than `tallest` such sizes, or up to `taller` where the last layer would be low. Columns
-// give up growth for it, never the first height.
-static double fair_height(double first, int count, double growth, double size, double last, double tallest,
-                          double taller) {
-  double full = height_below(last, first, count, growth, size);
-  double low = height_below(fmin(last, LOW_LAST), first, count, growth, size);
-  double most = fmax(tallest * size, fmin(low, taller * size));
-  return fmax(cw_column_height_least(first, count), fmin(most, full));
+// The column whose last layer is `last` times as tall as a regular tetrahedron on edges of `size`, or the tallest with
+// no layer that grows by more than `growth`. Columns give up growth for it, never the first height.
+static double fair_height(double first, int count, double growth, double size, double last) {
+  if (count > 1) growth = fmin(growth, pow(fmax(last * CW_REGULAR_HEIGHT * size / first, 1), 1.0 / (count - 1)));
+  return fmax(cw_column_height_least(first, count), cw_layer_thickness(first, count, growth));
 }
 
 double cw_column_height_flat(const CwLayerTarget *layers, int layer_count, double size) {
-  return fmin(layers->thickness, fair_height(layers->first_height, layer_count, layers->growth, size, LAST_LAYER,
-                                             CW_TALLEST_COLUMN, TALLER_COLUMN));
+  return fmin(layers->thickness, fair_height(layers->first_height, layer_count, layers->growth, size, layers->last));
 }
 
 // What the tasks below read.
@@ -68,6 +46,7 @@ typedef struct {
   const CwIncident *around;
   const CwColumnHeights *heights;
   const CwLayerTarget *layers; // of each CAD face
+  const CwLayerTarget *asked;  // of each vertex
   const double *graded;        // heights
 } Columns;
 
@@ -119,20 +98,16 @@ static CwStatus find_fair(void *context, int32_t v, void *out) {
   const double *x = skeleton->surface.x[v];
   if (cw_orbit_node_turns(&skeleton->orbits, v) > 0) return CW_OK;
   Bend bend = bend_at(skeleton, columns->around, v);
-  int bent = bend.cosine < BEND, crowded = bent && bend.rise > 0;
-  double size = size_at(skeleton, x), height = 0, last = LAST_LAYER;
-  if (bent && bend.rise > HOLLOW) {
-    int fine = cw_column_height_least(heights->first_height[v], heights->layer_count) < FINE * size;
-    last = (fine ? FINE_IN_HOLLOW : LAST_IN_HOLLOW) * bend.cosine;
-  }
+  double size = size_at(skeleton, x), height = 0, last = columns->asked[v].last;
+  // In a hollow tetrahedra have two faces on the layer top, and are the flatter the sharper the bend is.
+  if (bend.cosine < BEND && bend.rise > HOLLOW) last *= bend.cosine;
   for (int pass = 0; pass < 2; pass++) {
     double end[3];
     for (int k = 0; k < 3; k++) end[k] = x[k] - height * bend.normal[k];
     double above = fmin(fmax(size, size_at(skeleton, end)), size + CW_HEIGHT_SLOPE * height);
-    height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last,
-                         crowded ? TALLEST_AT_BEND : CW_TALLEST_COLUMN, crowded ? TALLEST_AT_BEND : TALLER_COLUMN);
+    height = fair_height(heights->first_height[v], heights->layer_count, heights->growth[v], above, last);
   }
-  *(double *)out = fmin(heights->target[v], height);
+  *(double *)out = fmin(columns->asked[v].thickness, height);
   return CW_OK;
 }
 
@@ -166,7 +141,7 @@ static CwStatus find_asked(void *context, int32_t v, void *out) {
   CwStatus status = CW_OK;
   const Columns *columns = context;
   const double *x = columns->skeleton->surface.x[v];
-  CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY};
+  CwLayerTarget of = {.first_height = INFINITY, .thickness = INFINITY, .last = INFINITY};
   int32_t before = -1;
   for (int32_t i = columns->around->start[v]; i < columns->around->start[v + 1]; i++) {
     int32_t face = columns->skeleton->surface.face[columns->around->triangle[i]];
@@ -175,6 +150,7 @@ static CwStatus find_asked(void *context, int32_t v, void *out) {
     of.first_height = fmin(of.first_height, columns->layers[face].first_height);
     of.thickness = fmin(of.thickness, columns->layers[face].thickness);
     of.growth = fmax(of.growth, columns->layers[face].growth);
+    of.last = fmin(of.last, columns->layers[face].last);
   }
   CW_REQUIRE(isfinite(of.thickness), CW_ERR_MESH, "wall vertex at (%.3f, %.3f, %.3f) mm belongs to no triangle",
              CW_MM(x));
@@ -183,23 +159,20 @@ done:
   return status;
 }
 
-// Away from where patches meet the first height grows no faster than columns whose layers grow a little can.
+// What the walls ask of each vertex. Away from where patches meet the first height grows no faster than columns whose
+// layers grow a little can.
 static CwStatus take_asked(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
-                           CwColumnHeights *heights) {
+                           CwColumnHeights *heights, CwLayerTarget *asked) {
   CwStatus status = CW_OK;
-  CwLayerTarget *asked = NULL;
   Columns columns = {.skeleton = skeleton, .around = around, .layers = layers};
-  CW_NEW_UNSET(asked, skeleton->surface.vertex_count);
   CW_TRY(cw_share("heights: asked", skeleton->surface.vertex_count, sizeof *asked, find_asked, &columns, asked));
   for (int32_t v = 0; v < skeleton->surface.vertex_count; v++) {
     heights->first_height[v] = asked[v].first_height;
-    heights->target[v] = asked[v].thickness;
     heights->growth[v] = asked[v].growth;
   }
   CW_TRY(grade(skeleton, around, CW_HEIGHT_SLOPE / cw_layer_thickness(1, heights->layer_count, LITTLE_GROWTH),
                heights->first_height));
 done:
-  free(asked);
   return status;
 }
 
@@ -217,24 +190,22 @@ static void turn_copies(const CwSkeletonOrbits *orbits, int32_t count, CwColumnH
 CwStatus cw_column_heights_make(const CwSkeleton *skeleton, const CwIncident *around, const CwLayerTarget *layers,
                                 int layer_count, CwColumnHeights *heights) {
   CwStatus status = CW_OK;
-  double *fair = NULL;
+  CwLayerTarget *asked = NULL;
   *heights = (CwColumnHeights){.layer_count = layer_count};
   CW_NEW_UNSET(heights->first_height, skeleton->surface.vertex_count);
   CW_NEW_UNSET(heights->growth, skeleton->surface.vertex_count);
   CW_NEW_UNSET(heights->target, skeleton->surface.vertex_count);
   CW_NEW_UNSET(heights->least, skeleton->surface.vertex_count);
-  CW_NEW_UNSET(fair, skeleton->surface.vertex_count);
-  CW_TRY(take_asked(skeleton, around, layers, heights));
-  Columns columns = {.skeleton = skeleton, .around = around, .heights = heights};
-  CW_TRY(cw_share("heights: fair ones", skeleton->surface.vertex_count, sizeof *fair, find_fair, &columns, fair));
-  free(heights->target);
-  heights->target = fair;
-  fair = NULL;
+  CW_NEW_UNSET(asked, skeleton->surface.vertex_count);
+  CW_TRY(take_asked(skeleton, around, layers, heights, asked));
+  Columns columns = {.skeleton = skeleton, .around = around, .heights = heights, .asked = asked};
+  CW_TRY(cw_share("heights: fair ones", skeleton->surface.vertex_count, sizeof *heights->target, find_fair, &columns,
+                  heights->target));
   turn_copies(&skeleton->orbits, skeleton->surface.vertex_count, heights);
   double lowest = cw_layer_thickness(1, layer_count, KEPT_GROWTH);
   for (int32_t v = 0; v < skeleton->surface.vertex_count; v++) heights->least[v] = lowest * heights->first_height[v];
 done:
-  free(fair);
+  free(asked);
   return status;
 }
 

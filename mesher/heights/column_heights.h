@@ -4,7 +4,7 @@
 //
 //   meeting patches  the finer first height, the lesser thickness and the larger growth hold
 //   first height     grows away from there no faster than columns whose layers grow by a tenth can follow
-//   fair height      the last layer no taller than the tetrahedron above, the column no taller than some wanted lengths
+//   fair height      the last layer no taller than its share of the tetrahedron above (layer_count.h)
 #ifndef CUTWATER_MESHER_HEIGHTS_COLUMN_HEIGHTS_H
 #define CUTWATER_MESHER_HEIGHTS_COLUMN_HEIGHTS_H
 
@@ -12,7 +12,7 @@
 #include "mesher/heights/wall_targets.h"
 #include "mesher/skeleton/skeleton.h"
 
-#define CW_TALLEST_COLUMN 2.5 // of the wanted length at the wall
+#define CW_TALLEST_COLUMN 2.5 // of the wanted length at the wall: about what columns come to, for the planes
 
 // Of each wall vertex.
 typedef struct {

@@ -20,6 +20,7 @@ double cw_layer_thickness(double first, int count, double growth);
 // `growth_max`, or fall below CW_LEAST_GROWTH, it stays there and the first height follows the column. Returns the
 // first height it came to, m.
 #define CW_LEAST_GROWTH 0.6
+#define CW_EVEN_LAYERS 1.05    // of count times first height: columns are asked to be no shorter, and hardly grow there
 enum { CW_LAYERS_MOST = 200 }; // count of layers
 double cw_layer_fractions(double height, double first, int count, double growth_max, double *fraction);
 

@@ -9,6 +9,7 @@
 #include "pipeline/status.h"
 
 #define CW_HEIGHT_SLOPE 0.3 // heights of columns change by no more per distance between them
+#define CW_GAP_SHARE 0.35   // of the gap to another wall, the most that a column takes
 
 typedef struct {
   const char *step;                                          // in the ledger

@@ -101,7 +101,7 @@ static int meet(void *context, int32_t f) {
   if (way <= ray->offset || way > ray->far) return 0;
   if (wall) {
     if (facing < 0.05 || belongs_to_crease(ray->work, ray->v, f)) return 0;
-    ray->best = fmin(ray->best, 0.35 * way / ray->stretch);
+    ray->best = fmin(ray->best, CW_GAP_SHARE * way / ray->stretch);
   } else {
     // A column on a rim runs inside its own cap and must not take that for an obstacle.
     if (facing < (ray->guided ? 0.3 : 0.05)) return 0;
@@ -127,7 +127,7 @@ static CwStatus free_height(void *context, int32_t i, void *out) {
   memcpy(ray.g, work->column[v], sizeof ray.g);
   ray.stretch = cw_unit(ray.g);
   ray.offset = 1e-3 * cw_layers_shortest_edge(work, v);
-  ray.far = in->target[v] * ray.stretch / 0.35;
+  ray.far = in->target[v] * ray.stretch / CW_GAP_SHARE;
   cw_box_tree_ray(gaps->tree, in->x[v], ray.g, &ray.far, meet, &ray);
   *(double *)out = ray.best;
   return CW_OK;

@@ -27,7 +27,7 @@ typedef struct {
   int64_t thick_over_fair;         // faces over CW_RATIO_FAIR whose prism is the greater cell
   int64_t over_most;               // faces over CW_RATIO_MOST
   int64_t small_weight;            // faces of a weight below CW_SMALL_WEIGHT
-  double greatest, greatest_at[3]; // greatest ratio; centre of its face, m
+  double greatest, greatest_at[3]; // greatest ratio; centre of its face
 } CwLayerRatio;
 
 // Adds the wall faces of a region to ratio[patch], which has `patches` rows. The weight of the face between two cells

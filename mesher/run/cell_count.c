@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "mesher/heights/layer_count.h"
 #include "pipeline/log.h"
 
 enum { SCALE_STEPS = 100 };
@@ -32,7 +33,7 @@ static double tets_per_volume(const CwMeshRun *run, double scale) {
 
 static double cells_at(const CwMeshRun *run, int d, double scale) {
   double asked = (double)run->table->mesh.cells;
-  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(asked) * run->table->walls.layer_count;
+  double prisms = run->prism_factor > 0 ? run->prism_factor : prisms_per_layer(asked) * run->layer_count;
   double tets = run->tet_factor > 0 ? run->tet_factor : tets_per_volume(run, scale); // 0: nothing learned yet
   return prisms * run->domain[d].prism_integral / (scale * scale) +
          tets * cw_domain_tet_integral(&run->domain[d], scale) / (scale * scale * scale);
@@ -53,7 +54,7 @@ double cw_predicted_off(const CwMeshRun *run) {
 }
 
 void cw_start_factors(CwMeshRun *run) {
-  run->prism_factor = prisms_per_layer((double)run->table->mesh.cells) * run->table->walls.layer_count;
+  run->prism_factor = prisms_per_layer((double)run->table->mesh.cells) * run->layer_count;
   run->tet_factor = tets_per_volume(run, run->scale);
 }
 
@@ -77,10 +78,37 @@ void cw_mesh_solve_scale(CwMeshRun *run) {
   cw_mesh_set_scale(run, run->scale);
 }
 
+static void set_layers(CwMeshRun *run, int count, double y_plus_auto) {
+  run->layer_count = count;
+  run->y_plus_auto = y_plus_auto;
+  for (int d = 0; d < run->domains.count; d++) cw_domain_set_layers(&run->domain[d], run->table, count, y_plus_auto);
+}
+
+// More layers take cells from the tetrahedra, whose edges become longer and ask for no fewer layers. From below the
+// rounds therefore end at the least number that is enough.
+void cw_mesh_solve_layers(CwMeshRun *run) {
+  const CwWalls *walls = &run->table->walls;
+  double growth = cw_case_given(walls->growth_ratio) ? walls->growth_ratio : CW_GROWTH_AUTO;
+  int given = walls->layer_count > 0;
+  set_layers(run, given ? walls->layer_count : CW_LAYERS_LEAST, CW_LOG_LAYER_Y_PLUS);
+  for (;;) {
+    double needing[CW_LAYER_COUNT_MOST + 1] = {0}, y_plus = run->y_plus_auto;
+    cw_mesh_solve_scale(run);
+    for (int d = 0; d < run->domains.count; d++) cw_domain_layers_needed(&run->domain[d], run->scale, needing);
+    int needed = cw_layer_count_for(needing);
+    if (given || needed <= run->layer_count) break;
+    if (needed > CW_LAYER_COUNT_USUAL && cw_walls_auto(walls) && y_plus < CW_LOG_LAYER_END) {
+      y_plus = fmin(y_plus * pow(growth, needed - CW_LAYER_COUNT_USUAL), CW_LOG_LAYER_END);
+      needed = (int)fmax(run->layer_count, CW_LAYER_COUNT_USUAL);
+    }
+    set_layers(run, needed, y_plus);
+  }
+}
+
 void cw_learn_prisms(CwMeshRun *run, int64_t triangles) {
   double integral = 0;
   for (int d = 0; d < run->domains.count; d++) integral += run->domain[d].prism_integral;
-  run->prism_factor = (double)triangles * run->table->walls.layer_count * run->scale * run->scale / integral;
+  run->prism_factor = (double)triangles * run->layer_count * run->scale * run->scale / integral;
 }
 
 void cw_learn_tets(CwMeshRun *run) {
@@ -91,5 +119,5 @@ void cw_learn_tets(CwMeshRun *run) {
   }
   run->tet_factor = made * run->scale * run->scale * run->scale / integral;
   cw_log_debug("%.3f tetrahedra and %.3f prisms a layer for each unit of the integrals", run->tet_factor,
-               run->prism_factor / run->table->walls.layer_count);
+               run->prism_factor / run->layer_count);
 }

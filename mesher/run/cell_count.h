@@ -14,6 +14,8 @@ double cw_predicted_cells(const CwMeshRun *run, int domain);
 // Sets the scale of the size fields of all domains; or that with which the predicted count is the asked one.
 void cw_mesh_set_scale(CwMeshRun *run, double scale);
 void cw_mesh_solve_scale(CwMeshRun *run);
+// The same, and where the case leaves it open the number of layers, the least that leads to the size of the tetrahedra.
+void cw_mesh_solve_layers(CwMeshRun *run);
 
 // Cells of all domains at the present scale, over the asked number, less one.
 double cw_predicted_off(const CwMeshRun *run);

@@ -6,14 +6,18 @@
 #include <string.h>
 
 #include "mesher/cad/background_tessellate.h"
+#include "mesher/common/model_unit.h"
 #include "mesher/common/vec.h"
 #include "mesher/heights/even_columns.h"
+#include "mesher/heights/layer_count.h"
 #include "mesher/heights/layer_heights.h"
+#include "mesher/layers/height_gradation.h"
 #include "mesher/layers/thin_prism.h"
 #include "mesher/parallel/share.h"
 #include "mesher/plan/plan_make.h"
 #include "mesher/plan/sector_plan.h"
 #include "mesher/region/region_number.h"
+#include "pipeline/wall_group.h"
 
 static const double FIRST_HEIGHT_TOLERANCE = 0.1;
 static const double LEAST_REGION_CELLS = 270e3, MOST_REGIONS = 140;
@@ -142,13 +146,41 @@ CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry
 
 CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales *scales) {
   CwStatus status = CW_OK;
-  domain->layer_count = table->walls.layer_count;
+  int patches = cw_cad_patch_count(domain->cad);
   domain->layer_share = CW_LAYER_SHARE;
-  CW_NEW(domain->relative_size, cw_cad_patch_count(domain->cad));
-  CW_NEW(domain->patch_layers, cw_cad_patch_count(domain->cad));
-  cw_wall_targets(domain->cad, table, scales, domain->relative_size, domain->patch_layers);
+  CW_NEW(domain->patch_target, patches);
+  CW_NEW(domain->relative_size, patches);
+  CW_NEW(domain->patch_layers, patches);
+  cw_patch_targets(domain->cad, table, scales, domain->patch_target);
+  for (int p = 0; p < patches; p++) domain->relative_size[p] = domain->patch_target[p].relative_size;
+  cw_domain_set_layers(domain, table, table->walls.layer_count > 0 ? table->walls.layer_count : CW_LAYERS_LEAST,
+                       CW_LOG_LAYER_Y_PLUS);
 done:
   return status;
+}
+
+void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count, double y_plus_auto) {
+  domain->layer_count = layer_count;
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
+    const CwWallGroup *group = cw_wall_group(&table->walls, cw_cad_patch_name(domain->cad, p));
+    CwPatchTarget *target = &domain->patch_target[p];
+    target->first = cw_first_height_choose(table, group, &target->flow, y_plus_auto);
+    domain->patch_layers[p] = cw_layer_target(table, group, target->first.height, layer_count);
+    domain->patch_layers[p].first_height /= cw_model_unit();
+    domain->patch_layers[p].thickness /= cw_model_unit();
+  }
+}
+
+void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needing) {
+  for (int32_t i = 0; i < domain->layer_sample_count; i++) {
+    const CwLayerSample *sample = &domain->layer_sample[i];
+    const CwLayerTarget *layers = &domain->patch_layers[sample->patch];
+    double room = CW_GAP_SHARE * domain->patch_target[sample->patch].flow.width / cw_model_unit();
+    int fitting = cw_layer_count_fitting(layers->first_height, layers->growth, room);
+    int count = cw_layer_count(layers->first_height, layers->growth, scale * sample->size);
+    needing[(int)fmax(fmin(count, fitting), CW_LAYERS_LEAST)] += sample->density * sample->size;
+  }
 }
 
 CwStatus cw_domain_start_background(CwDomain *domain, double deflection) {
@@ -317,7 +349,7 @@ CwStatus cw_domain_plan(CwDomain *domain, const CwCase *table, double cells, dou
   for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
     if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL) continue;
     thickness[p] = domain->patch_layers[p].thickness;
-    least[p] = cw_column_height_least(domain->patch_layers[p].first_height, table->walls.layer_count);
+    least[p] = cw_column_height_least(domain->patch_layers[p].first_height, domain->layer_count);
   }
   CwPlanOptions options = {.region_count =
                                domain->more_regions == CW_UNDIVIDED ? 1 : (int32_t)regions + domain->more_regions,
@@ -396,7 +428,7 @@ CwStatus cw_domain_share(CwDomain *domain, const CwCase *table) {
   CwStatus status = CW_OK;
   domain->context = (CwRegionContext){.skeleton = &domain->skeleton,
                                       .domain = domain->name,
-                                      .layer_count = table->walls.layer_count,
+                                      .layer_count = domain->layer_count,
                                       .growth = domain->heights.growth,
                                       .fill = table->mesh.fill,
                                       .first_height = domain->heights.first_made};
@@ -474,6 +506,7 @@ void cw_domain_close(CwDomain *domain) {
   cw_cad_close(&domain->cad);
   free(domain->layer_sample);
   free(domain->face_triangles);
+  free(domain->patch_target);
   free(domain->relative_size);
   free(domain->patch_layers);
 }

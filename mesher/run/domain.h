@@ -31,8 +31,9 @@ typedef struct {
   CwSizeSeeds *seeds;   // while the seeds of the faces are made
   CwSize *size;
   double base_size;            // edge length at relative size 1 and scale 1; the same for all domains
+  CwPatchTarget *patch_target; // of each patch
   double *relative_size;       // of each patch
-  CwLayerTarget *patch_layers; // of each patch
+  CwLayerTarget *patch_layers; // of each patch, for so many layers
   int layer_count;
   double prism_integral;       // sum over walls of area / h^2, for h over the scale
   double *face_triangles;      // area / h^2 of each face, likewise
@@ -55,6 +56,13 @@ enum { CW_UNDIVIDED = -1 };
 // Opens the exact geometry; then, once it has the unit of the model, notes what the case asks of its patches.
 CwStatus cw_domain_open(CwDomain *domain, const char *name, const char *geometry_dir);
 CwStatus cw_domain_ask(CwDomain *domain, const CwCase *table, const CwFlowScales *scales);
+
+// Sets the number of layers and the first heights, of this y+ where the case leaves it open, and what patches ask of so
+// many.
+void cw_domain_set_layers(CwDomain *domain, const CwCase *table, int layer_count, double y_plus_auto);
+// Adds the wall faces at a scale of the size field to needing[n] by the number of layers that they need, from 1 to
+// CW_LAYER_COUNT_MOST, to lead to the tetrahedra, but no more than fit the passage.
+void cw_domain_layers_needed(const CwDomain *domain, double scale, double *needing);
 
 // What one rank makes for all, packed, and how all take it up. First the background triangulation, face by face. Then a
 // part of the seeds of the size field; then the field from all of them, a part for each CwSizePart, and beside these

@@ -2,17 +2,45 @@
 #include "mesher/run/layer_record.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 
+#include "mesher/common/model_unit.h"
+#include "mesher/heights/layer_count.h"
 #include "pipeline/log.h"
 #include "pipeline/record.h"
+#include "pipeline/wall_group.h"
 
 static const double MOST_SHARE = 0.05; // of the faces, may exceed CW_RATIO_FAIR
-enum { WHERE_SIZE = 1500 };
+static const double LEAST_MET = 0.9;   // of the faces, have their first height
+enum { WHERE_SIZE = 1500, TEXT_SIZE = 2500 };
+
+static const char *const SOURCE_NAMES[] = {"asked", "auto", "fitted", "laminar"};
+
+// A warning that is a headline too.
+static void tell(json_t *headlines, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void tell(json_t *headlines, const char *format, ...) {
+  char text[TEXT_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  cw_log_warn("%s", text);
+  json_array_append_new(headlines, json_string(text));
+}
+
+void cw_put_first_height(const CwPatchTarget *target, json_t *patch) {
+  const CwFirstHeight *first = &target->first;
+  json_object_set_new(patch, "first_height_from", json_string(SOURCE_NAMES[first->source]));
+  json_object_set_new(patch, "first_height_asked_m", cw_json_number(first->asked));
+  json_object_set_new(patch, "y_plus", cw_json_number(first->y_plus));
+  json_object_set_new(patch, "passage_reynolds", cw_json_number(first->reynolds));
+  json_object_set_new(patch, "passage_width_m", cw_json_number(target->flow.width));
+}
 
 void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch) {
-  json_t *at = json_pack("[o, o, o]", cw_json_number(ratio->greatest_at[0]), cw_json_number(ratio->greatest_at[1]),
-                         cw_json_number(ratio->greatest_at[2]));
+  json_t *at = json_array();
+  for (int k = 0; k < 3; k++) json_array_append_new(at, cw_json_number(ratio->greatest_at[k] * cw_model_unit()));
   json_object_set_new(patch, "volume_ratio_95_percent", cw_json_number(cw_layer_ratio_quantile(ratio, 0.95)));
   json_object_set_new(patch, "volume_ratio_greatest", cw_json_number(ratio->greatest));
   json_object_set_new(patch, "volume_ratio_greatest_at_m", at);
@@ -22,12 +50,86 @@ void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch) {
   json_object_set_new(patch, "small_weight_faces", json_integer((json_int_t)ratio->small_weight));
 }
 
+// What the keys of a group of walls end in.
+static const char *group_name(const CwWalls *walls, const CwWallGroup *group) {
+  return group == &walls->blade        ? "blade"
+         : group == &walls->hub_shroud ? "hub_shroud"
+         : group == &walls->pipe       ? "pipe"
+                                       : "volute";
+}
+
+// A list of patches in a message.
+typedef struct {
+  char text[WHERE_SIZE];
+  size_t length;
+} List;
+
+static void add(List *list, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void add(List *list, const char *format, ...) {
+  size_t left = sizeof list->text - list->length;
+  va_list arguments;
+  va_start(arguments, format);
+  int added = vsnprintf(list->text + list->length, left, format, arguments);
+  va_end(arguments);
+  list->length += (size_t)added < left ? (size_t)added : left - 1;
+}
+
+// Whether an earlier wall patch of the same group has the same first height.
+static int is_told(const CwDomain *domain, const CwWalls *walls, int patch) {
+  const CwWallGroup *group = cw_wall_group(walls, cw_cad_patch_name(domain->cad, patch));
+  for (int q = 0; q < patch; q++) {
+    if (cw_cad_patch_kind(domain->cad, q) == CW_PATCH_WALL &&
+        group == cw_wall_group(walls, cw_cad_patch_name(domain->cad, q)) &&
+        domain->patch_target[q].first.height == domain->patch_target[patch].first.height)
+      return 1;
+  }
+  return 0;
+}
+
+static void add_laminar(const CwPatchTarget *target, const char *patch, List *list) {
+  const CwFirstHeight *first = &target->first;
+  add(list, "%s%.40s %.0f (first height %.3g mm)", list->length ? ", " : "", patch, first->reynolds,
+      1e3 * first->height);
+}
+
+static void add_fitted(const CwPatchTarget *target, const char *patch, const char *group, List *list) {
+  const CwFirstHeight *first = &target->first;
+  add(list, "%s%.40s %.3g mm instead of %.3g mm in a passage %.3g mm wide (", list->length ? ", " : "", patch,
+      1e3 * first->height, 1e3 * first->asked, 1e3 * target->flow.width);
+  if (isnan(first->y_plus))
+    add(list, "walls.first_height_%s_um: %.3g)", group, 1e6 * first->height);
+  else
+    add(list, "walls.y_plus_%s: %.3g)", group, first->y_plus);
+}
+
+void cw_warn_of_first_heights(const CwDomain *domain, const CwCase *table, json_t *headlines) {
+  const CwWalls *walls = &table->walls;
+  List laminar = {{0}, 0}, fitted = {{0}, 0};
+  for (int p = 0; p < cw_cad_patch_count(domain->cad); p++) {
+    const CwPatchTarget *target = &domain->patch_target[p];
+    const char *name = cw_cad_patch_name(domain->cad, p);
+    if (cw_cad_patch_kind(domain->cad, p) != CW_PATCH_WALL || is_told(domain, walls, p)) continue;
+    if (target->first.source == CW_FIRST_LAMINAR) add_laminar(target, name, &laminar);
+    if (target->first.source == CW_FIRST_FITTED)
+      add_fitted(target, name, group_name(walls, cw_wall_group(walls, name)), &fitted);
+  }
+  if (laminar.length)
+    tell(headlines,
+         "%s: the flow is laminar where the Reynolds number of the passage is below %.0f (that of pipe flow, "
+         "Schlichting "
+         "and Gersten): %s. y+ means nothing there; the first height is %g of the passage's width, or as "
+         "walls.first_height_blade_um and its like give it",
+         domain->name, CW_LAMINAR_REYNOLDS, laminar.text, CW_LAMINAR_SHARE);
+  if (fitted.length)
+    tell(headlines, "%s: first heights of which %d layers do not fit both walls become the greatest that do: %s",
+         domain->name, domain->layer_count, fitted.text);
+}
+
 // What the warning of a domain adds up.
 typedef struct {
-  double thin, thick;    // faces over CW_RATIO_FAIR
-  double missing_layers; // most that a patch lacks
-  char where[WHERE_SIZE];
-  size_t length;
+  double thin, thick;    // faces over CW_RATIO_FAIR of patches with too many of them
+  double missing_layers; // most that such a patch lacks
+  List where;
 } Jumps;
 
 static double number(const json_t *patch, const char *key) {
@@ -40,38 +142,67 @@ static void add_patch(const json_t *patch, Jumps *jumps) {
   double weights = number(patch, "small_weight_faces");
   int uneven = thin + thick > MOST_SHARE * faces;
   if (!uneven && number(patch, "volume_ratio_over_10_faces") == 0 && weights == 0) return;
-  jumps->thin += thin;
-  jumps->thick += thick;
+  jumps->thin += uneven ? thin : 0;
+  jumps->thick += uneven ? thick : 0;
   // Each layer more brings the last one nearer by the growth ratio.
   double growth = fmax(number(patch, "growth_ratio_most"), 1.1);
   if (uneven && thin > thick)
     jumps->missing_layers = fmax(jumps->missing_layers, ceil(log(most / CW_RATIO_FAIR) / log(growth)));
-  size_t left = sizeof jumps->where - jumps->length;
-  int added =
-      snprintf(jumps->where + jumps->length, left, "%s%.40s %.3g, greatest %.3g", jumps->length ? "; " : "",
-               json_string_value(json_object_get(patch, "patch")), most, number(patch, "volume_ratio_greatest"));
-  jumps->length += (size_t)added < left ? (size_t)added : left - 1;
-  if (weights == 0) return;
-  left = sizeof jumps->where - jumps->length;
-  added = snprintf(jumps->where + jumps->length, left, ", %.0f face weights below %.2g", weights, CW_SMALL_WEIGHT);
-  jumps->length += (size_t)added < left ? (size_t)added : left - 1;
+  add(&jumps->where, "%s%.40s %.3g, greatest %.3g", jumps->where.length ? "; " : "",
+      json_string_value(json_object_get(patch, "patch")), most, number(patch, "volume_ratio_greatest"));
+  if (weights > 0) add(&jumps->where, ", %.0f face weights below %.2g", weights, CW_SMALL_WEIGHT);
 }
 
-void cw_warn_of_layers(const char *domain, int layers, const json_t *coverage) {
+// Why most faces of a patch miss their first height.
+static const char *main_reason(const json_t *patch) {
+  double gap = number(patch, "first_height_missed_by_gap_faces");
+  double gradation = number(patch, "first_height_missed_by_gradation_faces");
+  double repair = number(patch, "first_height_missed_by_repair_faces");
+  return gap >= fmax(gradation, repair) ? "gap" : gradation >= repair ? "gradation" : "repair";
+}
+
+void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headlines) {
+  List where = {{0}, 0};
+  double all = 0, all_met = 0;
+  size_t k;
+  json_t *patch;
+  json_array_foreach((json_t *)coverage, k, patch) {
+    double faces = number(patch, "wall_faces"), met = number(patch, "first_height_met_faces");
+    all += faces;
+    all_met += met;
+    if (met >= LEAST_MET * faces) continue;
+    add(&where, "%s%.40s %.0f %% (%s)", where.length ? ", " : "", json_string_value(json_object_get(patch, "patch")),
+        100 * met / faces, main_reason(patch));
+  }
+  if (all_met >= LEAST_MET * all) return;
+  tell(headlines,
+       "%s: only %.0f %% of the wall faces have their first height: %s; a lower y+ or walls.layer_count leaves room",
+       domain, 100 * all_met / all, where.text);
+}
+
+void cw_warn_of_layers(const char *domain, int layers, int automatic, const json_t *coverage, json_t *headlines) {
   Jumps jumps = {0};
   size_t k;
   json_t *patch;
   char remedy[160];
   json_array_foreach((json_t *)coverage, k, patch) add_patch(patch, &jumps);
-  if (jumps.length == 0) return;
-  if (jumps.missing_layers > 0)
-    snprintf(remedy, sizeof remedy, "last layers are thin: walls.layer_count %.0f instead of %d, or auto",
-             fmin(layers + jumps.missing_layers, 40), layers);
-  else if (jumps.thick > jumps.thin)
-    snprintf(remedy, sizeof remedy, "last layers are thick: walls.growth_ratio or walls.layer_count auto, or less");
+  if (jumps.where.length == 0) return;
+  if (jumps.thin > jumps.thick)
+    snprintf(remedy, sizeof remedy, "last layers are thin: walls.layer_count %.0f instead of %d%s",
+             fmin(layers + jumps.missing_layers, CW_LAYER_COUNT_MOST), layers, automatic ? "" : ", or auto");
+  else if (jumps.thick > 0)
+    snprintf(remedy, sizeof remedy, "last layers are thick: a lower walls.y_plus of these walls%s",
+             automatic ? "" : ", or walls.layer_count auto");
   else
-    snprintf(remedy, sizeof remedy, "columns are thinned in narrow places: mesh.cells_across_gap greater than it is");
-  cw_log_warn("%s: volumes change by more than %.0f on more than %.0f %% of the layer top, or by more than %.0f; 95 %% "
-              "are within: %s; %s",
-              domain, CW_RATIO_FAIR, 100 * MOST_SHARE, CW_RATIO_MOST, jumps.where, remedy);
+    snprintf(remedy, sizeof remedy, "few faces: more mesh.cells leave the columns room there");
+  char text[TEXT_SIZE];
+  snprintf(
+      text, sizeof text,
+      "%s: volumes change by more than %.0f on more than %.0f %% of the layer top, or by more than %.0f; 95 %% are "
+      "within: %s; %s",
+      domain, CW_RATIO_FAIR, 100 * MOST_SHARE, CW_RATIO_MOST, jumps.where.text, remedy);
+  if (jumps.thin + jumps.thick > 0)
+    tell(headlines, "%s", text);
+  else
+    cw_log_warn("%s", text);
 }

@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What the mesher's record tells of the layer top, and the warning where volumes jump across it.
+// What the mesher's record tells of the layers, and its warnings of them. These stand among the headlines of the record
+// too, which the report and the summary of a run begin with: `headlines` is an array of texts to which each is added.
 #ifndef CUTWATER_MESHER_RUN_LAYER_RECORD_H
 #define CUTWATER_MESHER_RUN_LAYER_RECORD_H
 
 #include <jansson.h>
 
 #include "mesher/region/layer_ratio.h"
+#include "mesher/run/domain.h"
 
-// Adds the figures of the layer top over a patch to its entry of layer_coverage.
+// Adds what the first height over a patch follows from to its entry of layer_coverage.
+void cw_put_first_height(const CwPatchTarget *target, json_t *patch);
+// And the figures of the layer top over it.
 void cw_put_layer_ratio(const CwLayerRatio *ratio, json_t *patch);
 
-// Warns, in one line, of the patches of `coverage` (the domain's layer_coverage) over which more than 5 % of the faces
-// of the layer top exceed CW_RATIO_FAIR, any exceeds CW_RATIO_MOST or any has a small weight, and names the key to
-// change. `layers`: their number.
-void cw_warn_of_layers(const char *domain, int layers, const json_t *coverage);
+// Warns, before anything is meshed, of walls in laminar flow, and of those whose asked first height does not fit the
+// passage.
+void cw_warn_of_first_heights(const CwDomain *domain, const CwCase *table, json_t *headlines);
+
+// Warns where less than 90 % of the wall faces of `coverage` (the domain's layer_coverage) have their first height.
+void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headlines);
+
+// Warns of the patches of `coverage` over which more than 5 % of the faces of the layer top exceed CW_RATIO_FAIR, any
+// exceeds CW_RATIO_MOST or any has a small weight, and names the key to change. `layers`: their number; automatic: the
+// case leaves it open. Only the first is a headline.
+void cw_warn_of_layers(const char *domain, int layers, int automatic, const json_t *coverage, json_t *headlines);
 
 #endif

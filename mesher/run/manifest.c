@@ -139,6 +139,7 @@ static json_t *coverage_json(const CwMeshRun *run, int d, int patch) {
                         json_pack("[o, o, o]", metres_json(sum.thin_at[0], 1), metres_json(sum.thin_at[1], 1),
                                   metres_json(sum.thin_at[2], 1)));
   }
+  cw_put_first_height(&domain->patch_target[patch], result);
   cw_put_layer_ratio(&ratio, result);
   return result;
 }
@@ -284,7 +285,8 @@ static json_t *domain_json(const CwMeshRun *run, int d) {
     if (kind == CW_PATCH_WALL) json_array_append_new(coverage, coverage_json(run, d, p));
   }
   warn_of_thin(domain->name, coverage);
-  cw_warn_of_layers(domain->name, domain->layer_count, coverage);
+  cw_warn_of_missed(domain->name, coverage, run->headlines);
+  cw_warn_of_layers(domain->name, domain->layer_count, run->table->walls.layer_count == 0, coverage, run->headlines);
   json_object_set_new(result, "patches", patches);
   json_object_set_new(result, "layer_coverage", coverage);
   double predicted_sum = 0;
@@ -334,7 +336,8 @@ CwStatus cw_mesh_manifest(CwMeshRun *run) {
   CW_TRY(cw_record_integer(run->record, "retries", run->retries));
   CW_TRY(cw_record_number(run->record, "size_scale", run->scale));
   CW_TRY(cw_record_number(run->record, "size_gradation", run->scale * run->gradation));
-  CW_TRY(cw_record_integer(run->record, "layers", run->table->walls.layer_count));
+  CW_TRY(cw_record_integer(run->record, "layers", run->layer_count));
+  CW_TRY(cw_record_json(run->record, "headlines", json_incref(run->headlines)));
   json_t *given = domains;
   domains = NULL;
   CW_TRY(cw_record_json(run->record, "domains", given));

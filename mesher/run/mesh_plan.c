@@ -9,6 +9,7 @@
 #include "mesher/parallel/ledger.h"
 #include "mesher/parallel/sides.h"
 #include "mesher/run/cell_count.h"
+#include "mesher/run/layer_record.h"
 #include "mesher/run/mesh_steps.h"
 #include "mesher/run/run_step.h"
 #include "pipeline/case_schema.h"
@@ -151,7 +152,7 @@ static CwStatus hold_gradation(CwMeshRun *run) {
   int32_t parts[CW_DOMAINS_MOST];
   for (int d = 0; d < run->domains.count; d++) parts[d] = CW_SIZE_SEEDS + 1; // rims ask for metres, whatever the scale
   for (int round = 0;; round++) {
-    cw_mesh_solve_scale(run);
+    cw_mesh_solve_layers(run);
     double growth = run->scale * run->gradation / allowed;
     if (growth <= 1 + GRADATION_TOLERANCE || round == GRADATION_ROUNDS) break;
     made_for = run->scale * pow(growth, round == 0 ? 0.25 : 1);
@@ -211,11 +212,19 @@ done:
   return status;
 }
 
+static const char *y_plus_text(const CwMeshRun *run) {
+  static char text[64];
+  text[0] = '\0';
+  if (cw_walls_auto(&run->table->walls)) snprintf(text, sizeof text, "; y+ %.3g where it is open", run->y_plus_auto);
+  return text;
+}
+
 CwStatus cw_mesh_open(CwMeshRun *run) {
   CwStatus status = CW_OK;
   CwFlowScales scales;
   char path[4096];
   double started = cw_seconds();
+  run->headlines = json_array();
   cw_ledger_part("geometry");
   snprintf(path, sizeof path, "%s/geometry/design.json", run->run_path);
   CW_TRY(cw_flow_scales_read(path, &scales));
@@ -228,12 +237,17 @@ CwStatus cw_mesh_open(CwMeshRun *run) {
                cw_cad_patch_count(run->domain[d].cad), CW_PATCH_LIMIT);
   }
   CW_TRY(settle_unit(run));
-  for (int d = 0; d < run->domains.count; d++) CW_TRY(cw_domain_ask(&run->domain[d], run->table, &scales));
+  for (int d = 0; d < run->domains.count; d++) {
+    CW_TRY(cw_domain_ask(&run->domain[d], run->table, &scales));
+    cw_warn_of_first_heights(&run->domain[d], run->table, run->headlines);
+  }
   if (run->rank == 0)
     CW_TRY(cw_record_step(run->record, "geometry", cw_seconds() - started, run->domains.count, "domains"));
   CW_TRY(triangulate_domains(run));
   CW_TRY(find_symmetry(run));
   CW_TRY(make_sizes(run));
+  if (run->table->walls.layer_count == 0)
+    cw_log("layers: %d lead from the first height to the size of the tetrahedra%s", run->layer_count, y_plus_text(run));
 done:
   return status;
 }

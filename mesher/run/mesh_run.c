@@ -120,6 +120,7 @@ done:
 }
 
 void cw_mesh_run_free(CwMeshRun *run) {
+  json_decref(run->headlines);
   for (int d = 0; d < run->domains.count; d++) {
     cw_domain_close(&run->domain[d]);
     free(run->summary[d]);

@@ -46,11 +46,14 @@ typedef struct {
   CwStage stop_after; // CW_STAGE_NONE: the run goes to its end
   int vtk;            // 1: what the stage made is written
   int stopped;
+  json_t *headlines; // what the report begins with
   CwDomainTable domains;
   CwDomain domain[CW_DOMAINS_MOST]; // domains.count of them
   CwRegionSummary *summary[CW_DOMAINS_MOST];
   double *region_seconds[CW_DOMAINS_MOST];
   void **seeds[CW_DOMAINS_MOST];        // of the size field, by part, while it is made
+  int layer_count;                      // as the case gives it, or as the size fields ask
+  double y_plus_auto;                   // where the case leaves it open
   double prism_factor, tet_factor;      // cells per unit of the integrals
   double scale;                         // of the size field
   double gradation;                     // of the size field at scale 1

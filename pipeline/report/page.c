@@ -157,6 +157,17 @@ static void tile(FILE *page, const char *value, const char *unit, const char *la
   fprintf(page, "<div><b>%s%s%s</b><span>%s</span></div>\n", value, *unit ? "&#8239;" : "", unit, label);
 }
 
+// What the mesher tells before all else.
+static void headlines(FILE *page, json_t *results) {
+  size_t k;
+  json_t *text;
+  json_array_foreach(json_object_get(results, "headlines"), k, text) {
+    fputs("<div class=\"warn\">", page);
+    cw_html_text(page, json_string_value(text));
+    fputs("</div>\n", page);
+  }
+}
+
 static CwStatus title(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   char text[CW_FORMAT_SIZE], more[CW_FORMAT_SIZE], label[200], where[4096];
@@ -217,6 +228,7 @@ static CwStatus title(FILE *page, const CwReportData *data) {
   tile(page, cw_format_si((double)cells / mesh_seconds, 3, text), "", label);
   tile(page, cw_format_bytes(memory, text), "", "peak memory, all ranks together");
   fputs("</div>\n", page);
+  headlines(page, results);
   cw_page_picture_list(page, data, CW_SECTION_TITLE);
 done:
   return status;

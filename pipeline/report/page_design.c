@@ -35,12 +35,15 @@ static void input_row(FILE *page, const CwCaseKey *key, const CwCase *table) {
   double value = cw_case_key_value(key, table);
   if (key->presence == CW_KEY_COMPUTED && (isnan(value) || value == key->fallback))
     return; // left open: stands among the derived dimensions, or follows from others
-  if (key->presence == CW_KEY_DEFAULT && value == key->fallback) origin = "default";
+  int automatic = key->presence == CW_KEY_AUTO && (isnan(value) || value == key->fallback);
+  if (automatic || (key->presence == CW_KEY_DEFAULT && value == key->fallback)) origin = "default";
   cw_quantity_start(page, stem, NULL);
   if (key->type == CW_KEY_CHOICE) {
     fputs("<td class=\"n\">", page);
     cw_html_label(page, key->choices[(int)value]);
     fputs("<span></span></td>", page);
+  } else if (automatic) {
+    cw_html_number_cell(page, "auto");
   } else if (key->type == CW_KEY_INT64) {
     cw_html_number_cell(page, cw_format_count((int64_t)value, number));
   } else {

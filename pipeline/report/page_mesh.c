@@ -441,6 +441,8 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
   json_t *domain[DOMAINS_MOST], *list[DOMAINS_MOST];
   char where[4096], text[CW_FORMAT_SIZE];
   double all = 0, met = 0;
+  json_t *results;
+  CW_TRY(cw_page_mesh_results(data, &results));
   CW_TRY(all_domains(data, domain));
   for (int d = 0; d < data->mesh.domain_count; d++) {
     snprintf(where, sizeof where, "%s/mesh/record.json: domain %s", data->run, data->mesh.domains[d].name);
@@ -450,12 +452,13 @@ CwStatus cw_page_layers(FILE *page, const CwReportData *data) {
       met += fmax(cw_json_real(json_array_get(list[d], k), "first_height_met_faces"), 0);
     }
   }
-  fprintf(page,
-          "<p>%d layers with a growth ratio of at most %s on every wall face. The first height comes from the "
-          "y<sup>+</sup> target of the wall; ",
-          data->table->walls.layer_count, cw_format_number(data->table->walls.growth_ratio, 3, text));
-  fprintf(page, "it is met within 10&#8239;%% on %s of the wall faces.</p>\n<figure>",
-          cw_format_percent(met / all, text));
+  fprintf(
+      page,
+      "<p>%d layers on every wall face%s. The first height comes from the y<sup>+</sup> target of the wall; it is met "
+      "within 10&#8239;%% on %s of the wall faces.</p>\n<figure>",
+      (int)cw_json_real(results, "layers"),
+      data->table->walls.layer_count > 0 ? "" : ", as many as lead to the size of the tetrahedra",
+      cw_format_percent(met / all, text));
   CW_TRY(coverage_chart(page, data, list));
   fputs("<figcaption><b>Thickness of the layers</b> by patch: share of wall faces with the full thickness, and "
         "why the "

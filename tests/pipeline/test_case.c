@@ -193,8 +193,12 @@ static const BadCase bad_cases[] = {
      "10:23: impeller.outlet_diameter_mm: -200 is out of range; allowed: 10 to 10000 mm"},
     {10, "  outlet_diameter_mm: 0.2",
      "10:23: impeller.outlet_diameter_mm: 0.2 is out of range; allowed: 10 to 10000 mm"},
-    {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2"},
-    {17, "  layer_count: 0", "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40"},
+    {18, "  growth_ratio: 2.01", "18:17: walls.growth_ratio: 2.01 is out of range; allowed: 1 to 2, or auto"},
+    {17, "  layer_count: 0",
+     "17:16: walls.layer_count: 0 is out of range; allowed: a whole number from 1 to 40, or auto"},
+    {17, "  layer_count: Auto",
+     "17:16: walls.layer_count: Auto is not a number; allowed: a whole number from 1 to 40, or auto"},
+    {20, "  gradation: auto", "20:14: mesh.gradation: auto is not a number; allowed: 0.05 to 1"},
     {20, "  cells: 9999",
      "20:10: mesh.cells: 9999 is out of range; allowed: a whole number from 10000 to 2000000000, "
      "as 500000, 500k or 2M"},
@@ -425,6 +429,25 @@ static void good_case_is_read_in_si(void **state) {
   assert_false(cw_case_given(table.walls.total_thickness));
 }
 
+// Automatic keys are open by the word as when left out.
+static void automatic_keys(void **state) {
+  CwCase table, left_out;
+  cw_case_defaults(&left_out);
+  assert_int_equal(left_out.walls.layer_count, 0);
+  assert_false(cw_case_given(left_out.walls.growth_ratio));
+  assert_false(cw_case_given(left_out.walls.pipe.y_plus));
+  assert_true(cw_walls_auto(&left_out.walls));
+  write_changed(17, "  layer_count: auto\n  y_plus_blade: auto");
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
+  assert_int_equal(table.walls.layer_count, 0);
+  assert_false(cw_case_given(table.walls.blade.y_plus));
+  write_changed(18, "  growth_ratio: auto\n  y_plus_blade: 1\n  y_plus_hub_shroud: 2\n  y_plus_volute: 3\n"
+                    "  first_height_pipe_um: 4");
+  assert_int_equal(cw_case_read(path, &table), CW_OK);
+  assert_false(cw_case_given(table.walls.growth_ratio));
+  assert_false(cw_walls_auto(&table.walls));
+}
+
 // A key takes any unit of its quantity: 8 in = 203.2 mm, 100 US gal/min = 100 * 231 in3/min = 6.30902e-3 m3/s,
 // 30 ft = 9.144 m, 25 Hz = 50 pi rad/s.
 static void units_of_other_systems(void **state) {
@@ -515,6 +538,7 @@ int main(void) {
       cmocka_unit_test(files_that_cannot_be_read),
       cmocka_unit_test(long_path_leaves_room_for_the_message),
       cmocka_unit_test(good_case_is_read_in_si),
+      cmocka_unit_test(automatic_keys),
       cmocka_unit_test(units_of_other_systems),
       cmocka_unit_test(duty_point_alone),
       cmocka_unit_test(counts_of_cells_take_a_suffix),

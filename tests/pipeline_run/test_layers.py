@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The layers of the shared run at places that are hard for them, and their last layers against the tetrahedra."""
 import json
+import re
+import shutil
 import unittest
 
-from cutwater import BIN, PAPER, RUN, done, execute, record, with_geometry
+from cutwater import BIN, PAPER, RUN, done, execute, fresh, record, with_geometry
 
 # Least share of the columns with their first height within 10 %. In front of the trailing edge the interface leaves
 # 1 mm for five layers of 0.22 mm; the tongue is bent from one coarse triangle to the next.
@@ -64,6 +66,77 @@ class Layers(unittest.TestCase):
         worst = max((patch for patch in coverage if patch["thin_prisms"]), key=lambda p: p["thin_prisms_height_wanted"])
         place = ", ".join(f"{1e3 * c:.3f}" for c in worst["thinnest_prism_at_m"])
         self.assertIn(f"the thinnest at ({place}) mm", told[0])
+
+
+class AskedWalls(unittest.TestCase):
+    """Whole small runs of the paper's pump with other walls."""
+
+    def run_with(self, name, walls, viscosity="1.004e-6", cells=80000):
+        """Meshes the pump with these lines in the section of the walls. Gives results, patches and what was told."""
+        folder = fresh(name)
+        case = folder / "case.yaml"
+        text = PAPER.read_text().replace("1.004e-6", viscosity, 1)
+        case.write_text(re.sub(r"\nwalls:\n(  .*\n)+", "\nwalls:\n  roughness_um: 0\n" + walls, text, count=1))
+        done(self, "geometry", folder, case=case)
+        told = done(self, "mesh", folder, case=case, cells=cells).stdout
+        results = record(folder, "mesh")["results"]
+        shutil.rmtree(folder / "mesh")
+        return results, [patch for domain in results["domains"] for patch in domain["layer_coverage"]], told
+
+    def share(self, patches, *keys):
+        return sum(patch[key] for patch in patches for key in keys) / sum(patch["wall_faces"] for patch in patches)
+
+    def test_water_with_all_left_open(self):
+        results, patches, _ = self.run_with("walls-open", "")
+        self.assertEqual({patch["first_height_from"] for patch in patches}, {"auto"})
+        for patch in patches:
+            self.assertGreaterEqual(patch["y_plus"], 30 * (1 - 1e-9))
+            self.assertLessEqual(patch["y_plus"], 300 * (1 + 1e-9))
+        self.assertGreater(results["layers"], 2)
+        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.05)
+        self.assertLess(self.share(patches, "volume_ratio_over_10_faces"), 0.002)
+        self.assertGreater(self.share(patches, "first_height_met_faces"), 0.97)
+        self.assertEqual(results["headlines"], [])
+
+    def test_oil_flows_laminar(self):
+        """1000 cSt: the passage of 8 mm between hub and shroud, with w = 6 m/s, has a Reynolds number below 100."""
+        results, patches, told = self.run_with("walls-oil", "", viscosity="1e-3")
+        laminar = [text for text in results["headlines"] if "laminar" in text]
+        self.assertEqual(len(laminar), 2, results["headlines"])  # rotor and stator
+        lines = told.splitlines()
+        first_told = next(i for i, line in enumerate(lines) if "laminar" in line)
+        self.assertLess(first_told, next(i for i, line in enumerate(lines) if "background" in line))
+        for patch in patches:
+            self.assertEqual(patch["first_height_from"], "laminar")
+            self.assertLess(patch["passage_reynolds"], 2300)
+            self.assertIsNone(patch["y_plus"])
+            self.assertAlmostEqual(patch["first_height_target_m"], 0.02 * patch["passage_width_m"], places=9)
+        hub = next(patch for patch in patches if patch["patch"] == "hub")
+        self.assertAlmostEqual(hub["passage_width_m"], 0.008, places=6)
+        self.assertLess(hub["passage_reynolds"], 100)
+        self.assertGreater(self.share(patches, "first_height_met_faces"), 0.97)
+        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.05)
+
+    def test_y_plus_that_does_not_fit(self):
+        walls = "".join(f"  y_plus_{group}: 400\n" for group in ("blade", "hub_shroud", "volute", "pipe"))
+        results, patches, told = self.run_with("walls-400", walls)
+        hub = next(patch for patch in patches if patch["patch"] == "hub")
+        self.assertEqual(hub["first_height_from"], "fitted")
+        self.assertLess(hub["y_plus"], 400)
+        self.assertGreater(hub["first_height_asked_m"], hub["first_height_target_m"])
+        self.assertLess(2 * 3 * hub["first_height_target_m"], 0.7 * hub["passage_width_m"])
+        fitted = next(text for text in results["headlines"] if text.startswith("rotor: first heights of which"))
+        self.assertIn(f"walls.y_plus_hub_shroud: {hub['y_plus']:.3g}", fitted)
+        self.assertIn(fitted, told)
+        self.assertGreater(self.share(patches, "first_height_met_faces"), 0.9)
+
+    def test_resolved_walls(self):
+        walls = "".join(f"  y_plus_{group}: 0.5\n" for group in ("blade", "hub_shroud", "volute", "pipe"))
+        results, patches, _ = self.run_with("walls-resolved", walls)
+        self.assertEqual({patch["first_height_from"] for patch in patches}, {"asked"})
+        self.assertGreater(results["layers"], 15)
+        self.assertGreater(self.share(patches, "first_height_met_faces"), 0.98)
+        self.assertLess(self.share(patches, "thin_last_layer_faces", "thick_last_layer_faces"), 0.05)
 
 
 if __name__ == "__main__":

@@ -66,24 +66,27 @@ static double square_x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 static int32_t square[2][3] = {{0, 1, 2}, {0, 2, 3}}, square_face[2] = {0, 0};
 
 // Layers of 1, 2 and 4.
-static const CwLayerTarget DOUBLING = {.first_height = 1, .growth = 2, .thickness = 7};
+static const CwLayerTarget DOUBLING = {.first_height = 1, .growth = 2, .thickness = 7, .last = 1};
+
+// A regular tetrahedron on edges of sqrt(3/2) h is h high.
+static double edge_below(double last) {
+  return sqrt(1.5) * last;
+}
 
 static void a_flat_wall(void **state) {
-  NEAR(cw_column_height_flat(&DOUBLING, 3, 10), 7);              // a tetrahedron is 8.16 high
-  NEAR(cw_column_height_flat(&DOUBLING, 3, 2.25 / 0.816), 4.75); // 2.25 high: layers of 1, 1.5 and 2.25
-  NEAR(cw_column_height_flat(&DOUBLING, 3, 0.5), 3.15);          // 1.05 times three even layers
+  NEAR(cw_column_height_flat(&DOUBLING, 3, edge_below(5)), 7);
+  NEAR(cw_column_height_flat(&DOUBLING, 3, edge_below(2.25)), 4.75); // layers of 1, 1.5 and 2.25
+  NEAR(cw_column_height_flat(&DOUBLING, 3, edge_below(0.5)), 3.15);  // 1.05 times three even layers
   NEAR(cw_column_height_least(1, 3), 3.15);
   CwLayerTarget thin = DOUBLING;
   thin.thickness = 4;
-  NEAR(cw_column_height_flat(&thin, 3, 10), 4);
-  // Five layers below tetrahedra of 1. With a last one of 1 the column would be taller than 2.5 wanted lengths of
-  // 1 / 0.816; up to 3.25 of them it may be for a last one of three quarters.
-  CwLayerTarget five = {.first_height = 0.4, .growth = 2, .thickness = INFINITY};
-  NEAR(cw_column_height_flat(&five, 5, 1 / 0.816), 2.5 / 0.816);
-  five.first_height = 0.5;
-  NEAR(cw_column_height_flat(&five, 5, 1 / 0.816), 0.5 * (pow(1.5, 1.25) - 1) / (pow(1.5, 0.25) - 1));
-  NEAR(cw_column_height_flat(&(CwLayerTarget){.first_height = 0.1, .growth = 2, .thickness = INFINITY}, 15, 1 / 0.816),
-       3.25 / 0.816);
+  NEAR(cw_column_height_flat(&thin, 3, edge_below(5)), 4);
+  NEAR(cw_column_height_flat(&(CwLayerTarget){.first_height = 1, .growth = 2, .thickness = INFINITY, .last = 1}, 1, 1),
+       1.05);
+  // A last layer of at most a sixth of it.
+  CwLayerTarget open = DOUBLING;
+  open.last = 1.0 / 6;
+  NEAR(cw_column_height_flat(&open, 3, edge_below(6 * 2.25)), 4.75);
 }
 
 static void the_finer_patch_holds_where_two_meet(void **state) {
@@ -96,11 +99,11 @@ static void the_finer_patch_holds_where_two_meet(void **state) {
     memcpy(triangle[2 * i + 1], (int32_t[3]){2 * i + 1, 2 * i + 2, 2 * i + 3}, sizeof *triangle);
     face[2 * i] = face[2 * i + 1] = i > 0;
   }
-  const CwLayerTarget layers[2] = {{.first_height = 0.1, .growth = 2, .thickness = 0.7},
-                                   {.first_height = 0.5, .growth = 1.5, .thickness = 2}};
+  const CwLayerTarget layers[2] = {{.first_height = 0.1, .growth = 2, .thickness = 0.7, .last = 1},
+                                   {.first_height = 0.5, .growth = 1.5, .thickness = 2, .last = 1}};
   Wall wall;
   CwColumnHeights heights = {0};
-  make_wall(&wall, 10, 8, x, 6, triangle, face);
+  make_wall(&wall, 100, 8, x, 6, triangle, face);
   assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, layers, 3, &heights), CW_OK);
   // Three layers that grow by 1.1 are 3.31 times the first, and heights rise by 0.3.
   for (int v = 0; v < 4; v++) NEAR(heights.first_height[v], 0.1);
@@ -131,31 +134,29 @@ static double roof_height(double size, int fluid_above, double lift) {
 }
 
 static void bends_of_the_wall(void **state) {
-  // In the hollow the last layer is 0.65 cos 45 of the tetrahedron: 2.25, after 1 and 1.5.
-  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 0, 0), 4.75);
-  // 0.8 cos 45 where three even layers are lower than half a length: 3.61, after 1 and 1.9.
-  NEAR(roof_height(3.61 / (0.8 * sqrt(0.5) * 0.816), 0, 0), 6.51);
-  NEAR(roof_height(2.25 / (0.65 * sqrt(0.5) * 0.816), 1, 0), 7);
-  NEAR(roof_height(2.25 / 0.816, 1, 0), 4.75);
-  NEAR(roof_height(1.8, 1, 0), 1 + sqrt(1.8 * 0.816) + 1.8 * 0.816); // columns part: up to 2.5 wanted lengths
-  NEAR(roof_height(1.8, 1, 0.1), 3.6); // no taller than two where the wall rises to one side
+  // In the hollow tetrahedra are lower by cos 45: with a last layer of 2.25, after 1 and 1.5.
+  NEAR(roof_height(edge_below(2.25) / sqrt(0.5), 0, 0), 4.75);
+  // Over the ridge they are not, be it level or rising to one side.
+  NEAR(roof_height(edge_below(2.25), 1, 0), 4.75);
+  NEAR(roof_height(edge_below(2.25), 1, 0.1), 4.75);
+  NEAR(roof_height(edge_below(5), 1, 0), 7);
 }
 
 static void a_vertex_without_triangle_is_an_error(void **state) {
   double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   Wall wall;
   CwColumnHeights heights = {0};
-  make_wall(&wall, 10, 4, x, 1, square, square_face);
+  make_wall(&wall, 100, 4, x, 1, square, square_face);
   assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &DOUBLING, 3, &heights), CW_ERR_MESH);
   free_wall(&wall, &heights);
 }
 
 static void the_share_of_graded_columns(void **state) {
-  const CwLayerTarget layers = {.first_height = 1, .growth = 2, .thickness = 2};
+  const CwLayerTarget layers = {.first_height = 1, .growth = 2, .thickness = 2, .last = 1};
   Wall wall;
   CwColumnHeights heights = {0};
   double share = 0;
-  make_wall(&wall, 10, 4, square_x, 2, square, square_face);
+  make_wall(&wall, 100, 4, square_x, 2, square, square_face);
   assert_int_equal(cw_column_heights_make(&wall.skeleton, &wall.around, &layers, 2, &heights), CW_OK);
   assert_int_equal(cw_column_heights_share(&heights, &wall.skeleton, &wall.around, &layers, &share), CW_OK);
   NEAR(share, 1);

@@ -75,12 +75,12 @@ static int open_pump(void **state) {
            case_path, folder);
   assert_int_equal(system(command), 0);
   check(cw_case_read(case_path, &table));
-  prism_factor = 2.45 * table.walls.layer_count;
   snprintf(path, sizeof path, "%s/geometry/design.json", folder);
   check(cw_flow_scales_read(path, &scales));
   snprintf(path, sizeof path, "%s/geometry", folder);
   check(cw_domain_table_read(path, &domains));
   for (int d = 0; d < domains.count; d++) open_domain(&domain[d], domains.name[d], path, &scales);
+  prism_factor = 2.45 * domain[0].layer_count;
   check(cw_symmetry_find(domain[0].cad, &domain[0].background, &symmetry));
   assert_true(symmetry || strcmp(case_name, "paper") != 0);
   snprintf(command, sizeof command, "rm -r %s", folder);
