@@ -150,11 +150,13 @@ static int make_run(void **state) {
                                        "[{\"name\":\"rotor\",\"seconds\":1.5,\"items\":62,\"unit\":\"faces\"}],"
                                        "\"warnings\":[\"skewed & sharp\"],\"results\":{}}");
   write_text("geometry/velocity_triangles.svg", "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
-  write_record("mesh/record.json", "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
-                                   "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
-                                   "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
-                                   "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"domains\":[" DOMAIN(
-                                       "rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
+  write_record(
+      "mesh/record.json",
+      "{\"stage\":\"mesh\",\"seconds\":3,\"peak_memory_bytes\":2097152,\"steps\":"
+      "[{\"name\":\"surface\",\"seconds\":1,\"items\":9,\"unit\":\"faces\"},"
+      "{\"name\":\"surface\",\"seconds\":1.25,\"items\":9,\"unit\":\"faces\"}],"
+      "\"warnings\":[],\"results\":{\"ranks\":2,\"asked_cells\":5,\"layers\":3,\"headlines\":[\"laminar <flow>\"],"
+      "\"domains\":[" DOMAIN("rotor", "hub") "," DOMAIN("stator", "volute") "]}}");
   write_text("mesh/manifest.json", MANIFEST);
   write_region("rotor", 0.03, 0.101, 7);
   write_region("stator", 0.101, 0.14, 7);
@@ -217,6 +219,10 @@ static void page_tells_all_and_stands_alone(void **state) {
   holds(page, "constant &lt;K&gt;");   // its source
   holds(page, "<svg width=\"9\" height=\"9\"><!-- triangles --></svg>");
   holds(page, ">97.5 %<"); // first heights met
+  holds(page, "<p>3 layers on every wall face");
+  const char *headline = strstr(page, "laminar &lt;flow&gt;");
+  assert_non_null(headline);
+  assert_true(headline < strstr(page, "<h2"));
   holds(page, "mesh: surface</text>");
   holds(page, "2.25 s, 9 faces, 2 passes"); // two passes added up
   holds(page, "geometry:</b> skewed &amp; sharp");

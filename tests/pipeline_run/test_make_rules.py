@@ -19,7 +19,7 @@ while [ "$1" != --run ]; do shift; done
 mkdir -p "$2/$name"
 case $name in
 geometry) results='"predicted_head_m": 12' ;;
-mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "layers": 1, "headlines": [], "domains": [%(domain)s]' ;;
+mesh) results='"cells": 5, "asked_cells": 5, "ranks": 2, "layers": 1, "headlines": ["laminar flow"], "domains": [%(domain)s]' ;;
 *) results= ;;
 esac
 echo "{\\"seconds\\": 1, \\"peak_memory_bytes\\": 1, \\"warnings\\": [], \\"results\\": {$results}}" > "$2/$name/record.json"
@@ -75,6 +75,7 @@ class MakeRules(unittest.TestCase):
         self.assertEqual(ran, [])
         self.assertIn("5 (+0.0 % of the 5 asked)", result.stdout)
         self.assertIn("12.00 m predicted", result.stdout)
+        self.assertIn("note       laminar flow", result.stdout)
         self.assertIn("report/index.html", result.stdout)
 
     def test_another_count_leaves_the_geometry(self):
