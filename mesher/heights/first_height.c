@@ -24,9 +24,8 @@ CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *gro
   } else if (cw_case_given(group->y_plus)) {
     first.asked = unit * group->y_plus;
   } else {
-    double growing = cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, CW_GROWTH_AUTO);
-    double roomy = fmin(unit * y_plus_auto, CW_GAP_SHARE * flow->width / growing);
-    first.asked = fmax(unit * CW_LOG_LAYER_Y_PLUS, roomy);
+    double roomy = CW_GAP_SHARE * flow->width / cw_layer_thickness(1, CW_LAYER_COUNT_USUAL, CW_GROWTH_AUTO);
+    first.asked = fmin(unit * y_plus_auto, roomy);
     first.source = CW_FIRST_AUTO;
   }
   int laminar = first.reynolds < CW_LAMINAR_REYNOLDS;

@@ -33,7 +33,7 @@ typedef struct {
 
 typedef enum {
   CW_FIRST_ASKED,  // as the case gives it, or its y+
-  CW_FIRST_AUTO,   // of a y+ in the log layer
+  CW_FIRST_AUTO,   // of a y+ in the log layer, or less where the passage is narrow
   CW_FIRST_FITTED, // what fits the passage, less than that
   CW_FIRST_LAMINAR // a share of the passage: the flow is laminar
 } CwFirstSource;
@@ -50,8 +50,8 @@ typedef struct {
 // share of it that columns may take. 0 layers: CW_LAYERS_LEAST.
 double cw_first_height_fitting(double width, int layer_count);
 
-// y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END; more than the first of
-// these only as far as CW_LAYER_COUNT_USUAL layers that grow by CW_GROWTH_AUTO fit the passage.
+// y_plus_auto: where the case leaves it open, from CW_LOG_LAYER_Y_PLUS to CW_LOG_LAYER_END, as far as
+// CW_LAYER_COUNT_USUAL layers that grow by CW_GROWTH_AUTO fit the passage.
 CwFirstHeight cw_first_height_choose(const CwCase *table, const CwWallGroup *group, const CwWallFlow *flow,
                                      double y_plus_auto);
 

@@ -127,7 +127,8 @@ void cw_warn_of_first_heights(const CwDomain *domain, const CwCase *table, json_
 
 // What the warning of a domain adds up.
 typedef struct {
-  double thin, thick;    // faces over CW_RATIO_FAIR of patches with too many of them
+  double faces, over;    // of the domain; over CW_RATIO_FAIR
+  double thin, thick;    // those over it of patches with too many
   double missing_layers; // most that such a patch lacks
   List where;
 } Jumps;
@@ -141,6 +142,8 @@ static void add_patch(const json_t *patch, Jumps *jumps) {
   double thick = number(patch, "thick_last_layer_faces"), most = number(patch, "volume_ratio_95_percent");
   double weights = number(patch, "small_weight_faces");
   int uneven = thin + thick > MOST_SHARE * faces;
+  jumps->faces += faces;
+  jumps->over += thin + thick;
   if (!uneven && number(patch, "volume_ratio_over_10_faces") == 0 && weights == 0) return;
   jumps->thin += uneven ? thin : 0;
   jumps->thick += uneven ? thick : 0;
@@ -201,7 +204,7 @@ void cw_warn_of_layers(const char *domain, int layers, int automatic, const json
       "%s: volumes change by more than %.0f on more than %.0f %% of the layer top, or by more than %.0f; 95 %% are "
       "within: %s; %s",
       domain, CW_RATIO_FAIR, 100 * MOST_SHARE, CW_RATIO_MOST, jumps.where.text, remedy);
-  if (jumps.thin + jumps.thick > 0)
+  if (jumps.over > MOST_SHARE * jumps.faces)
     tell(headlines, "%s", text);
   else
     cw_log_warn("%s", text);

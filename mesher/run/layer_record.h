@@ -23,7 +23,7 @@ void cw_warn_of_missed(const char *domain, const json_t *coverage, json_t *headl
 
 // Warns of the patches of `coverage` over which more than 5 % of the faces of the layer top exceed CW_RATIO_FAIR, any
 // exceeds CW_RATIO_MOST or any has a small weight, and names the key to change. `layers`: their number; automatic: the
-// case leaves it open. Only the first is a headline.
+// case leaves it open. A headline where more than 5 % of all its faces exceed CW_RATIO_FAIR.
 void cw_warn_of_layers(const char *domain, int layers, int automatic, const json_t *coverage, json_t *headlines);
 
 #endif

@@ -46,7 +46,7 @@ static void even_layers_are_not_told_of(void **state) {
 // From 13.824 to 4 it is 3.456, which lies between 1.2^6 and 1.2^7.
 static void thin_layers_need_more(void **state) {
   json_array_append_new(coverage, PATCH("hub", 1000, 1000, 0, 20, 0, 0, 3, 0));
-  json_array_append_new(coverage, PATCH("shroud", 1000, 1000, 0, 51, 0, 7, 13.824, 4));
+  json_array_append_new(coverage, PATCH("shroud", 1000, 1000, 0, 81, 0, 7, 13.824, 4));
   cw_warn_of_layers("rotor", 5, 0, coverage, headlines);
   assert_int_equal(json_array_size(headlines), 1);
   const char *told = json_string_value(json_array_get(headlines, 0));
