@@ -2,6 +2,8 @@
 // What the solids are for another program that goes on with them: OpenCASCADE's check of the arguments of boolean
 // operations, as FreeCAD's "check geometry" runs it, finds nothing. It looks for faces and edges of a solid that cross
 // or touch one another and for curves that leave their surface by more than the edge's tolerance, among others.
+//
+//   geometry_test_boolean_ready [crossings]     with all faces held against one another too, which takes minutes
 #include <csetjmp>
 #include <cstdarg>
 #include <cstddef>
@@ -18,6 +20,8 @@ extern "C" {
 #include "geometry/pump.h"
 #include "geometry/solid.hpp"
 #include "pipeline/case.h"
+
+static bool crossings = false;
 
 static const char *status_name(BOPAlgo_CheckStatus status) {
   switch (status) {
@@ -40,8 +44,7 @@ static const char *status_name(BOPAlgo_CheckStatus status) {
   }
 }
 
-// `crossings`: whether faces are held against one another too, which takes minutes of large rotors.
-static void expect_no_fault(const CwSolid *solid, bool crossings) {
+static void expect_no_fault(const CwSolid *solid) {
   BOPAlgo_ArgumentAnalyzer check;
   check.SetShape1(solid->solid);
   check.SelfInterMode() = crossings;
@@ -58,14 +61,14 @@ static void expect_no_fault(const CwSolid *solid, bool crossings) {
   }
 }
 
-static void expect_no_fault_in(const CwCase &table, bool crossings) {
+static void expect_no_fault_in(const CwCase &table) {
   CwDesign design;
   CwPipeStubs stubs;
   CwPump pump = {};
   if (cw_hydraulic_design(&table, &design) != CW_OK || cw_pump_pipe_stubs(&table, &design, &stubs) != CW_OK ||
       cw_pump_build(&table, &design, &stubs, &pump) != CW_OK)
     fail_msg("%s", cw_fail_message());
-  for (int i = 0; i < pump.count; i++) expect_no_fault(pump.solid[i], crossings);
+  for (int i = 0; i < pump.count; i++) expect_no_fault(pump.solid[i]);
   cw_pump_free(&pump);
 }
 
@@ -77,14 +80,14 @@ static CwCase read_case(const char *name) {
 }
 
 static void paper(void **) {
-  expect_no_fault_in(read_case("paper"), true);
+  expect_no_fault_in(read_case("paper"));
 }
 
 static void splitters_and_zones(void **) {
   CwCase table = read_case("splitters");
   table.impeller.suction_pipe_zone = CW_PIPE_OWN_ZONE;
   table.volute.discharge_pipe_zone = CW_PIPE_OWN_ZONE;
-  expect_no_fault_in(table, false);
+  expect_no_fault_in(table);
 }
 
 static void fillets_round_edges_shaft_and_radial_discharge(void **) {
@@ -94,16 +97,17 @@ static void fillets_round_edges_shaft_and_radial_discharge(void **) {
   table.impeller.through_shaft_diameter = 20e-3;
   table.impeller.rotation = CW_ROTATION_CLOCKWISE;
   table.volute.discharge = CW_DISCHARGE_RADIAL;
-  expect_no_fault_in(table, false);
+  expect_no_fault_in(table);
 }
 
 static void sharp_edges(void **) {
   CwCase table = read_case("paper");
   table.impeller.trailing_edge = CW_EDGE_SHARP;
-  expect_no_fault_in(table, false);
+  expect_no_fault_in(table);
 }
 
-int main() {
+int main(int argc, char **argv) {
+  crossings = argc > 1 && std::string(argv[1]) == "crossings";
   const CMUnitTest tests[] = {
       cmocka_unit_test(paper),
       cmocka_unit_test(splitters_and_zones),
