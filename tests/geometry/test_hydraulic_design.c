@@ -212,7 +212,7 @@ static void leading_edge_at_the_eye(void **state) {
 // Guelich's efficiencies go on below 18 m3/h without a jump of value or slope, and fall to 0 and not below.
 static void efficiency_of_small_pumps(void **state) {
   CwDesign before = {.flow_rate = 0};
-  for (double q = 100; q > 0.02; q *= 0.8) {
+  for (double q = 100; q > 0.02; q *= 0.65) {
     CwCase table = duty_point(q, 1450 * 1450, 1450);
     table.operating_point.head = pow(1450 * sqrt(q / 3600) / 20, 4.0 / 3);
     table.fluid.kinematic_viscosity = 1e-6;
@@ -221,7 +221,7 @@ static void efficiency_of_small_pumps(void **state) {
     assert_true(design.efficiency > 0.01 && design.hydraulic_efficiency > 0.2);
     if (before.flow_rate > 0) {
       const double fall = before.efficiency - design.efficiency;
-      assert_true(fall > 0 && fall < 0.1);
+      assert_true(fall > 0 && fall < 0.17);
     }
     before = design;
   }
