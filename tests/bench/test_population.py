@@ -13,8 +13,8 @@ COUNT = 12
 class Population(unittest.TestCase):
     def judge(self, *words):
         program = SOURCE / "tests/bench/population.py"
-        told = execute([sys.executable, "-B", program, COUNT, *words, "--bin", BIN, "--work", WORK / "population"],
-                       timeout=7000)
+        line = [sys.executable, "-B", program, COUNT, "--strict", *words, "--bin", BIN, "--work", WORK / "population"]
+        told = execute(line, timeout=7000)
         self.assertEqual(told.returncode, 0, told.stdout)
 
     def test_duty_only(self):
