@@ -102,7 +102,7 @@ CwStatus write(const CwSolid *const *solids, int count, bool with_faces, const c
   header.SetTimeStamp(new TCollection_HAsciiString("2000-01-01T00:00:00"));
   header.SetOriginatingSystem(new TCollection_HAsciiString("Cutwater"));
   if (writer.Write(temporary_path) != IFSelect_RetDone)
-    return CW_FAIL(CW_ERR_IO, "%s: cannot be written", temporary_path);
+    return CW_FAIL(CW_ERR_IO, "%s: cannot be written (is the disk full?)", temporary_path);
   return CW_OK;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // cutwater-mesh: exact geometry in, region files out. Run it under mpirun.
+#include <hdf5.h>
 #include <mpi.h>
 #include <stdlib.h>
 
@@ -34,6 +35,7 @@ int main(int argc, char **argv) {
   CwCase table;
   CwMeshRun run = {0};
   char *record_path = NULL;
+  H5dont_atexit(); // HDF5 stumbles there over files that could not be closed
   CW_TRY(cw_mpi_start(&argc, &argv, &run.rank, &run.ranks));
   CW_TRY(cw_stage_begin(argc, argv, &USAGE, run.rank == 0, &args, &table));
   if (args.finished) goto done;

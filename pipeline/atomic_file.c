@@ -91,7 +91,7 @@ CwStatus cw_atomic_file_commit(CwAtomicFile *file) {
     int broken = ferror(stream);
     if (fclose(stream)) broken = 1;
     CW_REQUIRE(!broken, CW_ERR_IO, "%s: cannot be written: %s", file->final_path,
-               errno ? strerror(errno) : "a write failed");
+               errno ? strerror(errno) : "a write failed (is the disk full?)");
   } else { // nothing that this program writes is empty
     CW_REQUIRE(!stat(file->temporary_path, &about) && about.st_size > 0, CW_ERR_IO,
                "%s: cannot be written: nothing came", file->final_path);

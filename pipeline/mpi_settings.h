@@ -5,7 +5,8 @@
 
 // Where all ranks are on one machine, Open MPI's way over shared memory needs none of the libraries of fast networks,
 // and to load and ask them is more than half of what a rank needs to start. A rank started without mpirun needs no
-// daemon beside it either, which takes a quarter of a second: nobody is going to join it.
+// daemon beside it either, which takes a quarter of a second: nobody is going to join it. Where there is too little
+// memory for MPI to start, the process ends here, with one line: MPI would crash.
 void cw_mpi_settings(void);
 
 #endif

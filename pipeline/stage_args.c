@@ -169,6 +169,7 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
     if (speaks) CW_TRY(cw_stage_files_check(args->run_path, *stage));
   }
   if (speaks) CW_TRY(claim_folder(args, usage->stage));
+  errno = 0; // what a library did without as it started is not what a later failure comes from (status.h)
 done:
   free(log_path);
   return status;

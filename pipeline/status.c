@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "pipeline/status.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,12 +21,22 @@ const char *cw_status_text(CwStatus status) {
   return "unknown status";
 }
 
+// A library that ran out of memory says so by another name, or has caught its own exception.
+static int is_for_memory(CwStatus code) {
+  return errno == ENOMEM && code > CW_OK && code != CW_ERR_USAGE && code != CW_ERR_MEMORY && code != CW_ERR_RANK;
+}
+
 CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format, ...) {
   // Formatted aside first: an argument may be the old message itself.
   char fresh[sizeof message];
+  int used = 0;
   va_list arguments;
+  if (is_for_memory(code)) {
+    code = CW_ERR_MEMORY;
+    used = snprintf(fresh, sizeof fresh, "out of memory: ");
+  }
   va_start(arguments, format);
-  vsnprintf(fresh, sizeof fresh, format, arguments);
+  vsnprintf(fresh + used, sizeof fresh - (size_t)used, format, arguments);
   va_end(arguments);
   memcpy(message, fresh, sizeof message);
   trace[0] = '\0';

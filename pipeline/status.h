@@ -47,7 +47,9 @@ typedef enum { CW_STATUS_LIST(CW_STATUS_ENUM) } CwStatus;
 const char *cw_status_text(CwStatus status);
 
 // Records the message of a failure (printf style, kept per thread, at most 1000 bytes) and returns `code`.
-// Called where the failure is found; a later call replaces an earlier one, so a caller may add context.
+// Called where the failure is found; a later call replaces an earlier one, so a caller may add context. Where errno is
+// ENOMEM, an allocation has failed, perhaps deep in a library that calls it something else: then the code becomes
+// CW_ERR_MEMORY, and the message begins with "out of memory: ".
 CwStatus cw_fail_at(const char *source_file, int line, const char *function, CwStatus code, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 

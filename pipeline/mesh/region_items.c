@@ -87,16 +87,22 @@ done:
 CwStatus cw_region_items_open(const char *path, hid_t *file, char digest[CW_HASH_TEXT]) {
   CwStatus status = CW_OK;
   int32_t format = 0;
+  hsize_t size = 0;
+  haddr_t end = HADDR_UNDEF;
   char found[CW_HASH_TEXT], wanted[CW_HASH_TEXT];
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // ours is the one line that a person sees
   *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   CW_REQUIRE(*file >= 0, CW_ERR_IO, "%s: is missing, damaged or cut short: cannot be opened as HDF5", path);
-  CW_TRY(cw_region_items_integer(*file, path, "format", &format));
+  CW_REQUIRE(cw_region_items_integer(*file, path, "format", &format) == CW_OK, CW_ERR_IO,
+             "%s: attributes cannot be read; the file is damaged", path);
   CW_REQUIRE(format == CW_REGION_FORMAT, CW_ERR_INPUT, "%s: attribute 'format' is %d; it must be %d", path, format,
              CW_REGION_FORMAT);
-  CW_TRY(cw_region_items_text(*file, path, "digest", wanted, sizeof wanted));
+  CW_REQUIRE(cw_region_items_text(*file, path, "digest", wanted, sizeof wanted) == CW_OK, CW_ERR_IO,
+             "%s: has no digest of its attributes; the file is damaged", path);
   CW_TRY(cw_region_items_digest(*file, path, found));
   CW_REQUIRE(!strcmp(found, wanted), CW_ERR_IO, "%s: attributes: not as they were written; the file is damaged", path);
+  CW_REQUIRE(H5Fget_filesize(*file, &size) >= 0 && H5Fget_eoa(*file, &end) >= 0 && size == end, CW_ERR_IO,
+             "%s: has bytes after its end; the file is damaged", path);
   if (digest) memcpy(digest, found, sizeof found);
 done:
   if (status != CW_OK && *file >= 0) {

@@ -34,7 +34,8 @@ typedef enum {
 } CwRegionPart;
 
 // Opens a region file of this format for reading and holds its attributes against their digest, which goes to `digest`
-// (NULL: not wanted). CW_ERR_IO where it is missing, no whole HDF5 file, or damaged; CW_ERR_INPUT.
+// (NULL: not wanted). CW_ERR_IO where it is missing, no whole HDF5 file, or damaged; CW_ERR_INPUT where it is
+// of another format.
 CwStatus cw_region_items_open(const char *path, hid_t *file, char digest[CW_HASH_TEXT]);
 
 // The digest of all attributes but itself, as they are. CW_ERR_IO.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,6 +45,19 @@ static void message_may_be_built_from_the_old_one(void **state) {
   cw_fail_place("case.yaml");
   assert_string_equal(cw_fail_message(), "case.yaml: rotor: cannot read");
   assert_string_equal(cw_fail_trace(), trace);
+}
+
+// A library calls it by another name, or tells of what it came to.
+static void a_failed_allocation_is_told_as_one(void **state) {
+  errno = ENOMEM;
+  assert_int_equal(CW_FAIL(CW_ERR_GEOMETRY, "rotor: %s", "no solid"), CW_ERR_MEMORY);
+  assert_string_equal(cw_fail_message(), "out of memory: rotor: no solid");
+  assert_int_equal(CW_FAIL(CW_ERR_USAGE, "no such option"), CW_ERR_USAGE);
+  assert_string_equal(cw_fail_message(), "no such option");
+  errno = ENOENT;
+  assert_int_equal(CW_FAIL(CW_ERR_GEOMETRY, "rotor: no solid"), CW_ERR_GEOMETRY);
+  assert_string_equal(cw_fail_message(), "rotor: no solid");
+  errno = 0;
 }
 
 static void every_code_has_a_text(void **state) {
@@ -98,6 +112,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(failure_carries_message_and_trace),
       cmocka_unit_test(message_may_be_built_from_the_old_one),
+      cmocka_unit_test(a_failed_allocation_is_told_as_one),
       cmocka_unit_test(every_code_has_a_text),
       cmocka_unit_test(a_list_grows_by_doubling_and_keeps_its_items),
       cmocka_unit_test(a_list_that_cannot_grow_is_told),

@@ -170,6 +170,9 @@ static void no_bit_may_change(void **state) {
     bytes[i] = kept;
   }
   assert_int_equal(taken, 0);
+  write_all(bytes, size + 1); // whatever lay behind them
+  assert_int_equal(take_up(r.fingerprint, &got), CW_REGION_DAMAGED);
+  assert_non_null(strstr(cw_fail_message(), "has bytes after its end"));
   free(bytes);
 }
 
