@@ -20,10 +20,10 @@ static double prisms_per_layer(double asked) {
 // meshes they are counted by the area of the walls, for each h^2, and few tetrahedra lie off the front: sizes change
 // within all of them (cells as predicted so are within 2 % in the paper's pump at 0.3 and 1 million cells, within 5 %
 // in others). In fine ones those on interfaces come with the many regions (measured in the paper's from 3 to 20 million
-// cells: 12.9 at scale 0.75, 11.4 at 0.51, 10.5 at 0.36).
+// cells: 13.0 at scale 0.75, 11.8 at 0.50, 10.9 at 0.35).
 static double tets_per_volume(const CwMeshRun *run, double scale) {
   double walls = 0, volume = 0;
-  if (scale <= 1) return 8.2 + 6.25 * scale + 0.011 / (scale * scale);
+  if (scale <= 1) return 8.45 + 6.25 * scale + 0.011 / (scale * scale);
   for (int d = 0; d < run->domains.count; d++) {
     walls += run->domain[d].prism_integral;
     volume += cw_domain_tet_integral(&run->domain[d], scale);

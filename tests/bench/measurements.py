@@ -27,9 +27,10 @@ Section = namedtuple("Section", "title command text")
 
 SECTIONS = {
     "scale": Section(
-        "One pump, from 0.3 to 20 million cells", "tests/bench/scale.py 300k 1M 3M 8M 20M --judge",
+        "One pump, from 0.3 to 8 million cells", "tests/bench/scale.py 300k 1M 3M 8M --judge",
         "The paper's pump. `balance` is the cells of a region over their mean; `aspect` the mean of longest over "
         "shortest edge of the tetrahedra."),
+    "scale_20M": Section("20 million cells", "tests/bench/scale.py 20M --judge", "The same; checkMesh takes 20 GB."),
     "large": Section(
         "100 and 145 million cells, killed and called again", "tests/bench/scale.py 100M 145M --kill",
         "The mesher is run again, all ranks are killed when half of the regions are whole, and it is called once more: "
@@ -38,15 +39,17 @@ SECTIONS = {
         "All cases at their own sizes", "tests/bench/cases.py",
         "The options print what the columns mean (`tests/bench/cases.py --help`)."),
     "cases_1M": Section("All cases at 300,000 and 1 million cells", "tests/bench/cases.py --cells 300k 1M", ""),
-    "population": Section(
-        "500 pumps by flow, head and speed", "tests/bench/population.py 500",
+    "population_60": Section(
+        "60 pumps by flow, head and speed", "tests/bench/population.py 60 --limit 240",
         "Drawn at random over the whole range of the case file (`tests/bench/population.py --help`)."),
-    "population_options": Section(
-        "500 pumps with options", "tests/bench/population.py 500 --options",
+    "population_60_options": Section(
+        "60 pumps with options", "tests/bench/population.py 60 --options --limit 240",
         "The same with blade counts, splitters, fillets, shafts, sections, zones and y+ targets drawn too."),
+    "population": Section("500 pumps by flow, head and speed", "tests/bench/population.py 500", ""),
+    "population_options": Section("500 pumps with options", "tests/bench/population.py 500 --options", ""),
     "ablation": Section(
-        "What each number of the policy does", "tests/bench/ablate.py",
-        "Each number of `mesher/policy.h` moved by a factor, over a population of pumps."),
+        "What each number of the policy does", "tests/bench/policy.py",
+        "Each number of `mesher/policy.h` moved by a factor."),
     "table1": Section(
         "Table 1 of the paper: shapes of the tetrahedra", "tests/bench/table1.py --cells 3M",
         "Shares of the tetrahedra by longest over shortest edge, %."),
@@ -77,10 +80,10 @@ def run_text(*line):
 
 def sources_digest(command):
     """Of all tracked files that a measurement follows from."""
-    bench = [word for word in command.split() if word.startswith("tests/")] + ["tests/bench/programs.py", "tests/mesher"]
+    bench = ["tests/bench/*.py" if word.startswith("tests/bench/") else "tests/mesher" for word in command.split()[:1]]
     digest = hashlib.sha256()
     for name in run_text("git", "ls-files", *PROGRAMS, *bench).splitlines():
-        if not name.endswith(".md"):
+        if not name.endswith((".md", "/measurements.py")):
             digest.update(name.encode() + b"\0" + (SOURCE / name).read_bytes())
     return digest.hexdigest()
 

@@ -7,11 +7,12 @@ import os
 import shutil
 import unittest
 
-from cutwater import BIN, done, execute, fresh, record
+from cutwater import BIN, done, execute, fresh, record, seal
 
 CELLS = int(os.environ["CUTWATER_SIMILAR_CELLS"])
 # What rounding may do. It moves small meshes more, and the least angle is that of a single tetrahedron.
-COUNT_OFF = 0.01 if CELLS < 500000 else 0.005
+# Below half a million cells rounding may choose another plane: then the tolerance of the asked count itself holds.
+COUNT_OFF = 0.02 if CELLS < 500000 else 0.005
 MET_OFF = 0.002
 DIHEDRAL_OFF = 2.5  # degrees
 POWERS = (-3, -2, -1, 1, 2, 3)
@@ -85,12 +86,12 @@ class Similar(unittest.TestCase):
             with self.subTest(power=power):
                 run = similar(2.0 ** power, f"solid-2^{power}")
                 self.meshed(run, ["geometry"])
-                unit = json.loads((self.one / "geometry/model.json").read_text())
-                (run / "geometry/model.json").write_text(json.dumps(unit))
+                shutil.copyfile(self.one / "geometry/model.json", run / "geometry/model.json")
                 for domain in ("rotor", "stator"):
                     solid = f"geometry/{domain}.brep"
                     scaled = execute([BIN / "scaled_solid", self.one / solid, run / solid, power])
                     self.assertEqual(scaled.returncode, 0, scaled.stdout)
+                seal(self, run / "geometry")
                 self.meshed(run, ["mesh"])
                 self.expect_same(run, power)
                 shutil.rmtree(run)
