@@ -8,6 +8,7 @@
 #include "mesher/common/vec.h"
 #include "mesher/parallel/schedule.h"
 #include "mesher/parallel/share.h"
+#include "mesher/skeleton/curve_division.h"
 #include "mesher/skeleton/orbit_skeleton.h"
 #include "mesher/skeleton/skeleton_curves.h"
 #include "mesher/surface/patch_task.h"
@@ -105,17 +106,22 @@ done:
   return status;
 }
 
+// The rim that a curve is a piece of, NULL where it is of none.
+static const CwSkeletonRim *rim_of(const CwSkeleton *skeleton, const CwCurve *curve) {
+  for (int32_t i = 0; i < skeleton->rim_count && curve->kind == CW_CURVE_EDGE; i++) {
+    if (skeleton->rim[i].edge == curve->edge) return &skeleton->rim[i];
+  }
+  return NULL;
+}
+
 // Division of a piece of a rim: arc lengths by the fine polyline, whose steps are even in the parameter. NULL where
 // the division is not given.
 static CwStatus divide_rim(const CwSkeleton *skeleton, const CwCurve *curve, int32_t *count, double **place) {
   CwStatus status = CW_OK;
-  const CwSkeletonRim *rim = NULL;
+  const CwSkeletonRim *rim = rim_of(skeleton, curve);
   *count = 0;
   int32_t last = curve->fine_count - 1;
   double from = curve->fine_parameter[0][0], to = curve->fine_parameter[last][0];
-  for (int32_t i = 0; i < skeleton->rim_count && curve->kind == CW_CURVE_EDGE; i++) {
-    if (skeleton->rim[i].edge == curve->edge) rim = &skeleton->rim[i];
-  }
   if (!rim) goto done;
   CW_NEW(*place, rim->count + 2);
   *count = 1;
@@ -135,24 +141,19 @@ static CwStatus add_curve_vertex(CwSkeleton *skeleton, const CwCurve *curve, con
   return add_wall_vertex(skeleton, x, curve_guide(skeleton, curve), vertex);
 }
 
-// A point of a divided curve.
-typedef struct {
-  double x[3], parameter[2];
-} CurvePoint;
-
 typedef struct {
   const CwSkeleton *skeleton;
   int32_t count, *curve; // wall curves to divide: the first of each orbit
 } Curves;
 
 // Whether some edge between the points of a division cuts off a bend of the curve.
-static int cuts_bend(const CwCurve *curve, int32_t count, const double *place, const CurvePoint *point) {
+static int cuts_bend(const CwCurve *curve, int32_t count, const CwCurvePoint *point) {
   int32_t i = 1;
   for (int32_t k = 0; k + 1 < count; k++) {
     double along[3], from[3], beside[3];
     cw_sub(point[k + 1].x, point[k].x, along);
     double length = cw_unit(along);
-    for (; i + 1 < curve->fine_count && curve->fine_length[i] < place[k + 1]; i++) {
+    for (; i + 1 < curve->fine_count && curve->fine_length[i] < point[k + 1].place; i++) {
       cw_sub(curve->fine_x[i], point[k].x, from);
       cw_cross(along, from, beside);
       if (cw_norm(beside) > MOST_BESIDE * length) return 1;
@@ -169,7 +170,7 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
   const CwSkeleton *skeleton = curves->skeleton;
   const CwCurve *curve = &skeleton->network.curve[curves->curve[i]];
   double *place = NULL;
-  CurvePoint *point = NULL;
+  CwCurvePoint *point = NULL;
   int32_t count, least = curve->corner[0] == curve->corner[1] ? 3 : 1;
   CW_TRY(divide_rim(skeleton, curve, &count, &place));
   int given = place != NULL;
@@ -178,9 +179,10 @@ static CwStatus divide_curve(void *context, int32_t i, void **bytes, int64_t *si
       CW_TRY(cw_curve_divide(skeleton, curve, 0, curve->fine_length[curve->fine_count - 1], least, &count, &place));
     CW_NEW(point, count);
     for (int32_t k = 0; k < count; k++) {
+      point[k].place = place[k];
       cw_curve_point(&skeleton->network, curve, place[k], point[k].x, point[k].parameter);
     }
-    if (given || count > MOST_FOR_BENDS || !cuts_bend(curve, count, place, point)) break;
+    if (given || count > MOST_FOR_BENDS || !cuts_bend(curve, count, point)) break;
     least = count; // one edge more
     free(place);
     free(point);
@@ -194,12 +196,64 @@ done:
   return status;
 }
 
-CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
+// Divides the first of each orbit of wall curves; caller frees the points.
+static CwStatus divide_curves(const CwSkeleton *skeleton, CwCurveDivision *division) {
   CwStatus status = CW_OK;
-  CwNetwork *network = &skeleton->network;
+  const CwNetwork *network = &skeleton->network;
   Curves curves = {.skeleton = skeleton};
   void **bytes = NULL;
   int64_t *size = NULL;
+  CW_NEW(curves.curve, network->curve_count);
+  for (int32_t i = 0; i < network->curve_count; i++) {
+    if (network->curve[i].wall && cw_orbit_turns(&skeleton->orbits, &skeleton->orbits.curve, i) == 0)
+      curves.curve[curves.count++] = i;
+  }
+  CW_NEW(bytes, curves.count);
+  CW_NEW(size, curves.count);
+  CwSchedule schedule = {
+      .step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves, .gather = 1};
+  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
+  for (int32_t i = 0; i < curves.count; i++) {
+    CwCurveDivision *of = &division[curves.curve[i]];
+    of->count = (int32_t)((size_t)size[i] / sizeof *of->point);
+    of->given = rim_of(skeleton, &network->curve[curves.curve[i]]) != NULL;
+    of->point = bytes[i];
+    bytes[i] = NULL;
+  }
+  CW_TRY(cw_curve_divisions_refine(skeleton, division));
+done:
+  for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
+  free(bytes);
+  free(size);
+  free(curves.curve);
+  return status;
+}
+
+// The vertices of a divided curve and of its copies.
+static CwStatus add_curve_vertices(CwSkeleton *skeleton, int32_t index, const CwCurveDivision *division) {
+  CwStatus status = CW_OK;
+  CwCurve *curve = &skeleton->network.curve[index];
+  int32_t count = curve->point_count = division->count;
+  CW_NEW(curve->node, count);
+  CW_NEW(curve->parameter, count);
+  CwGuide guide = curve_guide(skeleton, curve);
+  for (int32_t k = 0; k < count; k++) {
+    memcpy(curve->parameter[k], division->point[k].parameter, sizeof curve->parameter[k]);
+    if (k == 0 || k == count - 1) {
+      curve->node[k] = skeleton->surface.corner_vertex[curve->corner[k > 0]];
+    } else {
+      CW_TRY(add_wall_vertex(skeleton, division->point[k].x, guide, &curve->node[k]));
+    }
+  }
+  CW_TRY(cw_orbit_copy_curve(skeleton, index, skeleton->surface.corner_vertex, &skeleton->surface.x, add_curve_vertex));
+done:
+  return status;
+}
+
+CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
+  CwStatus status = CW_OK;
+  CwNetwork *network = &skeleton->network;
+  CwCurveDivision *division = NULL;
   CW_NEW(skeleton->surface.corner_vertex, network->corner_count);
   for (int32_t i = 0; i < network->corner_count; i++) {
     skeleton->surface.corner_vertex[i] = -1;
@@ -215,38 +269,14 @@ CwStatus cw_skeleton_wall_curves(CwSkeleton *skeleton) {
     CW_TRY(cw_orbit_link(orbits, skeleton->surface.corner_vertex[i], skeleton->surface.corner_vertex[next],
                          orbits->corner.turns[next]));
   }
-  CW_NEW(curves.curve, network->curve_count);
+  CW_NEW(division, network->curve_count);
+  CW_TRY(divide_curves(skeleton, division));
   for (int32_t i = 0; i < network->curve_count; i++) {
-    if (network->curve[i].wall && cw_orbit_turns(orbits, &orbits->curve, i) == 0) curves.curve[curves.count++] = i;
-  }
-  CW_NEW(bytes, curves.count);
-  CW_NEW(size, curves.count);
-  CwSchedule schedule = {
-      .step = "curves of the walls", .count = curves.count, .run = divide_curve, .context = &curves, .gather = 1};
-  CW_TRY(cw_schedule_run(&schedule, bytes, size, NULL));
-  for (int32_t i = 0; i < curves.count; i++) {
-    const CurvePoint *point = bytes[i];
-    CwCurve *curve = &network->curve[curves.curve[i]];
-    int32_t count = curve->point_count = (int32_t)((size_t)size[i] / sizeof *point);
-    CW_NEW(curve->node, count);
-    CW_NEW(curve->parameter, count);
-    CwGuide guide = curve_guide(skeleton, curve);
-    for (int32_t k = 0; k < count; k++) {
-      memcpy(curve->parameter[k], point[k].parameter, sizeof point[k].parameter);
-      if (k == 0 || k == count - 1) {
-        curve->node[k] = skeleton->surface.corner_vertex[curve->corner[k > 0]];
-      } else {
-        CW_TRY(add_wall_vertex(skeleton, point[k].x, guide, &curve->node[k]));
-      }
-    }
-    CW_TRY(cw_orbit_copy_curve(skeleton, curves.curve[i], skeleton->surface.corner_vertex, &skeleton->surface.x,
-                               add_curve_vertex));
+    if (division[i].count) CW_TRY(add_curve_vertices(skeleton, i, &division[i]));
   }
 done:
-  for (int32_t i = 0; bytes && i < curves.count; i++) free(bytes[i]);
-  free(bytes);
-  free(size);
-  free(curves.curve);
+  for (int32_t i = 0; division && i < network->curve_count; i++) free(division[i].point);
+  free(division);
   return status;
 }
 

@@ -74,25 +74,26 @@ void cw_outline_free(CwPatchOutline *outline) {
   memset(outline, 0, sizeof *outline);
 }
 
-// The label of each component: that of the centre of its largest triangle, which is the farthest from its edges.
-static CwStatus component_labels(const CwPatchMesh *mesh, CwLabelAt label, const void *context, int32_t *result) {
+// The label of each component: that of the place on the surface amid its largest triangle. The flat triangle itself may
+// lie in the plane that cuts the component off.
+static CwStatus component_labels(const CwPatchMesh *mesh, CwSurfaceAt surface, const void *surface_context,
+                                 CwLabelAt label, const void *context, int32_t *result) {
   CwStatus status = CW_OK;
   double *largest = NULL;
   CW_NEW(largest, mesh->component_count);
   for (int32_t t = 0; t < mesh->triangle_count; t++) {
-    const double *a = mesh->x[mesh->triangle[t][0]], *b = mesh->x[mesh->triangle[t][1]],
-                 *c = mesh->x[mesh->triangle[t][2]];
-    double u[3], v[3], n[3];
-    cw_sub(b, a, u);
-    cw_sub(c, a, v);
+    const int32_t *corner = mesh->triangle[t];
+    double u[3], v[3], n[3], uv[2], middle[3];
+    cw_sub(mesh->x[corner[1]], mesh->x[corner[0]], u);
+    cw_sub(mesh->x[corner[2]], mesh->x[corner[0]], v);
     cw_cross(u, v, n);
     double area = cw_norm(n);
     int32_t component = mesh->component[t];
     if (area <= largest[component]) continue;
     largest[component] = area;
-    double centre[3];
-    for (int k = 0; k < 3; k++) centre[k] = (a[k] + b[k] + c[k]) / 3;
-    result[component] = label(context, centre);
+    for (int k = 0; k < 2; k++) uv[k] = (mesh->uv[corner[0]][k] + mesh->uv[corner[1]][k] + mesh->uv[corner[2]][k]) / 3;
+    surface(surface_context, uv, middle, NULL, NULL);
+    result[component] = label(context, middle);
   }
 done:
   free(largest);
@@ -124,7 +125,7 @@ CwStatus cw_patch_task(const CwPatchOutline *outline, CwSurfaceAt surface, const
                         .largest = largest};
   CW_TRY(cw_patch_mesh(&input, &mesh));
   CW_NEW(labels, mesh.component_count);
-  CW_TRY(component_labels(&mesh, label, label_context, labels));
+  CW_TRY(component_labels(&mesh, surface, surface_context, label, label_context, labels));
   int32_t fresh = mesh.point_count - outline->point_count;
   size_t nodes = (size_t)outline->point_count * sizeof *outline->node;
   size_t total = HEADER + (size_t)fresh * 24 + nodes + (size_t)mesh.triangle_count * 16;

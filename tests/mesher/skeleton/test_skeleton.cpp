@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <gp_Ax2.hxx>
@@ -246,6 +247,41 @@ static void edges_follow_a_narrow_nose(void **) {
   assert_int_equal(noses, 2);
 }
 
+// A half-round bay of radius 8 mm at the box and a post in it that leaves 0.24 mm to the wall of the bay. Three edges
+// are wanted along the half circle, whose chords run 1.07 mm inside of it, through the post: they get as many as they
+// need to run outside of it.
+static void edges_keep_apart_in_a_narrow_gap(void **) {
+  TopoDS_Shape bay =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(10, 30, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)), 8, 20, M_PI).Shape();
+  TopoDS_Shape post = BRepPrimAPI_MakeBox(gp_Pnt(9, 32, 0), 2, 5.7, 20).Shape();
+  Box box(1, 0.009, BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), bay).Shape(), post));
+  CwSkeleton &skeleton = box.skeleton;
+  skeleton.size_at = [](const void *, const double *) { return 9e-3; };
+  int faces = cw_cad_face_count(box.cad);
+  std::vector<void *> walls(faces, nullptr);
+  int64_t size;
+  Box::check(cw_skeleton_wall_curves(&skeleton));
+  for (int f = 0; f < faces; f++) {
+    if (cw_face_is_wall(box.cad, f)) Box::check(cw_skeleton_mesh_wall(&skeleton, f, &walls[f], &size));
+  }
+  Box::check(cw_skeleton_merge_walls(&skeleton, walls.data()));
+  Box::check(cw_surface_mesh_audit(&skeleton.surface, box.plan.region_count));
+  for (void *bytes : walls) free(bytes);
+  int arcs = 0;
+  for (int i = 0; i < skeleton.network.curve_count; i++) {
+    const CwCurve &curve = skeleton.network.curve[i];
+    if (std::fabs(curve.fine_length[curve.fine_count - 1] - 8e-3 * M_PI) > 1e-5) continue;
+    arcs++;
+    for (int k = 0; k + 1 < curve.point_count; k++) {
+      const double *a = skeleton.surface.x[curve.node[k]], *b = skeleton.surface.x[curve.node[k + 1]];
+      if ((a[0] < 0.010) == (b[0] < 0.010) && a[0] != 0.010) continue;
+      double s = (0.010 - a[0]) / (b[0] - a[0]); // above the post's middle
+      assert_true(a[1] + s * (b[1] - a[1]) > 0.0377);
+    }
+  }
+  assert_int_equal(arcs, 2);
+}
+
 // All surfaces of the box, as far as the inner ones.
 static void make_surfaces(Box &box) {
   CwSkeleton &skeleton = box.skeleton;
@@ -432,13 +468,10 @@ static void a_crossing_boundary_is_examined(void **) {
 
 int main() {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(layers_that_cross_a_line_are_found),
-      cmocka_unit_test(network_of_a_box),
-      cmocka_unit_test(curves_lie_on_their_planes),
-      cmocka_unit_test(edges_follow_a_narrow_nose),
-      cmocka_unit_test(regions_fill_the_box),
-      cmocka_unit_test(regions_fill_the_box_by_the_rule),
-      cmocka_unit_test(a_crossing_boundary_is_examined),
+      cmocka_unit_test(layers_that_cross_a_line_are_found), cmocka_unit_test(network_of_a_box),
+      cmocka_unit_test(curves_lie_on_their_planes),         cmocka_unit_test(edges_follow_a_narrow_nose),
+      cmocka_unit_test(edges_keep_apart_in_a_narrow_gap),   cmocka_unit_test(regions_fill_the_box),
+      cmocka_unit_test(regions_fill_the_box_by_the_rule),   cmocka_unit_test(a_crossing_boundary_is_examined),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
