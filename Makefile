@@ -3,6 +3,7 @@
 #
 #   make paper [CELLS=2M] [NP=2] [OUT=DIR]   the pump of the paper, from its design table to the solver's files
 #   make solve [CELLS=..] [NP=2] [OUT=DIR]   the same, and its steady flow with OpenFOAM until head and torque settle
+#   make curve [CELLS=..] [NP=2] [OUT=DIR]   the same at several flow rates: head, power and efficiency over flow
 #   make check                               the quick tests, with everything they need
 #   make check-long                          the long ones
 #   make check-sanitized                     those of single modules and a whole run, under sanitizers, in build/sanitized
@@ -16,7 +17,7 @@ include pipeline/build.mk
 include pipeline/run.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help check check-long check-sanitized measurements clean
+.PHONY: help solve curve check check-long check-sanitized measurements clean
 
 help:
 	@sed -n '/^#   make/s/^#  //p; /^# CELLS/s/^# //p' Makefile
@@ -24,8 +25,7 @@ help:
 OUT ?= runs/paper
 $(eval $(call cutwater_run,paper,$(ROOT)/cases/paper/case.yaml,$(call cutwater_folder,OUT,$(OUT)),$(CELLS)))
 
-.PHONY: solve
-solve: paper-solve
+solve curve: %: paper-%
 
 check check-long: everything
 check: CHOICE := -L '^quick$$'

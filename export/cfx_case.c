@@ -8,6 +8,7 @@
 
 #include "export/patch_role.h"
 #include "export/template.h"
+#include "pipeline/atomic_file.h"
 
 static int is_fixed_rotor_wall(const CwMeshPatch *patch) {
   return patch->domain == CW_MESH_ROTOR && patch->kind == CW_KIND_WALL && !cw_patch_rotates(patch);
@@ -32,16 +33,13 @@ done:
   return status;
 }
 
-// Adds the part `name` of templates/cfx_parts, without its first line (the licence), filled with the values.
+// Adds the built-in file `name`, without its first line (the licence), filled with the values.
 static CwStatus blocks_add(Blocks *blocks, const char *name, const CwValues *values) {
   CwStatus status = CW_OK;
   char *filled = NULL;
-  const char *text = NULL;
-  for (int i = 0; i < cw_template_count; ++i)
-    if (strncmp(cw_templates[i].path, "cfx_parts/", 10) == 0 && strcmp(cw_templates[i].path + 10, name) == 0)
-      text = strchr(cw_templates[i].text, '\n') + 1;
-  CW_REQUIRE(text, CW_ERR_EXPORT, "no template cfx_parts/%s", name);
-  CW_TRY(cw_template_fill(name, text, values, &filled));
+  const CwTemplate *part = cw_template_find(name);
+  CW_REQUIRE(part, CW_ERR_EXPORT, "no template %s", name);
+  CW_TRY(cw_template_fill(name, strchr(part->text, '\n') + 1, values, &filled));
   fputs(filled, blocks->out);
 done:
   free(filled);
@@ -90,9 +88,9 @@ static CwStatus set_boundaries(const CwMesh *mesh, int domain, const char *ends_
   Blocks blocks = {0};
   CW_TRY(blocks_open(&blocks));
   if (mesh->patches[cw_mesh_end(mesh, CW_KIND_INLET)].domain == domain)
-    CW_TRY(blocks_add(&blocks, "inlet.ccl", values));
+    CW_TRY(blocks_add(&blocks, "cfx_parts/inlet.ccl", values));
   if (mesh->patches[cw_mesh_end(mesh, CW_KIND_OUTLET)].domain == domain)
-    CW_TRY(blocks_add(&blocks, "outlet.ccl", values));
+    CW_TRY(blocks_add(&blocks, "cfx_parts/outlet.ccl", values));
   CW_TRY(blocks_close(&blocks, ends_key, values));
   CW_TRY(blocks_open(&blocks));
   for (int i = 0; i < mesh->interface_count; ++i)
@@ -102,7 +100,7 @@ static CwStatus set_boundaries(const CwMesh *mesh, int domain, const char *ends_
       CW_TRY(set_interface(mesh, i, values));
       CW_TRY(cw_values_set(values, "side", "%d", side + 1));
       CW_TRY(cw_values_set(values, "side_patch", "%s", patch->name));
-      CW_TRY(blocks_add(&blocks, "interface_side.ccl", values));
+      CW_TRY(blocks_add(&blocks, "cfx_parts/interface_side.ccl", values));
     }
   CW_TRY(blocks_close(&blocks, sides_key, values));
 done:
@@ -126,7 +124,7 @@ static CwStatus set_more_domains(const CwAssembly *a, CwValues *values) {
           a->patches[p].triangles + a->patches[p].quads > 0) {
         if (cw_patch_is_shaft(&mesh->patches[p])) {
           CW_TRY(cw_values_set(values, "shaft_patch", "%s", mesh->patches[p].name));
-          CW_TRY(blocks_add(&shaft, "shaft.ccl", values));
+          CW_TRY(blocks_add(&shaft, "cfx_parts/shaft.ccl", values));
           continue;
         }
         fprintf(walls.out, "%s%s", first ? "" : ",", mesh->patches[p].name);
@@ -137,8 +135,8 @@ static CwStatus set_more_domains(const CwAssembly *a, CwValues *values) {
     CW_TRY(cw_values_set(values, "zone", "%s", mesh->domains[d].zone));
     CW_TRY(cw_values_set(values, "zone_wall_name", "%s walls", mesh->domains[d].name));
     CW_TRY(set_boundaries(mesh, d, "zone_ends", "zone_sides", values));
-    CW_TRY(blocks_add(&domains, "domain.ccl", values));
-    CW_TRY(blocks_add(&les, "transient_domain.ccl", values));
+    CW_TRY(blocks_add(&domains, "cfx_parts/domain.ccl", values));
+    CW_TRY(blocks_add(&les, "cfx_parts/transient_domain.ccl", values));
   }
   CW_TRY(blocks_close(&domains, "more_domains", values));
   CW_TRY(blocks_close(&les, "more_les", values));
@@ -155,8 +153,9 @@ static CwStatus set_interfaces(const CwMesh *mesh, CwValues *values) {
   CW_TRY(blocks_open(&transient));
   for (int i = 0; i < mesh->interface_count; ++i) {
     CW_TRY(set_interface(mesh, i, values));
-    CW_TRY(blocks_add(&steady, turns(mesh, i) ? "interface_turning.ccl" : "interface_fixed.ccl", values));
-    if (turns(mesh, i)) CW_TRY(blocks_add(&transient, "transient_interface_turning.ccl", values));
+    CW_TRY(blocks_add(&steady, turns(mesh, i) ? "cfx_parts/interface_turning.ccl" : "cfx_parts/interface_fixed.ccl",
+                      values));
+    if (turns(mesh, i)) CW_TRY(blocks_add(&transient, "cfx_parts/transient_interface_turning.ccl", values));
   }
   CW_TRY(blocks_close(&steady, "interfaces", values));
   CW_TRY(blocks_close(&transient, "transient_interfaces", values));
@@ -166,38 +165,77 @@ done:
   return status;
 }
 
-CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
+// The set-up at a flow rate (m3/s); its steady files are called `setup`.
+static CwStatus set_values(const CwCase *table, const CwAssembly *a, double flow, const char *setup, CwValues *values) {
   CwStatus status = CW_OK;
-  CwValues values = {0};
   const CwOperatingPoint *point = &table->operating_point;
   const CwMesh *mesh = a->mesh;
-  CW_TRY(cw_patch_names_set(a, cw_patch_rotates, ",", "rotating_walls", &values));
-  CW_TRY(cw_patch_names_set(a, is_fixed_rotor_wall, ",", "rotor_fixed_walls", &values));
-  CW_TRY(cw_patch_names_set(a, is_stator_wall, ",", "stator_walls", &values));
-  CW_TRY(cw_values_set(&values, "case", "%s", table->name));
-  CW_TRY(cw_values_set(&values, "speed_rpm", "%.9g", point->speed * 30 / M_PI));
-  CW_TRY(cw_values_set(&values, "mass_flow", "%.9g", point->flow_rate * table->fluid.density));
-  CW_TRY(cw_values_set(&values, "inlet_pressure", "%.9g", point->inlet_pressure));
-  CW_TRY(cw_values_set(&values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
+  CW_TRY(cw_patch_names_set(a, cw_patch_rotates, ",", "rotating_walls", values));
+  CW_TRY(cw_patch_names_set(a, is_fixed_rotor_wall, ",", "rotor_fixed_walls", values));
+  CW_TRY(cw_patch_names_set(a, is_stator_wall, ",", "stator_walls", values));
+  CW_TRY(cw_values_set(values, "case", "%s", table->name));
+  CW_TRY(cw_values_set(values, "setup", "%s", setup));
+  CW_TRY(cw_values_set(values, "speed_rpm", "%.9g", point->speed * 30 / M_PI));
+  CW_TRY(cw_values_set(values, "mass_flow", "%.9g", flow * table->fluid.density));
+  CW_TRY(cw_values_set(values, "inlet_pressure", "%.9g", point->inlet_pressure));
+  CW_TRY(cw_values_set(values, "roughness_um", "%.9g", 1e6 * table->walls.roughness));
   // As the paper: rough wherever there is a roughness. walls.treatment is about the wall functions of
   // OpenFOAM.
   if (table->walls.roughness > 0)
-    CW_TRY(cw_values_set(&values, "wall_roughness",
+    CW_TRY(cw_values_set(values, "wall_roughness",
                          "Option = Rough Wall\n          Sand Grain Roughness Height = %.9g [micron]",
                          1e6 * table->walls.roughness));
   else
-    CW_TRY(cw_values_set(&values, "wall_roughness", "Option = Smooth Wall"));
-  CW_TRY(cw_values_set(&values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
-  CW_TRY(cw_values_set(&values, "density", "%.9g", table->fluid.density));
-  CW_TRY(cw_values_set(&values, "dynamic_viscosity", "%.9g", table->fluid.density * table->fluid.kinematic_viscosity));
-  CW_TRY(cw_values_set(&values, "time_step", "%.9g", point->time_step_angle / point->speed));
-  CW_TRY(cw_values_set(&values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
-  CW_TRY(cw_values_set(&values, "physical_timescale", "%.9g", 1 / point->speed));
-  CW_TRY(set_boundaries(mesh, CW_MESH_ROTOR, "rotor_ends", "rotor_sides", &values));
-  CW_TRY(set_boundaries(mesh, CW_MESH_STATOR, "stator_ends", "stator_sides", &values));
-  CW_TRY(set_more_domains(a, &values));
-  CW_TRY(set_interfaces(mesh, &values));
+    CW_TRY(cw_values_set(values, "wall_roughness", "Option = Smooth Wall"));
+  CW_TRY(cw_values_set(values, "time_step_deg", "%.9g", point->time_step_angle * 180 / M_PI));
+  CW_TRY(cw_values_set(values, "density", "%.9g", table->fluid.density));
+  CW_TRY(cw_values_set(values, "dynamic_viscosity", "%.9g", table->fluid.density * table->fluid.kinematic_viscosity));
+  CW_TRY(cw_values_set(values, "time_step", "%.9g", point->time_step_angle / point->speed));
+  CW_TRY(cw_values_set(values, "total_time", "%.9g", 10 * 2 * M_PI / point->speed));
+  CW_TRY(cw_values_set(values, "physical_timescale", "%.9g", 1 / point->speed));
+  CW_TRY(set_boundaries(mesh, CW_MESH_ROTOR, "rotor_ends", "rotor_sides", values));
+  CW_TRY(set_boundaries(mesh, CW_MESH_STATOR, "stator_ends", "stator_sides", values));
+  CW_TRY(set_more_domains(a, values));
+  CW_TRY(set_interfaces(mesh, values));
+done:
+  return status;
+}
+
+// The steady set-up of each point of the curve, in points/.
+static CwStatus write_points(const char *folder, const CwCase *table, const CwAssembly *a) {
+  CwStatus status = CW_OK;
+  CwValues values = {0};
+  char *path = NULL, setup[16 + CW_POINT_NAME_SIZE];
+  double flows[CW_LIST_MOST];
+  const int count = cw_case_flows(table, flows);
+  const char *const kinds[] = {"pre", "ccl"};
+  CW_REQUIRE(asprintf(&path, "%s/points", folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_make_directory(path));
+  for (int k = 0; k < count; ++k) {
+    snprintf(setup, sizeof setup, "points/");
+    cw_case_point_name(table, flows[k], setup + strlen(setup));
+    CW_TRY(set_values(table, a, flows[k], setup, &values));
+    for (size_t kind = 0; kind < 2; ++kind) {
+      char built_in[32];
+      snprintf(built_in, sizeof built_in, "cfx/steady.%s", kinds[kind]);
+      free(path);
+      CW_REQUIRE(asprintf(&path, "%s/%s.%s", folder, setup, kinds[kind]) >= 0, CW_ERR_MEMORY, "out of memory");
+      CW_TRY(cw_template_write(cw_template_find(built_in), path, &values));
+    }
+    cw_values_free(&values);
+  }
+done:
+  cw_values_free(&values);
+  free(path);
+  return status;
+}
+
+CwStatus cw_cfx_case_write(const char *folder, const CwCase *table, const CwAssembly *a) {
+  CwStatus status = CW_OK;
+  CwValues values = {0};
+  CW_TRY(set_values(table, a, table->operating_point.flow_rate, "steady", &values));
   CW_TRY(cw_templates_write("cfx/", folder, &values));
+  CW_TRY(write_points(folder, table, a));
 done:
   cw_values_free(&values);
   return status;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "export/foam_case.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "export/template.h"
 #include "pipeline/atomic_file.h"
@@ -41,8 +43,8 @@ typedef struct {
   const CwCase *table;
   const CwAssembly *assembly;
   CwTurbulence inlet, inside;
-  double outlet_velocity[3];
-  int moving; // transient: the mesh turns
+  double flow_rate, outlet_velocity[3]; // m3/s, m/s
+  int moving;                           // transient: the mesh turns
 } Start;
 
 static void put_wall_velocity(FILE *out, const CwMeshPatch *patch, const Start *start) {
@@ -72,8 +74,7 @@ static void put_velocity(FILE *out, const CwMeshPatch *patch, const Start *start
     fprintf(out,
             "        type            flowRateOutletVelocity;\n        volumetricFlowRate constant %.9g;\n"
             "        value           uniform (%.9g %.9g %.9g);\n",
-            start->table->operating_point.flow_rate, start->outlet_velocity[0], start->outlet_velocity[1],
-            start->outlet_velocity[2]);
+            start->flow_rate, start->outlet_velocity[0], start->outlet_velocity[1], start->outlet_velocity[2]);
     break;
   case CW_KIND_INTERFACE:
     fprintf(out, "        type            cyclicAMI;\n        value           uniform (0 0 0);\n");
@@ -208,31 +209,75 @@ done:
   return status;
 }
 
+// The fields at time 0 of a case, steady or transient (start->moving), into the folder `folder`/0.
+static CwStatus write_fields(const char *folder, const Start *start) {
+  CwStatus status = CW_OK;
+  char *path = NULL;
+  CW_REQUIRE(asprintf(&path, "%s/0", folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(cw_make_directory(path));
+  for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) CW_TRY(write_field(path, (Field)f, start));
+done:
+  free(path);
+  return status;
+}
+
+// What the fields start from at a flow rate (m3/s). Mixing lengths: 7 % of the suction pipe's diameter, and of the
+// width of the channels inside.
+static Start start_at(double flow, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+  const double intensity = 0.05, share = flow / table->operating_point.flow_rate;
+  Start start = {.table = table,
+                 .assembly = a,
+                 .flow_rate = flow,
+                 .inlet =
+                     cw_turbulence(share * design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
+                 .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
+  const CwPatchPart *outlet = &a->patches[cw_mesh_end(a->mesh, CW_KIND_OUTLET)];
+  for (int k = 0; k < 3; ++k) start.outlet_velocity[k] = flow * outlet->vector[k] / (outlet->area * outlet->area);
+  return start;
+}
+
+// A steady case for each point of the curve, points/NAME: fields of its own, all else is that of the operating point.
+static CwStatus write_points(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
+  CwStatus status = CW_OK;
+  static const char *const shared[] = {"constant", "system", "Allrun", "Allclean", "summary"};
+  char *point = NULL, *link = NULL, name[CW_POINT_NAME_SIZE];
+  double flows[CW_LIST_MOST];
+  const int count = cw_case_flows(table, flows);
+  for (int k = 0; k < count; ++k) {
+    cw_case_point_name(table, flows[k], name);
+    free(point);
+    CW_REQUIRE(asprintf(&point, "%s/points/%s", folder, name) >= 0, CW_ERR_MEMORY, "out of memory");
+    CW_TRY(cw_make_directory(point));
+    const Start start = start_at(flows[k], table, design, a);
+    CW_TRY(write_fields(point, &start));
+    for (size_t i = 0; i < sizeof shared / sizeof *shared; ++i) {
+      char target[32];
+      snprintf(target, sizeof target, "../../%s", shared[i]);
+      free(link);
+      CW_REQUIRE(asprintf(&link, "%s/%s", point, shared[i]) >= 0, CW_ERR_MEMORY, "out of memory");
+      CW_REQUIRE(symlink(target, link) == 0, CW_ERR_IO, "%s: cannot be made: %s", link, strerror(errno));
+    }
+  }
+done:
+  free(point);
+  free(link);
+  return status;
+}
+
 CwStatus cw_foam_case_write(const char *folder, const CwCase *table, const CwDesign *design, const CwAssembly *a) {
   CwStatus status = CW_OK;
   CwValues values = {0};
-  char *start_folder = NULL;
-  const double intensity = 0.05;
-  // Mixing lengths: 7 % of the suction pipe's diameter, and of the width of the channels inside.
-  Start start = {.table = table,
-                 .assembly = a,
-                 .inlet = cw_turbulence(design->suction_speed, intensity, 0.07 * table->impeller.inlet_diameter),
-                 .inside = cw_turbulence(design->relative_speed, intensity, 0.07 * table->impeller.outlet_width)};
-  const CwPatchPart *outlet = &a->patches[cw_mesh_end(a->mesh, CW_KIND_OUTLET)];
-  for (int k = 0; k < 3; ++k)
-    start.outlet_velocity[k] = table->operating_point.flow_rate * outlet->vector[k] / (outlet->area * outlet->area);
+  char *transient = NULL;
+  Start start = start_at(table->operating_point.flow_rate, table, design, a);
   CW_TRY(set_values(table, a, &values));
   CW_TRY(cw_templates_write("openfoam/", folder, &values));
-  for (start.moving = 0; start.moving < 2; ++start.moving) {
-    free(start_folder);
-    start_folder = NULL;
-    CW_REQUIRE(asprintf(&start_folder, "%s%s/0", folder, start.moving ? "/transient" : "") >= 0, CW_ERR_MEMORY,
-               "out of memory");
-    CW_TRY(cw_make_directory(start_folder));
-    for (size_t f = 0; f < sizeof fields / sizeof *fields; ++f) CW_TRY(write_field(start_folder, (Field)f, &start));
-  }
+  CW_TRY(write_fields(folder, &start));
+  start.moving = 1;
+  CW_REQUIRE(asprintf(&transient, "%s/transient", folder) >= 0, CW_ERR_MEMORY, "out of memory");
+  CW_TRY(write_fields(transient, &start));
+  CW_TRY(write_points(folder, table, design, a));
 done:
-  free(start_folder);
+  free(transient);
   cw_values_free(&values);
   return status;
 }

@@ -142,6 +142,20 @@ static CwStatus record_interfaces(const CwAssembly *a, const CwInterface *interf
   return cw_record_json(record, "interfaces", list);
 }
 
+// The points of the characteristic curve, of which the solvers' cases have a set-up each.
+static CwStatus record_points(const CwCase *table, CwRecord *record) {
+  json_t *list = json_array();
+  double flows[CW_LIST_MOST];
+  char name[CW_POINT_NAME_SIZE];
+  const int count = cw_case_flows(table, flows);
+  for (int k = 0; k < count; ++k) {
+    cw_case_point_name(table, flows[k], name);
+    json_array_append_new(list, json_pack("{s:s, s:f, s:f}", "name", name, "flow_m3_per_h", 3600 * flows[k],
+                                          "flow_share", flows[k] / table->operating_point.flow_rate));
+  }
+  return cw_record_json(record, "operating_points", list);
+}
+
 static CwStatus record_results(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {
   CwStatus status = CW_OK;
   int64_t cells = 0;
@@ -263,6 +277,7 @@ CwStatus cw_export_run(const CwCase *table, const char *run, const char *const *
     CW_TRY(cw_record_step(record, "interface and tree", planned - checked, faces, "faces"));
     CW_TRY(cw_record_step(record, "check and write the mesh", written - planned, cells, "cells"));
     CW_TRY(record_results(&assembly, interfaces, record));
+    CW_TRY(record_points(table, record));
     CW_TRY(cw_record_case(record, table));
     CW_TRY(cw_record_integer(record, "ranks", ranks->size));
     CW_TRY(cw_record_file_digest(record, "pump.cgns", digest));

@@ -85,9 +85,25 @@ done:
   return status;
 }
 
+const CwTemplate *cw_template_find(const char *path) {
+  for (int i = 0; i < cw_template_count; ++i)
+    if (strcmp(cw_templates[i].path, path) == 0) return &cw_templates[i];
+  return NULL;
+}
+
+CwStatus cw_template_write(const CwTemplate *built_in, const char *path, const CwValues *values) {
+  CwStatus status = CW_OK;
+  char *text = NULL;
+  CW_TRY(cw_template_fill(built_in->path, built_in->text, values, &text));
+  CW_TRY(cw_text_write(path, text, built_in->executable));
+done:
+  free(text);
+  return status;
+}
+
 CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValues *values) {
   CwStatus status = CW_OK;
-  char *path = NULL, *text = NULL;
+  char *path = NULL;
   for (int i = 0; i < cw_template_count; ++i) {
     const CwTemplate *t = &cw_templates[i];
     if (strncmp(t->path, prefix, strlen(prefix)) != 0) continue;
@@ -96,14 +112,11 @@ CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValu
     *slash = '\0';
     CW_TRY(cw_make_directory(path));
     *slash = '/';
-    CW_TRY(cw_template_fill(t->path, t->text, values, &text));
-    CW_TRY(cw_text_write(path, text, t->executable));
+    CW_TRY(cw_template_write(t, path, values));
     free(path);
-    free(text);
-    path = text = NULL;
+    path = NULL;
   }
 done:
   free(path);
-  free(text);
   return status;
 }

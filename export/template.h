@@ -34,6 +34,12 @@ void cw_values_free(CwValues *values);
 // whose text it is.
 CwStatus cw_template_fill(const char *name, const char *text, const CwValues *values, char **filled);
 
+// The built-in file of that path, or NULL.
+const CwTemplate *cw_template_find(const char *path);
+
+// Writes a built-in file, filled, to `path`, whose folder is there. CW_ERR_EXPORT, CW_ERR_IO.
+CwStatus cw_template_write(const CwTemplate *built_in, const char *path, const CwValues *values);
+
 // Writes every built-in file below `prefix` ("openfoam/") to `folder`, making folders where needed.
 CwStatus cw_templates_write(const char *prefix, const char *folder, const CwValues *values);
 

@@ -20,7 +20,7 @@ endef
 # Checks need the programs of others too, solving one of them.
 packages:
 	@$(ROOT)/pipeline/packages.sh $(if $(filter check check-long measurements,$(MAKECMDGOALS)),check,$\
-	  $(if $(SOLVE)$(filter solve %-solve,$(MAKECMDGOALS)),solve,build))
+	  $(if $(SOLVE)$(filter solve curve %-solve %-curve,$(MAKECMDGOALS)),solve,build))
 
 configure: packages
 	@mkdir -p $(BUILD)

@@ -117,11 +117,44 @@ done:
   return status;
 }
 
+// Reads one value of key `index`, of a list one of its values.
+static CwStatus read_value(Reader *reader, int index, const CwUnit *unit, const char *path, const Event *value) {
+  CwStatus status = CW_OK;
+  char wrong[CW_WRONG_SIZE], allowed[CW_KEY_ALLOWED_SIZE];
+  cw_case_key_allowed(&cw_case_keys[index], allowed);
+  CW_REQUIRE(value->type == FYET_SCALAR, CW_ERR_INPUT, "%s:%d:%d: %s: it is %s, not one value; allowed: %s",
+             reader->path, value->place.line, value->place.column, path, event_words(value->type), allowed);
+  CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s", reader->path,
+             value->place.line, value->place.column, path, allowed);
+  CW_REQUIRE(cw_case_value_read(&cw_case_keys[index], unit, value->text, value->plain, &reader->table, wrong),
+             CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, value->place.line, value->place.column, path, wrong);
+done:
+  return status;
+}
+
+static CwStatus read_list(Reader *reader, int index, const CwUnit *unit, const char *path) {
+  CwStatus status = CW_OK;
+  Event value;
+  char allowed[CW_KEY_ALLOWED_SIZE];
+  for (int count = 0;; ++count) {
+    CW_TRY(next_event(reader, &value));
+    cw_case_key_allowed(&cw_case_keys[index], allowed);
+    int ends = value.type == FYET_SEQUENCE_END;
+    CW_REQUIRE(ends ? count > 0 : count < CW_LIST_MOST, CW_ERR_INPUT, "%s:%d:%d: %s: the list has %s; allowed: %s",
+               reader->path, value.place.line, value.place.column, path, ends ? "no value" : "too many values",
+               allowed);
+    if (ends) break;
+    CW_TRY(read_value(reader, index, unit, path, &value));
+  }
+done:
+  return status;
+}
+
 // Reads the pair of `key` (a scalar) and `value` that stand in `section`. The value has been taken from the
 // stream.
 static CwStatus read_pair(Reader *reader, const char *section, const Event *key, Event *value) {
   CwStatus status = CW_OK;
-  char wrong[CW_WRONG_SIZE], name[CW_SHOWN_SIZE], allowed[CW_KEY_ALLOWED_SIZE];
+  char wrong[CW_WRONG_SIZE], name[CW_SHOWN_SIZE];
   int scalar = value->type == FYET_SCALAR;
   const CwUnit *unit;
   int index = cw_case_key_find_in(section, key->text, &unit);
@@ -133,13 +166,10 @@ static CwStatus read_pair(Reader *reader, const char *section, const Event *key,
     CW_REQUIRE(0, CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, key->place.line, key->place.column, path, wrong);
   }
   CW_TRY(require_once(reader, path, &reader->places[index], key->place, value->place));
-  cw_case_key_allowed(&cw_case_keys[index], allowed);
-  CW_REQUIRE(scalar, CW_ERR_INPUT, "%s:%d:%d: %s: it is %s, not one value; allowed: %s", reader->path,
-             value->place.line, value->place.column, path, event_words(value->type), allowed);
-  CW_REQUIRE(!value->tagged, CW_ERR_INPUT, "%s:%d:%d: %s: it has a tag (!...); allowed: without tag, %s", reader->path,
-             value->place.line, value->place.column, path, allowed);
-  CW_REQUIRE(cw_case_value_read(&cw_case_keys[index], unit, value->text, value->plain, &reader->table, wrong),
-             CW_ERR_INPUT, "%s:%d:%d: %s: %s", reader->path, value->place.line, value->place.column, path, wrong);
+  if (cw_case_keys[index].type == CW_KEY_LIST && value->type == FYET_SEQUENCE_START && !value->tagged)
+    CW_TRY(read_list(reader, index, unit, path));
+  else
+    CW_TRY(read_value(reader, index, unit, path, value));
 done:
   return status;
 }

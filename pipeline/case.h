@@ -15,6 +15,7 @@ extern "C" {
 #endif
 
 enum { CW_NAME_SIZE = 33 }; // 32 characters: the limit of CGNS names
+enum { CW_LIST_MOST = 12, CW_POINT_NAME_SIZE = 24 };
 
 typedef enum { CW_PRIORITY_WRAP, CW_PRIORITY_HEAD, CW_PRIORITY_BETA, CW_PRIORITY_AUTO } CwPriority;
 typedef enum { CW_CORRELATIONS_GUELICH, CW_CORRELATIONS_GUAN } CwCorrelations;
@@ -43,6 +44,17 @@ typedef struct {
   double inlet_pressure;  // Pa, absolute
   double time_step_angle; // rad of rotation per time step of the transient run
 } CwOperatingPoint;
+
+typedef struct {
+  int count; // 0: left out
+  double value[CW_LIST_MOST];
+} CwList;
+
+// The points of the characteristic curve; one of the two lists is given at the most (cw_case_flows).
+typedef struct {
+  CwList flow_shares; // of operating_point.flow_rate
+  CwList flow_rates;  // m3/s
+} CwOperatingPoints;
 
 typedef struct {
   double density;             // kg/m3
@@ -151,6 +163,7 @@ typedef struct {
 typedef struct {
   char name[CW_NAME_SIZE];
   CwOperatingPoint operating_point;
+  CwOperatingPoints operating_points;
   CwFluid fluid;
   CwDesignTable design;
   CwImpellerTable impeller;
@@ -165,6 +178,14 @@ void cw_case_defaults(CwCase *table);
 
 // Whether a first height is left open: neither given nor by a y+.
 int cw_walls_auto(const CwWalls *walls);
+
+// The flow rates of the points of the characteristic curve (m3/s), ascending; their number. 0.6, 0.8, 1 and 1.2 times
+// that of the operating point where the case names none.
+int cw_case_flows(const CwCase *table, double flows[CW_LIST_MOST]);
+
+// The name of such a point in the solvers' files: "q0800" where it is 0.8 times the flow of the operating point. Points
+// of one case have names of their own.
+void cw_case_point_name(const CwCase *table, double flow, char name[CW_POINT_NAME_SIZE]);
 
 // Reads and validates `path`, a YAML file of at most 1 MiB. A file that cannot be read fails with CW_ERR_IO,
 // bad input with CW_ERR_INPUT and "FILE:LINE:COLUMN: KEY: what is wrong with VALUE; allowed: ...". Then

@@ -107,6 +107,33 @@ done:
   return status;
 }
 
+static CwStatus check_operating_points(const char *path, const CwCase *table, const CwCasePlace *places) {
+  CwStatus status = CW_OK;
+  const int shares = cw_case_key_find("operating_points", "flow_shares");
+  const int rates = cw_case_key_find("operating_points", "flow_rates_m3_per_h");
+  CW_REQUIRE(!places[shares].given || !places[rates].given, CW_ERR_INPUT,
+             "%s:%d:%d: operating_points.flow_rates_m3_per_h: contradicts operating_points.flow_shares; allowed: one "
+             "of them",
+             path, places[rates].line, places[rates].column);
+  double flows[CW_LIST_MOST];
+  const int count = cw_case_flows(table, flows);
+  const CwCasePlace *place = &places[places[rates].given ? rates : shares];
+  for (int k = 1; k < count; ++k)
+    CW_REQUIRE(flows[k] >= flows[k - 1] + 0.001 * table->operating_point.flow_rate, CW_ERR_INPUT,
+               "%s:%d:%d: operating_points.%s: value %d is not above the one before it by a thousandth of the "
+               "operating point's flow rate; allowed: ascending values",
+               path, place->line, place->column, places[rates].given ? "flow_rates_m3_per_h" : "flow_shares", k + 1);
+  for (int k = 0; k < count; ++k) {
+    const double share = flows[k] / table->operating_point.flow_rate;
+    CW_REQUIRE(share >= 0.001 && share < 10, CW_ERR_INPUT,
+               "%s:%d:%d: operating_points.flow_rates_m3_per_h: value %d is %.3g times the operating point's flow "
+               "rate; allowed: 0.001 to 10 times",
+               path, place->line, place->column, k + 1, share);
+  }
+done:
+  return status;
+}
+
 static CwStatus check_blockage(const char *path, const CwCase *table, const CwCasePlace *places) {
   CwStatus status = CW_OK;
   const CwImpellerTable *impeller = &table->impeller;
@@ -165,6 +192,7 @@ CwStatus cw_case_check(const char *path, const CwCase *table, const CwCasePlace 
   CW_TRY(check_priority(path, table, places));
   for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i) CW_TRY(check_rule(path, table, places, &rules[i]));
   CW_TRY(check_operating_point(path, table, places));
+  CW_TRY(check_operating_points(path, table, places));
   CW_TRY(check_blockage(path, table, places));
   CW_TRY(check_roughness(path, table, places));
   CW_TRY(check_volute(path, table, places));

@@ -33,6 +33,8 @@ static const char *const treatments[] = {"smooth", "rough", NULL};
   { section, key, CW_KEY_REAL, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
 #define REAL_AUTO(section, key, unit, least, most, field, meaning)                                                     \
   { section, key, CW_KEY_REAL, CW_KEY_AUTO, unit, least, most, NAN, NULL, AT(field), meaning }
+#define LIST(section, key, unit, least, most, field, meaning)                                                          \
+  { section, key, CW_KEY_LIST, CW_KEY_COMPUTED, unit, least, most, NAN, NULL, AT(field), meaning }
 #define CHOICE(section, key, choices, fallback, field, meaning)                                                        \
   { section, key, CW_KEY_CHOICE, CW_KEY_DEFAULT, "", 0, 0, fallback, choices, AT(field), meaning }
 
@@ -62,6 +64,12 @@ const CwCaseKey cw_case_keys[] = {
                  "absolute total pressure at the inlet"),
     REAL_DEFAULT("operating_point", "time_step_deg", "deg", 0.01, 20, 1, operating_point.time_step_angle,
                  "rotation in one time step of the transient run"),
+
+    LIST(
+        "operating_points", "flow_shares", "", 0.01, 3, operating_points.flow_shares,
+        "points of the characteristic curve, as shares of the operating point's flow rate; computed: 0.6, 0.8, 1, 1.2"),
+    LIST("operating_points", "flow_rates_m3_per_h", "m3_per_h", 0.00001, 3000000, operating_points.flow_rates,
+         "the same as flow rates, instead of flow_shares; computed: from flow_shares"),
 
     REAL_DEFAULT("fluid", "density_kg_per_m3", "kg_per_m3", 0.1, 20000, 998.2, fluid.density,
                  "density; the default is water at 20 degrees Celsius"),
@@ -324,7 +332,7 @@ int cw_case_section_known(const char *section) {
 }
 
 int cw_case_key_shapes_pump(const CwCaseKey *key) {
-  return strcmp(key->section, "walls") && strcmp(key->section, "mesh") &&
+  return strcmp(key->section, "walls") && strcmp(key->section, "mesh") && strcmp(key->section, "operating_points") &&
          key->offset != AT(operating_point.time_step_angle);
 }
 
@@ -361,6 +369,10 @@ void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]
   case CW_KEY_NAME:
     snprintf(allowed, size, "%.0f to %.0f letters, digits, _ and -, a letter first", key->least, key->most);
     return;
+  case CW_KEY_LIST:
+    snprintf(allowed, size, "a list [..., ...] of 1 to %d ascending values, each %.10g to %.10g%s%s", CW_LIST_MOST,
+             key->least, key->most, key->unit[0] ? " " : "", unit_text(key));
+    return;
   }
 }
 
@@ -382,6 +394,7 @@ double cw_case_key_value(const CwCaseKey *key, const CwCase *table) {
     memcpy(&large, field, sizeof large);
     return (double)large;
   case CW_KEY_NAME:
+  case CW_KEY_LIST:
     break;
   }
   return NAN;
@@ -398,9 +411,14 @@ void cw_case_key_set_in(const CwCaseKey *key, const CwUnit *unit, double value, 
   double real = unit ? value * unit->numerator / unit->denominator : value;
   int integer;
   int64_t large;
+  CwList *list;
   switch (key->type) {
   case CW_KEY_REAL:
     memcpy(field, &real, sizeof real);
+    return;
+  case CW_KEY_LIST:
+    list = (CwList *)(void *)field;
+    if (list->count < CW_LIST_MOST) list->value[list->count++] = real;
     return;
   case CW_KEY_INT:
   case CW_KEY_CHOICE:
@@ -420,9 +438,26 @@ void cw_case_defaults(CwCase *table) {
   memset(table, 0, sizeof *table);
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     const CwCaseKey *key = &cw_case_keys[i];
-    if (key->type != CW_KEY_NAME && (key->presence != CW_KEY_REQUIRED || key->type == CW_KEY_REAL))
+    if (key->type != CW_KEY_NAME && key->type != CW_KEY_LIST &&
+        (key->presence != CW_KEY_REQUIRED || key->type == CW_KEY_REAL))
       cw_case_key_set(key, key->fallback, table);
   }
+}
+
+int cw_case_flows(const CwCase *table, double flows[CW_LIST_MOST]) {
+  static const CwList shares_unless_given = {4, {0.6, 0.8, 1, 1.2}};
+  const CwOperatingPoints *points = &table->operating_points;
+  if (points->flow_rates.count) {
+    memcpy(flows, points->flow_rates.value, sizeof points->flow_rates.value);
+    return points->flow_rates.count;
+  }
+  const CwList *shares = points->flow_shares.count ? &points->flow_shares : &shares_unless_given;
+  for (int k = 0; k < shares->count; ++k) flows[k] = shares->value[k] * table->operating_point.flow_rate;
+  return shares->count;
+}
+
+void cw_case_point_name(const CwCase *table, double flow, char name[CW_POINT_NAME_SIZE]) {
+  snprintf(name, CW_POINT_NAME_SIZE, "q%04.0f", 1000 * flow / table->operating_point.flow_rate);
 }
 
 static void units_markdown(FILE *stream) {

@@ -13,10 +13,9 @@
 extern "C" {
 #endif
 
-// The field at `offset` is a double, an int, an int64_t, an enum, or a char[CW_NAME_SIZE].
-typedef enum { CW_KEY_REAL, CW_KEY_INT, CW_KEY_INT64, CW_KEY_CHOICE, CW_KEY_NAME } CwKeyType;
+// The field at `offset` is a double, an int, an int64_t, an enum, a char[CW_NAME_SIZE], or a CwList of doubles.
+typedef enum { CW_KEY_REAL, CW_KEY_INT, CW_KEY_INT64, CW_KEY_CHOICE, CW_KEY_NAME, CW_KEY_LIST } CwKeyType;
 
-// A key left out: an error, the default, or NAN for the hydraulic design (or the mesher) to compute.
 // A key left out is an error, has its default, or is left to the hydraulic design. An automatic key may also be given
 // as "auto", which is its default: the mesher then finds the value. A value left open is NAN, or 0 of a count.
 typedef enum { CW_KEY_REQUIRED, CW_KEY_DEFAULT, CW_KEY_COMPUTED, CW_KEY_AUTO } CwKeyPresence;
@@ -70,10 +69,11 @@ void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]);
 // or beta".
 void cw_case_key_allowed(const CwCaseKey *key, char allowed[CW_KEY_ALLOWED_SIZE]);
 
-// Value of the key's field in the unit of the key; of a choice: its index. Not for names.
+// Value of the key's field in the unit of the key; of a choice: its index; NAN of names and lists.
 double cw_case_key_value(const CwCaseKey *key, const CwCase *table);
 
-// Sets the key's field from a value in the unit of the key. Not for names. No check of the range.
+// Sets the key's field from a value in the unit of the key; adds it to a list that has room. Not for names. No check
+// of the range.
 void cw_case_key_set(const CwCaseKey *key, double value, CwCase *table);
 
 // The same from a value in `unit`, or NULL for none.

@@ -17,16 +17,15 @@ define cutwater_note
 mkdir -p $(@D) && { echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@; }
 endef
 
-# $(call cutwater_run,TARGET,CASE FILE,RUN FOLDER,CELLS): TARGET makes the whole run and tells what it made, and
-# TARGET-solve solves its steady flow too. CELLS may be empty: the number of the case file.
+# $(call cutwater_run,TARGET,CASE FILE,RUN FOLDER,CELLS): TARGET makes the whole run and tells what it made, TARGET-solve
+# solves its steady flow too, and TARGET-curve the points of its characteristic curve. What is solved already stays.
+# CELLS may be empty: the number of the case file.
 define cutwater_run
-.PHONY: $(1) $(1)-solve
-$(1)-solve: $(3)/solve/record.json
+.PHONY: $(1) $(1)-solve $(1)-curve
+$(1)-solve $(1)-curve: $(1)-%: $(2) $(3)/export/record.json
+	@python3 $(ROOT)/pipeline/solve/solve.py --case $(2) --run $(3) --ranks $(NP) --bin $(BIN) $$(if $$(filter curve,$$*),--curve)
 	@$(BIN)/cutwater-report --case $(2) --run $(3) $(if $(4),--cells $(4))
 	@python3 $(ROOT)/pipeline/summary.py $(3)
-
-$(3)/solve/record.json: $(2) $(3)/export/record.json
-	@python3 $(ROOT)/pipeline/solve.py --case $(2) --run $(3) --ranks $(NP) --bin $(BIN)
 
 $(1): $(3)/report/record.json
 	@python3 $(ROOT)/pipeline/summary.py $(3)

@@ -37,6 +37,7 @@ def files(run):
             ("export/openfoam", "the OpenFOAM case: ./Allrun"),
             ("export/cfx", "the CFX set-up on pump.cgns"),
             ("solve", "the solved flow: steady/ is the OpenFOAM case"),
+            ("solve/curve.csv", "head, power and efficiency over the flow rate"),
             ("report/index.html", "the report")]
     for name, text in what:
         path = os.path.join(run, name)
@@ -75,12 +76,7 @@ def solved_line(run):
     if not os.path.exists(os.path.join(run, "solve/record.json")):
         return [], []
     record = read(run, "solve")
-    result = record["results"]
-    efficiency = result["hydraulic_efficiency"]
-    text = (f"{'head and torque settled' if result['settled'] else 'NOT settled'} after {result['iterations']} iterations: "
-            f"head {result['head_m']:.2f} m, torque {result['torque_n_m']:.3g} N m, shaft power "
-            f"{result['shaft_power_w']:.3g} W" + (f", hydraulic efficiency {100 * efficiency:.1f} %" if efficiency else ""))
-    return [("solved", text)], [("solve", warning) for warning in record["warnings"]]
+    return [("solved", record["results"]["headline"])], [("solve", warning) for warning in record["warnings"]]
 
 
 def main():

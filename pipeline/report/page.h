@@ -44,6 +44,10 @@ CwStatus cw_page_quality(FILE *page, const CwReportData *data);
 CwStatus cw_page_layers(FILE *page, const CwReportData *data);
 CwStatus cw_page_export(FILE *page, const CwReportData *data);
 CwStatus cw_page_solve(FILE *page, const CwReportData *data);
+
+// The part of the solved flow that shows the characteristic curve, the array 'curve' of the results in file `where`;
+// nothing for less than two points. CW_ERR_INPUT.
+CwStatus cw_page_curve(FILE *page, const CwReportData *data, const char *where, json_t *points);
 CwStatus cw_page_times(FILE *page, const CwReportData *data);
 CwStatus cw_page_warnings(FILE *page, const CwReportData *data);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The solved flow: what solve/record.json tells (pipeline/solve.py), beside the design's prediction.
+// The solved flow: what solve/record.json tells (pipeline/solve/solve.py), beside the design's prediction.
 #include <math.h>
 #include <stdlib.h>
 
@@ -125,21 +125,18 @@ static void y_plus_table(FILE *page, json_t *walls) {
 CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
   CwStatus status = CW_OK;
   History history = {0};
-  json_t *results;
+  json_t *results, *curve;
   char where[4096], text[CW_FORMAT_SIZE], more[CW_FORMAT_SIZE];
-  int64_t iterations, cells, exported = -1;
+  int64_t iterations;
   if (!data->solve) {
     fputs("<p>The flow of this run has not been solved (<code>make solve</code>).</p>\n", page);
     goto done;
   }
   snprintf(where, sizeof where, "%s/solve/record.json", data->run);
   CW_TRY(cw_json_object(data->solve, where, "results", &results));
-  CW_TRY(cw_json_count(results, where, "cells", &cells));
   CW_TRY(cw_json_count(results, where, "iterations", &iterations));
-  if (data->record[2])
-    exported = json_integer_value(json_object_get(json_object_get(data->record[2], "results"), "cells"));
-  if (cells != exported) {
-    fprintf(page, "<p>The flow was solved on another mesh, of %s cells.</p>\n", cw_format_count(cells, text));
+  if (!json_equal(json_object_get(data->solve, "made_from"), json_object_get(data->record[2], "files"))) {
+    fputs("<p>The flow was solved on another export: solve it again (<code>make solve</code>).</p>\n", page);
     goto done;
   }
   CW_TRY(history_read(results, where, &history));
@@ -148,6 +145,8 @@ CwStatus cw_page_solve(FILE *page, const CwReportData *data) {
           cw_format_count(iterations, text), cw_format_seconds(cw_json_real(data->solve, "seconds"), more));
   result_table(page, data, results);
   if (history.count > 1) history_plots(page, &history, data->table->operating_point.head);
+  CW_TRY(cw_json_array(results, where, "curve", &curve));
+  CW_TRY(cw_page_curve(page, data, where, curve));
   y_plus_table(page, json_object_get(results, "y_plus"));
 done:
   history_free(&history);

@@ -65,6 +65,27 @@ static void log_layer_meshes_take_k_epsilon(void **state) {
   expect("openfoam/transient/0/U", "movingWallVelocity");
 }
 
+// The points of the curve: at 0.8 times the flow k at the inlet is 0.64 of what it is at the flow.
+static void each_point_of_the_curve_has_its_flow(void **state) {
+  (void)state;
+  export_with("$ a operating_points: {flow_shares: [0.8, 1]}");
+  expect("cfx/points/q0800.ccl", "Mass Flow Rate = 5.54555556 [kg s^-1]"); // 0.8 * 25/3600 * 998.2
+  expect("cfx/points/q0800.pre", "importccl filename=points/q0800.ccl,");
+  expect("openfoam/points/q0800/0/U", "volumetricFlowRate constant 0.00555555556;");
+  expect("openfoam/points/q0800/system/controlDict", "simpleFoam");
+  assert_int_equal(stage_shell(output,
+                               "cd '%s/run/export/openfoam' && cmp 0/U points/q1000/0/U && cmp 0/nut "
+                               "points/q0800/0/nut && test points/q0800/constant -ef constant",
+                               folder),
+                   0);
+  double k[2];
+  for (int i = 0; i < 2; ++i) {
+    expect(i ? "openfoam/points/q0800/0/k" : "openfoam/0/k", "inletValue");
+    assert_int_equal(sscanf(strstr(output, "inletValue"), "inletValue uniform %lf", &k[i]), 1);
+  }
+  assert_float_equal(k[1] / k[0], 0.64, 1e-6);
+}
+
 static void rough_walls_take_the_roughness(void **state) {
   (void)state;
   export_with("s/treatment: smooth/treatment: rough/");
@@ -142,6 +163,7 @@ static void the_shaft_in_a_suction_zone_turns(void **state) {
   assert_string_equal(output, "");
 
   snprintf(path, sizeof path, "%s/run/export/openfoam", folder);
+  assert_int_equal(stage_shell(output, "rm -rf '%s'", path), 0);
   assert_int_equal(cw_make_directory(path), CW_OK);
   assert_int_equal(cw_foam_case_write(path, &table, &design, &assembly), CW_OK);
   static const char *const fields[] = {"openfoam/0/U", "openfoam/transient/0/U"};
@@ -180,6 +202,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_paper_in_cfx),
       cmocka_unit_test(log_layer_meshes_take_k_epsilon),
+      cmocka_unit_test(each_point_of_the_curve_has_its_flow),
       cmocka_unit_test(rough_walls_take_the_roughness),
       cmocka_unit_test(resolved_walls_take_k_omega),
       cmocka_unit_test(the_shaft_in_a_suction_zone_turns),

@@ -50,7 +50,7 @@ static void every_key_of_the_pump_counts_and_no_other(void **state) {
   int shape = 0;
   for (size_t i = 0; i < cw_case_key_count; ++i) {
     const CwCaseKey *key = &cw_case_keys[i];
-    if (key->type == CW_KEY_NAME) continue;
+    if (key->type == CW_KEY_NAME || key->type == CW_KEY_LIST) continue;
     CwCase other = paper;
     double value = cw_case_key_value(key, &other);
     char name[CW_KEY_PATH_SIZE];

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The stage `solve`: when a made-up history counts as settled, and a real flow on a small mesh: killed, gone on with, its
-result beside the energy balance, and what is told where it cannot be solved."""
-import importlib.util
+"""The stage `solve`: when a made-up history counts as settled, what is read of the solver's reports, and a real flow on a
+small mesh: killed, gone on with, its result beside the energy balance, its curve, and what is told where it cannot be
+solved."""
+import csv
 import math
 import shutil
 import signal
@@ -12,9 +13,9 @@ import unittest
 
 from cutwater import BIN, ENVIRONMENT, PAPER, SOURCE, done, fresh, record
 
-spec = importlib.util.spec_from_file_location("solve", SOURCE / "pipeline/solve.py")
-solve = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(solve)
+sys.path.insert(0, str(SOURCE / "pipeline/solve"))
+import reports  # noqa: E402
+import settling  # noqa: E402
 
 CELLS = 20000
 
@@ -28,38 +29,61 @@ class Settled(unittest.TestCase):
         # Means of windows of a decay to 12 are 12 - c q^k: 12 - the last one is left, exactly.
         for q in (0.1, 0.5, 0.9):
             means = [12 - 3 * q**k for k in range(3)]
-            self.assertAlmostEqual(solve.left_of_way(means), 12 - means[2], places=9)
+            self.assertAlmostEqual(settling.left_of_way(means), 12 - means[2], places=9)
 
     def test_means_to_and_fro_count_by_their_last_change(self):
-        self.assertAlmostEqual(solve.left_of_way([10, 12, 11]), 1)
-        self.assertAlmostEqual(solve.left_of_way([10, 10, 10]), 0)
-        self.assertAlmostEqual(solve.left_of_way([10, 10, 11]), 1)
+        self.assertAlmostEqual(settling.left_of_way([10, 12, 11]), 1)
+        self.assertAlmostEqual(settling.left_of_way([10, 10, 10]), 0)
+        self.assertAlmostEqual(settling.left_of_way([10, 10, 11]), 1)
 
     def test_a_slow_drift_is_not_taken_for_rest(self):
         # A drift with a constant rate has a change from window to window that does not fall: it never settles.
         drift = history(lambda i: 10 + 1e-4 * i)
-        self.assertGreater(solve.settled(drift, 100, 0.001)[1], 0.0009)
-        self.assertFalse(solve.settled(history(lambda i: 12 - 3 * math.exp(-i / 800)), 100, 0.003)[0])
-        self.assertTrue(solve.settled(history(lambda i: 12 - 3 * math.exp(-i / 80)), 100, 0.003)[0])
+        self.assertGreater(settling.settled(drift, 0.001)[1], 0.0009)
+        self.assertFalse(settling.settled(history(lambda i: 12 - 3 * math.exp(-i / 800)), 0.003)[0])
+        self.assertTrue(settling.settled(history(lambda i: 12 - 3 * math.exp(-i / 80)), 0.003)[0])
 
     def test_three_windows_are_needed(self):
-        self.assertEqual(solve.settled(history(lambda i: 10, count=250), 100, 0.003), (False, math.inf))
-        self.assertTrue(solve.settled(history(lambda i: 10, count=310), 100, 0.003)[0])
+        self.assertEqual(settling.settled(history(lambda i: 10, count=250), 0.003), (False, math.inf))
+        self.assertTrue(settling.settled(history(lambda i: 10, count=310), 0.003)[0])
+
+
+class Reports(unittest.TestCase):
+    def test_files_of_later_starts_go_before_and_unfinished_lines_do_not_count(self):
+        case = fresh("solve_reports")
+
+        def write(name, start, file, text):
+            folder = case / "postProcessing" / name / start
+            folder.mkdir(parents=True)
+            (folder / file).write_text(text)
+
+        write("head", "0", "fieldValueDelta.dat", "# head\n# Time\tsubtract(totalHead)\n10\t1.5\n20\t2.5\n30\t9\n")
+        write("head", "20", "fieldValueDelta.dat", "# Time\n30\t3.5\n40\t")
+        moment = "# Time\ttotal_x\n10\t(0 0 -7) (0 0 0) (0 0 0)\n20\t(0 0 -8) (0 0 0) (0 0 0)\n30\t(0 0 -9) (0 0 0)\n"
+        write("torque", "0", "moment.dat", moment)
+        names = "# Solver info\n# Time\tU_solver\tUx_initial\tUy_initial\tUz_initial\tp_initial\n"
+        write("solverInfo", "0", "solverInfo.dat", names + "10\tsmooth\t1e-3\t3e-3\t2e-3\t5e-2\n20\tsmooth\t1e-3\n")
+        self.assertEqual(reports.history(case), {
+            10: {"head_m": 1.5, "torque_n_m": 7, "residual_p": 5e-2, "residual_u": 3e-3},
+            20: {"head_m": 2.5, "torque_n_m": 8}, 30: {"head_m": 3.5, "torque_n_m": 9}})
+        self.assertEqual(reports.history(case / "none"), {})
 
 
 class Flow(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.pump = fresh("solve") / "run"
+        cls.case = cls.pump.parent / "case.yaml"
+        cls.case.write_text(PAPER.read_text() + "\noperating_points:\n  flow_shares: [0.7, 1]\n")
         for stage in ("geometry", "mesh", "export"):
-            done(cls(), stage, cls.pump, cells=CELLS)
+            done(cls(), stage, cls.pump, case=cls.case, cells=CELLS)
 
     def runTest(self):  # setUpClass needs an instance
         pass
 
     def line(self, *more):
-        return [sys.executable, SOURCE / "pipeline/solve.py", "--case", PAPER, "--run", self.pump, "--ranks", "1", "--bin",
-                BIN, *more]
+        return [sys.executable, SOURCE / "pipeline/solve/solve.py", "--case", self.case, "--run", self.pump, "--ranks",
+                "1", "--bin", BIN, *more]
 
     def call(self, *more, **options):
         return subprocess.run([str(word) for word in self.line(*more)], env=ENVIRONMENT, stdin=subprocess.DEVNULL,
@@ -86,15 +110,29 @@ class Flow(unittest.TestCase):
         self.assertLess(found["hydraulic_efficiency"], 1)
         power = found["torque_n_m"] * 1450 * math.pi / 30
         self.assertAlmostEqual(found["shaft_power_w"] / power, 1, places=9)
-        self.assertAlmostEqual(found["hydraulic_efficiency"] * power / (998.2 * 9.80665 * 25 / 3600 * found["head_m"]), 1,
-                               places=6)
+        useful = 998.2 * 9.80665 * 25 / 3600 * found["head_m"]
+        self.assertAlmostEqual(found["hydraulic_efficiency"] * power / useful, 1, places=6)
         rows = (self.pump / "solve/history.csv").read_text().splitlines()
         self.assertEqual(len(rows) - 1, len(found["history"]["iteration"]))
         self.assertEqual(found["iterations"], found["history"]["iteration"][-1])
-        # Called again there is nothing to do.
-        again = self.call()
+        # Called again there is nothing to do but the points of the curve. Of a radial pump whose blades lean back the
+        # head falls with the flow, and the power rises.
+        again = self.call("--curve")
         self.assertEqual(again.returncode, 0, again.stdout)
-        self.assertEqual(record(self.pump, "solve")["results"], found)
+        curve = record(self.pump, "solve")["results"].pop("curve")
+        self.assertEqual({**record(self.pump, "solve")["results"], "curve": []}, found)
+        self.assertEqual([point["point"] for point in curve], ["q0700", "q1000"])
+        self.assertEqual(curve[1]["head_m"], found["head_m"])
+        self.assertGreater(curve[0]["head_m"], curve[1]["head_m"])
+        self.assertLess(curve[0]["shaft_power_w"], curve[1]["shaft_power_w"])
+        with open(self.pump / "solve/curve.csv", encoding="utf-8") as file:
+            for row, flow in zip(csv.DictReader(file), (17.5, 25), strict=True):
+                self.assertAlmostEqual(float(row["flow_m3_per_h"]), flow, places=9)
+        # A call for the operating point alone keeps the curve, and the report shows it.
+        self.assertEqual(self.call().returncode, 0)
+        self.assertEqual(record(self.pump, "solve")["results"]["curve"], curve)
+        done(self, "report", self.pump, case=self.case, cells=CELLS)
+        self.assertIn("Characteristic curve", (self.pump / "report/index.html").read_text())
 
     def test_what_is_missing_is_told_in_one_line(self):
         result = self.call("--run", self.pump.parent / "none")

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""An OpenFOAM case on its way to a settled flow: its folder, its start, and the solver's run."""
+import hashlib
+import json
+import math
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import reports
+import settling
+
+LOOK_EVERY = 2.0  # s between looks at the solver's reports
+TELL_EVERY = 10.0  # s between lines of progress
+PROGRAMS = ("simpleFoam", "decomposePar", "reconstructPar", "mapFields", "foamDictionary", "renumberMesh", "mpirun")
+ENVIRONMENT = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
+               "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+class Trouble(Exception):
+    """Ends the stage with one line."""
+
+
+def say(text):
+    print(f"cutwater-solve: {text}", file=sys.stderr, flush=True)
+
+
+def require_programs():
+    missing = [name for name in PROGRAMS if not shutil.which(name)]
+    if missing:
+        raise Trouble(f"{missing[0]} is not there; install OpenFOAM (Debian: apt-get install openfoam)")
+
+
+def write_whole(path, text):
+    """Writes a file under its name only once all of it is on the disk."""
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    with open(part, "w", encoding="utf-8", newline="") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    part.replace(path)
+
+
+def call(folder, log, *line):
+    """Runs a program to its end, its words into folder/log."""
+    words = [str(word) for word in line]
+    with open(folder / log, "w", encoding="utf-8") as out:
+        status = subprocess.run(words, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=out,
+                                stderr=subprocess.STDOUT, check=False).returncode
+    if status:
+        raise Trouble(f"{words[0]} ended with {status}: see {folder / log}")
+
+
+def mpirun(ranks, *line):
+    return ["mpirun", "-q", "--bind-to", "none", "-n", str(ranks), *line]
+
+
+def set_entry(folder, file, entry, value):
+    call(folder, "log.foamDictionary", "foamDictionary", "-entry", entry, "-set", value, file)
+
+
+def digest_of(source, mesh):
+    """What a case is made from: its texts, and the digest of its mesh."""
+    found = hashlib.sha256(json.dumps(mesh, sort_keys=True).encode())
+    for path in sorted(path for name in ("0", "constant", "system") for path in (source / name).rglob("*")):
+        if path.is_file() and "polyMesh" not in path.parts:
+            found.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return found.hexdigest()
+
+
+def prepare(source, case, ranks, mesh, start):
+    """The case folder `case` made from the exported case `source`, decomposed for the ranks, with its start from what
+    the call start() gives: a solved case folder, or None for rest. As an earlier call left it where that was of the
+    same source, mesh (any value that tells it) and ranks; then start is not called."""
+    mark = json.dumps({"source": digest_of(source, mesh), "ranks": ranks})
+    kept = case / "made_from.json"
+    if kept.exists() and kept.read_text() == mark:
+        return
+    solved = start()
+    shutil.rmtree(case, ignore_errors=True)
+    case.mkdir(parents=True)
+    for name in ("0", "system"):
+        shutil.copytree(source / name, case / name)
+    shutil.copytree(source / "constant", case / "constant", ignore=shutil.ignore_patterns("polyMesh"))
+    (case / "constant/polyMesh").symlink_to((source / "constant/polyMesh").resolve())
+    if solved:
+        call(case, "log.mapFields", "mapFields", solved.resolve(), "-consistent", "-sourceTime", "latestTime",
+             "-mapMethod", "mapNearest")
+    if ranks > 1:
+        set_entry(case, "system/decomposeParDict", "numberOfSubdomains", ranks)
+        set_entry(case, "system/decomposeParDict", "coeffs/n", f"({ranks} 1 1)")
+        call(case, "log.decomposePar", "decomposePar", "-force")
+        call(case, "log.renumberMesh", *mpirun(ranks, "renumberMesh", "-parallel", "-overwrite"))
+    write_whole(kept, mark)
+
+
+def stop_solver(child):
+    """Ends the solver and all its ranks."""
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(child.pid, number)
+            child.wait(20)
+            return
+        except ProcessLookupError:
+            child.wait()
+            return
+        except subprocess.TimeoutExpired:
+            continue
+
+
+def progress(table, most, rate, name):
+    iteration = max(table)
+    row = table[iteration]
+    left = settling.settled(table, 0)[1]
+    way = f"{100 * left:.2f} % of its way left" if math.isfinite(left) else "before the third window"
+    residual = f", p {row['residual_p']:.1e}" if "residual_p" in row else ""
+    minutes = (most - iteration) / rate / 60 if rate > 0 else math.inf
+    say(f"{name}: iteration {iteration} of {most} at most, {rate:.2f} a second: head {row['head_m']:.3f} m, torque "
+        f"{row['torque_n_m']:.4g} N m{residual}; {way}; at most {minutes:.0f} min left")
+
+
+def diverged(row):
+    return not math.isfinite(row["head_m"]) or abs(row["head_m"]) > 1e6
+
+
+def watch(child, case, most, within, name):
+    """Looks at the reports of the running solver until it ends; asks it to end where head and torque have settled."""
+    first, began, told, stopping = max(reports.history(case), default=0), time.monotonic(), time.monotonic(), False
+    while child.poll() is None:
+        time.sleep(LOOK_EVERY)
+        table = reports.history(case)
+        if not table:
+            continue
+        last = max(table)
+        if diverged(table[last]):
+            raise Trouble(f"{name}: the flow diverges at iteration {last}: see {case / 'log.simpleFoam'}; "
+                          f"try relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells")
+        if last > first and time.monotonic() - told > TELL_EVERY:
+            told = time.monotonic()
+            progress(table, most, (last - first) / (told - began), name)
+        if not stopping and settling.settled(table, within)[0]:
+            set_entry(case, "system/controlDict", "stopAt", "writeNow")
+            stopping = True
+
+
+def iterate(case, ranks, most, within, name):
+    """Runs the solver until it has settled or `most` iterations are done; its history. The fields of the last iteration
+    are then whole in the case folder."""
+    set_entry(case, "system/controlDict", "endTime", most)
+    set_entry(case, "system/controlDict", "stopAt", "endTime")
+    if not settling.settled(reports.history(case), within)[0]:
+        line = mpirun(ranks, "simpleFoam", "-parallel") if ranks > 1 else ["simpleFoam"]
+        with open(case / "log.simpleFoam", "a", encoding="utf-8") as out:
+            child = subprocess.Popen(line, cwd=case, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=out,
+                                     stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            watch(child, case, most, within, name)
+        except BaseException:
+            stop_solver(child)
+            raise
+        if child.returncode:
+            words = (case / "log.simpleFoam").read_text(errors="replace").splitlines()
+            fatal = next((text for text in reversed(words) if "FOAM FATAL" in text or "Floating" in text), "")
+            raise Trouble(f"{name}: simpleFoam ended with {child.returncode} {fatal}: see {case / 'log.simpleFoam'}; a "
+                          f"flow that diverges wants relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or "
+                          "more cells")
+    if ranks > 1:
+        call(case, "log.reconstructPar", "reconstructPar", "-latestTime")
+    return reports.history(case)

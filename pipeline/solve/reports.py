@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""What the function objects of an OpenFOAM case have reported so far (export/templates/openfoam/system/functions)."""
+
+
+def lines(case, name, file):
+    """(names of the columns, words) of each line of a function object's file, those of later starts after the others.
+    A line may be unfinished where the solver is at work."""
+    folder = case / "postProcessing" / name
+    for start in sorted(folder.iterdir(), key=lambda path: float(path.name)) if folder.is_dir() else ():
+        names = []
+        for text in (start / file).read_text().splitlines() if (start / file).exists() else ():
+            words = text.lstrip("# ").replace("(", " ").replace(")", " ").split()
+            if text.startswith("#"):
+                names = words
+            elif words:
+                yield names, words
+
+
+def column(case, name, file, read):
+    """By iteration what `read` makes of (names, words); lines that are still being written are left out."""
+    found = {}
+    for names, words in lines(case, name, file):
+        try:
+            found[int(float(words[0]))] = read(names, words)
+        except (ValueError, IndexError, KeyError):
+            continue
+    return found
+
+
+def residuals(names, words):
+    row = dict(zip(names, words, strict=True))
+    return {"residual_p": float(row["p_initial"]), "residual_u": max(float(row[f"U{axis}_initial"]) for axis in "xyz")}
+
+
+def history(case):
+    """By iteration: head (m), torque (N m), and the initial residuals of p and of U (their greatest)."""
+    heads = column(case, "head", "fieldValueDelta.dat", lambda names, words: {"head_m": float(words[1])})
+    torques = column(case, "torque", "moment.dat", lambda names, words: {"torque_n_m": -float(words[3])})
+    solver = column(case, "solverInfo", "solverInfo.dat", residuals)
+    return {iteration: {**heads[iteration], **torques[iteration], **solver.get(iteration, {})}
+            for iteration in sorted(heads.keys() & torques.keys())}
+
+
+def y_plus(case):
+    """Least, mean and greatest y+ of each wall, of the last report."""
+    rows = {}
+    for _, words in lines(case, "yPlus", "yPlus.dat"):
+        if len(words) >= 5:
+            rows[words[1]] = {"least": float(words[2]), "most": float(words[3]), "mean": float(words[4])}
+    return rows
+

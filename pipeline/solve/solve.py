@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""solve.py --case FILE --run RUN [--curve] [--ranks 2] [--bin build/bin] [--most 4000] [--within 0.003] [--fresh]
+
+Solves the steady flow (frozen rotor) of a finished run with OpenFOAM until head and torque have settled (settling.py),
+into RUN/solve:
+
+  coarse/       the same pump with an eighth of the cells, made and solved first the same way, for the start of the fine
+  steady/       the OpenFOAM case: its latest time holds the solved fields
+  history.csv   head, torque and residuals by iteration
+  record.json   what came out
+
+With --curve it then solves the points of the characteristic curve that the case names (operating_points), each from its
+solved neighbour, into RUN/solve/points/NAME, and writes curve.csv and, into record.json, the curve.
+
+Where residuals of p stay above 1e-4 the steady equations have no such state, and means and scatter of the last window
+are the result. A killed call goes on where it was; other files of the export begin anew. A flow that has not settled
+after MOST iterations is told as such, in the headline and as a warning of the record."""
+import argparse
+import csv
+import fcntl
+import io
+import json
+import math
+import os
+import resource
+import shutil
+import signal
+import socket
+import sys
+import time
+from pathlib import Path
+
+import foam
+import reports
+import settling
+from foam import Trouble, say
+
+COARSE_SHARE = 8       # the start has an eighth of the cells: half the resolution along each axis
+COARSE_LEAST = 30000   # cells; meshes of less start from rest
+FINE_WITHIN = 3        # a start need not have settled more closely than this times WITHIN
+GRAVITY = 9.80665      # m/s2, standard
+RESIDUAL_ASKED = 1e-4  # of p, as the paper has it
+HISTORY = ("iteration", "head_m", "torque_n_m", "residual_p", "residual_u")
+CURVE = ("point", "flow_m3_per_h", "flow_share", "head_m", "head_scatter_m", "torque_n_m", "shaft_power_w",
+         "hydraulic_efficiency", "settled", "iterations", "residual_p")
+
+
+def read_record(run, stage):
+    path = run / stage / "record.json"
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError) as error:
+        raise Trouble(f"{path}: {error}; run the stage `{stage}` first (make does)") from error
+
+
+def lock(run):
+    """Takes the run folder as the other stages do (pipeline/run_lock.h); the lock dies with this process."""
+    (run / "log").mkdir(exist_ok=True)
+    file = open(run / "log/run.lock", "a+", encoding="utf-8")
+    try:
+        fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        file.seek(0)
+        holder = file.readline().strip() or "another process"
+        raise Trouble(f"{run}: {holder} works in this folder; wait until it ends, or give another --run") from error
+    file.truncate(0)
+    file.write(f"cutwater-solve on host {socket.gethostname()}, process {os.getpid()}\n")
+    file.flush()
+    return file
+
+
+def table_text(names, rows):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, names, extrasaction="ignore")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+class Run:
+    """A finished run of the pipeline, and how it is to be solved."""
+
+    def __init__(self, folder, options, within):
+        self.folder, self.options, self.within = folder, options, within
+        self.export = read_record(folder, "export")
+        self.cells = self.export["results"]["cells"]
+        entered = self.export["case"]
+        self.density = entered["fluid.density_kg_per_m3"]
+        self.flow_m3_per_h = entered["operating_point.flow_rate_m3_per_h"]
+        self.omega = entered["operating_point.speed_rpm"] * math.pi / 30
+
+    def solve(self, source, case, name, start):
+        """Solves the exported case `source` in the folder `case`; its history."""
+        foam.prepare(source, case, self.options.ranks, self.export["files"], start)
+        return foam.iterate(case, self.options.ranks, self.options.most, self.within, name)
+
+    def outcome(self, table, flow_m3_per_h):
+        """What the flow of a case came to, as the record keeps it."""
+        last = table[max(table)]
+        found = {key: settling.windows(table, key) for key in ("head_m", "torque_n_m")}
+        mean = {key: found[key][0][-1] if found[key] else last[key] for key in found}
+        done, left = settling.settled(table, self.within)
+        power = mean["torque_n_m"] * self.omega
+        useful = self.density * GRAVITY * flow_m3_per_h / 3600 * mean["head_m"]
+        return {"settled": done, "iterations": max(table), "window_iterations": settling.WINDOW,
+                "left_of_way": left if math.isfinite(left) else None, "within": self.within,
+                "head_m": mean["head_m"], "head_scatter_m": found["head_m"][1] if found["head_m"] else None,
+                "torque_n_m": mean["torque_n_m"],
+                "torque_scatter_n_m": found["torque_n_m"][1] if found["torque_n_m"] else None, "shaft_power_w": power,
+                "hydraulic_efficiency": useful / power if power > 0 else None,
+                "residual_p": last.get("residual_p"), "residual_u": last.get("residual_u")}
+
+
+def coarse_start(run):
+    """The solved case of the same pump with an eighth of the cells, made anew; None where the mesh is too small."""
+    options, asked = run.options, run.cells // COARSE_SHARE
+    if asked < COARSE_LEAST:
+        return None
+    coarse = run.folder / "solve/coarse"
+    coarse.mkdir(parents=True, exist_ok=True)
+    if not (coarse / "geometry").exists():
+        (coarse / "geometry").symlink_to((run.folder / "geometry").resolve())
+    for stage in ("mesh", "export"):
+        say(f"start with {asked:,} cells: {stage}")
+        foam.call(coarse, f"log.{stage}", *foam.mpirun(options.ranks, Path(options.bin).resolve() / f"cutwater-{stage}",
+                                                       "--case", options.case.resolve(), "--run", coarse.resolve(),
+                                                       "--cells", asked))
+    start = Run(coarse, options, FINE_WITHIN * run.within)
+    solve_design(start, f"start with {asked:,} cells")
+    return coarse / "solve/steady"
+
+
+def solve_design(run, name):
+    """Solves the operating point; its history."""
+    return run.solve(run.folder / "export/openfoam", run.folder / "solve/steady", name, lambda: coarse_start(run))
+
+
+def solve_curve(run):
+    """Solves the other points, outwards from the operating point, each from its solved neighbour; a row for each."""
+    solved, rows = {1.0: run.folder / "solve/steady"}, []
+    for point in sorted(run.export["results"]["operating_points"], key=lambda point: abs(point["flow_share"] - 1)):
+        name, share = point["name"], point["flow_share"]
+        if name == "q1000":
+            table = reports.history(solved[1.0])
+        else:
+            nearest = solved[min(solved, key=lambda other, share=share: abs(other - share))]
+            solved[share] = run.folder / "solve/points" / name
+            table = run.solve(run.folder / "export/openfoam/points" / name, solved[share], f"{run.folder.name} {name}",
+                              lambda start=nearest: start)
+        rows.append({"point": name, **point, **run.outcome(table, point["flow_m3_per_h"])})
+        say(f"{name}: {headline(rows[-1])}")
+    return sorted(rows, key=lambda row: row["flow_share"])
+
+
+def warnings_of(results, name):
+    found = []
+    if not results["settled"]:
+        found.append(f"{name}: head and torque have not settled after {results['iterations']} iterations; the result "
+                     "is the mean of the last window: go on with a larger --most, or look at the transient run")
+    if results["residual_p"] and results["residual_p"] > RESIDUAL_ASKED:
+        found.append(f"{name}: the residual of p is {results['residual_p']:.1e} where head and torque have come to "
+                     "rest: the steady equations leave an unsteadiness; it scatters the head by "
+                     f"{results['head_scatter_m'] or 0:.2g} m")
+    return found
+
+
+def earlier(run):
+    """The record that an earlier call wrote of the same export, or one of nothing."""
+    path = run.folder / "solve/record.json"
+    record = read_record(run.folder, "solve") if path.exists() else {}
+    return record if record.get("made_from") == run.export["files"] else {"seconds": 0, "results": {"curve": []}}
+
+
+def write_results(run, seconds, curve):
+    """history.csv, curve.csv and record.json, the last in the form of the other stages."""
+    folder = run.folder / "solve"
+    table = reports.history(folder / "steady")
+    rows = [{"iteration": iteration, **row} for iteration, row in sorted(table.items())]
+    results = run.outcome(table, run.flow_m3_per_h)
+    warnings = warnings_of(results, "operating point")
+    for point in curve:
+        warnings += warnings_of(point, point["point"]) if point["flow_share"] != 1 else []
+    results |= {"headline": headline(results), "cells": run.cells, "y_plus": reports.y_plus(folder / "steady"),
+                "history": {key: [row.get(key) for row in rows] for key in HISTORY},
+                "curve": [{key: point[key] for key in CURVE} for point in curve]}
+    peak = 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+    steps = [{"name": "iterations", "seconds": seconds, "items": results["iterations"], "unit": "iterations"}]
+    record = {"stage": "solve", "made_from": run.export["files"], "seconds": seconds, "peak_memory_bytes": peak,
+              "steps": steps, "warnings": warnings, "results": results}
+    foam.write_whole(folder / "history.csv", table_text(HISTORY, rows))
+    if curve:
+        foam.write_whole(folder / "curve.csv", table_text(CURVE, curve))
+    foam.write_whole(folder / "record.json", json.dumps(record, indent=1) + "\n")
+    return results
+
+
+def headline(results):
+    scatter = f" +- {results['head_scatter_m']:.2g}" if results["head_scatter_m"] else ""
+    efficiency = (f", hydraulic efficiency {100 * results['hydraulic_efficiency']:.1f} %"
+                  if results["hydraulic_efficiency"] else "")
+    return (f"{'head and torque settled' if results['settled'] else 'NOT settled'} after {results['iterations']} "
+            f"iterations: head {results['head_m']:.3f}{scatter} m, torque {results['torque_n_m']:.4g} N m, shaft power "
+            f"{results['shaft_power_w']:.4g} W{efficiency}")
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--case", type=Path, required=True)
+    parser.add_argument("--run", type=Path, required=True)
+    parser.add_argument("--curve", action="store_true", help="also the points of the characteristic curve")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--bin", type=Path, default=Path(__file__).resolve().parents[2] / "build/bin")
+    parser.add_argument("--most", type=int, default=4000, help="iterations of each flow")
+    parser.add_argument("--within", type=float, default=0.003, help="share of the way that may be left")
+    parser.add_argument("--fresh", action="store_true", help="forgets what an earlier call solved")
+    return parser.parse_args()
+
+
+def main():
+    options, began = parse(), time.monotonic()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends the solver too
+    try:
+        foam.require_programs()
+        if not (options.run / "export/openfoam/system").is_dir():
+            raise Trouble(f"{options.run}/export/openfoam: no case; make it first (make -C cases NAME)")
+        held = lock(options.run)
+        if options.fresh:
+            shutil.rmtree(options.run / "solve", ignore_errors=True)
+        (options.run / "solve").mkdir(exist_ok=True)
+        run = Run(options.run, options, options.within)
+        before = earlier(run)
+        solve_design(run, options.run.name)
+        seconds = before["seconds"] + time.monotonic() - began
+        say(write_results(run, seconds, before["results"]["curve"])["headline"])
+        if options.curve:
+            curve = solve_curve(run)
+            write_results(run, before["seconds"] + time.monotonic() - began, curve)
+        held.close()
+    except Trouble as error:
+        sys.exit(f"cutwater-solve: error: {error}")
+    except KeyboardInterrupt:
+        sys.exit("cutwater-solve: stopped; call it again to go on")
+
+
+if __name__ == "__main__":
+    main()
