@@ -147,27 +147,35 @@ def watch(child, case, most, within, name):
             stopping = True
 
 
-def iterate(case, ranks, most, within, name):
-    """Runs the solver until it has settled or `most` iterations are done; its history. The fields of the last iteration
-    are then whole in the case folder."""
-    set_entry(case, "system/controlDict", "endTime", most)
+def run_solver(case, ranks, most, within, name):
+    """One run of the solver, until it has settled or `most` iterations are done."""
     set_entry(case, "system/controlDict", "stopAt", "endTime")
-    if not settling.settled(reports.history(case), within)[0]:
-        line = mpirun(ranks, "simpleFoam", "-parallel") if ranks > 1 else ["simpleFoam"]
-        with open(case / "log.simpleFoam", "a", encoding="utf-8") as out:
-            child = subprocess.Popen(line, cwd=case, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=out,
-                                     stderr=subprocess.STDOUT, start_new_session=True)
-        try:
-            watch(child, case, most, within, name)
-        except BaseException:
-            stop_solver(child)
-            raise
-        if child.returncode:
-            words = (case / "log.simpleFoam").read_text(errors="replace").splitlines()
-            fatal = next((text for text in reversed(words) if "FOAM FATAL" in text or "Floating" in text), "")
-            raise Trouble(f"{name}: simpleFoam ended with {child.returncode} {fatal}: see {case / 'log.simpleFoam'}; a "
-                          f"flow that diverges wants relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or "
-                          "more cells")
+    line = mpirun(ranks, "simpleFoam", "-parallel") if ranks > 1 else ["simpleFoam"]
+    with open(case / "log.simpleFoam", "a", encoding="utf-8") as out:
+        child = subprocess.Popen(line, cwd=case, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=out,
+                                 stderr=subprocess.STDOUT, start_new_session=True)
+    try:
+        watch(child, case, most, within, name)
+    except BaseException:
+        stop_solver(child)
+        raise
+    if child.returncode:
+        words = (case / "log.simpleFoam").read_text(errors="replace").splitlines()
+        fatal = next((text for text in reversed(words) if "FOAM FATAL" in text or "Floating" in text), "")
+        raise Trouble(f"{name}: simpleFoam ended with {child.returncode} {fatal}: see {case / 'log.simpleFoam'}; a flow "
+                      f"that diverges wants relaxationFactors of U 0.5 in {case / 'system/fvSolution'}, or more cells")
+
+
+def iterate(case, ranks, most, within, name):
+    """Runs the solver until it has settled, by its last iteration too, or `most` iterations are done; its history. The
+    fields of the last iteration are then whole in the case folder."""
+    set_entry(case, "system/controlDict", "endTime", most)
+    table = reports.history(case)
+    done = -1  # iterations; the last ones may lie between two reports
+    while done < max(table, default=0) < most and not settling.settled(table, within)[0]:
+        done = max(table, default=0)
+        run_solver(case, ranks, most, within, name)
+        table = reports.history(case)
     if ranks > 1:
         call(case, "log.reconstructPar", "reconstructPar", "-latestTime")
-    return reports.history(case)
+    return table
