@@ -9,7 +9,11 @@
 static const char VARIABLE[] = "CUTWATER_POLICY";
 
 #ifdef CUTWATER_EXPERIMENT
-CwFillPolicy cw_fill_policy = {CW_FILL_POLICY(CW_POLICY_VALUE)};
+#define NUMBER(type, name, value, off, unit, meaning) .name = (value),
+CwPolicy cw_policy = {
+#include "mesher/policy_table.h"
+};
+#undef NUMBER
 #endif
 
 typedef struct {
@@ -19,8 +23,11 @@ typedef struct {
 } Number;
 
 #define IS_DOUBLE(type) _Generic((type)0, double : 1, int32_t : 0)
-#define NUMBER(type, name, value, unit, meaning) {#name, offsetof(CwFillPolicy, name), IS_DOUBLE(type)},
-static const Number number[] = {CW_FILL_POLICY(NUMBER)};
+#define NUMBER(type, name, value, off, unit, meaning) {#name, offsetof(CwPolicy, name), IS_DOUBLE(type)},
+static const Number number[] = {
+#include "mesher/policy_table.h"
+};
+#undef NUMBER
 enum { NUMBERS = sizeof number / sizeof *number };
 
 static const Number *find(const char *name) {
@@ -30,7 +37,7 @@ static const Number *find(const char *name) {
   return NULL;
 }
 
-CwStatus cw_policy_read(FILE *file, const char *path, CwFillPolicy *policy) {
+CwStatus cw_policy_read(FILE *file, const char *path, CwPolicy *policy) {
   CwStatus status = CW_OK;
   char line[512], name[64], value[64], more[2], *end;
   for (int at = 1; fgets(line, sizeof line, file); at++) {
@@ -62,7 +69,7 @@ CwStatus cw_policy_start(void) {
 #ifdef CUTWATER_EXPERIMENT
   file = fopen(path, "r");
   CW_REQUIRE(file, CW_ERR_IO, "%s (of $%s): cannot be read: %s", path, VARIABLE, strerror(errno));
-  CW_TRY(cw_policy_read(file, path, &cw_fill_policy));
+  CW_TRY(cw_policy_read(file, path, &cw_policy));
 #else
   status =
       CW_FAIL(CW_ERR_USAGE, "$%s is set (%s), but the numbers of this build are fixed: cmake -DCUTWATER_EXPERIMENT=ON",

@@ -24,8 +24,8 @@ CwOffsetPoint cw_offset_point(const CwFillInput *input, int32_t t) {
   double edge = sqrt(2.0 * (cw_dot(u, u) + cw_dot(v, v) - cw_dot(u, v)) / 3.0);
   double wanted = input->size(input->size_context, place.x);
   place.spacing =
-      fmin(fmin(sqrt(edge * wanted), cbrt(edge * wanted * wanted)), cw_fill_policy.offset_spacing_most * edge);
-  for (int i = 0; i < 3; i++) place.x[i] -= cw_fill_policy.offset_height * place.spacing * normal[i];
+      fmin(fmin(sqrt(edge * wanted), cbrt(edge * wanted * wanted)), cw_policy.offset_spacing_most * edge);
+  for (int i = 0; i < 3; i++) place.x[i] -= cw_policy.offset_height * place.spacing * normal[i];
   place.along = cw_dot(line, place.x);
   return place;
 }

@@ -45,7 +45,7 @@ static inline double cw_tet_excess(const CwTetWork *w, const int32_t corner[4]) 
     shortest = cw_lesser(shortest, square);
     longest = cw_greater(longest, square);
   }
-  return sqrt(longest / shortest) - cw_fill_policy.usual_aspect;
+  return sqrt(longest / shortest) - cw_policy.usual_aspect;
 }
 
 #ifdef __cplusplus

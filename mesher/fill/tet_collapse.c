@@ -61,7 +61,7 @@ static CwStatus collapse(CwTetWork *w, double floor, int32_t t, int32_t p, int32
     least = cw_lesser(least, tet->quality);
     if (find_made(tet, p, q, made)) sum += cw_tet_excess(w, made);
   }
-  if (!(sum < cw_fill_policy.collapse_loss)) goto done;
+  if (!(sum < cw_policy.collapse_loss)) goto done;
   for (int k = 0; k < n; k++) {
     if (!find_made(&w->mesh->tet[star[k]], p, q, made)) continue;
     quality[k] = cw_tet_quality_of(w, made[0], made[1], made[2], made[3]);
@@ -91,7 +91,7 @@ CwStatus cw_tet_collapse(CwTetWork *w, const CwTetShapes *shapes) {
     for (int i = 0; i < 2; i++) note(&shortest[ends.near[i]], t, ends.near[1 - i], ends.shortest);
   }
   for (int32_t p = 0; p < w->mesh->point_count; p++) {
-    if (shortest[p].count < cw_fill_policy.collapse_slender || w->mesh->source[p] < w->fixed_count) continue;
+    if (shortest[p].count < cw_policy.collapse_slender || w->mesh->source[p] < w->fixed_count) continue;
     if (has_edge(w, shortest[p].tet, p, shortest[p].to))
       CW_TRY(collapse(w, shapes->floor, shortest[p].tet, p, shortest[p].to));
   }

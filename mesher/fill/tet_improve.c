@@ -15,7 +15,7 @@
 
 // All below the limit are in the list.
 static double least_quality(const CwTetWork *w) {
-  double least = cw_fill_policy.improve_below;
+  double least = cw_policy.improve_below;
   for (int32_t k = 0; k < w->next.count; k++) {
     const CwTet *tet = &w->mesh->tet[w->next.tet[k]];
     if (tet->corner[0] >= 0) least = cw_lesser(least, tet->quality);
@@ -28,7 +28,7 @@ static double least_quality(const CwTetWork *w) {
 // for 0.006 of the mean ratio.
 static CwStatus even_out(CwTetWork *w, CwTetShapes *shapes, int *again) {
   CwStatus status = CW_OK;
-  const CwFillPolicy *p = &cw_fill_policy;
+  const CwPolicy *p = &cw_policy;
   shapes->floor = p->aspect_floor;
   CW_TRY(cw_tet_relax(w, shapes, (CwTetMoves){.centres = 1}));
   *again = shapes->slender.count > p->even_share * shapes->tet_count;
@@ -51,7 +51,7 @@ done:
 // have to be improved again.
 static CwStatus even_out_again(CwTetWork *w, CwTetShapes *shapes) {
   CwStatus status = CW_OK;
-  const CwFillPolicy *p = &cw_fill_policy;
+  const CwPolicy *p = &cw_policy;
   const CwTetMoves moves = {.evenings = shapes->is_crowded ? p->steps_last_crowded : p->steps_last,
                             .pull = p->pull_last,
                             .beside = p->steps_last_beside};
@@ -71,9 +71,9 @@ CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, const uint8_t
   CwTetWork w = {.mesh = mesh,
                  .fixed_count = fixed_count,
                  .source_count = *source_count,
-                 .limit = cw_fill_policy.improve_below,
-                 .insert = cw_fill_policy.insert_below,
-                 .insert_round = cw_fill_policy.insert_round_below,
+                 .limit = cw_policy.improve_below,
+                 .insert = cw_policy.insert_below,
+                 .insert_round = cw_policy.insert_round_below,
                  .changed = &shapes.slender};
   int again = 0;
   CW_NEW(shapes.irregular, mesh->point_count);
@@ -82,7 +82,7 @@ CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, const uint8_t
   w.count.least_before = least_quality(&w);
   CW_TRY(cw_tet_improve_list(&w, 1, 0));
   CW_TRY(even_out(&w, &shapes, &again));
-  CW_TRY(cw_tet_improve_list(&w, cw_fill_policy.improve_passes, 1));
+  CW_TRY(cw_tet_improve_list(&w, cw_policy.improve_passes, 1));
   if (again) CW_TRY(even_out_again(&w, &shapes));
   w.changed = NULL;
   cw_tet_shapes_free(&shapes); // the search asks for memory of its own

@@ -21,7 +21,7 @@ extern "C" {
 // All tetrahedra of *mesh are inside; their faces on the boundary have no neighbour. Points that come from the first
 // `fixed_count` given ones stay; `on_plane`, of each of these 1 where it lies on a partition plane, may be NULL. New
 // points have sources from *source_count on, which is counted up. The least quality round any place does not fall but
-// for even edges, and then not below aspect_floor (fill_policy.h). Deterministic. `changes` may be NULL.
+// for even edges, and then not below aspect_floor (policy_table.h). Deterministic. `changes` may be NULL.
 CwStatus cw_tet_improve_mesh(CwTetMesh *mesh, int32_t fixed_count, const uint8_t *on_plane, int32_t *source_count,
                              CwTetChanges *changes);
 

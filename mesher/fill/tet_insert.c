@@ -112,7 +112,7 @@ static int candidates(const CwTetWork *w, int32_t t, double place[][3]) {
   double edge = sqrt((m.edge[0] + m.edge[1] + m.edge[2] + m.edge[3] + m.edge[4] + m.edge[5]) / 6.0);
   for (int k = 0; k < 14 * SHELLS; k++, count++) {
     const double *direction = cw_tet_direction[k % 14];
-    double radius = cw_fill_policy.insert_shell * edge * (double)(k / 14 + 1);
+    double radius = cw_policy.insert_shell * edge * (double)(k / 14 + 1);
     for (int i = 0; i < 3; i++)
       place[count][i] = 0.25 * (x[0][i] + x[1][i] + x[2][i] + x[3][i]) + radius * direction[i];
   }
@@ -176,8 +176,8 @@ CwStatus cw_tet_insert_at(CwTetWork *w, int32_t t, const double place[3], double
 
 CwStatus cw_tet_insert(CwTetWork *w, int32_t t, int *done_it) {
   CwStatus status = CW_OK;
-  const double aim[4] = {cw_fill_policy.insert_aim_high, cw_fill_policy.insert_aim, cw_fill_policy.insert_aim_low, 0.0};
-  double place[PLACES][3], least = w->mesh->tet[t].quality + cw_fill_policy.insert_gain, best = least, p[3];
+  const double aim[4] = {cw_policy.insert_aim_high, cw_policy.insert_aim, cw_policy.insert_aim_low, 0.0};
+  double place[PLACES][3], least = w->mesh->tet[t].quality + cw_policy.insert_gain, best = least, p[3];
   int tries = candidates(w, t, place);
   Cleared chosen = {0};
   Grown grown[PLACES];

@@ -22,7 +22,7 @@ void cw_tet_shapes_free(CwTetShapes *shapes) {
 }
 
 double cw_tet_slender_square(const CwTetShapes *shapes) {
-  double aspect = shapes->is_crowded ? cw_fill_policy.slender_aspect_crowded : cw_fill_policy.slender_aspect;
+  double aspect = shapes->is_crowded ? cw_policy.slender_aspect_crowded : cw_policy.slender_aspect;
   return aspect * aspect;
 }
 
@@ -75,7 +75,7 @@ static inline void note_shapes(const CwTetMesh *mesh, CwTetShapes *shapes, const
   for (int k = 0; k < count && shapes->irregular; k++) {
     const int32_t *c = mesh->tet[list[k]].corner;
     for (int i = 0; i < 4; i++)
-      shapes->irregular[c[i]] |= (uint8_t)cw_branchless(quality[k] < (float)cw_fill_policy.regular_quality);
+      shapes->irregular[c[i]] |= (uint8_t)cw_branchless(quality[k] < (float)cw_policy.regular_quality);
   }
   for (int k = 0; k < count; k++) {
     shapes->slender.tet[shapes->slender.count] = list[k];

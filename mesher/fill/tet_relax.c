@@ -18,7 +18,7 @@ typedef struct {
 
 // Lists the tetrahedra with such a point, of which all have room, and weighs them.
 static void find_moving(CwTetMesh *mesh, const uint8_t *moved, uint8_t which, Moving *moving) {
-  const uint32_t weight[2] = {1, (uint32_t)cw_fill_policy.interface_weight};
+  const uint32_t weight[2] = {1, (uint32_t)cw_policy.interface_weight};
   int32_t count = 0;
   for (int32_t t = 0; t < mesh->tet_count; t++) { // without branches, which would be taken at random
     CwTet *tet = &mesh->tet[t];
@@ -92,7 +92,7 @@ done:
 // distance; returns the share that comes next.
 static float even_edges(CwTetWork *w, CwTetShapes *shapes, const Moving *moving, int steps, float share,
                         const uint8_t *moved, uint8_t which, Cw4f *sum) {
-  for (int k = 0; k < steps; k++, share *= (float)cw_fill_policy.pull_decay)
+  for (int k = 0; k < steps; k++, share *= (float)cw_policy.pull_decay)
     move_all(w, shapes, moving, cw_tet_add_pulls, share, moved, which, sum);
   return share;
 }

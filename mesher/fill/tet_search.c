@@ -15,7 +15,7 @@
 #include "mesher/fill/tet_patch.h"
 #include "mesher/policy.h"
 
-static const CwFillPolicy *const policy = &cw_fill_policy;
+static const CwPolicy *const policy = &cw_policy;
 static const double small_determinant = 1e-3; // checkMesh calls it so below
 enum { PLACES = 6 };                          // of a mesh that are searched
 

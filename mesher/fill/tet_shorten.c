@@ -19,7 +19,7 @@ static CwStatus remove_edge(CwTetWork *w, double floor, int32_t t, int32_t a, in
   if (n < 3) goto done;
   if (n == 4) { // the shorter one of the two edges that may come
     double one = cw_tet_square_of(w, ring[0], ring[2]), other = cw_tet_square_of(w, ring[1], ring[3]);
-    if (one >= cw_fill_policy.shorten_longer * square && other >= cw_fill_policy.shorten_longer * square) goto done;
+    if (one >= cw_policy.shorten_longer * square && other >= cw_policy.shorten_longer * square) goto done;
     first = other < one;
   }
   for (int k = 0; k < n; k++) {
@@ -31,7 +31,7 @@ static CwStatus remove_edge(CwTetWork *w, double floor, int32_t t, int32_t a, in
     memcpy(made[k], k % 2 ? (int32_t[4]){p, r, q, a} : (int32_t[4]){p, q, r, b}, sizeof *made);
     after += cw_tet_excess(w, made[k]);
   }
-  if (!(after < before - cw_fill_policy.shorten_gain)) goto done;
+  if (!(after < before - cw_policy.shorten_gain)) goto done;
   CW_TRY(cw_tet_replace_sound(w, n, old, count, (const int32_t(*)[4])made, least, &w->count.edges_removed));
 done:
   return status;
@@ -52,7 +52,7 @@ static int is_wide(const CwTetWork *w, const int32_t corner[4], const CwTetEnds 
   double along = cw_dot(edge, one), beyond = cw_dot(edge, other), square = ends->longest;
   double cosine = cw_dot(one, other) * square - along * beyond;
   double scale = (cw_dot(one, one) * square - along * along) * (cw_dot(other, other) * square - beyond * beyond);
-  return cosine < 0.0 || cosine * cosine < cw_fill_policy.shorten_cosine * cw_fill_policy.shorten_cosine * scale;
+  return cosine < 0.0 || cosine * cosine < cw_policy.shorten_cosine * cw_policy.shorten_cosine * scale;
 }
 
 // Prefetches the corners of one that comes a little later in the list.

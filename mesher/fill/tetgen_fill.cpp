@@ -206,7 +206,7 @@ CwStatus cw_tetgen_fill(const CwFillInput *input, CwFill *fill) {
     char first[600];
     snprintf(first, sizeof first, "%s", cw_fail_message());
     // Points further away leave recovery more room.
-    status = try_fill(&away, cw_fill_policy.tetgen_clearance, fill);
+    status = try_fill(&away, cw_policy.tetgen_clearance, fill);
     if (status == CW_ERR_MESH) status = CW_FAIL(CW_ERR_MESH, "%s", first);
   }
   if (status != CW_OK) goto done;

@@ -93,7 +93,7 @@ void cw_region_fingerprint(const CwRegionContext *context, int32_t region, char 
   double numbers[3] = {context->layer_count, (double)context->shared_count, context->fill};
   cw_hash_bytes(&hash, cw_source_hash, sizeof cw_source_hash);
 #ifdef CUTWATER_EXPERIMENT
-  cw_hash_bytes(&hash, &cw_fill_policy, sizeof cw_fill_policy);
+  cw_hash_bytes(&hash, &cw_policy, sizeof cw_policy);
 #endif
   cw_hash_bytes(&hash, numbers, sizeof numbers);
   cw_hash_bytes(&hash, context->domain, strlen(context->domain));

@@ -10,7 +10,7 @@
 
 #include "mesher/policy.h"
 
-static CwStatus read_text(const char *text, CwFillPolicy *policy) {
+static CwStatus read_text(const char *text, CwPolicy *policy) {
   FILE *file = fmemopen((void *)(uintptr_t)text, strlen(text), "r");
   assert_non_null(file);
   CwStatus status = cw_policy_read(file, "numbers", policy);
@@ -19,17 +19,17 @@ static CwStatus read_text(const char *text, CwFillPolicy *policy) {
 }
 
 static void lines_change_their_numbers_alone(void **unused) {
-  CwFillPolicy policy = cw_fill_policy;
+  CwPolicy policy = cw_policy;
   assert_int_equal(read_text("# for a trial\nimprove_below 0.375 # sine\n\nsearch_tries\t17\n", &policy), CW_OK);
   assert_true(policy.improve_below == 0.375);
   assert_int_equal(policy.search_tries, 17);
-  policy.improve_below = cw_fill_policy.improve_below;
-  policy.search_tries = cw_fill_policy.search_tries;
-  assert_memory_equal(&policy, &cw_fill_policy, sizeof policy);
+  policy.improve_below = cw_policy.improve_below;
+  policy.search_tries = cw_policy.search_tries;
+  assert_memory_equal(&policy, &cw_policy, sizeof policy);
 }
 
 static void refused(const char *text, const char *part) {
-  CwFillPolicy policy = cw_fill_policy;
+  CwPolicy policy = cw_policy;
   cw_fail_clear();
   assert_int_equal(read_text(text, &policy), CW_ERR_INPUT);
   if (!strstr(cw_fail_message(), part)) fail_msg("\"%s\" lacks \"%s\"", cw_fail_message(), part);
@@ -43,12 +43,15 @@ static void wrong_lines_are_refused_with_their_number(void **unused) {
   refused("improve_below nan\n", "is not a number");
 }
 
-#define TEXTS(type, name, value, unit, meaning) {#name, #value, unit, meaning},
-static const char *const listed[][4] = {CW_FILL_POLICY(TEXTS)};
+#define NUMBER(type, name, value, off, unit, meaning) {#name, #value, unit, meaning},
+static const char *const listed[][4] = {
+#include "mesher/policy_table.h"
+};
+#undef NUMBER
 
 // Each number of the list, read by its name, has its place in the table; none stands there without unit and meaning.
 static void all_numbers_can_be_read(void **unused) {
-  CwFillPolicy policy;
+  CwPolicy policy;
   char line[160];
   memset(&policy, 0, sizeof policy);
   for (size_t k = 0; k < sizeof listed / sizeof *listed; k++) {
@@ -57,7 +60,7 @@ static void all_numbers_can_be_read(void **unused) {
     assert_true(strlen(listed[k][2]) > 0 && strlen(listed[k][3]) > 5);
     for (size_t m = 0; m < k; m++) assert_string_not_equal(listed[m][0], listed[k][0]);
   }
-  assert_memory_equal(&policy, &cw_fill_policy, sizeof policy);
+  assert_memory_equal(&policy, &cw_policy, sizeof policy);
 }
 
 int main(void) {

@@ -55,7 +55,7 @@ static int collapse_in_lattice(int every, double shift, int all_fixed, Shape *be
   }
   assert_int_equal(cw_delaunay_make(total, (const double(*)[3])x, &mesh), CW_OK);
   CwTetWork w = {.mesh = &mesh,
-                 .limit = cw_fill_policy.improve_below,
+                 .limit = cw_policy.improve_below,
                  .fixed_count = all_fixed ? total : outside,
                  .source_count = total};
   CwTetShapes shapes = {.floor = 0.3};

@@ -43,7 +43,7 @@ static double shape_of(const CwTetWork *w, double *mean, double *aspect) {
 // Relaxing is to follow: nothing is left worse below 0.3.
 static CwTetWork work_on(CwTetMesh *mesh, int32_t outside, int32_t count, CwTetShapes *shapes) {
   CwTetWork w = {.mesh = mesh,
-                 .limit = cw_fill_policy.improve_below,
+                 .limit = cw_policy.improve_below,
                  .fixed_count = outside,
                  .source_count = count,
                  .changed = &shapes->slender};
@@ -80,7 +80,7 @@ static void shaken_points_become_even(void **state) {
     if (c[0] < 0 || mesh.tet[t].quality == 1.0) continue;
     double quality = cw_tet_quality_of(&w, c[0], c[1], c[2], c[3]);
     assert_true(fabs(mesh.tet[t].quality - quality) < (quality < w.limit ? 1e-15 : 1e-5));
-    int listed = mesh.tet[t].quality >= cw_fill_policy.improve_below;
+    int listed = mesh.tet[t].quality >= cw_policy.improve_below;
     for (int32_t k = 0; k < w.next.count && !listed; k++) listed = w.next.tet[k] == t;
     assert_true(listed);
   }
@@ -139,7 +139,7 @@ static void aspects_beside(int told, double *beside, double *apart) {
       is_beside |= source >= 0 && source < outside && on_plane[source]; // -1: a corner round all
     }
     if (!is_free) continue;
-    sum[is_beside] += cw_tet_excess(&w, c) + cw_fill_policy.usual_aspect;
+    sum[is_beside] += cw_tet_excess(&w, c) + cw_policy.usual_aspect;
     found[is_beside]++;
   }
   assert_true(found[0] > 2000 && found[1] > 200);
@@ -177,7 +177,7 @@ static int spoilt_below(double floor) {
   assert_int_equal(cw_tet_relax(&w, &shapes, (CwTetMoves){.evenings = 5, .pull = 0.4}), CW_OK);
   for (int32_t t = 0; t < mesh.tet_count; t++) {
     if (mesh.tet[t].corner[0] < 0) continue;
-    spoilt += mesh.tet[t].quality < cw_fill_policy.improve_below && mesh.tet[t].quality < before[t] - 1e-12;
+    spoilt += mesh.tet[t].quality < cw_policy.improve_below && mesh.tet[t].quality < before[t] - 1e-12;
   }
   cw_tet_shapes_free(&shapes);
   cw_tet_work_free(&w);
@@ -189,7 +189,7 @@ static int spoilt_below(double floor) {
 
 static void nothing_is_spoilt_below_the_floor(void **state) {
   assert_true(spoilt_below(0.0) > 10);
-  assert_int_equal(spoilt_below(cw_fill_policy.improve_below), 0);
+  assert_int_equal(spoilt_below(cw_policy.improve_below), 0);
 }
 
 int main(void) {

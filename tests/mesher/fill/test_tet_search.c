@@ -60,7 +60,7 @@ static CwTetWork lump(int spoilt, CwTetPatch *patch) {
   free(x);
   CwTetMesh *mesh = &patch->mesh;
   CwTetWork w = {.mesh = mesh,
-                 .limit = cw_fill_policy.improve_below,
+                 .limit = cw_policy.improve_below,
                  .insert = 0.4226,
                  .insert_round = 0.38,
                  .fixed_count = 1,

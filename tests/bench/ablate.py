@@ -1,0 +1,248 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""ablate.py [--pumps 8 | --only I ...] [--cases paper ...] [--sizes 60k 150k] [--factor 1.25]
+          [--numbers NAME ...] [--singly] [--work DIR] [--bin BUILD/bin] [--jobs 2] [--limit 120]
+
+What each number of the mesher's policy does, over the first random pumps (random_pumps.py) and the named cases at each
+size. BUILD is configured with -DCUTWATER_EXPERIMENT=ON. Geometry is made once a pump; the mesher runs on one rank.
+
+Without --singly all numbers are moved at once, each by the factor to one side or the other, in a folded screening
+design (screening.py). A row tells a number's effects: the mean with the number times the factor, less the mean with it
+divided. The last column calls a number idle where no effect is 2.5 standard errors or more, else it names those that
+are.
+
+With --singly each number is moved alone, down and up, and then takes the value that switches it off, where it has one.
+A row tells the differences to the pumps as they are.
+
+A move stops at the value that switches a number off; whole numbers move by 1 at least. A run that ends with an error
+is a failure, and has the means of its pump in the other columns. DIR keeps results.jsonl, one line a run: a second call
+with the same programs does only what is missing."""
+import argparse
+import hashlib
+import json
+import math
+import re
+import shutil
+import statistics
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+import random_pumps
+from programs import ENVIRONMENT, MPIRUN, SOURCE, execute
+from screening import design, effects, standard_error
+
+# Of a run: key, heading, format. Time is that of the processor in tasks of the mesher, relative to the pump's mean.
+FIGURES = (("failed", "failures %", "{:+.2f}", 100), ("dihedral", "dihedral deg", "{:+.2f}", 1),
+           ("aspect", "aspect %", "{:+.2f}", 100), ("first_height", "first h. %", "{:+.2f}", 100),
+           ("even", "even %", "{:+.2f}", 100), ("count", "count %", "{:+.2f}", 100),
+           ("passes", "passes", "{:+.3f}", 1), ("time", "time %", "{:+.1f}", 100))
+CLEAR = 2.5  # standard errors: one of 80 columns of noise is past them
+
+
+def arguments(words=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--pumps", type=int, default=8)
+    parser.add_argument("--only", type=int, nargs="*", metavar="I", help="these random pumps instead of the first")
+    parser.add_argument("--cases", nargs="*", default=["paper"])
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--sizes", nargs="+", default=["60k", "150k"])
+    parser.add_argument("--factor", type=float, default=1.25)
+    parser.add_argument("--numbers", nargs="*")
+    parser.add_argument("--singly", action="store_true")
+    parser.add_argument("--work", type=Path, default=SOURCE / "build/ablate")
+    parser.add_argument("--bin", type=Path, default=SOURCE / "build/experiment/bin")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--limit", type=float, default=120, help="seconds of a run; past it the run has failed")
+    return parser.parse_args(words)
+
+
+def policy_numbers(text):
+    """name: (type, value, value that switches it off or None) of NUMBER(type, name, value, off, unit, meaning)."""
+    row = r'NUMBER\((\w+), (\w+), ([-\w.+]+), ([-\w.+]+), "'
+    return {name: (kind, float(value), None if off == "none" else float(off))
+            for kind, name, value, off in re.findall(row, text)}
+
+
+def moved(number, factor):
+    """A number times the factor, no farther than where it is switched off."""
+    kind, value, off = number
+    there = value * factor
+    if off is not None and min(value, there) <= off <= max(value, there):
+        there = off
+    if kind == "int32_t":
+        there = round(there)
+        if there == value and value != off:
+            there = value + (1 if factor > 1 else -1)
+    return there
+
+
+def settings_of(numbers, options):
+    """Lists of (label, {name: value}) to be run, and the screening design, or None."""
+    names = list(numbers)
+    if options.singly:
+        single = [("as it is", {})]
+        for name in names:
+            single += [(f"{name}/{side}", {name: moved(numbers[name], factor)})
+                       for side, factor in (("down", 1 / options.factor), ("up", options.factor))]
+            if numbers[name][2] is not None:
+                single.append((f"{name}/off", {name: numbers[name][2]}))
+        return single, None
+    rows = design(len(names))
+    return [(f"row {index}", {name: moved(numbers[name], options.factor**row[k]) for k, name in enumerate(names)})
+            for index, row in enumerate(rows)], rows
+
+
+def figures_of(run):
+    """The figures of one mesh, from the mesher's record."""
+    results = json.loads((run / "mesh/record.json").read_text())["results"]
+    domains = results["domains"]
+    walls = [wall for domain in domains for wall in domain["layer_coverage"]]
+    faces = sum(wall["wall_faces"] for wall in walls)
+    tetrahedra = sum(domain["tetrahedra"] for domain in domains)
+    aspect = sum(domain["tetrahedron_aspect_mean"] * domain["tetrahedra"] for domain in domains) / tetrahedra
+    return {"failed": 0, "dihedral": min(domain["least_dihedral_deg"] for domain in domains),
+            "aspect": math.log(aspect), "time": math.log(results["processor_seconds"]),
+            "first_height": sum(wall["first_height_met_faces"] for wall in walls) / faces,
+            "even": 1 - sum(wall["thin_last_layer_faces"] + wall["thick_last_layer_faces"] for wall in walls) / faces,
+            "count": abs(results["cells"] / results["asked_cells"] - 1), "passes": results["passes"]}
+
+
+def mesh(options, case, geometry, cells, setting):
+    """Figures of a pump with these numbers."""
+    with tempfile.TemporaryDirectory(dir=options.work) as folder:
+        run = Path(folder)
+        (run / "geometry").symlink_to(geometry / "geometry")
+        policy = run / "policy"
+        policy.write_text("".join(f"{name} {value:.17g}\n" for name, value in setting.items()))
+        done = execute("env", f"CUTWATER_POLICY={policy}", "timeout", options.limit, *MPIRUN, 1,
+                       options.bin / "cutwater-mesh", "--case", case, "--run", run, "--cells", cells, check=False)
+        if done.status:
+            told = re.findall(r"error: (.*)", done.text)
+            return {"failed": 1, "message": told[0][:200] if told else f"status {done.status}"}
+        return figures_of(run)
+
+
+def pumps_of(options):
+    """(name, case file, folder of its geometry) of each pump that has one."""
+    found = [(name, SOURCE / "cases" / name / "case.yaml") for name in options.cases]
+    (options.work / "cases").mkdir(parents=True, exist_ok=True)
+    for index in options.only or range(1, options.pumps + 1):
+        name = f"duty-{options.seed}-{index}"
+        path = options.work / "cases" / f"{name}.yaml"
+        path.write_text(random_pumps.case_text(name, random_pumps.pump(options.seed, index, False)))
+        found.append((name, path))
+    made = []
+    for name, case in found:
+        folder = options.work / "geometry" / name
+        if not (folder / "geometry/record.json").exists():
+            shutil.rmtree(folder, ignore_errors=True)
+            execute(options.bin / "cutwater-geometry", "--case", case, "--run", folder, check=False)
+        if (folder / "geometry/record.json").exists():
+            made.append((name, case, folder))
+    return made
+
+
+def run_all(options, pumps, settings):
+    """Figures by (pump, cells, label), those of earlier calls among them."""
+    digest = hashlib.sha256((options.bin / "cutwater-mesh").read_bytes()).hexdigest()[:16]
+    path = options.work / "results.jsonl"
+    before = {one["key"]: one for one in map(json.loads, path.read_text().splitlines())} if path.exists() else {}
+    results, waiting = {}, []
+    for label, setting in settings:
+        for name, case, folder in pumps:
+            for cells in options.sizes:
+                text = json.dumps([digest, case.read_text(), cells, sorted(setting.items())])
+                key = hashlib.sha256(text.encode()).hexdigest()[:20]
+                if key in before:
+                    results[name, cells, label] = before[key]["figures"]
+                else:
+                    waiting.append((key, (name, cells, label), (options, case, folder, cells, setting)))
+    began = time.monotonic()
+    with ThreadPoolExecutor(options.jobs) as pool, path.open("a") as file:
+        running = {pool.submit(mesh, *work): (key, place) for key, place, work in waiting}
+        for number, future in enumerate(as_completed(running), 1):
+            key, place = running[future]
+            results[place] = future.result()
+            file.write(json.dumps({"key": key, "place": place, "figures": results[place]}) + "\n")
+            file.flush()
+            if number % 50 == 0:
+                left = (time.monotonic() - began) / number * (len(waiting) - number)
+                print(f"ablate: {number} of {len(waiting)}, {left / 60:.0f} min left", file=sys.stderr, flush=True)
+    return results
+
+
+def responses(results, pumps, sizes, labels, key):
+    """Mean over pumps and sizes of each label's figure; a failure has the mean of its pump and size."""
+    sums = [0.0] * len(labels)
+    meshes = 0
+    for name, _, _ in pumps:
+        for cells in sizes:
+            values = [results[name, cells, label].get(key) for label in labels]
+            known = [value for value in values if value is not None]
+            if not known:
+                continue
+            mean = statistics.fmean(known)
+            sums = [total + (mean if value is None else value) for total, value in zip(sums, values)]
+            meshes += 1
+    return [total / max(meshes, 1) for total in sums]
+
+
+def print_heading():
+    print(f"{'':24}{'value':>10}" + "".join(f"{heading:>14}" for _, heading, _, _ in FIGURES))
+
+
+def print_row(name, value, row, last=""):
+    print(f"{name:24}{value:>10}" + "".join(f"{form.format(scale * x):>14}"
+                                            for x, (_, _, form, scale) in zip(row, FIGURES)) + "  " + last)
+
+
+def print_screening(numbers, rows, table):
+    """table: for each figure the effects of all columns."""
+    errors = [standard_error(column[len(numbers):]) for column in table]
+    print_heading()
+    print_row("standard error", "", errors)
+    for k, (name, number) in enumerate(numbers.items()):
+        row = [column[k] for column in table]
+        clear = [heading for x, error, (_, heading, _, _) in zip(row, errors, FIGURES)
+                 if abs(x) >= CLEAR * error and x != 0]
+        print_row(name, f"{number[1]:g}", row, ", ".join(clear) or "idle")
+
+
+def print_singly(numbers, labels, table):
+    print_heading()
+    for m, label in enumerate(labels[1:], 1):
+        name, side = label.split("/")
+        kind, value, off = numbers[name]
+        print_row(label, "", [column[m] - column[0] for column in table])
+
+
+def main():
+    options = arguments()
+    options.work, options.bin = options.work.resolve(), options.bin.resolve()
+    ENVIRONMENT.pop("CUTWATER_POLICY", None)
+    listed = policy_numbers((SOURCE / "mesher/policy_table.h").read_text())
+    unknown = set(options.numbers or ()) - set(listed)
+    if unknown:
+        sys.exit(f"ablate.py: no number {min(unknown)}; there are {', '.join(listed)}")
+    numbers = {name: listed[name] for name in options.numbers or listed}
+    pumps = pumps_of(options)
+    settings, rows = settings_of(numbers, options)
+    labels = [label for label, _ in settings]
+    results = run_all(options, pumps, settings)
+    figures = [responses(results, pumps, options.sizes, labels, key) for key, _, _, _ in FIGURES]
+    failed = [results[name, cells, label] for name, _, _ in pumps for cells in options.sizes for label in labels
+              if results[name, cells, label]["failed"]]
+    print(f"{len(numbers)} numbers, factor {options.factor:g}; {len(pumps)} pumps at {', '.join(options.sizes)} cells: "
+          f"{' '.join(name for name, _, _ in pumps)}; {len(settings)} settings, {len(failed)} meshes failed of "
+          f"{len(settings) * len(pumps) * len(options.sizes)}\n")
+    if rows:
+        print_screening(numbers, rows, [effects(rows, figure) for figure in figures])
+    else:
+        print_singly(numbers, labels, figures)
+
+
+if __name__ == "__main__":
+    main()
