@@ -142,8 +142,9 @@ static CwStatus record_interfaces(const CwAssembly *a, const CwInterface *interf
   return cw_record_json(record, "interfaces", list);
 }
 
-// The points of the characteristic curve, of which the solvers' cases have a set-up each.
+// The points of the characteristic curve, of which the solvers' cases have a set-up each, and what was measured.
 static CwStatus record_points(const CwCase *table, CwRecord *record) {
+  CwStatus status = CW_OK;
   json_t *list = json_array();
   double flows[CW_LIST_MOST];
   char name[CW_POINT_NAME_SIZE];
@@ -153,7 +154,11 @@ static CwStatus record_points(const CwCase *table, CwRecord *record) {
     json_array_append_new(list, json_pack("{s:s, s:f, s:f}", "name", name, "flow_m3_per_h", 3600 * flows[k],
                                           "flow_share", flows[k] / table->operating_point.flow_rate));
   }
-  return cw_record_json(record, "operating_points", list);
+  CW_TRY(cw_record_json(record, "operating_points", list));
+  if (cw_case_given(table->operating_point.test_head))
+    CW_TRY(cw_record_number(record, "test_head_m", table->operating_point.test_head));
+done:
+  return status;
 }
 
 static CwStatus record_results(const CwAssembly *a, const CwInterface *interfaces, CwRecord *record) {

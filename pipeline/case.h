@@ -29,6 +29,7 @@ typedef enum { CW_DISCHARGE_TANGENTIAL, CW_DISCHARGE_RADIAL } CwDischarge;
 typedef enum { CW_PIPE_WITH_NEIGHBOUR, CW_PIPE_OWN_ZONE } CwPipeZone;
 typedef enum { CW_FILL_KERNEL, CW_FILL_TETGEN } CwFillMethod;
 typedef enum { CW_Y_PLUS_AT_NODE, CW_Y_PLUS_AT_CELL_CENTRE } CwYPlusAt;
+typedef enum { CW_SWEEP_LAYERS_STAY, CW_SWEEP_SIMILAR } CwSweep;
 typedef enum { CW_WALL_FUNCTION_SMOOTH, CW_WALL_FUNCTION_ROUGH } CwWallTreatment;
 
 // A value the case leaves out (an optional key) is NAN: the hydraulic design or, of an automatic key, the mesher then
@@ -43,6 +44,7 @@ typedef struct {
   double speed;           // rad/s
   double inlet_pressure;  // Pa, absolute
   double time_step_angle; // rad of rotation per time step of the transient run
+  double test_head;       // m, measured at this point; NAN: none
 } CwOperatingPoint;
 
 typedef struct {
@@ -150,6 +152,7 @@ typedef struct {
 
 typedef struct {
   int64_t cells;            // asked number of cells, all zones together
+  CwSweep sweep;            // what another number of cells does to the layers (case_sweep.h)
   CwFillMethod fill;        // what makes the tetrahedra; TetGen steps in where the kernel cannot
   int64_t cells_per_region; // about this many; 0: computed
   int least_regions;        // of a domain

@@ -22,6 +22,7 @@ static const char *const discharge_zones[] = {"stator", "own", NULL};
 static const char *const y_plus_places[] = {"node", "cell_centre", NULL};
 static const char *const truths[] = {"false", "true", NULL};
 static const char *const fills[] = {"kernel", "tetgen", NULL};
+static const char *const sweeps[] = {"layers_stay", "similar", NULL};
 static const char *const treatments[] = {"smooth", "rough", NULL};
 
 #define AT(field) offsetof(CwCase, field)
@@ -64,6 +65,8 @@ const CwCaseKey cw_case_keys[] = {
                  "absolute total pressure at the inlet"),
     REAL_DEFAULT("operating_point", "time_step_deg", "deg", 0.01, 20, 1, operating_point.time_step_angle,
                  "rotation in one time step of the transient run"),
+    REAL_COMPUTED("operating_point", "test_head_m", "m", 0.01, 5000, operating_point.test_head,
+                  "head that was measured here, to be drawn beside the solved ones; computed: none"),
 
     LIST(
         "operating_points", "flow_shares", "", 0.01, 3, operating_points.flow_shares,
@@ -214,6 +217,9 @@ const CwCaseKey cw_case_keys[] = {
 
     {"mesh", "cells", CW_KEY_INT64, CW_KEY_DEFAULT, "", 10000, 2e9, 1000000, NULL, AT(mesh.cells),
      "cells of all zones together; --cells on the command line goes before it"},
+    CHOICE("mesh", "sweep", sweeps, CW_SWEEP_LAYERS_STAY, mesh.sweep,
+           "what another number of cells (--cells) does to the layers: they stay, or become similar: more and thinner "
+           "ones of the same whole thickness"),
     {"mesh", "cells_per_region", CW_KEY_INT64, CW_KEY_COMPUTED, "", 5000, 4e6, 0, NULL, AT(mesh.cells_per_region),
      "about this many cells a region; computed: 270,000, above 38 million a 140th of all"},
     {"mesh", "least_regions", CW_KEY_INT, CW_KEY_DEFAULT, "", 1, 1000, 4, NULL, AT(mesh.least_regions),
@@ -333,7 +339,7 @@ int cw_case_section_known(const char *section) {
 
 int cw_case_key_shapes_pump(const CwCaseKey *key) {
   return strcmp(key->section, "walls") && strcmp(key->section, "mesh") && strcmp(key->section, "operating_points") &&
-         key->offset != AT(operating_point.time_step_angle);
+         key->offset != AT(operating_point.time_step_angle) && key->offset != AT(operating_point.test_head);
 }
 
 void cw_case_key_path(const CwCaseKey *key, char path[CW_KEY_PATH_SIZE]) {

@@ -11,6 +11,7 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/case_origin.h"
 #include "pipeline/case_schema.h"
+#include "pipeline/case_sweep.h"
 #include "pipeline/case_value.h"
 #include "pipeline/log.h"
 #include "pipeline/run_lock.h"
@@ -163,7 +164,7 @@ CwStatus cw_stage_begin(int argc, char **argv, const CwStageUsage *usage, int sp
   CW_TRY(cw_stage_path(args, name, &log_path));
   CW_TRY(cw_log_open(usage->stage, log_path, speaks, args->verbose));
   CW_TRY(cw_case_read(args->case_path, table));
-  if (args->cells) table->mesh.cells = args->cells;
+  if (args->cells) CW_TRY(cw_case_sweep(args->case_path, args->cells, table));
   for (const char *const *stage = usage->reads; *stage; ++stage) {
     CW_TRY(cw_case_origin_check(table, args->run_path, *stage));
     if (speaks) CW_TRY(cw_stage_files_check(args->run_path, *stage));

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """sweep.py TABLE.csv RUN RUN...: sets the runs of a sweep side by side, coarse to fine, and writes TABLE.csv.
 
-Where the OpenFOAM cases of three or more runs were solved, their three finest also give, for head, torque and hydraulic
-efficiency, the observed order of convergence, the value extrapolated to no mesh size at all, and the grid convergence
-index of the finest mesh, after Celik et al., J. Fluids Eng. 130 (2008) 078001, with the safety factor 1.25."""
+Where runs were solved it draws head, torque and efficiency over the cells into TABLE.svg, with the measured head of the
+case (operating_point.test_head_m) and the extrapolated values as broken lines. Of three or more solved runs the three
+finest also give, for each quantity, the observed order of convergence, the value extrapolated to no mesh size at all,
+and the grid convergence index of the finest mesh, after Celik et al., J. Fluids Eng. 130 (2008) 078001, with the safety
+factor 1.25."""
 import csv
+import io
 import json
 import math
 import os
@@ -12,9 +15,12 @@ import re
 import subprocess
 import sys
 
+import sweep_plot
+
 SAFETY = 1.25
 SOLVED = {"head_m": r"^head +([-\d.e+]+) m", "torque_n_m": r"^shaft torque +([-\d.e+]+) N m",
           "hydraulic_efficiency_percent": r"^hydraulic efficiency +([-\d.e+]+) %"}
+NAMES = {"head_m": "Head, m", "torque_n_m": "Torque, N m", "hydraulic_efficiency_percent": "Hydraulic efficiency, %"}
 
 
 def solved(run):
@@ -74,34 +80,70 @@ def convergence(sizes, values):
     return order, values[2] - e21 / fine, SAFETY * abs(e21 / values[2]) / fine
 
 
+def write_whole(path, text):
+    with open(path + ".part", "w", encoding="utf-8", newline="") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
+def test_head(runs):
+    """The measured head of the case, None without one."""
+    with open(os.path.join(runs[0], "export/record.json"), encoding="utf-8") as file:
+        return json.load(file)["results"].get("test_head_m")
+
+
+def tell(rows):
+    print(f"{'run':20s} {'cells':>12s} {'ratio':>6s} {'first height':>12s} {'dihedral':>9s} {'mesh':>8s} {'memory':>8s}"
+          f" {'head':>9s} {'efficiency':>10s} {'y+ most':>7s}")
+    for row in rows:
+        ratio = f"{row['refinement_ratio']:.3f}" if row["refinement_ratio"] else "-"
+        head = f"{row['head_m']:.4f} m" if "head_m" in row else "-"
+        efficiency = f"{row['hydraulic_efficiency_percent']:.2f} %" if "hydraulic_efficiency_percent" in row else "-"
+        most = f"{row['y_plus_most']:.1f}" if "y_plus_most" in row else "-"
+        print(f"{row['run']:20s} {row['cells']:12,d} {ratio:>6s} {row['first_height_met_percent']:10.1f} % "
+              f"{row['least_dihedral_deg']:5.1f} deg {row['mesh_s']:6.1f} s {row['mesh_memory_mb']:5.0f} MB {head:>9s} "
+              f"{efficiency:>10s} {most:>7s}")
+
+
+def charts_of(rows, measured):
+    """Prints what the three finest runs extrapolate to; a chart for each solved quantity."""
+    charts = []
+    for name in SOLVED:
+        solved_rows = [row for row in rows if name in row]
+        last = solved_rows[-3:]
+        marks = [(measured, f"measured {measured:g}")] if measured and name == "head_m" else []
+        if len(last) == 3:
+            found = convergence([row["cells"]**(-1 / 3) for row in last], [row[name] for row in last])
+            print(f"{name:30s} " + (f"order {found[0]:.2f}, extrapolated {found[1]:.5g}, grid convergence index "
+                                    f"{100 * found[2]:.2f} %" if found else "does not converge monotonously"))
+            if found:
+                marks.append((found[1], f"extrapolated {found[1]:.5g}"))
+        if solved_rows:
+            cells = [row["cells"] for row in solved_rows]
+            charts.append((NAMES[name], cells, [row[name] for row in solved_rows], marks))
+    return charts
+
+
 def main(table, runs):
     rows = sorted((row_of(run) for run in runs), key=lambda row: row["cells"])
     for coarse, fine in zip([None] + rows, rows):
         fine["refinement_ratio"] = (fine["cells"] / coarse["cells"])**(1 / 3) if coarse else ""
     names = list(dict.fromkeys(name for row in rows for name in row))
-    with open(table + ".part", "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, names)
-        writer.writeheader()
-        writer.writerows(rows)
-    os.replace(table + ".part", table)
-    print(f"{'run':20s} {'cells':>12s} {'ratio':>6s} {'first height':>12s} {'dihedral':>9s} {'mesh':>8s} {'memory':>8s}"
-          f" {'head':>9s} {'efficiency':>10s}")
-    for row in rows:
-        ratio = f"{row['refinement_ratio']:.3f}" if row["refinement_ratio"] else "-"
-        head = f"{row['head_m']:.4f} m" if "head_m" in row else "-"
-        efficiency = f"{row['hydraulic_efficiency_percent']:.2f} %" if "hydraulic_efficiency_percent" in row else "-"
-        print(f"{row['run']:20s} {row['cells']:12,d} {ratio:>6s} {row['first_height_met_percent']:10.1f} % "
-              f"{row['least_dihedral_deg']:5.1f} deg {row['mesh_s']:6.1f} s {row['mesh_memory_mb']:5.0f} MB {head:>9s} "
-              f"{efficiency:>10s}")
-    for name in SOLVED:
-        last = [row for row in rows if name in row][-3:]
-        if len(last) < 3:
-            continue
-        found = convergence([row["cells"]**(-1 / 3) for row in last], [row[name] for row in last])
-        print(f"{name:30s} " + (f"order {found[0]:.2f}, extrapolated {found[1]:.5g}, grid convergence index "
-                                f"{100 * found[2]:.2f} %" if found else "does not converge monotonously"))
-    shown = os.path.relpath(table)
-    print(f"{table if shown.startswith('..') else shown}  the table")
+    text = io.StringIO()
+    writer = csv.DictWriter(text, names)
+    writer.writeheader()
+    writer.writerows(rows)
+    write_whole(table, text.getvalue())
+    tell(rows)
+    charts = charts_of(rows, test_head(runs))
+    made = [(table, "the table")]
+    if charts:
+        drawing = os.path.splitext(table)[0] + ".svg"
+        write_whole(drawing, sweep_plot.picture(charts))
+        made.append((drawing, "head, torque and efficiency over the cells"))
+    for path, words in made:
+        shown = os.path.relpath(path)
+        print(f"{path if shown.startswith('..') else shown}  {words}")
 
 
 if __name__ == "__main__":

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The table of a sweep: order and index of made-up results whose order is known, and the table of a real run."""
 import csv
-import importlib.util
+import json
+import re
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree as ElementTree
 
-from cutwater import CELLS, RUN, SOURCE, WORK
+from cutwater import CELLS, RUN, SOURCE, WORK, fresh, record
 
-spec = importlib.util.spec_from_file_location("sweep", SOURCE / "pipeline/sweep.py")
-sweep = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(sweep)
+sys.path.insert(0, str(SOURCE / "pipeline"))
+import needs  # noqa: E402
+import sweep  # noqa: E402
+import sweep_plot  # noqa: E402
 
 
 class Sweep(unittest.TestCase):
@@ -35,6 +38,53 @@ class Sweep(unittest.TestCase):
     def test_results_that_swing_have_no_order(self):
         self.assertIsNone(sweep.convergence([3, 2, 1], [1.0, 1.2, 1.1]))
         self.assertIsNone(sweep.convergence([3, 2, 1], [1.0, 1.0, 1.0]))
+
+    def test_runs_that_were_solved_are_drawn_with_what_was_measured(self):
+        folder = fresh("sweep_drawn")
+        for name, cells, head in (("a", 100000, 10.4), ("b", 300000, 10.2), ("c", 900000, 10.1)):
+            results = record(RUN, "mesh")["results"] | {"cells": cells}
+            written = {"mesh": record(RUN, "mesh") | {"results": results}, "export": {"results": {"test_head_m": 10}},
+                       "solve": {"results": {"head_m": head, "torque_n_m": 7.0, "hydraulic_efficiency": None,
+                                             "y_plus": {"hub": {"most": 41.5}}}}}
+            for stage, text in written.items():
+                (folder / name / stage).mkdir(parents=True)
+                (folder / name / stage / "record.json").write_text(json.dumps(text))
+        table = folder / "sweep.csv"
+        result = subprocess.run([sys.executable, SOURCE / "pipeline/sweep.py", table, *(folder / n for n in "cab")],
+                                stdout=subprocess.PIPE, text=True, check=True)
+        # Equal ratios of cells: the order is ln(0.2 / 0.1) / ln(3^(1/3)), and as far again is left beyond the finest.
+        self.assertRegex(result.stdout, r"head_m +order 1\.89, extrapolated 10, grid convergence index 1\.24 %")
+        self.assertRegex(result.stdout, r"torque_n_m +does not converge")
+        self.assertEqual([row["y_plus_most"] for row in csv.DictReader(table.open())], ["41.5"] * 3)
+        root = ElementTree.parse(folder / "sweep.svg").getroot()
+        words = [element.text for element in root.iter() if element.tag.endswith("text")]
+        self.assertIn("measured 10", words)
+        self.assertEqual(sum(element.tag.endswith("circle") for element in root.iter()), 6)
+
+    def test_points_lie_where_their_values_are(self):
+        text = "\n".join(sweep_plot.chart("x", [1e4, 1e5, 1e6], [1, 2, 3], [], 0))
+        x, y = zip(*((float(a), float(b)) for a, b in re.findall(r'cx="([\d.]+)" cy="([\d.]+)"', text)))
+        self.assertAlmostEqual(x[1] - x[0], x[2] - x[1], delta=0.11)
+        self.assertAlmostEqual(y[0] - y[1], y[1] - y[2], delta=0.11)
+        self.assertGreater(y[0], y[1])
+
+    def test_what_a_sweep_needs_is_told_and_refused_where_it_is_not_there(self):
+        self.assertEqual([needs.read_count(text) for text in ("500k", "1.5M", "20000")], [500000, 1500000, 20000])
+
+        def call(*words):
+            return subprocess.run([sys.executable, SOURCE / "pipeline/needs.py", *words], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True, check=False)
+        told = call(WORK / "not/there/yet", "100k", "200k")
+        self.assertEqual((told.returncode, told.stdout), (0, ""))
+        self.assertRegex(told.stderr, r"^2 runs, 300,000 cells: about 0\.047 GB of the .* GB free on the disk, .*\n$")
+        self.assertRegex(call(WORK, "2G", "2000G").stderr, r"needs: error: .* make room, or ask for fewer cells\n$")
+        self.assertEqual(call(WORK, "2000G").returncode, 1)
+
+    def test_the_parts_of_a_run_on_the_disk_are_about_what_is_told(self):
+        cells = record(RUN, "mesh")["results"]["cells"]
+        for stage, bytes_a_cell in needs.BYTES_A_CELL.items():
+            size = sum(path.stat().st_size for path in (RUN / stage).rglob("*") if path.is_file())
+            self.assertLess(abs(size / cells / bytes_a_cell - 1), 0.33, stage)
 
     def test_table_of_a_run(self):
         table = WORK / "sweep.csv"
